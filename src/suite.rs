@@ -9,8 +9,8 @@ use std::io;
 #[cfg(any(test, suite_in_repository))]
 use std::path::Path;
 
-use urdd_conformance::data::Files;
-use urdd_conformance::suite::{Suite, SuiteError};
+use urdd_conformance::data::{Damage, Files};
+use urdd_conformance::suite::Suite;
 
 /// Why there is no suite.
 #[derive(Debug, thiserror::Error)]
@@ -20,7 +20,7 @@ pub enum CarriedError {
     Read(#[from] io::Error),
     /// It is damaged.
     #[error("the suite is damaged: {0}")]
-    Suite(#[from] SuiteError),
+    Suite(#[from] Damage),
 }
 
 /// The suite of this build.

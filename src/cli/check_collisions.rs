@@ -10,8 +10,9 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::configurations::{self, Listed};
-use super::output;
-use super::shapes::{self, Shapes};
+use super::inputs;
+use super::output::{self, Failure};
+use super::words::Shapes;
 use urdd_format::escape;
 use urdd_robot::{Configurations, PairDistance, Proximity, Queries, RobotError};
 
@@ -97,38 +98,33 @@ impl Chosen<'_> {
 
 /// Runs `urdd check-collisions`.
 pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
-    match check(arguments) {
-        Ok(true) => ExitCode::from(1),
-        Ok(false) => ExitCode::SUCCESS,
-        Err(message) => output::printed(Err(message)),
-    }
+    output::ended(check(arguments).map(u8::from))
 }
 
 /// Prints the results. Returns whether the robot collides in any configuration.
-fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
-    let path = &arguments.path;
-    let robot = shapes::open(path)?;
-    let in_urdd =
-        |error: RobotError| format!("{}: {error}", escape::line(&path.display().to_string()));
-    let space = robot.configurations().map_err(in_urdd)?;
-    let dofs = robot.dof_names().map_err(in_urdd)?.len();
+fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
+    let robot = inputs::open(&arguments.path)?;
+    let in_urdd = output::about(&arguments.path);
+    let space = robot.configurations().map_err(&in_urdd)?;
+    let dofs = robot.dof_names().map_err(&in_urdd)?.len();
     let chosen = match (&arguments.configurations, arguments.random) {
         (Some(file), _) => Chosen::Listed(configurations::read(&robot, file)?),
         (None, Some(count)) => Chosen::Random(space, count),
         (None, None) => Chosen::Listed(Listed { values: space.zero(), count: 1 }),
     };
-    let proximity = robot.proximity(arguments.shapes.kind()).map_err(in_urdd)?;
+    let proximity = robot.proximity(arguments.shapes.into()).map_err(&in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
     if arguments.format == Format::Text && sum {
-        let (text, any) = sum_up(&proximity, &chosen, dofs).map_err(in_urdd)?;
-        return output::print(&text).map(|()| any);
+        let (text, any) = sum_up(&proximity, &chosen, dofs).map_err(&in_urdd)?;
+        output::print(&text)?;
+        return Ok(any);
     }
     let of_pieces = !proximity.kind().is_of_links();
     let (mut text, mut any) = (String::new(), false);
     for number in 0..chosen.count() {
         let configuration = chosen.at(number, dofs);
-        let touching = proximity.collisions(&configuration).map_err(in_urdd)?;
-        let nearest = proximity.nearest(&configuration, arguments.nearest).map_err(in_urdd)?;
+        let touching = proximity.collisions(&configuration).map_err(&in_urdd)?;
+        let nearest = proximity.nearest(&configuration, arguments.nearest).map_err(&in_urdd)?;
         any |= !touching.is_empty();
         match arguments.format {
             Format::Text => as_text(&mut text, number, &touching, &nearest, of_pieces),
@@ -141,30 +137,21 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     if arguments.format == Format::Text {
         text.push_str(&totals(&proximity, chosen.count()));
     }
-    output::print(&text).map(|()| any)
+    output::print(&text)?;
+    Ok(any)
 }
 
 fn totals(proximity: &Proximity, count: u64) -> String {
-    let configurations = match count {
-        1 => "1 configuration".to_owned(),
-        count => format!("{count} configurations"),
-    };
-    format!(
-        "{configurations}, {} shapes ({}), {} pairs not skipped\n",
-        proximity.num_shapes(),
-        proximity.kind(),
-        proximity.num_pairs()
-    )
+    let configurations = if count == 1 { "configuration" } else { "configurations" };
+    let (shapes, kind, pairs) = (proximity.num_shapes(), proximity.kind(), proximity.num_pairs());
+    format!("{count} {configurations}, {shapes} shapes ({kind}), {pairs} pairs not skipped\n")
 }
 
 /// The names of a pair, with the pieces if there can be several.
 fn label(pair: &PairDistance, of_pieces: bool) -> String {
     let [a, b] = [0, 1].map(|i| {
-        let name = escape::line(&pair.links[i]).into_owned();
-        match of_pieces {
-            true => format!("{name}[{}]", pair.pieces[i]),
-            false => name,
-        }
+        let name = output::one_line(&pair.links[i]);
+        if of_pieces { format!("{name}[{}]", pair.pieces[i]) } else { name }
     });
     format!("{a} - {b}")
 }

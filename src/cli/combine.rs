@@ -5,16 +5,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::generate_output::Printer;
+use super::generate_output::{FAILED, Printer};
 use super::making::MakingArguments;
-use super::output;
-use super::signals::Signals;
+use super::output::{self, Failure};
+use super::signals::{self, Signals};
 use urdd_generate::combine::{Recipe, check_parts, combine};
-use urdd_source::process;
 use urdd_source::robots::Job;
-
-/// Exit status: the robots could not be combined.
-const FAILED: u8 = 1;
 
 /// Arguments of `urdd combine`.
 #[derive(Args)]
@@ -68,13 +64,12 @@ pub struct CombineArguments {
 
 /// Runs `urdd combine`.
 pub fn run(arguments: &CombineArguments) -> ExitCode {
-    output::ended(put_together(arguments))
+    let stopped = "stopped by a signal; nothing was changed";
+    signals::run(Some(stopped), |signals| put_together(arguments, signals))
 }
 
-fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
-    let signals = Signals::listen().map_err(|error| error.to_string())?;
-    process::adopt_orphans();
-    let mut settings = arguments.making.settings(Vec::new(), &signals)?;
+fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, Failure> {
+    let settings = arguments.making.settings(Vec::new(), signals)?;
     let pool = arguments.making.pool()?;
     let printer = Printer::new(arguments.making.format, false);
     if let (Some(legacy), None) = (&arguments.from, &arguments.output) {
@@ -99,20 +94,14 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
             let pose = [three(&arguments.xyz), three(&arguments.rpy)];
             Recipe::of_two(holder, held, arguments.name.as_deref(), at, pose)
         }
-        ([_], Some(_)) => return Err("--at attaches a second robot: give two robots".to_owned()),
-        _ => {
-            return Err(
-                "two robots need --at: give the link of the first robot that the second one is attached to"
-                    .to_owned(),
-            );
-        }
+        ([_], Some(_)) => Err("--at attaches a second robot: give two robots")?,
+        _ => Err(
+            "two robots need --at: give the link of the first robot that the second one is attached to",
+        )?,
     };
-    // A panic of a rule is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
-    let outcome = recipe.and_then(|recipe| {
+    let make = |recipe: Recipe| {
         let progress = printer.begin_robot(&job);
         pool.install(|| {
-            settings.cancellation = signals.cancellation();
             let find_errors =
                 |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
@@ -120,22 +109,16 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
             made.notes.splice(..0, legacy_notes);
             Ok(made)
         })
-    });
-    let _ = std::panic::take_hook();
-    if let Some(status) = signals.status() {
-        output::error("stopped by a signal; nothing was changed");
-        return Ok(status);
+    };
+    let outcome = output::without_panic_messages(|| recipe.and_then(make));
+    if signals.status().is_none() {
+        printer.combined(&job, &outcome);
     }
-    printer.combined(&job, &outcome);
-    match printer.unprinted() {
-        Some(message) => Err(message),
-        None if outcome.is_err() => Ok(FAILED),
-        None => Ok(0),
-    }
+    printer.status(outcome.is_err())
 }
 
 /// Prints the recipe of a legacy URDD, and what it leaves open.
-fn print_recipe(legacy: &Path) -> Result<u8, String> {
+fn print_recipe(legacy: &Path) -> Result<u8, Failure> {
     let here = std::env::current_dir().unwrap_or_default();
     let recipe = Recipe::of_legacy(legacy);
     match recipe.and_then(|(recipe, notes)| Ok((recipe.to_toml(&here)?, notes))) {
@@ -147,7 +130,8 @@ fn print_recipe(legacy: &Path) -> Result<u8, String> {
             for note in notes {
                 output::error(&format!("note: {note}"));
             }
-            output::print_raw(&recipe).map(|()| 0)
+            output::print_raw(&recipe)?;
+            Ok(0)
         }
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use csv::StringRecord;
 use serde_json::Value;
 
+use super::output::{Failure, one_line, shown};
 use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_robot::Robot;
@@ -48,17 +49,15 @@ enum Form {
 impl<'a> Lines<'a> {
     /// # Errors
     /// If the robot's DOFs cannot be read.
-    pub fn new(robot: &'a Robot) -> Result<Self, String> {
-        let dofs = robot.dof_names().map_err(|error| error.to_string())?;
-        let begun = None;
-        Ok(Lines { robot, dofs, begun })
+    pub fn new(robot: &'a Robot) -> Result<Self, Failure> {
+        Ok(Lines { robot, dofs: robot.dof_names()?, begun: None })
     }
 
     /// The configuration of a line; `None` for a line without one.
     ///
     /// # Errors
     /// What is wrong with the line.
-    pub fn next(&mut self, line: &str) -> Result<Option<Vec<f64>>, String> {
+    pub fn next(&mut self, line: &str) -> Result<Option<Vec<f64>>, Failure> {
         if line.trim().is_empty() {
             return Ok(None);
         }
@@ -75,32 +74,28 @@ impl<'a> Lines<'a> {
             }
             None => {
                 let fields = fields(line)?;
-                let is_head = fields.iter().all(|field| field.parse::<f64>().is_err());
-                let columns = match is_head {
-                    true => Some(self.columns(&fields)?),
-                    false => None,
-                };
-                self.begun = Some(Form::Csv(columns));
-                match is_head {
-                    true => Ok(None),
-                    false => of_columns(self.dofs, None, numbers(&fields)?).map(Some),
+                if fields.iter().all(|field| field.parse::<f64>().is_err()) {
+                    self.begun = Some(Form::Csv(Some(self.columns(&fields)?)));
+                    return Ok(None);
                 }
+                self.begun = Some(Form::Csv(None));
+                check(self.dofs, numbers(&fields)?).map(Some)
             }
         }
     }
 
     /// The DOFs that the first line of CSV names.
-    fn columns(&self, names: &StringRecord) -> Result<Vec<usize>, String> {
-        let index = |name: &str| self.robot.dof(name).map_err(|error| error.to_string());
-        let found: Vec<usize> = names.iter().map(index).collect::<Result<_, _>>()?;
+    fn columns(&self, names: &StringRecord) -> Result<Vec<usize>, Failure> {
+        let found = names.iter().map(|name| self.robot.dof(name));
+        let found: Vec<usize> = found.collect::<Result<_, _>>()?;
         if let Some(missing) = (0..self.dofs.len()).find(|dof| !found.contains(dof)) {
             let name = escape::line(&self.dofs[missing]);
-            return Err(format!("the column for the DOF `{name}` is missing"));
+            Err(format!("the column for the DOF `{name}` is missing"))?;
         }
-        match found.len() == self.dofs.len() {
-            true => Ok(found),
-            false => Err("a DOF has two columns".to_owned()),
+        if found.len() != self.dofs.len() {
+            Err("a DOF has two columns")?;
         }
+        Ok(found)
     }
 }
 
@@ -108,10 +103,10 @@ impl<'a> Lines<'a> {
 ///
 /// # Errors
 /// A message with the line number.
-pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
+pub fn read(robot: &Robot, file: &Path) -> Result<Listed, Failure> {
     let name = match file.to_str() {
         Some("-") => "standard input".to_owned(),
-        _ => escape::line(&file.display().to_string()).into_owned(),
+        _ => shown(file),
     };
     let text = text(file).map_err(|error| format!("{name}: {error}"))?;
     let mut lines = Lines::new(robot)?;
@@ -126,29 +121,25 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
     Ok(found)
 }
 
-fn text(file: &Path) -> Result<String, String> {
+fn text(file: &Path) -> Result<String, Failure> {
     let mut bytes = Vec::new();
-    let read = if file.as_os_str() == "-" {
-        std::io::stdin().lock().take(MAX_BYTES).read_to_end(&mut bytes)
+    if file.as_os_str() == "-" {
+        std::io::stdin().lock().take(MAX_BYTES).read_to_end(&mut bytes)?;
     } else {
-        let file = regular::open(file).map_err(|error| error.to_string())?;
-        file.take(MAX_BYTES).read_to_end(&mut bytes)
-    };
-    read.map_err(|error| error.to_string())?;
-    if bytes.len() as u64 == MAX_BYTES {
-        return Err(format!("it has more than {MAX_BYTES} bytes: split it into smaller files"));
+        regular::open(file)?.take(MAX_BYTES).read_to_end(&mut bytes)?;
     }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
+    if bytes.len() as u64 == MAX_BYTES {
+        Err(format!("it has more than {MAX_BYTES} bytes: split it into smaller files"))?;
+    }
+    Ok(String::from_utf8(bytes).map_err(|_| "it is not UTF-8")?)
 }
 
-fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, String> {
+fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Failure> {
     let value: Value = serde_json::from_str(line).map_err(|error| {
         format!("not JSON ({error}): give a list of {} values on each line", dofs.len())
     })?;
     let number = |value: &Value| {
-        value
-            .as_f64()
-            .ok_or_else(|| format!("{} is not a number", escape::line(&value.to_string())))
+        value.as_f64().ok_or_else(|| format!("{} is not a number", one_line(value)))
     };
     match &value {
         Value::Array(values) => {
@@ -156,28 +147,25 @@ fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Strin
             check(dofs, values?)
         }
         Value::Object(values) => {
-            let configurations = robot.configurations().map_err(|error| error.to_string())?;
-            let mut configuration = configurations.zero();
+            let mut configuration = robot.configurations()?.zero();
             for (name, value) in values {
-                let dof = robot.dof(name).map_err(|error| error.to_string())?;
-                configuration[dof] = number(value)?;
+                configuration[robot.dof(name)?] = number(value)?;
             }
             check(dofs, configuration)
         }
-        _ => Err("neither a list nor an object".to_owned()),
+        _ => Err("neither a list nor an object".into()),
     }
 }
 
 /// The fields of a line of CSV.
-fn fields(line: &str) -> Result<StringRecord, String> {
+fn fields(line: &str) -> Result<StringRecord, csv::Error> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .trim(csv::Trim::All)
         .buffer_capacity(line.len().max(1))
         .from_reader(line.as_bytes());
     let mut record = StringRecord::new();
-    let read = reader.read_record(&mut record);
-    read.map_err(|error| error.to_string())?;
+    reader.read_record(&mut record)?;
     Ok(record)
 }
 
@@ -194,7 +182,7 @@ fn of_columns(
     dofs: &[String],
     columns: Option<&[usize]>,
     values: Vec<f64>,
-) -> Result<Vec<f64>, String> {
+) -> Result<Vec<f64>, Failure> {
     let given = check(dofs, values)?;
     let Some(columns) = columns else {
         return Ok(given);
@@ -206,21 +194,16 @@ fn of_columns(
     Ok(values)
 }
 
-fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, String> {
+fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, Failure> {
     if values.len() != dofs.len() {
         let (found, expected) = (values.len(), dofs.len());
         let names: Vec<_> = dofs.iter().map(|name| escape::line(name)).collect();
-        return Err(format!(
-            "{found} values, but the robot has {expected} DOFs: {}",
-            names.join(", ")
-        ));
+        let names = names.join(", ");
+        Err(format!("{found} values, but the robot has {expected} DOFs: {names}"))?;
     }
-    match values.iter().position(|value| !value.is_finite()) {
-        Some(dof) => Err(format!(
-            "the value of `{}` is {}, not a finite number",
-            escape::line(&dofs[dof]),
-            values[dof]
-        )),
-        None => Ok(values),
+    if let Some(dof) = values.iter().position(|value| !value.is_finite()) {
+        let (name, value) = (escape::line(&dofs[dof]), values[dof]);
+        Err(format!("the value of `{name}` is {value}, not a finite number"))?;
     }
+    Ok(values)
 }

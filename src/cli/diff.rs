@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 
 use super::foreign;
-use super::output;
+use super::output::{self, Failure};
 use super::packages::PackageArguments;
-use super::signals::Signals;
+use super::signals::{self, Signals};
 use urdd_diff::{DiffError, Options, Side, compare, markdown, text};
 use urdd_validate::report;
 
@@ -66,11 +66,10 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 /// Runs `urdd diff`.
 pub fn run(arguments: &DiffArguments) -> ExitCode {
-    output::ended(diff(arguments))
+    signals::run(None, |signals| diff(arguments, signals))
 }
 
-fn diff(arguments: &DiffArguments) -> Result<u8, String> {
-    let signals = Signals::listen().map_err(|error| error.to_string())?;
+fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
     let options = Options {
         urdf: arguments.packages.settings()?,
         cancellation: signals.cancellation(),
@@ -82,27 +81,22 @@ fn diff(arguments: &DiffArguments) -> Result<u8, String> {
             error => error.to_string(),
         })
     };
-    // A panic of a rule is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
-    let sides = (open(&arguments.before), open(&arguments.after));
-    let _ = std::panic::take_hook();
+    let sides =
+        output::without_panic_messages(|| (open(&arguments.before), open(&arguments.after)));
     if let Some(status) = signals.status() {
         return Ok(status);
     }
     let (before, after) = match sides {
         (Ok(before), Ok(after)) => (before, after),
         // Both messages, so that both can be mended at once.
-        (Err(a), Err(b)) if a != b => return Err(format!("{a}\nurdd: {b}")),
-        (Err(error), _) | (_, Err(error)) => return Err(error),
+        (Err(a), Err(b)) if a != b => return Err(format!("{a}\nurdd: {b}").into()),
+        (Err(error), _) | (_, Err(error)) => return Err(error.into()),
     };
     let found = compare(&before, &after, arguments.tolerance);
     match arguments.format {
         Format::Text => output::print(&text(&found))?,
         Format::Markdown => output::print_raw(&markdown(&found))?,
-        Format::Json => {
-            let json = report::json(&found).map_err(|error| error.to_string())?;
-            output::print(&json)?;
-        }
+        Format::Json => output::print(&report::json(&found)?)?,
     }
     Ok(if found.same { 0 } else { DIFFERENT })
 }

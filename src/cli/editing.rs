@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use super::shapes;
+use super::inputs;
+use super::output::{Failure, about};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::replacement::{Files, Replacement};
 use urdd_directory::root::Root;
-use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;
 
@@ -38,31 +38,28 @@ impl Edited {
 pub fn edited(
     urdd: &Path,
     kind: ModuleKind,
-    edit: impl Fn(&Robot) -> Result<Edited, String>,
-) -> Result<String, String> {
-    let of_urdd = |error: &dyn std::fmt::Display| {
-        format!("{}: {error}", escape::line(&urdd.display().to_string()))
-    };
+    edit: impl Fn(&Robot) -> Result<Edited, Failure>,
+) -> Result<String, Failure> {
     if !urdd.is_dir() {
-        return Err(of_urdd(&"not a folder; edits are written into the folder of a URDD"));
+        Err(about(urdd)("not a folder; edits are written into the folder of a URDD"))?;
     }
     for _ in 0..MAX_TRIES {
-        let before = state(urdd, kind).map_err(|error| of_urdd(&error))?;
-        let robot = shapes::open(urdd)?;
+        let before = state(urdd, kind).map_err(about(urdd))?;
+        let robot = inputs::open(urdd)?;
         let Edited { files, told } = edit(&robot)?;
         if files.is_empty() {
             return Ok(told);
         }
         // Takes the lock here. Other programs may have written before.
-        let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
-        if state(urdd, kind).map_err(|error| of_urdd(&error))? != before {
+        let replacement = Replacement::begin(urdd)?;
+        if state(urdd, kind).map_err(about(urdd))? != before {
             continue;
         }
-        replacement.stage(&files).map_err(|error| error.to_string())?;
-        replacement.commit().map_err(|error| error.to_string())?;
+        replacement.stage(&files)?;
+        replacement.commit()?;
         return Ok(told);
     }
-    Err(of_urdd(&"another program keeps writing into this folder; nothing was written"))
+    Err(about(urdd)("another program keeps writing into this folder; nothing was written").into())
 }
 
 /// The files that the edits depend on.

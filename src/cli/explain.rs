@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::output::{self, printed};
+use super::output::{self, Failure};
 use urdd_findings::description::Description;
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
@@ -36,26 +36,25 @@ const WIDEST: usize = 100;
 
 /// Runs `urdd explain`.
 pub fn run(arguments: &ExplainArguments) -> ExitCode {
-    let all = all();
-    let wanted = match &arguments.rule {
-        None => all,
-        Some(wanted) => {
-            let codes = wanted.parse::<Codes>().ok();
-            let meant = |explained: &Explained| {
-                let rule = explained.rule;
-                rule.name == wanted || codes.is_some_and(|codes| codes.holds(rule.code))
-            };
-            all.into_iter().filter(meant).collect()
-        }
-    };
-    let one = arguments.rule.is_some() && wanted.len() == 1;
-    match (&wanted[..], arguments.format) {
-        ([], format) => without_rule(arguments.rule.as_deref().unwrap_or_default(), format),
-        ([rule], Format::Human) if one => printed(output::print(&in_full(rule))),
-        (rules, Format::Human) => printed(output::print(&list(rules))),
-        ([rule], Format::Json) if one => print_json(&as_json(rule)),
-        (rules, Format::Json) => print_json(&rules.iter().map(as_json).collect()),
+    output::printed(explained(arguments))
+}
+
+fn explained(arguments: &ExplainArguments) -> Result<String, Failure> {
+    let mut wanted = all();
+    if let Some(word) = &arguments.rule {
+        let codes = word.parse::<Codes>().ok();
+        wanted.retain(|Explained { rule, .. }| {
+            rule.name == word || codes.is_some_and(|codes| codes.holds(rule.code))
+        });
     }
+    let one = arguments.rule.is_some() && wanted.len() == 1;
+    Ok(match (&wanted[..], arguments.format) {
+        ([], format) => without_rule(arguments.rule.as_deref().unwrap_or_default(), format)?,
+        ([rule], Format::Human) if one => in_full(rule),
+        (rules, Format::Human) => list(rules),
+        ([rule], Format::Json) if one => report::json(&as_json(rule))?,
+        (rules, Format::Json) => report::json(&rules.iter().map(as_json).collect::<Vec<_>>())?,
+    })
 }
 
 /// A rule to explain.
@@ -66,29 +65,24 @@ struct Explained {
 
 /// The rules of `urdd validate`, then those that only `urdd lint` has.
 fn all() -> Vec<Explained> {
-    let of_urdds = urdd_validate::rules::all().into_iter();
-    let of_urdds = of_urdds.map(|rule| (&rule.description, true));
-    let of_urdfs = urdd_lint::rules::all().into_iter();
-    let of_urdfs = of_urdfs.map(|rule| (&rule.description, rule.on_by_default));
-    let both = of_urdds.chain(of_urdfs);
-    both.map(|(rule, is_on_by_default)| Explained { rule, is_on_by_default }).collect()
+    let explained = |rule, is_on_by_default| Explained { rule, is_on_by_default };
+    let (urdds, urdfs) = (urdd_validate::rules::all(), urdd_lint::rules::all());
+    let of_urdds = urdds.into_iter().map(|rule| explained(&rule.description, true));
+    let of_urdfs = urdfs.into_iter().map(|rule| explained(&rule.description, rule.on_by_default));
+    of_urdds.chain(of_urdfs).collect()
 }
 
 /// Explains a retired code. Any other word is a usage error.
-fn without_rule(wanted: &str, format: Format) -> ExitCode {
-    let Some(retired) = RetiredCode::parse(wanted) else {
-        return printed(Err(format!(
-            "unknown rule `{}`; `urdd explain` without a code lists all rules",
-            escape::line(wanted)
-        )));
-    };
+fn without_rule(wanted: &str, format: Format) -> Result<String, Failure> {
+    let retired = RetiredCode::parse(wanted).ok_or_else(|| {
+        let word = escape::line(wanted);
+        format!("unknown rule `{word}`; `urdd explain` without a code lists all rules")
+    })?;
     let (code, reason) = (retired.code, retired.reason);
-    match format {
-        Format::Human => printed(output::print(&format!(
-            "{code} is retired: {reason}. The code is not used again.\n"
-        ))),
-        Format::Json => print_json(&json!({ "code": code, "retired": reason })),
-    }
+    Ok(match format {
+        Format::Human => format!("{code} is retired: {reason}. The code is not used again.\n"),
+        Format::Json => report::json(&json!({ "code": code, "retired": reason }))?,
+    })
 }
 
 fn list(rules: &[Explained]) -> String {
@@ -167,9 +161,4 @@ fn as_json(explained: &Explained) -> Value {
         "summary": rule.summary(),
         "explanation": rule.explanation(),
     })
-}
-
-fn print_json(value: &Value) -> ExitCode {
-    let text = report::json(value).map_err(|error| error.to_string());
-    printed(text.and_then(|text| output::print(&text)))
 }

@@ -3,23 +3,19 @@
 use std::io::Read;
 use std::path::Path;
 
+use super::output::one_line;
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::regular;
-use urdd_format::escape;
 
 /// How much of a file is read to identify it, in bytes.
 const HEAD: u64 = 4096;
 
 /// The message of an error, with advice if the file has a known format.
 pub fn advice(error: &DiscoverError) -> String {
-    let text = escape::line(&error.to_string()).into_owned();
     let DiscoverError::NotAFolder { path } = error else {
-        return text;
+        return one_line(error);
     };
-    match of_file(Path::new(path)) {
-        Some(advice) => format!("{}: {advice}", escape::line(path)),
-        None => format!("{}: {NEITHER}", escape::line(path)),
-    }
+    format!("{}: {}", one_line(path), of_file(Path::new(path)).unwrap_or(NEITHER))
 }
 
 fn of_file(path: &Path) -> Option<&'static str> {

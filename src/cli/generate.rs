@@ -8,17 +8,13 @@ use clap::Args;
 
 use super::generate_output::Printer;
 use super::making::MakingArguments;
-use super::output;
-use super::signals::Signals;
+use super::output::{self, Failure, one_line};
+use super::signals::{self, Signals};
 use super::xacro;
 use urdd_format::escape;
 use urdd_generate::batch::{self, Shard};
 use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
-use urdd_source::process;
 use urdd_source::robots::{self, Job};
-
-/// Exit status: a robot could not be generated.
-const FAILED: u8 = 1;
 
 /// The argument for a URDF from standard input.
 const STANDARD_INPUT: &str = "-";
@@ -54,28 +50,24 @@ pub struct GenerateArguments {
 
 /// Runs `urdd generate`.
 pub fn run(arguments: &GenerateArguments) -> ExitCode {
-    output::ended(generate(arguments))
+    let stopped = "stopped by a signal; URDDs that were not finished are unchanged";
+    signals::run(Some(stopped), |signals| {
+        output::without_panic_messages(|| generate(arguments, signals))
+    })
 }
 
 /// Returns the exit status.
-fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
-    let signals = Signals::listen().map_err(|error| error.to_string())?;
-    process::adopt_orphans();
+fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Failure> {
     let (robots, xacro_arguments) = xacro::split(&arguments.robots);
-    let settings = arguments.making.settings(xacro_arguments, &signals)?;
+    let settings = arguments.making.settings(xacro_arguments, signals)?;
     let pool = arguments.making.pool()?;
-    // A panic is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
     let is_batch = robots::is_batch(&robots);
     if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
-        return Err(
-            "`-` cannot be part of a batch: it reads one robot from standard input".to_owned()
-        );
+        Err("`-` cannot be part of a batch: it reads one robot from standard input")?;
     }
     let printer = Printer::new(arguments.making.format, is_batch);
     let failed = if is_batch {
-        let mut jobs =
-            robots::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
+        let mut jobs = robots::jobs(&robots).map_err(one_line)?;
         check_used(arguments, &settings, jobs.iter().map(|job| job.source.as_path()))?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
@@ -88,23 +80,14 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
         failed
     } else {
         if arguments.shard.is_some() {
-            return Err("--shard is for batches: give several robots, or a folder".to_owned());
+            Err("--shard is for batches: give several robots, or a folder")?;
         }
         let source =
             robots.into_iter().next().ok_or("no robot given; give a URDF or xacro file")?;
         check_used(arguments, &settings, [source.as_path()])?;
         one(source, &arguments.output, &settings, &pool, &printer)?
     };
-    let _ = std::panic::take_hook();
-    if let Some(status) = signals.status() {
-        output::error("stopped by a signal; URDDs that were not finished are unchanged");
-        return Ok(status);
-    }
-    match printer.unprinted() {
-        Some(message) => Err(message),
-        None if failed > 0 => Ok(FAILED),
-        None => Ok(0),
-    }
+    printer.status(failed > 0)
 }
 
 /// Refuses xacro arguments if no file needs xacro, since they would have no effect.

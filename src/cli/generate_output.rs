@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
-use std::sync::{Mutex, PoisonError};
 
 use clap::ValueEnum;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use parking_lot::Mutex;
 use serde_json::{Value, json};
 
-use super::output;
+use super::output::{self, Failure};
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::Observer;
@@ -16,6 +16,9 @@ use urdd_generate::combine::{CombineError, Combined};
 use urdd_generate::note::{Note, NoteKind};
 use urdd_generate::{GenerateError, Generated, Progress, SourceError};
 use urdd_source::robots::Job;
+
+/// Exit status: a robot could not be made.
+pub(super) const FAILED: u8 = 1;
 
 /// Maximum number of notes of a kind that are printed individually.
 const MAX_NOTES: usize = 3;
@@ -74,7 +77,7 @@ impl Printer {
         if let Some(bars) = &self.bars {
             bars.batch.finish_and_clear();
         }
-        let totals = self.totals.lock().unwrap_or_else(PoisonError::into_inner);
+        let totals = self.totals.lock();
         let unchanged = totals.unchanged;
         let generated = total - failed - unchanged;
         self.print(&match self.format {
@@ -127,14 +130,17 @@ impl Printer {
             Some(bars) => bars.all.suspend(|| output::print(text)),
             None => output::print(text),
         };
-        if let (Err(message), Ok(mut unprinted)) = (printed, self.unprinted.lock()) {
-            unprinted.get_or_insert(message);
+        if let Err(message) = printed {
+            self.unprinted.lock().get_or_insert(message);
         }
     }
 
-    /// The first error of printing a result, if any.
-    pub(super) fn unprinted(&self) -> Option<String> {
-        self.unprinted.lock().ok()?.clone()
+    /// The exit status, or the first error of printing a result.
+    pub(super) fn status(&self, has_failed: bool) -> Result<u8, Failure> {
+        match self.unprinted.lock().take() {
+            Some(message) => Err(message.into()),
+            None => Ok(if has_failed { FAILED } else { 0 }),
+        }
     }
 
     fn error(&self, text: &str) {
@@ -154,7 +160,8 @@ impl Observer for Printer {
         if let (Some(bars), true) = (&self.bars, self.is_batch) {
             bars.batch.inc(1);
         }
-        if let (Ok(made), Ok(mut totals)) = (outcome, self.totals.lock()) {
+        if let Ok(made) = outcome {
+            let mut totals = self.totals.lock();
             totals.unchanged += usize::from(!made.changed);
             totals.meshes += made.meshes.named;
             totals.meshes_not_found += made.meshes.not_found;

@@ -6,13 +6,12 @@ use std::process::ExitCode;
 use clap::Args;
 use similar::TextDiff;
 
-use super::output::{self, Color};
+use super::output::{self, Color, Failure, about, shown};
 use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
-use super::signals::Signals;
+use super::signals::{self, Signals};
 use super::xacro::{self, XacroArguments};
 use urdd_findings::baseline::Baseline;
-use urdd_format::escape;
 use urdd_lint::{LeftAlone, LintSettings, Mended};
 use urdd_validate::Run;
 
@@ -67,11 +66,10 @@ pub struct LintArguments {
 
 /// Runs `urdd lint`.
 pub fn run(arguments: &LintArguments, color: Color) -> ExitCode {
-    output::ended(lint(arguments, color))
+    signals::run(None, |signals| lint(arguments, color, signals))
 }
 
-fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
-    let signals = Signals::listen().map_err(|error| error.to_string())?;
+fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8, Failure> {
     let file = arguments.report.settings_file()?;
     // A new one has all that is found.
     let usual = file.baseline.filter(|_| arguments.write_baseline.is_none());
@@ -79,20 +77,13 @@ fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
     let mut settings = LintSettings {
         report: file.settings,
         source: arguments.packages.settings()?,
-        baseline: baseline.map(read_baseline).transpose()?,
+        baseline: baseline.map(Baseline::read).transpose()?,
         without_meshes: false,
     };
     settings.report.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
-    // A panic of a rule is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
-    let result = work(arguments, &paths, &settings, color);
-    let _ = std::panic::take_hook();
-    match signals.status() {
-        Some(status) => Ok(status),
-        None => result,
-    }
+    output::without_panic_messages(|| work(arguments, &paths, &settings, color))
 }
 
 fn work(
@@ -100,16 +91,15 @@ fn work(
     paths: &[PathBuf],
     settings: &LintSettings,
     color: Color,
-) -> Result<u8, String> {
+) -> Result<u8, Failure> {
     if arguments.fix || arguments.diff {
-        let mended =
-            urdd_lint::mend(paths, settings, arguments.force).map_err(|error| error.to_string())?;
+        let mended = urdd_lint::mend(paths, settings, arguments.force)?;
         if arguments.diff {
             return show(&mended);
         }
         write(&mended)?;
     }
-    let run = urdd_lint::lint(paths, settings).map_err(|error| error.to_string())?;
+    let run = urdd_lint::lint(paths, settings)?;
     if let Some(file) = &arguments.write_baseline {
         return write_baseline(file, &run);
     }
@@ -118,18 +108,16 @@ fn work(
 
 /// The file to write; says why if it is left alone.
 fn target(mended: &Mended) -> Option<&Path> {
-    let say = |why: &LeftAlone| {
-        let shown = format!("{}: left as it is: {why}", mended.path.display());
-        output::error(&escape::line(&shown));
-    };
+    let say =
+        |why: &LeftAlone| output::error(&about(&mended.path)(format!("left as it is: {why}")));
     mended.target.as_deref().inspect_err(|why| say(why)).ok()
 }
 
 /// Prints what would change, as a patch. What is left alone is to be changed, too.
-fn show(mended: &[Mended]) -> Result<u8, String> {
+fn show(mended: &[Mended]) -> Result<u8, Failure> {
     let mut text = String::new();
     for one in mended.iter().filter(|one| target(one).is_some()) {
-        let name = escape::line(&one.path.display().to_string()).into_owned();
+        let name = shown(&one.path);
         let diff = TextDiff::from_lines(&one.before, &one.after);
         text += &diff.unified_diff().header(&name, &name).to_string();
     }
@@ -138,44 +126,28 @@ fn show(mended: &[Mended]) -> Result<u8, String> {
 }
 
 /// Writes the mended files. A file that was changed meanwhile stays.
-fn write(mended: &[Mended]) -> Result<(), String> {
+fn write(mended: &[Mended]) -> Result<(), Failure> {
     for one in mended {
         let Some(target) = target(one) else { continue };
-        let shown = one.path.display().to_string();
-        one.check(target).map_err(|error| format!("{}: {error}", escape::line(&shown)))?;
-        output::write_bytes(target, one.after.as_bytes())?;
-        let places = match one.places {
-            1 => "1 place".to_owned(),
-            places => format!("{places} places"),
-        };
-        output::error(&format!("mended {places} in {}", escape::line(&shown)));
+        one.check(target).map_err(about(&one.path))?;
+        output::write_file(target, &one.after)?;
+        let places = output::counted(one.places, "place");
+        output::error(&format!("mended {places} in {}", shown(&one.path)));
     }
     Ok(())
 }
 
-fn read_baseline(file: &Path) -> Result<Baseline, String> {
-    Baseline::read(file).map_err(|error| error.to_string())
-}
-
 /// Writes a baseline. A file that is there must be one.
-fn write_baseline(file: &Path, run: &Run) -> Result<u8, String> {
+fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
     if file.exists() {
-        read_baseline(file)?;
+        Baseline::read(file)?;
     }
-    let baseline = Baseline::of(run, folder_of(file));
+    let baseline = Baseline::of(run, file.parent().unwrap_or(Path::new(".")));
     output::write_file(file, &baseline.to_json())?;
-    let shown = file.display().to_string();
-    let shown = escape::line(&shown);
-    let findings = match baseline.count() {
-        1 => "1 finding".to_owned(),
-        count => format!("{count} findings"),
-    };
+    let shown = shown(file);
+    let findings = output::counted(baseline.count(), "finding");
     output::print(&format!(
         "{shown}: {findings}, which `urdd lint --baseline {shown}` leaves out\n"
     ))?;
     Ok(0)
-}
-
-fn folder_of(file: &Path) -> &Path {
-    file.parent().unwrap_or(Path::new("."))
 }

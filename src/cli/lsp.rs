@@ -5,7 +5,6 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::output;
-use urdd_format::escape;
 
 /// Arguments of `urdd lsp`.
 #[derive(Args)]
@@ -29,7 +28,7 @@ pub fn run(_: &LspArguments) -> ExitCode {
         Ok(ended) if ended.is_orderly() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::from(LEFT),
         Err(error) => {
-            output::error(&escape::line(&error.to_string()));
+            output::error(&output::one_line(error));
             ExitCode::from(output::USAGE)
         }
     }

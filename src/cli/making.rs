@@ -3,14 +3,12 @@
 use clap::{Args, ValueEnum};
 
 use super::generate_output::Format;
+use super::output::{Failure, one_line};
 use super::packages::PackageArguments;
 use super::signals::Signals;
+use super::words::{Preferred, Skip};
 use super::xacro::XacroArguments;
-use urdd_format::escape;
-use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_format::meshes::GeometryKind;
-use urdd_generate::train::Effort;
-use urdd_generate::{MeshFormats, Pieces, Selection, Settings};
+use urdd_generate::{Effort, MeshFormats, Pieces, Selection, Settings};
 
 /// How a URDD is made.
 #[derive(Args)]
@@ -82,14 +80,6 @@ pub(super) struct MakingArguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Preferred {
-    /// The visual elements.
-    Visual,
-    /// The collision elements.
-    Collision,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MeshFormat {
     /// Binary glTF, with colours, normals and textures.
     Glb,
@@ -97,32 +87,6 @@ enum MeshFormat {
     Stl,
     /// Wavefront OBJ.
     Obj,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Skip {
-    /// Both shapes belong to the same link.
-    SameLink,
-    /// In contact in every sampled configuration.
-    Always,
-    /// A joint connects the two links.
-    Adjacent,
-    /// In contact in the default configuration: zero, clamped to the bounds.
-    Default,
-    /// In contact in no sampled configuration.
-    Never,
-}
-
-impl From<Skip> for SkippedReason {
-    fn from(skip: Skip) -> Self {
-        match skip {
-            Skip::SameLink => SkippedReason::SameLink,
-            Skip::Always => SkippedReason::Always,
-            Skip::Adjacent => SkippedReason::Adjacent,
-            Skip::Default => SkippedReason::Default,
-            Skip::Never => SkippedReason::Never,
-        }
-    }
 }
 
 /// A length in metres, above 0.
@@ -135,30 +99,27 @@ fn length(word: &str) -> Result<f64, String> {
 
 impl MakingArguments {
     /// A pool with the requested number of threads.
-    pub(super) fn pool(&self) -> Result<rayon::ThreadPool, String> {
+    pub(super) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
         let mut pool = rayon::ThreadPoolBuilder::new();
         if let Some(threads) = self.threads {
             pool = pool.num_threads(threads.into());
         }
-        pool.build().map_err(|error| error.to_string())
+        Ok(pool.build()?)
     }
 
     pub(super) fn settings(
         &self,
         xacro_arguments: Vec<String>,
         signals: &Signals,
-    ) -> Result<Settings, String> {
+    ) -> Result<Settings, Failure> {
         let selection = match self.modules.is_empty() {
             true => Selection::all(),
             false => Selection::parse(self.modules.iter().map(String::as_str))
-                .map_err(|error| format!("--modules: {}", escape::line(&error.to_string())))?,
+                .map_err(|error| format!("--modules: {}", one_line(error)))?,
         };
         Ok(Settings {
             selection,
-            preferred_geometry: match self.geometry {
-                Preferred::Visual => GeometryKind::Visual,
-                Preferred::Collision => GeometryKind::Collision,
-            },
+            preferred_geometry: self.geometry.into(),
             mesh_formats: MeshFormats {
                 stl: self.mesh_formats.contains(&MeshFormat::Stl),
                 obj: self.mesh_formats.contains(&MeshFormat::Obj),
@@ -172,10 +133,8 @@ impl MakingArguments {
             },
             strict: self.strict,
             drop_edits: self.drop_edits,
-            skipped_reasons: self.skip.as_ref().map(|skip| {
-                let reasons = skip.iter().copied();
-                reasons.map(SkippedReason::from).collect()
-            }),
+            skipped_reasons: (self.skip.as_ref())
+                .map(|skip| skip.iter().copied().map(Into::into).collect()),
             force: self.force,
             cancellation: signals.cancellation(),
             ..Settings::default()

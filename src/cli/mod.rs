@@ -12,6 +12,7 @@ mod foreign;
 mod generate;
 mod generate_output;
 mod info;
+mod inputs;
 mod lint;
 mod lsp;
 mod making;
@@ -22,10 +23,8 @@ mod packages;
 mod rehash;
 mod reporting;
 mod schema;
-mod shapes;
 mod signals;
 mod skips;
-mod srdf_file;
 mod validate;
 mod view;
 mod words;
@@ -38,7 +37,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use self::output::Color;
+use self::output::{Color, Failure};
 use urdd_format::escape;
 
 /// Specification, validator and reference generator of the Universal Robot Description Directory.
@@ -125,7 +124,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "urdd", &mut script);
-            output::printed(output::print(&String::from_utf8_lossy(&script)))
+            output::printed(Ok::<_, Failure>(String::from_utf8_lossy(&script).into_owned()))
         }
     }
 }
@@ -142,5 +141,5 @@ fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
         let _ = writeln!(std::io::stderr().lock(), "{text}");
         return ExitCode::from(output::USAGE);
     }
-    output::printed(output::print(&error.render().to_string()))
+    output::printed(Ok::<_, Failure>(error.render().to_string()))
 }

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::editing::{self, Edited};
-use super::{output, shapes, srdf_file};
+use super::inputs;
+use super::output::{self, Failure, about, shown};
 use urdd_export::import_states;
 use urdd_format::escape;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
@@ -85,19 +86,14 @@ pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
         ConfigurationsCommand::Import { srdf, urdd, force } => import(srdf, urdd, *force),
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
-    output::printed(text.and_then(|text| output::print(&text)))
+    output::printed(text)
 }
 
-fn shown(urdd: &Path) -> String {
-    escape::line(&urdd.display().to_string()).into_owned()
-}
-
-fn list(urdd: &Path) -> Result<String, String> {
-    let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
-    let robot = shapes::open(urdd)?;
+fn list(urdd: &Path) -> Result<String, Failure> {
+    let robot = inputs::open(urdd)?;
     // A folder that is no URDD has none either: say that.
-    robot.dof_names().map_err(|error| of_urdd(&error))?;
-    let named = robot.named_configurations().map_err(|error| of_urdd(&error))?;
+    robot.dof_names().map_err(about(urdd))?;
+    let named = robot.named_configurations().map_err(about(urdd))?;
     if named.is_empty() {
         return Ok(format!("{}: no named configurations\n", shown(urdd)));
     }
@@ -110,9 +106,8 @@ fn list(urdd: &Path) -> Result<String, String> {
     Ok(lines.collect())
 }
 
-fn set(urdd: &Path, name: &str, positions: &[String]) -> Result<String, String> {
-    let wrong = "the name of a configuration is empty".to_owned();
-    let name = ConfigurationName::new(name).ok_or(wrong)?;
+fn set(urdd: &Path, name: &str, positions: &[String]) -> Result<String, Failure> {
+    let name = ConfigurationName::new(name).ok_or("the name of a configuration is empty")?;
     let edit = ConfigurationEdit { positions: parsed(positions)?, name };
     change(urdd, |edits| match edits.iter_mut().find(|other| other.name == edit.name) {
         Some(there) => {
@@ -126,7 +121,7 @@ fn set(urdd: &Path, name: &str, positions: &[String]) -> Result<String, String> 
     })
 }
 
-fn remove(urdd: &Path, name: &str) -> Result<String, String> {
+fn remove(urdd: &Path, name: &str) -> Result<String, Failure> {
     change(urdd, |edits| {
         let place = edits.iter().position(|edit| edit.name.as_str() == name);
         let Some(place) = place else {
@@ -139,14 +134,10 @@ fn remove(urdd: &Path, name: &str) -> Result<String, String> {
     })
 }
 
-fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
-    let text = srdf_file::read(srdf)?;
-    let of_urdd = |error: &dyn std::fmt::Display| {
-        format!("{}: {}", shown(urdd), escape::line(&error.to_string()))
-    };
+fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
+    let text = inputs::srdf(srdf)?;
     editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
-        let imported = import_states(robot, &text, force)
-            .map_err(|error| format!("{}: {error}", shown(srdf)))?;
+        let imported = import_states(robot, &text, force).map_err(about(srdf))?;
         let mut told = format!(
             "{}: {} imported; {} of the SRDF unchanged\n",
             shown(urdd),
@@ -167,8 +158,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
             return Ok(Edited::unchanged(told));
         }
         let edited = robot.with_named_configurations(&imported.configurations);
-        let edited = edited.map_err(|error| of_urdd(&error))?;
-        Ok(Edited { files: edited.files, told })
+        Ok(Edited { files: edited.map_err(about(urdd))?.files, told })
     })
 }
 
@@ -176,17 +166,12 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
 fn change(
     urdd: &Path,
     change: impl Fn(&mut Vec<ConfigurationEdit>) -> Result<&'static str, String>,
-) -> Result<String, String> {
-    let of_urdd = |error: &dyn std::fmt::Display| {
-        format!("{}: {}", shown(urdd), escape::line(&error.to_string()))
-    };
+) -> Result<String, Failure> {
     editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
-        let named = robot.named_configurations();
-        let named = named.map_err(|error| of_urdd(&error))?;
+        let named = robot.named_configurations().map_err(about(urdd))?;
         let mut edits: Vec<ConfigurationEdit> = named.iter().map(Into::into).collect();
-        let done = change(&mut edits).map_err(|error| of_urdd(&error))?;
-        let edited = robot.with_named_configurations(&edits);
-        let edited = edited.map_err(|error| of_urdd(&error))?;
+        let done = change(&mut edits).map_err(about(urdd))?;
+        let edited = robot.with_named_configurations(&edits).map_err(about(urdd))?;
         let count = output::counted(edits.len(), "named configuration");
         Ok(Edited { files: edited.files, told: format!("{}: {done}; {count}\n", shown(urdd)) })
     })

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::output::{Failure, one_line, shown};
 use urdd_directory::add_module::{add_module, write_folder};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
@@ -28,45 +29,38 @@ pub struct NewExtensionArguments {
 ///
 /// # Errors
 /// A message with advice, if the name is not allowed or taken, or something cannot be read or written.
-pub fn run(arguments: &NewExtensionArguments) -> Result<String, String> {
+pub fn run(arguments: &NewExtensionArguments) -> Result<String, Failure> {
     let name = &arguments.name;
     let module = format!("x_{name}_module");
     if !is_extension(&module) || name.starts_with("x_") || name.ends_with("_module") {
-        return Err(format!(
+        Err(format!(
             "`{}` is not a name of an extension: write your name, `_`, and what it is about, in lower-case letters, digits and `_`, such as acme_gripper; `x_` and `_module` are added",
             escape::line(name)
-        ));
+        ))?;
     }
     let parent = &arguments.folder;
     if !parent.is_dir() {
-        return Err(format!(
-            "{} is not a folder: name a URDD, or a folder to write into",
-            escape::line(&parent.display().to_string())
-        ));
+        let parent = shown(parent);
+        Err(format!("{parent} is not a folder: name a URDD, or a folder to write into"))?;
     }
-    let text = match parent.join(ROOT_METADATA).exists() {
-        true => add(parent, &module)?,
-        false => {
-            let folder = write_folder(parent, &module, &files(&module, None));
-            let folder = folder.map_err(|error| escape::line(&error.to_string()).into_owned())?;
-            format!(
-                "wrote {}\nnext: say in schema.json what it is about; put the folder into a URDD, and list it in its {ROOT_METADATA}\n",
-                escape::line(&folder.display().to_string())
-            )
-        }
-    };
-    Ok(text)
+    if parent.join(ROOT_METADATA).exists() {
+        return add(parent, &module);
+    }
+    let folder = write_folder(parent, &module, &files(&module, None)).map_err(one_line)?;
+    Ok(format!(
+        "wrote {}\nnext: say in schema.json what it is about; put the folder into a URDD, and list it in its {ROOT_METADATA}\n",
+        shown(&folder)
+    ))
 }
 
 /// Adds it to a URDD.
-fn add(parent: &Path, module: &str) -> Result<String, String> {
-    let told = |error: &dyn std::fmt::Display| escape::line(&error.to_string()).into_owned();
-    let urdd = Urdd::read(parent).map_err(|error| told(&error))?;
+fn add(parent: &Path, module: &str) -> Result<String, Failure> {
+    let urdd = Urdd::read(parent).map_err(one_line)?;
     let joints = urdd.robot().map(|robot| robot.joints.len());
-    let root = Root::open(parent).map_err(|error| told(&error))?;
+    let root = Root::open(parent).map_err(one_line)?;
     let files = files(module, joints);
     let folder = add_module(&root, module, VERSION, &[ModuleKind::Urdf], &files);
-    let folder = told(&folder.map_err(|error| told(&error))?.display());
+    let folder = shown(&folder.map_err(one_line)?);
     let parent = escape::shell(&parent.display().to_string());
     Ok(format!(
         "wrote {folder}, and listed it in {ROOT_METADATA}\nnext: say in schema.json what it is about, write module.json and module.yaml; then `urdd rehash {parent}` and `urdd validate {parent}`\n"

@@ -1,5 +1,6 @@
 //! Printing. Escapes all external text. A failed write is an error, except for a pipe that its reader has closed.
 
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -23,6 +24,24 @@ static CLOSED: AtomicBool = AtomicBool::new(false);
 /// Records that standard output was closed when the program started.
 pub fn standard_output_is_closed() {
     CLOSED.store(true, Ordering::Relaxed);
+}
+
+/// Why a command stops. People see its text.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// A path on one line.
+pub fn shown(path: &Path) -> String {
+    one_line(path.display())
+}
+
+/// A text on one line.
+pub fn one_line(text: impl Display) -> String {
+    escape::line(&text.to_string()).into_owned()
+}
+
+/// Gives an error the path that it is about, and one line.
+pub fn about<E: Display>(path: &Path) -> impl Fn(E) -> String {
+    move |error| format!("{}: {}", shown(path), one_line(error))
 }
 
 /// Prints to standard output.
@@ -80,13 +99,10 @@ fn inert(text: &str) -> String {
         let start = line.len() - line.trim_start().len();
         let (margin, rest) = line.split_at(start);
         out.push_str(margin);
-        match rest.strip_prefix(':').filter(|rest| rest.starts_with(':')) {
-            Some(rest) => {
-                out.push_str("\\u{3a}");
-                out.push_str(rest);
-            }
-            None => out.push_str(rest),
+        if rest.starts_with("::") {
+            out.push_str("\\u{3a}:");
         }
+        out.push_str(rest.strip_prefix("::").unwrap_or(rest));
     }
     out
 }
@@ -97,11 +113,8 @@ fn safe(text: &str) -> String {
     let mut parts = text.split('\u{1b}');
     out.push_str(&inert(parts.next().unwrap_or_default()));
     for part in parts {
-        let style = STYLES.iter().find(|style| part.starts_with(&style['\u{1b}'.len_utf8()..]));
-        out.push_str(match style {
-            Some(_) => "\u{1b}",
-            None => "\\u{1b}",
-        });
+        let is_ours = STYLES.iter().any(|style| part.starts_with(&style['\u{1b}'.len_utf8()..]));
+        out.push_str(if is_ours { "\u{1b}" } else { "\\u{1b}" });
         out.push_str(&inert(part));
     }
     out
@@ -155,17 +168,9 @@ pub fn is_dumb() -> bool {
 /// # Errors
 /// A message if it cannot be written, or if its name would make its folder a URDD.
 pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
-    write_bytes(file, text.as_bytes())
-}
-
-/// As [`write_file`], for bytes.
-///
-/// # Errors
-/// As for [`write_file`].
-pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), String> {
     check_name(file)?;
     let failed = |error| cannot_write(file, &error);
-    stage(file, bytes).and_then(Staged::put).map_err(failed)
+    stage(file, text.as_bytes()).and_then(Staged::put).map_err(failed)
 }
 
 /// Writes files that belong together, and creates their folders. If one cannot be prepared, writes none, and removes
@@ -190,7 +195,7 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), String> {
 }
 
 fn cannot_write(file: &Path, error: &io::Error) -> String {
-    format!("{}: cannot be written: {}", escape::line(&file.display().to_string()), reason(error))
+    format!("{}: cannot be written: {}", shown(file), reason(error))
 }
 
 /// New folders. Those that are empty are removed when this is dropped.
@@ -276,15 +281,14 @@ fn folder_of(file: &Path) -> &Path {
 /// # Errors
 /// A message with advice if the file has that name.
 pub fn check_name(file: &Path) -> Result<(), String> {
-    let marker = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA));
-    match marker {
-        true => Err(format!(
+    if file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA)) {
+        return Err(format!(
             "{}: a file with this name makes its folder a URDD, which the next `urdd validate` would examine; \
              give it another name, such as urdd-report.json",
-            escape::line(&file.display().to_string())
-        )),
-        false => Ok(()),
+            shown(file)
+        ));
     }
+    Ok(())
 }
 
 /// The operating system's message, without the error number and without the path of a temporary file.
@@ -303,17 +307,23 @@ fn reason(error: &io::Error) -> String {
 }
 
 /// The exit status of a command that only prints.
-pub fn printed(result: Result<(), String>) -> ExitCode {
-    ended(result.map(|()| 0))
+pub fn printed(text: Result<String, impl Display>) -> ExitCode {
+    ended(text.map_err(|error| error.to_string()).and_then(|text| print(&text).map(|()| 0)))
 }
 
 /// The exit status of a command. Prints its error message.
-pub fn ended(result: Result<u8, String>) -> ExitCode {
-    match result {
-        Ok(status) => ExitCode::from(status),
-        Err(message) => {
-            error(&message);
-            ExitCode::from(USAGE)
-        }
-    }
+pub fn ended(result: Result<u8, impl Display>) -> ExitCode {
+    let status = result.unwrap_or_else(|message| {
+        error(&message.to_string());
+        USAGE
+    });
+    ExitCode::from(status)
+}
+
+/// Does work whose panics are caught and reported: the default hook would print them as well.
+pub fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
+    std::panic::set_hook(Box::new(|_| {}));
+    let done = work();
+    let _ = std::panic::take_hook();
+    done
 }

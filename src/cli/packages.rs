@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use urdd_format::escape;
+use super::output::{Failure, one_line, shown};
 use urdd_source::{Packages, Settings};
 
 /// Where the mesh files of a URDF are.
@@ -22,16 +22,14 @@ pub(super) struct PackageArguments {
 
 impl PackageArguments {
     /// Settings that use them; the others are the defaults.
-    pub(super) fn settings(&self) -> Result<Settings, String> {
+    pub(super) fn settings(&self) -> Result<Settings, Failure> {
         let mut packages = Packages::from_environment(|name| std::env::var_os(name));
         for argument in &self.packages {
             let added = packages.add(argument);
-            added.map_err(|error| format!("--package: {}", escape::line(&error.to_string())))?;
+            added.map_err(|error| format!("--package: {}", one_line(error)))?;
         }
         if let Some(folder) = self.allowed_folders.iter().find(|it| !it.is_dir()) {
-            let folder = folder.display().to_string();
-            let folder = escape::line(&folder);
-            return Err(format!("--allow-folder: {folder} is not a folder"));
+            Err(format!("--allow-folder: {} is not a folder", shown(folder)))?;
         }
         Ok(Settings {
             packages,

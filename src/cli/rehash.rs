@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::output;
+use super::output::{self, one_line};
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::rehash::rehash;
 use urdd_directory::root::Root;
@@ -31,52 +31,40 @@ pub struct RehashArguments {
 
 /// Runs `urdd rehash`.
 pub fn run(arguments: &RehashArguments) -> ExitCode {
-    let (mut failed, mut broken) = (false, false);
+    let mut worst = 0;
     for path in &arguments.paths {
-        let found = match discover(path) {
-            Ok(found) => found,
+        match discover(path) {
+            Ok(found) => found.iter().for_each(|urdd| worst = worst.max(update(urdd))),
             Err(error) => {
-                output::error(&escape::line(&error.to_string()));
-                failed = true;
-                continue;
+                output::error(&one_line(error));
+                worst = FAILED;
             }
-        };
-        for urdd in found {
-            let changed = urdd
-                .closed
-                .clone()
-                .map_or_else(|| Root::open(&urdd.path), Err)
-                .map_err(|error| error.to_string())
-                .and_then(|root| rehash(&root).map_err(|error| error.to_string()));
-            let name = escape::line(&urdd.name);
-            let mut text = String::new();
-            match changed {
-                Ok(changed) => {
-                    text += &match changed.is_empty() {
-                        true => format!("{name}: up to date\n"),
-                        false => format!("{name}: updated\n"),
-                    };
-                    for path in changed {
-                        text += &format!("  {}\n", escape::line(&path));
-                    }
-                }
-                Err(error) => {
-                    output::error(&format!("{name}: {}", escape::line(&error)));
-                    failed = true;
-                }
-            }
-            let is_up_to_date = !text.is_empty();
-            if let Err(error) = output::print(&text) {
-                output::error(&error);
-                failed = true;
-            }
-            broken |= is_up_to_date && report_broken(&urdd);
         }
     }
-    match (failed, broken) {
-        (true, _) => ExitCode::from(FAILED),
-        (false, true) => ExitCode::from(BROKEN),
-        (false, false) => ExitCode::SUCCESS,
+    ExitCode::from(worst)
+}
+
+/// Updates the hashes of a URDD. Returns the exit status.
+fn update(urdd: &Found) -> u8 {
+    let root = urdd.closed.clone().map_or_else(|| Root::open(&urdd.path), Err);
+    let changed = root.map_err(one_line).and_then(|root| rehash(&root).map_err(one_line));
+    let name = escape::line(&urdd.name);
+    let changed = match changed {
+        Ok(changed) => changed,
+        Err(error) => {
+            output::error(&format!("{name}: {error}"));
+            return FAILED;
+        }
+    };
+    let done = if changed.is_empty() { "up to date" } else { "updated" };
+    let paths = changed.iter().map(|path| format!("  {}\n", escape::line(path)));
+    let text = format!("{name}: {done}\n{}", paths.collect::<String>());
+    let printed = output::print(&text).inspect_err(|error| output::error(error));
+    let is_broken = report_broken(urdd);
+    match printed {
+        Err(_) => FAILED,
+        Ok(()) if is_broken => BROKEN,
+        Ok(()) => 0,
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::output::{self, Color};
+use super::output::{self, Color, Failure};
 use super::words::Level;
 use urdd_format::report::{Report, Severity, Verdict};
 use urdd_validate::Run;
@@ -100,12 +100,12 @@ impl Format {
 
 impl ReportArguments {
     /// The settings, of the file and of the command line.
-    pub(super) fn settings(&self) -> Result<Settings, String> {
+    pub(super) fn settings(&self) -> Result<Settings, Failure> {
         Ok(self.settings_file()?.settings)
     }
 
     /// The settings file, with what the command line sets.
-    pub(super) fn settings_file(&self) -> Result<SettingsFile, String> {
+    pub(super) fn settings_file(&self) -> Result<SettingsFile, Failure> {
         for file in &self.output {
             output::check_name(file)?;
         }
@@ -116,7 +116,7 @@ impl ReportArguments {
         };
         let mut read = match file {
             None => SettingsFile::default(),
-            Some(file) => SettingsFile::read(file).map_err(|error| error.to_string())?,
+            Some(file) => SettingsFile::read(file)?,
         };
         let settings = &mut read.settings;
         for pattern in &self.exclude {
@@ -125,7 +125,7 @@ impl ReportArguments {
         }
         settings.selection.select.clone_from(&self.select);
         settings.selection.ignore.clone_from(&self.ignore);
-        settings.fail_on = self.fail_on.map(Level::severity).or(settings.fail_on);
+        settings.fail_on = self.fail_on.map(Into::into).or(settings.fail_on);
         Ok(read)
     }
 
@@ -137,10 +137,10 @@ impl ReportArguments {
         settings: &Settings,
         is_lint: bool,
         color: Color,
-    ) -> Result<u8, String> {
+    ) -> Result<u8, Failure> {
         if run.report.urdds.is_empty() {
             let excluded = run.excluded;
-            return Err(format!("nothing to examine: everything found ({excluded}) is excluded"));
+            Err(format!("nothing to examine: everything found ({excluded}) is excluded"))?;
         }
         let report = &run.report;
         let status = status(report);
@@ -154,28 +154,19 @@ impl ReportArguments {
             suggests_lint: !is_lint,
             width: output::width().unwrap_or(Style::default().width),
         };
-        let render = |format: Format| -> Result<String, String> {
+        let render = |format: Format| -> Result<String, Failure> {
+            let mut text = String::new();
             match format {
-                Format::Json => report::json(report).map_err(|error| error.to_string()),
-                Format::Sarif => {
-                    report::sarif(run, &places, status).map_err(|error| error.to_string())
-                }
+                Format::Json => text = report::json(report)?,
+                Format::Sarif => text = report::sarif(run, &places, status)?,
                 Format::Junit => {
                     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
-                    report::junit(run, &places, fail_on).map_err(|error| error.to_string())
+                    text = report::junit(run, &places, fail_on)?;
                 }
-                Format::Github => {
-                    let mut text = String::new();
-                    report::github(report, &places, &mut text)
-                        .map_err(|error| error.to_string())?;
-                    Ok(text)
-                }
-                Format::Human => {
-                    let mut text = String::new();
-                    human::write(report, style, &mut text).map_err(|error| error.to_string())?;
-                    Ok(text)
-                }
+                Format::Github => report::github(report, &places, &mut text)?,
+                Format::Human => human::write(report, style, &mut text)?,
             }
+            Ok(text)
         };
         // A failed file does not keep the others from being written.
         let mut failures = Vec::new();
@@ -186,15 +177,13 @@ impl ReportArguments {
         let text = render(self.format)?;
         let printed = match self.format {
             Format::Github => {
-                output::print_raw(&text).and_then(|()| output::print(&render(Format::Human)?))
+                let people = render(Format::Human)?;
+                output::print_raw(&text).and_then(|()| output::print(&people))
             }
             _ => output::print(&text),
         };
         failures.extend(printed.err());
-        match failures.is_empty() {
-            true => Ok(status),
-            false => Err(failures.join("\nurdd: ")),
-        }
+        if failures.is_empty() { Ok(status) } else { Err(failures.join("\nurdd: ").into()) }
     }
 }
 

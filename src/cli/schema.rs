@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::new_extension::{self, NewExtensionArguments};
-use super::output;
+use super::output::{self, Failure};
 use urdd_directory::schema_files::{self, SchemaFault};
 use urdd_format::bundle;
 use urdd_format::escape;
@@ -68,36 +68,32 @@ impl Open {
 
 /// Runs `urdd schema`.
 pub fn run(arguments: &SchemaArguments) -> ExitCode {
-    match &arguments.command {
-        Command::List => print(&table()),
-        Command::Show { id, open } => match Subject::find(id) {
-            Ok(subject) => print(&subject.text(open.variant())),
-            Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` lists them all")),
-        },
-        Command::Bundle { open } => print(&format!("{:#}\n", bundle::bundle(open.variant()))),
-        Command::Export { folder, open } => match schema_files::export(folder, open.variant()) {
-            Ok(written) => print(&format!(
-                "{}: {written} written, {} unchanged\n",
-                folder.display(),
-                schema::files(open.variant()).len() - written
-            )),
-            Err(error) => fail(&error.to_string()),
-        },
-        Command::Check { folder } => match schema_files::check(folder) {
-            Ok(faults) if faults.is_empty() => {
-                print("every schema matches what this program writes\n")
-            }
-            Ok(faults) => match output::print(&report(&faults, folder)) {
-                Ok(()) => ExitCode::FAILURE,
-                Err(error) => fail(&error),
-            },
-            Err(error) => fail(&error.to_string()),
-        },
-        Command::NewExtension(arguments) => match new_extension::run(arguments) {
-            Ok(text) => print(&text),
-            Err(error) => fail(&error),
-        },
-    }
+    output::ended(schema(&arguments.command))
+}
+
+fn schema(command: &Command) -> Result<u8, Failure> {
+    let mut status = 0;
+    let text = match command {
+        Command::List => table(),
+        Command::Show { id, open } => {
+            let help = |error| format!("{error}\nhelp: `urdd schema list` lists them all");
+            Subject::find(id).map_err(help)?.text(open.variant())
+        }
+        Command::Bundle { open } => format!("{:#}\n", bundle::bundle(open.variant())),
+        Command::Export { folder, open } => {
+            let written = schema_files::export(folder, open.variant())?;
+            let unchanged = schema::files(open.variant()).len() - written;
+            format!("{}: {written} written, {unchanged} unchanged\n", folder.display())
+        }
+        Command::Check { folder } => {
+            let faults = schema_files::check(folder)?;
+            status = u8::from(!faults.is_empty());
+            report(&faults, folder)
+        }
+        Command::NewExtension(arguments) => new_extension::run(arguments)?,
+    };
+    output::print(&text)?;
+    Ok(status)
 }
 
 fn table() -> String {
@@ -129,10 +125,10 @@ fn table() -> String {
 }
 
 fn report(faults: &[SchemaFault], folder: &Path) -> String {
-    let mut text = String::new();
-    for fault in faults {
-        text.push_str(&format!("{fault}\n"));
+    if faults.is_empty() {
+        return "every schema matches what this program writes\n".to_owned();
     }
+    let mut text: String = faults.iter().map(|fault| format!("{fault}\n")).collect();
     if faults.iter().any(SchemaFault::is_mended_by_export) {
         text.push_str(&format!(
             "repair: urdd schema export {}\n",
@@ -140,12 +136,4 @@ fn report(faults: &[SchemaFault], folder: &Path) -> String {
         ));
     }
     text
-}
-
-fn print(text: &str) -> ExitCode {
-    output::printed(output::print(text))
-}
-
-fn fail(message: &str) -> ExitCode {
-    output::printed(Err(message.to_owned()))
 }

@@ -1,6 +1,7 @@
 //! Cancellation by Ctrl-C and other signals.
 
 use std::io;
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -9,7 +10,9 @@ use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+use super::output::{self, Failure};
 use urdd_directory::cancellation::Cancellation;
+use urdd_source::process;
 
 /// A shell adds this to a signal's number to form an exit status.
 const BY_SIGNAL: i32 = 128;
@@ -34,6 +37,21 @@ fn is_default(signal: i32) -> bool {
         u64::from_str_radix(line.trim(), 16).ok()
     });
     masks.all(|mask| mask.is_some_and(|mask| mask & (1 << (signal - 1)) == 0))
+}
+
+/// Runs a command that a signal can stop; `stopped` is what is said then. The processes that it starts end with it.
+pub(super) fn run(
+    stopped: Option<&str>,
+    work: impl FnOnce(&Signals) -> Result<u8, Failure>,
+) -> ExitCode {
+    let result = Signals::listen().map_err(Failure::from).and_then(|signals| {
+        process::adopt_orphans();
+        let result = work(&signals);
+        let Some(status) = signals.status() else { return result };
+        stopped.into_iter().for_each(output::error);
+        Ok(status)
+    });
+    output::ended(result)
 }
 
 /// The signals that request termination. The first one cancels the work at the next safe point; the second one ends the

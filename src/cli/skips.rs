@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::editing::{self, Edited};
-use super::{output, srdf_file};
+use super::inputs;
+use super::output::{self, Failure, about, shown};
 use urdd_export::{ImportedSkips, import_srdf};
-use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 
 /// Arguments of `urdd skips`.
@@ -44,25 +44,20 @@ enum SkipsCommand {
 /// Runs `urdd skips`.
 pub fn run(arguments: &SkipsArguments) -> ExitCode {
     let SkipsCommand::Import { srdf, urdd, force } = &arguments.command;
-    output::printed(import(srdf, urdd, *force).and_then(|text| output::print(&text)))
+    output::printed(import(srdf, urdd, *force))
 }
 
-fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
-    let shown = |path: &Path| escape::line(&path.display().to_string()).into_owned();
-    let of_srdf = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(srdf));
-    let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
-    let text = srdf_file::read(srdf)?;
+fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
+    let text = inputs::srdf(srdf)?;
     editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
-        let imported = import_srdf(robot, &text, force).map_err(|error| of_srdf(&error))?;
+        let imported = import_srdf(robot, &text, force).map_err(about(srdf))?;
         if imported.added == 0 {
             return Ok(Edited::unchanged(told(&shown(urdd), &imported, false)));
         }
         let edited = robot.with_skip_edits(imported.edits.clone(), None);
-        let edited = edited.map_err(|error| of_urdd(&error))?;
-        Ok(Edited {
-            files: edited.files,
-            told: told(&shown(urdd), &imported, edited.model_is_stale),
-        })
+        let edited = edited.map_err(about(urdd))?;
+        let told = told(&shown(urdd), &imported, edited.model_is_stale);
+        Ok(Edited { files: edited.files, told })
     })
 }
 

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::foreign;
-use super::output::{self, Color};
+use super::output::{self, Color, Failure};
 use super::reporting::ReportArguments;
 use super::words::Class;
 use urdd_validate::{ValidateError, rules};
@@ -43,22 +43,20 @@ pub fn run(arguments: &ValidateArguments, color: Color) -> ExitCode {
     output::ended(validate(arguments, color))
 }
 
-fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
+fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> {
     let mut settings = arguments.report.settings()?;
-    settings.class = arguments.class.map(Class::class).or(settings.class);
+    settings.class = arguments.class.map(Into::into).or(settings.class);
     settings.deep |= arguments.deep;
     let mut rules = rules::all();
     if arguments.with_crashing_rule {
         rules.push(rules::testing::CRASHING);
     }
-    // A panic of a rule is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
-    let run = urdd_validate::validate_with(&arguments.paths, &settings, &rules).map_err(|error| {
-        match error {
-            ValidateError::Discover(error) => foreign::advice(&error),
-            error => error.to_string(),
-        }
+    let run = output::without_panic_messages(|| {
+        urdd_validate::validate_with(&arguments.paths, &settings, &rules)
     });
-    let _ = std::panic::take_hook();
+    let run = run.map_err(|error| match error {
+        ValidateError::Discover(error) => foreign::advice(&error),
+        error => error.to_string(),
+    });
     arguments.report.write(&run?, &settings, false, color)
 }

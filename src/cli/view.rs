@@ -9,8 +9,8 @@ use std::time::Duration;
 use clap::Args;
 
 use super::configurations::Lines;
-use super::generate_output::{Format, Printer};
-use super::output;
+use super::generate_output::{FAILED, Format, Printer};
+use super::output::{self, Failure, one_line};
 use super::packages::PackageArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
@@ -82,16 +82,14 @@ pub fn run(arguments: &ViewArguments) -> ExitCode {
     }
 }
 
-/// Exit status: a robot could not be generated.
-const FAILED: u8 = 1;
+/// An exit status, and what to say.
+type Stop = (u8, String);
 
-type Failure = (u8, String);
-
-fn usage(message: impl ToString) -> Failure {
+fn usage(message: impl ToString) -> Stop {
     (output::USAGE, message.to_string())
 }
 
-fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
+fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let signals = Signals::listen().map_err(usage)?;
     process::adopt_orphans();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
@@ -151,15 +149,14 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             // It waits for input when the others end.
             std::thread::spawn(move || {
                 if let Err(message) = follow(&robot) {
-                    output::error(&escape::line(&message));
+                    output::error(&one_line(message));
                 }
             });
         }
         let address = server.address();
-        let count = robots.len();
-        let robots = if count == 1 { "robot" } else { "robots" };
-        let told = format!("{count} {robots}: {address}\nCtrl-C stops it.\n");
-        let printed = output::print(&told).map_err(usage);
+        let count = output::counted(robots.len(), "robot");
+        let printed = output::print(&format!("{count}: {address}\nCtrl-C stops it.\n"));
+        let printed = printed.map_err(usage);
         if printed.is_err() {
             signals.cancellation().cancel();
         }
@@ -177,12 +174,12 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
 }
 
 /// Shows the configurations of standard input. A line that is wrong is said, and left out.
-fn follow(shown: &Shown) -> Result<(), String> {
+fn follow(shown: &Shown) -> Result<(), Failure> {
     // A URDF is generated first.
     while !shown.is_ready() {
         std::thread::sleep(Duration::from_millis(50));
     }
-    let robot = Robot::open(shown.path()).map_err(|error| error.to_string())?;
+    let robot = Robot::open(shown.path())?;
     let mut lines = Lines::new(&robot)?;
     let mut input = std::io::stdin().lock();
     let mut line = Vec::new();
@@ -194,11 +191,11 @@ fn follow(shown: &Shown) -> Result<(), String> {
             break;
         }
         if line.len() as u64 == MAX_LINE {
-            return Err(format!("standard input:{number}: longer than 1 MiB"));
+            Err(format!("standard input:{number}: longer than 1 MiB"))?;
         }
         let read = match std::str::from_utf8(&line) {
             Ok(line) => lines.next(line),
-            Err(_) => Err("it is not UTF-8".to_owned()),
+            Err(_) => Err("it is not UTF-8".into()),
         };
         match read {
             Ok(Some(configuration)) => shown.states.set(&configuration),
@@ -212,13 +209,11 @@ fn follow(shown: &Shown) -> Result<(), String> {
 }
 
 /// Adds the robots at a path: a URDF or xacro file; the URDDs at or below a folder, or else its URDFs.
-fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Failure> {
-    let is_xacro = |path: &Path| {
-        let ending = path.extension().unwrap_or_default();
-        ending.eq_ignore_ascii_case("xacro")
+fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Stop> {
+    let ends = |path: &Path, ending: &str| {
+        path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
     };
-    let ending = path.extension().unwrap_or_default();
-    let is_source = is_xacro(path) || ending.eq_ignore_ascii_case("urdf");
+    let is_source = ends(path, "xacro") || ends(path, "urdf");
     if is_source && path.is_file() {
         let mut jobs = robots::jobs(&[path.to_owned()]).map_err(usage)?;
         for job in &mut jobs {
@@ -245,17 +240,16 @@ fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Fai
     })?;
     let count = jobs.len();
     if !with_xacro {
-        jobs.retain(|job| !is_xacro(&job.source));
+        jobs.retain(|job| !ends(&job.source, "xacro"));
     }
     let left = count - jobs.len();
     if left > 0 {
-        let files = if left == 1 { "file" } else { "files" };
-        let told =
-            format!("{}: left out {left} .urdf.xacro {files}; --xacro runs them", path.display());
-        match jobs.is_empty() {
-            true => return Err(usage(told)),
-            false => output::error(&escape::line(&told)),
+        let files = output::counted(left, ".urdf.xacro file");
+        let told = format!("{}: left out {files}; --xacro runs them", path.display());
+        if jobs.is_empty() {
+            return Err(usage(told));
         }
+        output::error(&escape::line(&told));
     }
     add_jobs(jobs, collection);
     Ok(())
@@ -265,16 +259,14 @@ fn add_jobs(jobs: Vec<Job>, collection: &Collection) {
     for Job { source, name } in jobs {
         // The working directory may change later.
         let file = std::path::absolute(&source).unwrap_or(source);
-        let packages = Vec::new();
-        collection.add_source(name, Source { file, packages });
+        collection.add_source(name, Source { file, packages: Vec::new() });
     }
 }
 
 /// Writes the site.
-fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<u8, Failure> {
+fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<u8, Stop> {
     let mut tell = |robot: &Shown| {
-        let name = escape::line(&robot.name).into_owned();
-        let _ = writeln!(std::io::stderr().lock(), "{name}");
+        let _ = writeln!(std::io::stderr().lock(), "{}", one_line(&robot.name));
     };
     if folder.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
         let robots = collection.robots();
@@ -285,8 +277,7 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
             )));
         };
         if !may_hold_page(folder) {
-            let files = vec![folder.to_owned()];
-            return Err(usage(ExportError::InTheWay { files }));
+            return Err(usage(ExportError::InTheWay(vec![folder.to_owned()])));
         }
         let page = page_with(robot).map_err(usage)?;
         output::write_file(folder, &page).map_err(usage)?;

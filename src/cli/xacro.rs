@@ -39,10 +39,7 @@ pub(super) fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
             let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
             !name.is_empty() && name.chars().all(is_of_name)
         });
-        match is_argument {
-            true => arguments.push(text.to_owned()),
-            false => robots.push(word.clone()),
-        }
+        if is_argument { arguments.push(text.to_owned()) } else { robots.push(word.clone()) }
     }
     (robots, arguments)
 }

@@ -45,7 +45,11 @@ fn all_say_one_version_of_the_program() {
 
 #[test]
 fn the_wall_between_generate_and_validate_stands() {
-    for (name, other) in [("urdd-generate", "urdd-validate"), ("urdd-validate", "urdd-generate")] {
+    for (name, other) in [
+        ("urdd-generate", "urdd-validate"),
+        ("urdd-validate", "urdd-generate"),
+        ("urdd-validate", "urdd-learned"),
+    ] {
         let manifest = repository().join("crates").join(name).join("Cargo.toml");
         let text = fs::read_to_string(&manifest).expect("a manifest");
         assert!(text.contains("urdd-format"), "{}: another form", manifest.display());

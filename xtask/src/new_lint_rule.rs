@@ -45,9 +45,7 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
 
 fn rule(code: &str, name: &str, severity: &str, since: &str) -> String {
     format!(
-        r#"use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+        r#"use super::prelude::*;
 
 declare_lint! {{
     /// TODO: what is wrong, in one sentence.

@@ -1,6 +1,5 @@
 //! Packs a URDD as a zip archive (SPEC 2.14).
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -9,7 +8,7 @@ use flate2::{Compression, Crc};
 use serde::Deserialize;
 
 use crate::data::URDD;
-use crate::tree::{Node, Tree, TreeError, make_folder};
+use crate::tree::{Node, Tree, TreeError, make_folder, write_file};
 
 /// Where in its archive a URDD is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -44,8 +43,8 @@ pub fn write(tree: &Tree, packed: Packed, path: &Path) -> Result<(), TreeError> 
     if let Some(folder) = path.parent() {
         make_folder(folder)?;
     }
-    let written = pack(tree, packed).and_then(|bytes| fs::write(path, bytes));
-    written.map_err(|error| TreeError::Write { path: path.to_owned(), error })
+    let bytes = pack(tree, packed).map_err(|error| TreeError::Write(path.to_owned(), error))?;
+    write_file(path, &bytes)
 }
 
 /// The bytes of the archive. An entry that deflating does not make smaller is stored.

@@ -4,9 +4,10 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{ChildStdin, ChildStdout, Command};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+
+use parking_lot::Mutex;
 
 use crate::printed_codes::Scan;
 use crate::process::{End, Ran, Tail};
@@ -51,16 +52,15 @@ impl<'a> Batch<'a> {
         cancellation: &Cancellation,
     ) -> Result<Ran, Cancelled> {
         cancellation.check()?;
-        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let idle = self.idle.lock().pop();
         let mut judge = match idle.map_or_else(|| Judge::start(self.words), Ok) {
             Ok(judge) => judge,
             Err(error) => return Ok(Ran::without_output(End::NotStarted(error.to_string()))),
         };
         let begin = Instant::now();
-        let mut line = path.to_string_lossy().into_owned();
-        line.push('\n');
         // A process that is gone gives no answer: see below.
-        let _ = judge.input.write_all(line.as_bytes()).and_then(|()| judge.input.flush());
+        let line = format!("{}\n", path.to_string_lossy());
+        let _ = judge.input.write_all(line.as_bytes());
         let answer = loop {
             cancellation.check()?;
             match judge.answers.recv_timeout(PAUSE) {
@@ -85,7 +85,7 @@ impl<'a> Batch<'a> {
         let codes = scan.finish();
         let stderr = match &end {
             End::Status(_) => {
-                self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(judge);
+                self.idle.lock().push(judge);
                 String::new()
             }
             _ => judge.stderr.take().map(|tail| tail.finish().0).unwrap_or_default(),

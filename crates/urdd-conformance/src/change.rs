@@ -114,16 +114,6 @@ impl<'de> Deserialize<'de> for Yes {
     }
 }
 
-/// Why a change cannot be applied.
-#[derive(Debug, thiserror::Error)]
-#[error("{file}: {reason}")]
-pub struct ChangeError {
-    /// The file.
-    pub file: FilePath,
-    /// Reason.
-    pub reason: Misfit,
-}
-
 /// How a change does not fit its file.
 #[derive(Debug, thiserror::Error)]
 pub enum Misfit {
@@ -155,12 +145,7 @@ impl Change {
     ///
     /// # Errors
     /// If it does not fit the tree.
-    pub fn apply(&self, tree: &mut Tree) -> Result<(), ChangeError> {
-        let done = self.changed(tree);
-        done.map_err(|reason| ChangeError { file: self.file.clone(), reason })
-    }
-
-    fn changed(&self, tree: &mut Tree) -> Result<(), Misfit> {
+    pub fn apply(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let bytes = match &self.action {
             Action::Patch(patch) => return self.patch(patch, tree),
             Action::Delete(Yes) => return self.clear(tree),
@@ -208,8 +193,7 @@ impl Change {
     }
 
     fn replaced(&self, from: &str, by: &str, most: usize, tree: &Tree) -> Result<Vec<u8>, Misfit> {
-        let text = std::str::from_utf8(self.bytes(tree)?).ok();
-        let text = text.filter(|text| text.contains(from));
+        let text = std::str::from_utf8(self.bytes(tree)?).ok().filter(|text| text.contains(from));
         let text = text.ok_or_else(|| Misfit::NotThere(from.to_owned()))?;
         Ok(text.replacen(from, by, most).into_bytes())
     }
@@ -218,10 +202,7 @@ impl Change {
     fn clear(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let before = tree.nodes.len();
         tree.nodes.retain(|path, _| !path.is_within(&self.file));
-        match tree.nodes.len() == before {
-            true => Err(Misfit::Missing),
-            false => Ok(()),
-        }
+        if tree.nodes.len() == before { Err(Misfit::Missing) } else { Ok(()) }
     }
 
     fn become_node(&self, node: Node, tree: &mut Tree) -> Result<(), Misfit> {
@@ -234,13 +215,11 @@ impl Change {
         let nodes = tree.nodes.iter().filter(|(path, _)| path.is_within(original));
         let copies = nodes.map(|(path, node)| (path.moved(original, &self.file), node.clone()));
         let copies: Vec<(FilePath, Node)> = copies.collect();
-        match copies.is_empty() {
-            true => Err(Misfit::NoOriginal(original.clone())),
-            false => {
-                tree.nodes.extend(copies);
-                Ok(())
-            }
+        if copies.is_empty() {
+            return Err(Misfit::NoOriginal(original.clone()));
         }
+        tree.nodes.extend(copies);
+        Ok(())
     }
 
     fn patch(&self, patch: &Patch, tree: &mut Tree) -> Result<(), Misfit> {

@@ -26,10 +26,21 @@ pub const PACKED: &str = "robot.zip";
 /// Numeric reference values.
 pub const VECTORS: &str = "vectors";
 
-/// [`COPIES`] is damaged.
+/// What is wrong with the suite.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{COPIES}: {0}")]
-pub struct CopiesError(String);
+#[error("{place}: {reason}")]
+pub struct Damage {
+    /// The file or the case.
+    pub place: String,
+    /// What is wrong there.
+    pub reason: String,
+}
+
+impl Damage {
+    pub(crate) fn new(place: impl Into<String>, reason: impl ToString) -> Self {
+        Damage { place: place.into(), reason: reason.to_string() }
+    }
+}
 
 /// The suite's files, those of [`COPIES`] too.
 #[derive(Debug, Clone)]
@@ -40,14 +51,14 @@ impl Data {
     ///
     /// # Errors
     /// If the list is damaged, or the stored file is missing.
-    pub fn of(mut files: Files) -> Result<Data, CopiesError> {
+    pub fn of(mut files: Files) -> Result<Data, Damage> {
         let list = files.remove(COPIES).unwrap_or_else(|| b"{}".to_vec());
         let copies: BTreeMap<String, String> =
-            serde_json::from_slice(&list).map_err(|error| CopiesError(error.to_string()))?;
+            serde_json::from_slice(&list).map_err(|error| Damage::new(COPIES, error))?;
         for (copy, stored) in copies {
-            let bytes = files.get(&format!("{BASES}/{stored}")).cloned();
-            let bytes = bytes
-                .ok_or_else(|| CopiesError(format!("{stored} is missing, which {copy} equals")))?;
+            let missing =
+                || Damage::new(COPIES, format!("{stored} is missing, which {copy} equals"));
+            let bytes = files.get(&format!("{BASES}/{stored}")).cloned().ok_or_else(missing)?;
             files.insert(format!("{BASES}/{copy}"), bytes);
         }
         Ok(Data(files))

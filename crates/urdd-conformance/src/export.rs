@@ -1,54 +1,23 @@
 //! Writes the whole suite into a folder, for programs in any language.
 
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::case::Kind;
+use crate::case::{Case, Kind};
 use crate::catalogue::{CATALOGUE, Catalogue, items};
 use crate::data::{Data, INVALID, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
-use crate::suite::{CaseError, Suite};
-use crate::tree::{Tree, TreeError};
+use crate::run_error::RunError;
+use crate::suite::Suite;
+use crate::tree::{Tree, TreeError, remove_folder, write_file};
 use crate::valid;
+use crate::workplace::Workplace;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::registry::{PROGRAM_VERSION, SPEC_VERSION};
-use urdd_generate::GenerateError;
 
 /// Description of the suite.
 const README: &str = "README.md";
-
-/// Why the suite could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum ExportError {
-    /// The folder is not empty.
-    #[error("{}: this folder is not empty; give a new one", .0.display())]
-    NotEmpty(PathBuf),
-    /// A file or folder cannot be written.
-    #[error("{}: cannot be written: {error}", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// Reason.
-        error: io::Error,
-    },
-    /// A case or robot cannot be written.
-    #[error(transparent)]
-    Tree(#[from] TreeError),
-    /// A case of the suite is damaged.
-    #[error("the suite is damaged: {0}")]
-    Case(#[from] CaseError),
-    /// A valid URDD cannot be generated.
-    #[error("{robot}: {error}")]
-    Generate {
-        /// The robot.
-        robot: String,
-        /// Reason.
-        error: Box<GenerateError>,
-    },
-}
 
 /// Counts of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -68,17 +37,9 @@ pub struct Exported {
 ///
 /// # Errors
 /// If the folder is not empty, or cannot be written.
-pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, ExportError> {
-    let failed = |path: &Path| {
-        let path = path.to_owned();
-        move |error| ExportError::Write { path, error }
-    };
-    fs::create_dir_all(folder).map_err(failed(folder))?;
-    let mut inside = fs::read_dir(folder).map_err(failed(folder))?;
-    if inside.next().is_some() {
-        return Err(ExportError::NotEmpty(folder.to_owned()));
-    }
-    let data = &suite.data;
+pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, RunError> {
+    let place = Workplace::new(Some(folder))?;
+    let (folder, data) = (place.path(), &suite.data);
     let robots = folder.join(ROBOTS);
     valid::write_robots(data, &robots)?;
     Tree::of(data.below(VECTORS), "").write(&folder.join(VECTORS))?;
@@ -90,16 +51,9 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, ExportError> {
 
     let mut items = items(suite);
     items.retain(|item| !left_out.contains(&item.id));
-    let count = |valid: bool| {
-        let matching = items.iter().filter(|item| (item.kind == Kind::Valid) == valid);
-        matching.count()
-    };
-    let exported = Exported {
-        valid: count(true),
-        cases: count(false),
-        left_out: left_out.clone(),
-        other_bytes,
-    };
+    let valid = items.iter().filter(|item| item.kind == Kind::Valid).count();
+    let cases = items.len() - valid;
+    let exported = Exported { valid, cases, left_out: left_out.clone(), other_bytes };
     let catalogue = Catalogue {
         spec_version: SPEC_VERSION.to_owned(),
         urdd: PROGRAM_VERSION.to_owned(),
@@ -107,12 +61,11 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, ExportError> {
         left_out,
     };
     let path = folder.join(CATALOGUE);
-    let text = serde_json::to_string_pretty(&catalogue).map_err(io::Error::from);
-    let text = text.map_err(failed(&path))?;
-    fs::write(&path, text + "\n").map_err(failed(&path))?;
+    let text = serde_json::to_string_pretty(&catalogue)
+        .map_err(|error| TreeError::Write(path.clone(), error.into()))?;
+    write_file(&path, (text + "\n").as_bytes())?;
     if let Some(readme) = data.file(README) {
-        let path = folder.join(README);
-        fs::write(&path, readme).map_err(failed(&path))?;
+        write_file(&folder.join(README), readme)?;
     }
     Ok(exported)
 }
@@ -125,13 +78,12 @@ pub fn write_valid(
     robots: &Path,
     folder: &Path,
     cancellation: &Cancellation,
-) -> Result<Vec<String>, ExportError> {
+) -> Result<Vec<String>, RunError> {
     let mut other_bytes = Vec::new();
     for robot in names {
         let target = folder.join(robot);
-        valid::make(robot, robots, &target, cancellation).map_err(|error| {
-            ExportError::Generate { robot: robot.clone(), error: Box::new(error) }
-        })?;
+        valid::make(robot, robots, &target, cancellation)
+            .map_err(|error| RunError::Generate(robot.clone(), Box::new(error)))?;
         let made = Tree::read(&target, &target)?;
         if valid::kept(&made) != valid::carried(data, robot) {
             other_bytes.push(robot.clone());
@@ -141,20 +93,17 @@ pub fn write_valid(
 }
 
 /// Writes every case. Returns those that this operating system cannot represent.
-fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError> {
-    let write = |case: &crate::case::Case| -> Result<Option<String>, ExportError> {
+fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, RunError> {
+    let write = |case: &Case| -> Result<Option<String>, RunError> {
         let case_folder = folder.join(INVALID).join(case.id());
         match case.write(&suite.tree(case)?, &case_folder.join(case.urdd())) {
             Ok(()) => Ok(None),
             Err(TreeError::Unsupported(_)) => {
-                fs::remove_dir_all(&case_folder)
-                    .map_err(|error| ExportError::Write { path: case_folder, error })?;
+                remove_folder(&case_folder)?;
                 Ok(Some(case.id()))
             }
             Err(error) => Err(error.into()),
         }
     };
-    let written: Result<Vec<Option<String>>, ExportError> =
-        suite.cases.par_iter().map(write).collect();
-    Ok(written?.into_iter().flatten().collect())
+    suite.cases.par_iter().filter_map(|case| write(case).transpose()).collect()
 }

@@ -5,16 +5,16 @@
 //! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a
 //! base with changes. It becomes a [`tree::Tree`], which is written to disk for validation.
 
-pub mod archive;
+mod archive;
 mod batch;
 pub mod case;
 pub mod catalogue;
 pub mod change;
 pub mod data;
-pub mod examined;
+mod examined;
 pub mod export;
 pub mod judge;
-pub mod printed_codes;
+mod printed_codes;
 pub mod process;
 pub mod producer;
 pub mod refused;
@@ -25,4 +25,4 @@ pub mod suite;
 pub mod tree;
 pub mod valid;
 pub mod validator;
-pub mod workplace;
+mod workplace;

@@ -4,9 +4,11 @@ use std::collections::{BTreeSet, VecDeque};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, ExitStatus};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+use parking_lot::Mutex;
 
 use crate::printed_codes::Scan;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
@@ -119,8 +121,7 @@ impl Template {
                 return Err(TemplateError::Missing(name));
             }
         }
-        let words = words.to_vec();
-        Ok(Template { words })
+        Ok(Template { words: words.to_vec() })
     }
 
     /// A command that gets its folders one by one, and so has no placeholder.
@@ -198,7 +199,7 @@ impl Tail {
         let reader = thread::spawn(move || {
             let mut piece = [0; 4096];
             while let Ok(read @ 1..) = stream.read(&mut piece) {
-                let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut kept = shared.lock();
                 let (tail, scan) = &mut *kept;
                 scan.read(&piece[..read]);
                 tail.extend(&piece[..read]);
@@ -214,7 +215,7 @@ impl Tail {
         while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
             thread::sleep(PAUSE);
         }
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock();
         let (tail, scan) = &mut *kept;
         let text = String::from_utf8_lossy(tail.make_contiguous()).into_owned();
         (text, std::mem::take(scan).finish())

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use parking_lot::Mutex;
 use rayon::prelude::*;
 
 use crate::data::{Data, ROBOTS};
@@ -60,6 +61,43 @@ pub enum Event<'a> {
 /// Form of a line in a producer's skip list.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
+/// What a producer runs on.
+struct Sources {
+    /// Names of the suite's robots.
+    robots: Vec<String>,
+    to_refuse: Vec<Refused>,
+}
+
+impl Sources {
+    fn has(&self, id: &str) -> bool {
+        self.robots.iter().any(|robot| robot == id)
+            || self.to_refuse.iter().any(|urdf| urdf.id == id)
+    }
+
+    /// Keeps those that were asked for; nothing asked for is all.
+    fn choose(&mut self, asked: &[String]) -> Result<(), RunError> {
+        if let Some(unknown) = asked.iter().find(|id| !self.has(id)) {
+            return Err(RunError::UnknownRobot(unknown.clone(), self.robots.join(", ")));
+        }
+        self.robots.retain(|robot| asked.is_empty() || asked.contains(robot));
+        self.to_refuse.retain(|urdf| asked.is_empty() || asked.contains(&urdf.id));
+        Ok(())
+    }
+
+    fn check_skips(&self, skips: &[Skip]) -> Result<(), SkipError> {
+        let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
+        let is_known = |skip: &&Skip| match skip.words.as_slice() {
+            [id] => self.has(id),
+            [robot, module] => self.robots.contains(robot) && is_module(module),
+            _ => false,
+        };
+        match skips.iter().find(|skip| !is_known(skip)) {
+            Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Runs a producer on robots, and calls `observe` after each.
 ///
 /// # Errors
@@ -70,39 +108,44 @@ pub fn run(
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ProducerResult, RunError> {
     let data = &suite.data;
-    let to_refuse = refused::all(suite)?;
-    check_skips(data, &plan.skips, &to_refuse)?;
-    let (names, to_refuse) = chosen(data, &plan.robots, to_refuse)?;
+    let mut sources = Sources { robots: valid::robots(data), to_refuse: refused::all(suite)? };
+    sources.check_skips(&plan.skips)?;
+    sources.choose(&plan.robots)?;
+    let Sources { robots: names, to_refuse } = &sources;
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(names.len() + to_refuse.len()));
-    let one = |name: &String| {
-        let done = robot(plan, data, name, &folder.path().join(name))?;
-        observe(&Event::Scored(&done.0));
-        Ok(done)
+    // The lines of the skip list that took effect.
+    let used = Mutex::new(BTreeSet::new());
+    let one = |name: &String| -> Result<RobotScore, RunError> {
+        let mut score = robot(plan, data, name, &folder.path().join(name))?;
+        used.lock().extend(apply_skips(plan, &mut score));
+        if score.status == ScoreStatus::Passed {
+            (score.stdout, score.stderr) = (None, None);
+        }
+        observe(&Event::Scored(&score));
+        Ok(score)
     };
-    let refuse = |urdf: &Refused| {
-        let folder = folder.path().join(REFUSED).join(&urdf.id);
-        let done = refused(plan, urdf, &folder)?;
-        observe(&Event::Refused(&done.0));
-        Ok(done)
+    let refuse = |urdf: &Refused| -> Result<RefusedScore, RunError> {
+        let mut score = refused(plan, urdf, &folder.path().join(REFUSED).join(&urdf.id))?;
+        let skips = plan.skips.iter().filter(|skip| skip.words.first() == Some(&urdf.id));
+        if score.status != ScoreStatus::Passed {
+            for skip in skips {
+                score.status = ScoreStatus::Skipped;
+                score.skipped_since = Some(skip.reason.clone());
+                used.lock().insert(skip.line);
+            }
+        }
+        observe(&Event::Refused(&score));
+        Ok(score)
     };
-    type Done<Score> = Vec<(Score, BTreeSet<usize>)>;
-    let all = || -> Result<(Done<RobotScore>, Done<RefusedScore>), RunError> {
-        let robots: Result<_, RunError> = names.par_iter().map(one).collect();
-        let refused: Result<_, RunError> = to_refuse.par_iter().map(refuse).collect();
-        Ok((robots?, refused?))
+    let all = || -> Result<(Vec<RobotScore>, Vec<RefusedScore>), RunError> {
+        let robots = names.par_iter().map(one).collect::<Result<_, _>>()?;
+        Ok((robots, to_refuse.par_iter().map(refuse).collect::<Result<_, _>>()?))
     };
     let (robots, refused) = with_threads(plan.jobs, all)?;
-    let (robots, used): (Vec<RobotScore>, Vec<BTreeSet<usize>>) = robots.into_iter().unzip();
-    let (refused, more): (Vec<RefusedScore>, Vec<BTreeSet<usize>>) = refused.into_iter().unzip();
-    let used: BTreeSet<usize> = used.into_iter().chain(more).flatten().collect();
-    let ran = |skip: &&Skip| {
-        skip.words.first().is_some_and(|robot| {
-            names.contains(robot) || to_refuse.iter().any(|urdf| urdf.id == *robot)
-        })
-    };
-    let unused = plan.skips.iter().filter(ran);
-    let unused = unused.filter(|skip| !used.contains(&skip.line));
+    let used = used.into_inner();
+    let ran = |skip: &&Skip| skip.words.first().is_some_and(|id| sources.has(id));
+    let unused = plan.skips.iter().filter(ran).filter(|skip| !used.contains(&skip.line));
     let stale_skips: Vec<String> = unused.map(Skip::what).collect();
     let robots_done = robots.iter().map(|robot| robot.status);
     let mut done = robots_done.chain(refused.iter().map(|urdf| urdf.status));
@@ -121,63 +164,14 @@ pub fn run(
     })
 }
 
-/// The robots that were asked for, and the URDFs to refuse.
-fn chosen(
-    data: &Data,
-    asked: &[String],
-    mut to_refuse: Vec<Refused>,
-) -> Result<(Vec<String>, Vec<Refused>), RunError> {
-    let mut robots = valid::robots(data);
-    if asked.is_empty() {
-        return Ok((robots, to_refuse));
-    }
-    let is_known =
-        |name: &&String| robots.contains(name) || to_refuse.iter().any(|urdf| urdf.id == **name);
-    if let Some(unknown) = asked.iter().find(|name| !is_known(name)) {
-        return Err(RunError::UnknownRobot(unknown.clone(), robots.join(", ")));
-    }
-    robots.retain(|robot| asked.contains(robot));
-    to_refuse.retain(|urdf| asked.contains(&urdf.id));
-    Ok((robots, to_refuse))
-}
-
-fn check_skips(data: &Data, skips: &[Skip], to_refuse: &[Refused]) -> Result<(), RunError> {
-    let robots = valid::robots(data);
-    let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
-    for skip in skips {
-        let known = match skip.words.as_slice() {
-            [robot] => robots.contains(robot) || to_refuse.iter().any(|urdf| urdf.id == *robot),
-            [robot, module] => robots.contains(robot) && is_module(module),
-            _ => false,
-        };
-        if !known {
-            return Err(SkipError::Unknown(skip.line, skip.what()).into());
-        }
-    }
-    Ok(())
-}
-
-/// Runs the command on a URDF to refuse. Also returns the lines of the skip list that took effect.
-fn refused(
-    plan: &Plan,
-    urdf: &Refused,
-    folder: &Path,
-) -> Result<(RefusedScore, BTreeSet<usize>), RunError> {
+/// Runs the command on a URDF to refuse.
+fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore, RunError> {
     let (urdf_path, out) = urdf.write(folder)?;
     let paths: [(&str, &Path); 2] = [("urdf", &urdf_path), ("out", &out)];
     let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
-    let mut score = urdf.score(ran, &out, plan.class, &plan.cancellation);
+    let score = urdf.score(ran, &out, plan.class, &plan.cancellation);
     plan.cancellation.check()?;
-    let own = |skip: &&Skip| skip.words.first() == Some(&urdf.id);
-    let mut used = BTreeSet::new();
-    for skip in plan.skips.iter().filter(own) {
-        if score.status != ScoreStatus::Passed {
-            score.status = ScoreStatus::Skipped;
-            score.skipped_since = Some(skip.reason.clone());
-            used.insert(skip.line);
-        }
-    }
-    Ok((score, used))
+    Ok(score)
 }
 
 /// Whether a class requires a module.
@@ -185,13 +179,8 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
     kind.class().is_some_and(|first| first <= class)
 }
 
-/// Runs the command on a robot, in its own folder. Also returns the lines of the skip list that took effect.
-fn robot(
-    plan: &Plan,
-    data: &Data,
-    name: &str,
-    folder: &Path,
-) -> Result<(RobotScore, BTreeSet<usize>), RunError> {
+/// Runs the command on a robot, in its own folder.
+fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore, RunError> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(data, &robots)?;
     let urdf = robots.join(format!("{name}.urdf"));
@@ -203,15 +192,10 @@ fn robot(
         _ => Err(None),
     };
     plan.cancellation.check()?;
-    let mut score = score(plan, name, &ran, examined);
-    let used = apply_skips(plan, &mut score);
-    if score.status == ScoreStatus::Passed {
-        (score.stdout, score.stderr) = (None, None);
-    }
-    Ok((score, used))
+    Ok(score(plan, name, ran, examined))
 }
 
-fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {
+fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {
     let (urdd, unreadable) = match examined {
         Ok(urdd) => (Some(urdd), None),
         Err(reason) => (None, reason),
@@ -219,13 +203,11 @@ fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<Strin
     let findings = urdd.iter().flat_map(|urdd| &urdd.findings);
     let errors: Vec<&Finding> =
         findings.filter(|finding| finding.severity == Severity::Error).collect();
-    let present: BTreeSet<&str> =
-        urdd.iter().flat_map(|urdd| &urdd.modules).map(|module| module.name.as_str()).collect();
     let mut modules = Vec::new();
     for kind in ModuleKind::ALL {
-        let asked = is_asked_for(*kind, plan.class);
-        let there = present.contains(kind.name());
-        if !asked && !there {
+        let mut present = urdd.iter().flat_map(|urdd| &urdd.modules);
+        let there = present.any(|module| module.name == kind.name());
+        if !there && !is_asked_for(*kind, plan.class) {
             continue;
         }
         let of_it = |finding: &&&Finding| finding.module.as_deref() == Some(kind.name());
@@ -248,14 +230,11 @@ fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<Strin
     let passed = urdd.as_ref().is_some_and(|urdd| urdd.verdict == Verdict::Pass);
     RobotScore {
         robot: name.to_owned(),
-        status: match passed {
-            true => ScoreStatus::Passed,
-            false => ScoreStatus::Failed,
-        },
+        status: if passed { ScoreStatus::Passed } else { ScoreStatus::Failed },
         skipped_since: None,
         end: ran.end.to_string(),
-        stdout: Some(ran.stdout.clone()),
-        stderr: Some(ran.stderr.clone()),
+        stdout: Some(ran.stdout),
+        stderr: Some(ran.stderr),
         unreadable,
         codes: codes(of_none),
         modules,
@@ -319,16 +298,13 @@ fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
     below
         .take_while(|class| *class <= asked)
         .map(|class| {
-            let all = ModuleKind::ALL.iter().copied();
-            let needed = all.filter(|kind| is_asked_for(*kind, class));
-            let needed: Vec<&str> = needed.map(ModuleKind::name).collect();
             let passes = |robot: &&RobotScore| {
-                let fine = |name: &&str| {
+                let is_fine = |kind: &ModuleKind| {
                     let mut modules = robot.modules.iter();
-                    modules.any(|m| m.name == **name && m.status == ModuleStatus::Passed)
+                    modules.any(|m| m.name == kind.name() && m.status == ModuleStatus::Passed)
                 };
-                let directory = robot.codes.iter().all(|code| code == MODULE_MISSING);
-                directory && needed.iter().all(fine)
+                let mut needed = ModuleKind::ALL.iter().filter(|kind| is_asked_for(**kind, class));
+                robot.codes.iter().all(|code| code == MODULE_MISSING) && needed.all(is_fine)
             };
             ClassScore {
                 class,

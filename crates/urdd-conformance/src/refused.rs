@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::case::Kind;
+use crate::data::Damage;
 use crate::examined::{codes, examine};
 use crate::process::{End, Ran};
-use crate::suite::{CaseError, Suite};
+use crate::suite::Suite;
 use crate::tree::{FilePath, Tree, TreeError};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
@@ -35,14 +36,11 @@ pub struct Refused {
 ///
 /// # Errors
 /// If a case is damaged.
-pub fn all(suite: &Suite) -> Result<Vec<Refused>, CaseError> {
-    let mut all = Vec::new();
-    for (path, bytes) in suite.data.below(REFUSED) {
-        all.extend(
-            path.strip_suffix(".urdf")
-                .map(|id| Refused { id: id.to_owned(), urdf: bytes.to_owned() }),
-        );
-    }
+pub fn all(suite: &Suite) -> Result<Vec<Refused>, Damage> {
+    let refused = |id: &str, bytes: &[u8]| Refused { id: id.to_owned(), urdf: bytes.to_owned() };
+    let files = suite.data.below(REFUSED);
+    let files = files.filter_map(|(path, bytes)| Some(refused(path.strip_suffix(".urdf")?, bytes)));
+    let mut all: Vec<Refused> = files.collect();
     let source = FilePath::from(SOURCE);
     for case in &suite.cases {
         let is_at_fault = case.kind == Kind::Invalid
@@ -51,9 +49,7 @@ pub fn all(suite: &Suite) -> Result<Vec<Refused>, CaseError> {
             && case.changes.iter().any(|change| change.file == source);
         if is_at_fault {
             let tree = suite.tree(case)?;
-            all.extend(
-                tree.file(SOURCE).map(|bytes| Refused { id: case.id(), urdf: bytes.to_owned() }),
-            );
+            all.extend(tree.file(SOURCE).map(|bytes| refused(&case.id(), bytes)));
         }
     }
     all.sort_by(|a, b| a.id.cmp(&b.id));
@@ -121,10 +117,7 @@ impl Refused {
         let passed = matches!(outcome, RefusedOutcome::Refused | RefusedOutcome::Repaired);
         RefusedScore {
             robot: self.id.clone(),
-            status: match passed {
-                true => ScoreStatus::Passed,
-                false => ScoreStatus::Failed,
-            },
+            status: if passed { ScoreStatus::Passed } else { ScoreStatus::Failed },
             skipped_since: None,
             outcome,
             end: ran.end.to_string(),
@@ -146,10 +139,9 @@ fn repaired(
     let text = std::fs::read(out.join(ROOT_METADATA)).unwrap_or_default();
     let metadata = serde_json::from_slice::<RootMetadata>(&text);
     let is_carried = metadata.is_ok_and(|metadata| metadata.source.is_some());
-    match urdd.verdict == Verdict::Pass && !is_carried {
-        true => {
-            Err(Some("the URDD carries no source: carry the repaired URDF (SPEC 6.1.8)".to_owned()))
-        }
-        false => Ok(urdd),
+    if urdd.verdict == Verdict::Pass && !is_carried {
+        let why = "the URDD carries no source: carry the repaired URDF (SPEC 6.1.8)";
+        return Err(Some(why.to_owned()));
     }
+    Ok(urdd)
 }

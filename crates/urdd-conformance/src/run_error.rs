@@ -1,20 +1,19 @@
-//! Why a producer or a validator cannot be run.
+//! Why the suite cannot be written, or a producer or a validator cannot be run.
 
 use std::path::PathBuf;
 
-use crate::export::ExportError;
+use crate::data::Damage;
 use crate::skips::SkipError;
-use crate::suite::CaseError;
 use crate::tree::TreeError;
-use crate::workplace::WorkplaceError;
 use urdd_directory::cancellation::Cancelled;
+use urdd_generate::GenerateError;
 
-/// Why a producer or a validator cannot be run.
+/// Why the suite cannot be written, or a producer or a validator cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// A case of the suite is damaged.
     #[error("the suite is damaged: {0}")]
-    Case(#[from] CaseError),
+    Damage(#[from] Damage),
     /// The robot does not exist.
     #[error(
         "there is no robot `{0}`; the robots are {1}, and those to refuse, such as `URD005/link-held-by-two-joints` \
@@ -27,26 +26,21 @@ pub enum RunError {
     /// The skip list names something that does not exist.
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
-    /// The working folder cannot be created.
-    #[error(transparent)]
-    Folder(#[from] WorkplaceError),
+    /// The folder to write into is not empty.
+    #[error("{}: this folder is not empty; give a new one", .0.display())]
+    NotEmpty(PathBuf),
+    /// A temporary folder cannot be created.
+    #[error("a temporary folder cannot be created: {0}")]
+    Temporary(std::io::Error),
     /// The thread pool cannot be created.
     #[error("cannot run {0} commands at a time: {1}")]
     Jobs(usize, rayon::ThreadPoolBuildError),
-    /// A robot or a case cannot be written to the working folder.
+    /// A file or folder cannot be written, read or removed.
     #[error(transparent)]
     Tree(#[from] TreeError),
     /// A valid URDD cannot be generated.
-    #[error(transparent)]
-    Valid(#[from] ExportError),
-    /// A URDD cannot be removed.
-    #[error("{}: cannot be removed: {error}", path.display())]
-    Remove {
-        /// Its path.
-        path: PathBuf,
-        /// Reason.
-        error: std::io::Error,
-    },
+    #[error("{0}: {1}")]
+    Generate(String, Box<GenerateError>),
     /// The run was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::case::{Case, RuleCases};
-use crate::change::ChangeError;
-use crate::data::{BASES, CASES, COMPUTED, CopiesError, Data, Files, URDD};
+use crate::data::{BASES, CASES, COMPUTED, Damage, Data, Files, URDD};
 use crate::seal;
 use crate::tree::Tree;
 
@@ -19,54 +18,12 @@ pub struct Suite {
     pub cases: Vec<Case>,
 }
 
-/// Why the suite cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum SuiteError {
-    /// A list of equal files is damaged.
-    #[error(transparent)]
-    Copies(#[from] CopiesError),
-    /// A file of cases is invalid.
-    #[error("{path}: {error}")]
-    Cases {
-        /// The file.
-        path: String,
-        /// Reason.
-        error: serde_json::Error,
-    },
-    /// Two cases of a rule have the same name.
-    #[error("{0}: two cases have this name")]
-    Twice(String),
-}
-
-/// Why a case cannot be built.
-#[derive(Debug, thiserror::Error)]
-pub enum CaseError {
-    /// The base does not exist.
-    #[error("{case}: there is no base {base:?}; `bases/` has {known}")]
-    NoBase {
-        /// The case.
-        case: String,
-        /// The base that it names.
-        base: String,
-        /// The bases.
-        known: String,
-    },
-    /// A change does not apply.
-    #[error("{case}: {error}")]
-    Change {
-        /// The case.
-        case: String,
-        /// Reason.
-        error: ChangeError,
-    },
-}
-
 impl Suite {
     /// The suite that these files describe.
     ///
     /// # Errors
     /// If a case cannot be read.
-    pub fn of(files: Files) -> Result<Suite, SuiteError> {
+    pub fn of(files: Files) -> Result<Suite, Damage> {
         let data = Data::of(files)?;
         let names = data.below(BASES);
         let names: BTreeSet<&str> = names.filter_map(|(path, _)| path.split('/').next()).collect();
@@ -80,16 +37,15 @@ impl Suite {
         let mut cases = Vec::new();
         for folder in [CASES, COMPUTED] {
             for (name, text) in data.below(folder) {
-                let rule: RuleCases = serde_json::from_slice(text).map_err(|error| {
-                    SuiteError::Cases { path: format!("{folder}/{name}"), error }
-                })?;
+                let rule: RuleCases = serde_json::from_slice(text)
+                    .map_err(|error| Damage::new(format!("{folder}/{name}"), error))?;
                 cases.extend(rule.cases(name.trim_end_matches(".json")));
             }
         }
         cases.sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
         let mut pairs = cases.iter().zip(cases.iter().skip(1));
         match pairs.find(|(one, next)| (&one.code, &one.name) == (&next.code, &next.name)) {
-            Some((one, _)) => Err(SuiteError::Twice(one.id())),
+            Some((one, _)) => Err(Damage::new(one.id(), "two cases have this name")),
             None => Ok(Suite { data, bases, cases }),
         }
     }
@@ -98,17 +54,15 @@ impl Suite {
     ///
     /// # Errors
     /// If the base does not exist, or a change does not apply.
-    pub fn tree(&self, case: &Case) -> Result<Tree, CaseError> {
-        let base = self.bases.get(&case.base);
-        let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {
-            case: case.id(),
-            base: case.base.clone(),
-            known: self.bases.keys().cloned().collect::<Vec<_>>().join(", "),
+    pub fn tree(&self, case: &Case) -> Result<Tree, Damage> {
+        let mut tree = self.bases.get(&case.base).cloned().ok_or_else(|| {
+            let known = self.bases.keys().cloned().collect::<Vec<_>>().join(", ");
+            let reason = format!("there is no base {:?}; `bases/` has {known}", case.base);
+            Damage::new(case.id(), reason)
         })?;
         for change in &case.changes {
-            change
-                .apply(&mut tree)
-                .map_err(|error| CaseError::Change { case: case.id(), error })?;
+            let misfit = |error| Damage::new(case.id(), format!("{}: {error}", change.file));
+            change.apply(&mut tree).map_err(misfit)?;
         }
         seal::rehash(&mut tree, &case.hashes_kept);
         Ok(tree)

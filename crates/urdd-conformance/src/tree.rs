@@ -92,10 +92,8 @@ impl FilePath {
 
     /// Whether it is `folder` or below it.
     pub fn is_within(&self, folder: &FilePath) -> bool {
-        match self.0.strip_prefix(folder.0.as_slice()) {
-            Some(rest) => rest.first().is_none_or(|next| *next == b'/'),
-            None => false,
-        }
+        let rest = self.0.strip_prefix(folder.0.as_slice());
+        rest.is_some_and(|rest| rest.first().is_none_or(|next| *next == b'/'))
     }
 }
 
@@ -121,21 +119,14 @@ pub struct Tree {
 #[derive(Debug, thiserror::Error)]
 pub enum TreeError {
     /// A file or folder could not be written.
-    #[error("{}: cannot be written: {error}", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// Reason.
-        error: io::Error,
-    },
+    #[error("{path}: cannot be written: {1}", path = .0.display())]
+    Write(PathBuf, io::Error),
     /// A file or folder could not be read.
-    #[error("{}: cannot be read: {error}", path.display())]
-    Read {
-        /// The file or folder.
-        path: PathBuf,
-        /// Reason.
-        error: io::Error,
-    },
+    #[error("{path}: cannot be read: {1}", path = .0.display())]
+    Read(PathBuf, io::Error),
+    /// A folder could not be removed.
+    #[error("{path}: cannot be removed: {1}", path = .0.display())]
+    Remove(PathBuf, io::Error),
     /// The operating system does not support such names, or symbolic links.
     #[error("{0}: this operating system cannot store it")]
     Unsupported(String),
@@ -181,21 +172,20 @@ impl Tree {
     /// Returns whether the folder has any entries.
     fn read_below(&mut self, folder: &Path, inside: &Path, root: &Path) -> Result<bool, TreeError> {
         let path = folder.join(inside);
-        let failed = |error| TreeError::Read { path: path.clone(), error };
+        let failed = |error| TreeError::Read(path.clone(), error);
         let mut any = false;
         for entry in fs::read_dir(&path).map_err(failed)? {
             let entry = entry.map_err(failed)?;
             any = true;
             let inside = inside.join(entry.file_name());
-            let name = FilePath::from_os(&from_root(&inside, root))
-                .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
+            let unsupported = || TreeError::Unsupported(inside.display().to_string());
+            let name = FilePath::from_os(&from_root(&inside, root)).ok_or_else(unsupported)?;
             let kind = entry.file_type().map_err(failed)?;
             let path = entry.path();
-            let failed = |error| TreeError::Read { path: path.clone(), error };
+            let failed = |error| TreeError::Read(path.clone(), error);
             if kind.is_symlink() {
                 let target = fs::read_link(&path).map_err(failed)?;
-                let target = FilePath::from_os(&target)
-                    .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
+                let target = FilePath::from_os(&target).ok_or_else(unsupported)?;
                 self.nodes.insert(name, Node::Link(target));
             } else if kind.is_dir() {
                 if !self.read_below(folder, &inside, root)? {
@@ -227,17 +217,13 @@ impl Tree {
             }
             match node {
                 Node::Folder => make_folder(&path)?,
-                Node::File(bytes) => match fs::write(&path, bytes) {
-                    Ok(()) => {}
-                    // Some file systems only support Unicode names.
-                    Err(_) if name.as_str().is_none() => return Err(unsupported()),
-                    Err(error) => return Err(TreeError::Write { path, error }),
-                },
+                // Some file systems only support Unicode names.
+                Node::File(bytes) => write_file(&path, bytes)
+                    .map_err(|error| if name.as_str().is_none() { unsupported() } else { error })?,
                 Node::Link(target) => {
                     let target = target.to_os().ok_or_else(unsupported)?;
-                    link(&target, &path)
-                        .ok_or_else(unsupported)?
-                        .map_err(|error| TreeError::Write { path, error })?;
+                    let linked = link(&target, &path).ok_or_else(unsupported)?;
+                    linked.map_err(|error| TreeError::Write(path, error))?;
                 }
             }
         }
@@ -266,5 +252,14 @@ fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
 
 /// Creates a folder and those above it.
 pub(crate) fn make_folder(path: &Path) -> Result<(), TreeError> {
-    fs::create_dir_all(path).map_err(|error| TreeError::Write { path: path.to_owned(), error })
+    fs::create_dir_all(path).map_err(|error| TreeError::Write(path.to_owned(), error))
+}
+
+/// Removes a folder and all that is in it.
+pub(crate) fn remove_folder(path: &Path) -> Result<(), TreeError> {
+    fs::remove_dir_all(path).map_err(|error| TreeError::Remove(path.to_owned(), error))
+}
+
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), TreeError> {
+    fs::write(path, bytes).map_err(|error| TreeError::Write(path.to_owned(), error))
 }

@@ -16,10 +16,8 @@ pub const LARGEST_KEPT: usize = 64 * 1024;
 
 /// Names of the suite's robots, sorted.
 pub fn robots(data: &Data) -> Vec<String> {
-    let names = data.below(ROBOTS);
-    let names =
-        names.filter_map(|(path, _)| path.strip_suffix(".urdf")).filter(|name| !name.contains('/'));
-    names.map(str::to_owned).collect()
+    let names = data.below(ROBOTS).filter_map(|(path, _)| path.strip_suffix(".urdf"));
+    names.filter(|name| !name.contains('/')).map(str::to_owned).collect()
 }
 
 /// The id of a robot's valid URDD, which is also its folder in the suite.

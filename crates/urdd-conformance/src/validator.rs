@@ -3,7 +3,6 @@
 //! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects. Any other is not a verdict.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -21,7 +20,7 @@ use crate::process::{End, Ran, Template};
 use crate::run_error::{RunError, with_threads};
 use crate::skips::{Skip, SkipError};
 use crate::suite::Suite;
-use crate::tree::TreeError;
+use crate::tree::{TreeError, remove_folder};
 use crate::valid;
 use crate::workplace::{Workplace, relative};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
@@ -132,12 +131,9 @@ pub fn run(
         let robots = folder.path().join(ROBOTS);
         valid::write_robots(data, &robots)?;
         let valid = folder.path().join(VALID);
-        write_valid(data, &names, &robots, &valid, &plan.cancellation).map_err(
-            |error| match plan.cancellation.is_cancelled() {
-                true => RunError::Cancelled(Cancelled),
-                false => error.into(),
-            },
-        )?;
+        write_valid(data, &names, &robots, &valid, &plan.cancellation).map_err(|error| {
+            if plan.cancellation.is_cancelled() { RunError::Cancelled(Cancelled) } else { error }
+        })?;
     }
     let batch = plan.is_batch.then(|| Batch::new(plan.command.words()));
     let judge = |urdd: &Chosen| -> Result<Option<Ran>, RunError> {
@@ -215,11 +211,7 @@ fn judge(
             Err(error) => return Err(error.into()),
         }
     }
-    let shown = match urdd.is_relative {
-        true => relative(&path),
-        false => Some(path.clone()),
-    };
-    let Some(shown) = shown else {
+    let Some(shown) = (if urdd.is_relative { relative(&path) } else { Some(path.clone()) }) else {
         return Ok(None);
     };
     let ran = match batch {
@@ -228,8 +220,7 @@ fn judge(
     };
     if let (Some(case), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(case.urdd()));
-        fs::remove_dir_all(around)
-            .map_err(|error| RunError::Remove { path: around.to_owned(), error })?;
+        remove_folder(around)?;
     }
     Ok(Some(ran))
 }
@@ -302,9 +293,10 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
             continue;
         };
         let fault = fault(plan, item.verdict, &ran.end);
-        match is_legacy(item) {
-            true => legacy.push(fault),
-            false => totals.push(fault),
+        if is_legacy(item) {
+            legacy.push(fault)
+        } else {
+            totals.push(fault)
         }
         if item.kind != Kind::Invalid && !is_legacy(item) {
             sound.push(fault);

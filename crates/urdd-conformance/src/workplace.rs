@@ -1,10 +1,12 @@
 //! The working folder for URDDs while an external program runs on them.
 
 use std::fs;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use tempfile::TempDir;
+
+use crate::run_error::RunError;
+use crate::tree::{TreeError, make_folder};
 
 /// A temporary or a persistent folder.
 pub struct Workplace {
@@ -13,39 +15,20 @@ pub struct Workplace {
     _temporary: Option<TempDir>,
 }
 
-/// Why the working folder cannot be created.
-#[derive(Debug, thiserror::Error)]
-pub enum WorkplaceError {
-    /// A temporary folder cannot be created.
-    #[error("a temporary folder cannot be created: {0}")]
-    Temporary(io::Error),
-    /// The folder is not empty.
-    #[error("{}: this folder is not empty; give a new one", .0.display())]
-    NotEmpty(PathBuf),
-    /// The folder cannot be created or read.
-    #[error("{}: cannot be used: {error}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// Reason.
-        error: io::Error,
-    },
-}
-
 impl Workplace {
     /// A temporary folder, or the folder `keep`, which must be new or empty.
     ///
     /// # Errors
     /// If it cannot be created, or is not empty.
-    pub fn new(keep: Option<&Path>) -> Result<Workplace, WorkplaceError> {
+    pub fn new(keep: Option<&Path>) -> Result<Workplace, RunError> {
         let Some(path) = keep else {
-            let folder = tempfile::tempdir().map_err(WorkplaceError::Temporary)?;
+            let folder = tempfile::tempdir().map_err(RunError::Temporary)?;
             return Ok(Workplace { path: folder.path().to_owned(), _temporary: Some(folder) });
         };
-        let failed = |error| WorkplaceError::Folder { path: path.to_owned(), error };
-        fs::create_dir_all(path).map_err(failed)?;
+        let failed = |error| TreeError::Read(path.to_owned(), error);
+        make_folder(path)?;
         if fs::read_dir(path).map_err(failed)?.next().is_some() {
-            return Err(WorkplaceError::NotEmpty(path.to_owned()));
+            return Err(RunError::NotEmpty(path.to_owned()));
         }
         // Absolute, because the command may change its current folder.
         let path = std::path::absolute(path).map_err(failed)?;

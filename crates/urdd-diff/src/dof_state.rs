@@ -5,6 +5,7 @@ use urdd_document::dof_layout::{DofLayout, bounds_without_limits, describe};
 use urdd_document::robot::{Joint, Robot};
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
+use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
 /// A degree of freedom.
@@ -42,26 +43,25 @@ pub(super) fn of_robot(robot: &Robot) -> Vec<DofState> {
 /// The DOFs of a URDD, as `dof_module` and `bounds_module` state them.
 pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Vec<DofState> {
     let Some(dofs) = urdd.dofs() else {
-        notes
-            .push("dof_module is missing or unusable; the DOFs are those of the joints".to_owned());
+        let why = "dof_module is missing or unusable; the DOFs are those of the joints";
+        notes.push(why.to_owned());
         return of_robot(robot);
     };
     let bounds = urdd.bounds();
     if bounds.is_none() {
-        notes.push(
-            "bounds_module is missing or unusable; bounds are those of the joints".to_owned(),
-        );
+        let why = "bounds_module is missing or unusable; bounds are those of the joints";
+        notes.push(why.to_owned());
     }
     let mut places = vec![0; robot.joints.len()];
-    let mut found = Vec::with_capacity(dofs.joint_of_dof.len());
-    for (index, joint_idx) in dofs.joint_of_dof.iter().enumerate() {
+    let mut found = Vec::with_capacity(dofs.dof_idx_to_joint_idx_mapping.len());
+    for (index, joint_idx) in dofs.dof_idx_to_joint_idx_mapping.iter().enumerate() {
         let joint = robot.joints.get(joint_idx.get());
         let place = places.get_mut(joint_idx.get()).map_or(0, |place| {
             *place += 1;
             *place - 1
         });
         let derived = joint.and_then(|joint| derived(joint, place));
-        let stated_dof = dofs.v1.and_then(|module| module.dofs.get(index));
+        let stated_dof = dofs.dofs.get(index);
         let name = match stated_dof {
             Some(dof) => Some(dof.name.clone()),
             None => joint.and_then(|joint| name(joint, place)),
@@ -80,36 +80,26 @@ pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Ve
                     let first = stated.clone().next();
                     stated.find(|value| Some(*value) != expected).or(first)
                 };
-                let (lower, upper) = (one(0, bounds.lower), one(1, bounds.upper));
+                let (lower, upper) =
+                    (one(0, &bounds.dof_lower_bounds), one(1, &bounds.dof_upper_bounds));
                 let quantity = match stated_dof {
                     Some(dof) => Some(dof.quantity),
                     None => joint.and_then(|joint| Some(describe(joint.joint_type, place)?.1)),
                 };
-                let limited = bounds.v1.and_then(|v1| v1.dof_limited.get(index).copied());
+                let limited = bounds.dof_limited.get(index).copied();
                 let limited = limited.or(derived.shown("limited").map(|word| word == "true"));
                 let speed = |list: &[Option<f64>]| list.get(index).copied().flatten();
-                match bounds.v1 {
-                    Some(v1) => values(
-                        quantity,
-                        [lower, upper],
-                        limited,
-                        speed(&v1.dof_velocity_limits),
-                        speed(&v1.dof_effort_limits),
-                    ),
-                    None => {
-                        let of_joint = joint.and_then(|joint| joint.limit);
-                        let velocity = of_joint.and_then(|limit| limit.velocity);
-                        let effort = of_joint.and_then(|limit| limit.effort);
-                        values(quantity, [lower, upper], limited, velocity, effort)
-                    }
-                }
+                let (velocity, effort) = if urdd.is_legacy(ModuleKind::Bounds) {
+                    let limit = joint.and_then(|joint| joint.limit);
+                    (limit.and_then(|limit| limit.velocity), limit.and_then(|limit| limit.effort))
+                } else {
+                    (speed(&bounds.dof_velocity_limits), speed(&bounds.dof_effort_limits))
+                };
+                values(quantity, [lower, upper], limited, velocity, effort)
             }
         };
-        found.push(DofState {
-            name: name.unwrap_or_else(|| format!("DOF {index}")),
-            stated,
-            derived,
-        });
+        let name = name.unwrap_or_else(|| format!("DOF {index}"));
+        found.push(DofState { name, stated, derived });
     }
     found
 }

@@ -8,7 +8,7 @@ use crate::side::Side;
 use crate::{materials, origin};
 use urdd_format::diff_report::{DiffBox, GeometryDifference, ValueChange};
 use urdd_format::meshes::GeometryKind;
-use urdd_format::urdf::{Geometry, Link, Material, Origin};
+use urdd_format::urdf::{Capsule, Cylinder, Geometry};
 use urdd_geometry::mesh::Bounds;
 
 /// Mesh file names that at least one of the robots has no content for: elements with these are compared by name.
@@ -18,31 +18,6 @@ pub(super) fn compared_by_name<'a>(before: &'a Side, after: &'a Side) -> HashSet
         unread.filter_map(|(place, _)| Some(mesh_at(&side.view, *place)?.1.filename.as_str()))
     };
     unread(before).chain(unread(after)).collect()
-}
-
-/// A visual or collision element as written.
-struct Written<'a> {
-    name: Option<&'a str>,
-    origin: Option<&'a Origin>,
-    geometry: Option<&'a Geometry>,
-    material: Option<&'a Material>,
-}
-
-fn elements(link: &Link, kind: GeometryKind) -> Box<dyn Iterator<Item = Written<'_>> + '_> {
-    match kind {
-        GeometryKind::Visual => Box::new(link.visual.iter().map(|visual| Written {
-            name: visual.name.as_deref(),
-            origin: visual.origin.as_ref(),
-            geometry: visual.geometry.as_ref(),
-            material: visual.material.as_ref(),
-        })),
-        GeometryKind::Collision => Box::new(link.collision.iter().map(|collision| Written {
-            name: collision.name.as_deref(),
-            origin: collision.origin.as_ref(),
-            geometry: collision.geometry.as_ref(),
-            material: None,
-        })),
-    }
 }
 
 /// The values of an element.
@@ -122,10 +97,7 @@ fn changes(
             }
         }
     }
-    let word = match kind {
-        GeometryKind::Visual => "visual",
-        GeometryKind::Collision => "collision",
-    };
+    let word = kind.as_str().to_lowercase();
     let whole = |index: usize, before: Option<&Element>, after: Option<&Element>| {
         let summary = |element: &Element| {
             let parts = [&element.shape, &element.material[1]].map(Fields::summary);
@@ -155,11 +127,11 @@ fn changes(
 }
 
 fn of_link(side: &Side, link: usize, kind: GeometryKind, by_name: &HashSet<&str>) -> Vec<Element> {
-    let elements = elements(&side.robot.links[link], kind).enumerate();
-    let elements = elements.map(|(index, element)| {
+    let of = &side.robot.links[link];
+    let element = |index, name: &Option<String>, origin, geometry: &Option<Geometry>, material| {
         let mut shape = Fields::default();
-        shape.text("name", element.name);
-        if let Some(geometry) = element.geometry {
+        shape.text("name", name.as_deref());
+        if let Some(geometry) = geometry {
             add_shape(geometry, &mut shape, |filename| {
                 let mesh = side.shapes.meshes.get(&(link, kind, index));
                 match mesh {
@@ -172,17 +144,24 @@ fn of_link(side: &Side, link: usize, kind: GeometryKind, by_name: &HashSet<&str>
                 }
             });
         }
-        origin::add("origin.", element.origin, side.has_quaternions(), &mut shape);
-        Element {
-            name: element.name.map(str::to_owned),
-            shape,
-            material: [
-                materials::written(element.material),
-                materials::resolved(element.material, &side.robot.materials),
-            ],
+        origin::add("origin.", origin, side.has_quaternions(), &mut shape);
+        let resolved = materials::resolved(material, &side.robot.materials);
+        Element { name: name.clone(), shape, material: [materials::written(material), resolved] }
+    };
+    match kind {
+        GeometryKind::Visual => {
+            let visuals = of.visual.iter().enumerate().map(|(index, of)| {
+                element(index, &of.name, of.origin.as_ref(), &of.geometry, of.material.as_ref())
+            });
+            visuals.collect()
         }
-    });
-    elements.collect()
+        GeometryKind::Collision => {
+            let collisions = of.collision.iter().enumerate().map(|(index, of)| {
+                element(index, &of.name, of.origin.as_ref(), &of.geometry, None)
+            });
+            collisions.collect()
+        }
+    }
 }
 
 /// Adds the values of a shape. `mesh` says by what a mesh with a file name is compared, and how it is shown.
@@ -202,13 +181,10 @@ fn add_shape(geometry: &Geometry, fields: &mut Fields, mesh: impl Fn(&str) -> (S
             fields.numbers("scale", "", Some(of.scale.unwrap_or([1.0; 3])));
         }
         Geometry::Box(of) => fields.numbers("size", "m", Some(of.size)),
-        Geometry::Cylinder(of) => {
-            fields.number("radius", "m", Some(of.radius));
-            fields.number("length", "m", Some(of.length));
-        }
-        Geometry::Capsule(of) => {
-            fields.number("radius", "m", Some(of.radius));
-            fields.number("length", "m", Some(of.length));
+        Geometry::Cylinder(Cylinder { radius, length })
+        | Geometry::Capsule(Capsule { radius, length }) => {
+            fields.number("radius", "m", Some(*radius));
+            fields.number("length", "m", Some(*length));
         }
         Geometry::Sphere(of) => fields.number("radius", "m", Some(of.radius)),
     }

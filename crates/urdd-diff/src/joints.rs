@@ -26,8 +26,7 @@ fn fields(joint: &Joint, quaternions: bool) -> Fields {
     fields.text("child", Some(&joint.child.link));
     origin::add("origin.", joint.origin.as_ref(), quaternions, &mut fields);
     if has_axis(joint.joint_type) {
-        let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
-        let axis = axis.unwrap_or([1.0, 0.0, 0.0]);
+        let axis = joint.axis.as_ref().and_then(|axis| axis.xyz).unwrap_or([1.0, 0.0, 0.0]);
         // Only the direction has a meaning.
         let direction = unit(axis).map_or(axis, Into::into);
         fields.keyed("axis", "", numbers(&direction), numbers(&axis));
@@ -36,18 +35,15 @@ fn fields(joint: &Joint, quaternions: bool) -> Fields {
         add_limit(limit, joint.joint_type, &mut fields);
     }
     let dynamics = joint.dynamics.as_ref();
-    let [_, _, _, damping, friction] = units(joint.joint_type);
+    let [position, _, _, damping, friction] = units(joint.joint_type);
     let value = dynamics.and_then(|dynamics| dynamics.damping);
     fields.number("dynamics.damping", damping, Some(value.unwrap_or(0.0)));
     let value = dynamics.and_then(|dynamics| dynamics.friction);
     fields.number("dynamics.friction", friction, Some(value.unwrap_or(0.0)));
-    let position = units(joint.joint_type)[0];
     if let Some(mimic) = &joint.mimic {
         fields.text("mimic.joint", Some(&mimic.joint));
-        let multiplier = mimic.multiplier.unwrap_or(1.0);
-        fields.number("mimic.multiplier", "", Some(multiplier));
-        let offset = mimic.offset.unwrap_or(0.0);
-        fields.number("mimic.offset", position, Some(offset));
+        fields.number("mimic.multiplier", "", Some(mimic.multiplier.unwrap_or(1.0)));
+        fields.number("mimic.offset", position, Some(mimic.offset.unwrap_or(0.0)));
     }
     if let Some(safety) = &joint.safety_controller {
         for (name, unit, value) in [

@@ -35,7 +35,6 @@ pub use render::{markdown, text};
 pub use side::{DiffError, Options, Side};
 
 use self::fields::Fields;
-use self::modules::InDetail;
 use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
 use urdd_format::report::Tool;
 use urdd_xml::other_parts::Owner;
@@ -57,15 +56,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
             "attributes that URDF does not define are not compared: one has no URDF".to_owned(),
         );
     }
-    let dofs = dofs::differences(before, after, tolerance);
     let pairs = pairs::differences(before, after, &mut notes);
-    let configurations = configurations::differences(before, after, tolerance);
-    let in_detail = InDetail {
-        configurations: configurations.as_ref().is_some_and(|it| !it.is_empty()),
-        dofs: !dofs.is_empty() || !joints.is_empty(),
-        pairs: pairs.as_ref().is_some_and(|pairs| !pairs.is_empty()),
-    };
-    let modules = modules::differences(before, after, &in_detail, tolerance);
     let mut report = DiffReport {
         tool: Tool::urdd(),
         before: before.summary(),
@@ -77,13 +68,14 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
         materials: parts(&|side| materials::parts(&side.robot.materials)),
         other_elements: parts(&|side| other_elements::parts(&side.robot.unknown_elements)),
         poses: poses::difference(before, after, tolerance),
-        dofs,
+        dofs: dofs::differences(before, after, tolerance),
         pairs,
-        configurations,
-        modules,
+        configurations: configurations::differences(before, after, tolerance),
+        modules: None,
         findings: findings::differences(before, after),
         notes,
     };
+    report.modules = modules::differences(before, after, &report, tolerance);
     report.same = count::count(&report) == 0;
     report
 }

@@ -1,10 +1,10 @@
 //! Differences of links: mass properties, geometry, other elements.
 
 use crate::fields::{Fields, compare};
-use crate::parts::{Matched, matched};
+use crate::parts::matched;
 use crate::side::Side;
 use crate::{geometry, origin, other_elements};
-use urdd_format::diff_report::{LinkDifference, Presence};
+use urdd_format::diff_report::LinkDifference;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Link;
 use urdd_xml::other_parts::Owner;
@@ -15,44 +15,28 @@ pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<Li
     let by_name = geometry::compared_by_name(before, after);
     let mut found = Vec::new();
     for part in matched(&a, &b) {
-        let mut difference = LinkDifference {
-            name: String::new(),
-            presence: Presence::Changed,
-            changes: Vec::new(),
-            geometry: Vec::new(),
-        };
-        match part {
-            Matched::Removed(i) => {
-                difference.name = a[i].to_owned();
-                difference.presence = Presence::Removed;
+        let (mut changes, mut geometry) = (Vec::new(), Vec::new());
+        if let Some((i, j)) = part.both() {
+            let others = before.others_beside(after);
+            let [x, y] =
+                [(before, i, others[0]), (after, j, others[1])].map(|(side, link, others)| {
+                    let link = &side.robot.links[link];
+                    let mut fields = fields(link, side.has_quaternions());
+                    let owner = Owner::Link(link.name.clone());
+                    other_elements::add_parts(others, &owner, &mut fields);
+                    fields
+                });
+            changes = compare("", &x, &y, tolerance);
+            for kind in [GeometryKind::Visual, GeometryKind::Collision] {
+                let (x, y) = ((before, i), (after, j));
+                geometry.extend(geometry::difference(x, y, kind, &by_name, tolerance));
             }
-            Matched::Added(j) => {
-                difference.name = b[j].to_owned();
-                difference.presence = Presence::Added;
-            }
-            Matched::Both(i, j) => {
-                difference.name = a[i].to_owned();
-                let others = before.others_beside(after);
-                let [x, y] =
-                    [(before, i, others[0]), (after, j, others[1])].map(|(side, link, others)| {
-                        let link = &side.robot.links[link];
-                        let mut fields = fields(link, side.has_quaternions());
-                        let owner = Owner::Link(link.name.clone());
-                        other_elements::add_parts(others, &owner, &mut fields);
-                        fields
-                    });
-                difference.changes = compare("", &x, &y, tolerance);
-                for kind in [GeometryKind::Visual, GeometryKind::Collision] {
-                    let of_link =
-                        geometry::difference((before, i), (after, j), kind, &by_name, tolerance);
-                    difference.geometry.extend(of_link);
-                }
-                if difference.changes.is_empty() && difference.geometry.is_empty() {
-                    continue;
-                }
+            if changes.is_empty() && geometry.is_empty() {
+                continue;
             }
         }
-        found.push(difference);
+        let (name, presence) = (part.name.to_owned(), part.presence());
+        found.push(LinkDifference { name, presence, changes, geometry });
     }
     found
 }

@@ -5,12 +5,12 @@ use urdd_format::urdf::Material;
 
 /// The materials at the top of a URDF as parts.
 pub(super) fn parts(materials: &[Material]) -> Vec<(String, Fields)> {
-    let parts = materials.iter().map(|material| {
+    let part = |material: &Material| {
         let mut fields = Fields::default();
         add_look("", material, &mut fields);
         (material.name.clone().unwrap_or_default(), fields)
-    });
-    parts.collect()
+    };
+    materials.iter().map(part).collect()
 }
 
 /// The values of a visual element's material as written.
@@ -42,7 +42,6 @@ pub(super) fn resolved(material: Option<&Material>, tops: &[Material]) -> Fields
 fn add_look(prefix: &str, material: &Material, fields: &mut Fields) {
     let rgba = material.color.as_ref().map(|color| color.rgba);
     fields.numbers(format!("{prefix}rgba"), "", rgba);
-    let texture = material.texture.as_ref();
-    let texture = texture.map(|texture| texture.filename.as_str());
+    let texture = material.texture.as_ref().map(|texture| texture.filename.as_str());
     fields.text(format!("{prefix}texture"), texture);
 }

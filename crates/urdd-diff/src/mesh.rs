@@ -70,8 +70,5 @@ pub(super) fn placed_bounds(scene: &Scene, place: &Matrix4<f64>) -> Option<Bound
 
 /// The box around two.
 pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {
-    Bounds {
-        min: [0, 1, 2].map(|axis| a.min[axis].min(b.min[axis])),
-        max: [0, 1, 2].map(|axis| a.max[axis].max(b.max[axis])),
-    }
+    Bounds::of([a.min, a.max, b.min, b.max])
 }

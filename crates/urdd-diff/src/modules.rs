@@ -7,39 +7,22 @@ use serde_json::Value;
 use crate::side::Side;
 use urdd_document::module::{JsonFile, Module};
 use urdd_document::urdd::Urdd;
-use urdd_format::diff_report::{ModuleDifference, Presence};
+use urdd_format::diff_report::{DiffReport, ModuleDifference, Presence};
 use urdd_format::registry::ModuleKind;
 
-/// Modules whose content other lists of the report compare.
-pub(super) struct InDetail {
-    /// Whether there are differences of DOFs or joints.
-    pub dofs: bool,
-    /// Whether there are differences of pairs.
-    pub pairs: bool,
-    /// Whether there are differences of named configurations.
-    pub configurations: bool,
-}
-
-/// The modules that differ; `None` unless both are URDDs.
+/// The modules that differ; `None` unless both are URDDs. `report` has the other lists.
 pub(super) fn differences(
     before: &Side,
     after: &Side,
-    in_detail: &InDetail,
+    report: &DiffReport,
     tolerance: f64,
 ) -> Option<Vec<ModuleDifference>> {
     let (a, b) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
-    let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
-        urdd.modules().map(|module| module.folder.clone()).collect()
-    };
-    let mut folders = by_folder(a);
-    let new = by_folder(b);
-    folders.extend(new.into_iter().filter(|folder| module(a, folder).is_none()));
+    let new = b.modules().filter(|new| module(a, &new.folder).is_none());
     let mut found = Vec::new();
-    for folder in &folders {
+    for either in a.modules().chain(new) {
+        let folder = either.folder.as_str();
         let (x, y) = (module(a, folder), module(b, folder));
-        let Some(either) = x.or(y) else {
-            continue;
-        };
         let version = |module: Option<&Module>| module.and_then(|module| module.version.clone());
         let mut difference = ModuleDifference {
             name: either.name().to_owned(),
@@ -52,7 +35,7 @@ pub(super) fn differences(
         match (x, y) {
             (Some(x), Some(y)) => {
                 let same_version = difference.version_before == difference.version_after;
-                let hidden = is_in_detail(either.kind, in_detail);
+                let hidden = is_in_detail(either.kind, report);
                 difference.document = !hidden && !same_document(x, y, tolerance);
                 difference.files = !hidden && files(a, folder) != files(b, folder);
                 if same_version && !difference.document && !difference.files {
@@ -72,12 +55,16 @@ fn module<'a>(urdd: &'a Urdd, folder: &str) -> Option<&'a Module> {
 }
 
 /// Whether a difference of the module's content is in another list, or is none in meaning.
-fn is_in_detail(kind: Option<ModuleKind>, in_detail: &InDetail) -> bool {
+fn is_in_detail(kind: Option<ModuleKind>, report: &DiffReport) -> bool {
     match kind {
         Some(ModuleKind::Urdf | ModuleKind::OriginalMeshes) => true,
-        Some(ModuleKind::Dof | ModuleKind::Bounds) => in_detail.dofs,
-        Some(ModuleKind::LinkShapesSkips) => in_detail.pairs,
-        Some(ModuleKind::NamedConfigurations) => in_detail.configurations,
+        Some(ModuleKind::Dof | ModuleKind::Bounds) => {
+            !report.dofs.is_empty() || !report.joints.is_empty()
+        }
+        Some(ModuleKind::LinkShapesSkips) => report.pairs.iter().flatten().next().is_some(),
+        Some(ModuleKind::NamedConfigurations) => {
+            report.configurations.iter().flatten().next().is_some()
+        }
         _ => false,
     }
 }

@@ -30,11 +30,10 @@ pub(super) fn differences(
         // Two URDFs have none, which is no news.
         _ if before.urdd.is_none() && after.urdd.is_none() => return None,
         (a, b) => {
-            let missing = ["A", "B"].into_iter().zip([a.err(), b.err()]);
+            let missing = [("A", a.err()), ("B", b.err())].into_iter();
             let missing = missing.filter_map(|(side, why)| Some(format!("{side} {}", why?)));
             let missing: Vec<String> = missing.collect();
-            let missing = missing.join(", ");
-            notes.push(format!("skipped pairs are not compared: {missing}"));
+            notes.push(format!("skipped pairs are not compared: {}", missing.join(", ")));
             return None;
         }
     };
@@ -44,8 +43,7 @@ pub(super) fn differences(
         index.entry(name).or_insert(link);
     }
     let of = |side: &Side| -> Vec<Option<usize>> {
-        let names = side.link_names().into_iter();
-        names.map(|name| index.get(name).copied()).collect()
+        side.link_names().into_iter().map(|name| index.get(name).copied()).collect()
     };
     let (of_before, of_after) = (of(before), of(after));
     let mut both = vec![false; names.len()];
@@ -71,11 +69,9 @@ pub(super) fn differences(
             }
         }
     }
-    let found = found.into_iter();
-    let found = found.map(|(((i, j), change), shapes)| PairDifference {
-        links: [names[i].to_owned(), names[j].to_owned()],
-        change,
-        shapes,
+    let found = found.into_iter().map(|(((i, j), change), shapes)| {
+        let links = [i, j].map(|link| names[link].to_owned());
+        PairDifference { links, change, shapes }
     });
     Some(found.collect())
 }

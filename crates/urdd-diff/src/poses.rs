@@ -17,9 +17,9 @@ type Pose = (Matrix3<f64>, Vector3<f64>);
 pub(super) fn difference(before: &Side, after: &Side, tolerance: f64) -> Option<PoseDifference> {
     let tolerance = tolerance.max(ROUNDING);
     let (a, b) = (poses(&before.view)?, poses(&after.view)?);
-    let by_name: HashMap<&str, &Pose> = names(after).zip(&b).collect();
+    let by_name: HashMap<&str, &Pose> = after.link_names().into_iter().zip(&b).collect();
     let mut found: Option<PoseDifference> = None;
-    for (name, (turn, place)) in names(before).zip(&a) {
+    for (name, (turn, place)) in before.link_names().into_iter().zip(&a) {
         let Some((other_turn, other_place)) = by_name.get(name) else {
             continue;
         };
@@ -44,10 +44,6 @@ pub(super) fn difference(before: &Side, after: &Side, tolerance: f64) -> Option<
         }
     }
     found
-}
-
-fn names(side: &Side) -> impl Iterator<Item = &str> {
-    side.robot.links.iter().map(|link| link.name.as_str())
 }
 
 /// The pose of each link in the frame of the root link.

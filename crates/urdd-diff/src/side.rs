@@ -103,13 +103,11 @@ impl Side {
     }
 
     pub(super) fn link_names(&self) -> Vec<&str> {
-        let links = self.robot.links.iter();
-        links.map(|link| link.name.as_str()).collect()
+        self.robot.links.iter().map(|link| link.name.as_str()).collect()
     }
 
     pub(super) fn joint_names(&self) -> Vec<&str> {
-        let joints = self.robot.joints.iter();
-        joints.map(|joint| joint.name.as_str()).collect()
+        self.robot.joints.iter().map(|joint| joint.name.as_str()).collect()
     }
 
     pub(super) fn summary(&self) -> DiffSide {

@@ -7,14 +7,13 @@ use crate::dof_state;
 use crate::shapes::{Place, Shapes, mesh_at, shapes};
 use crate::side::{DiffError, Side};
 use urdd_directory::path::beside;
-use urdd_document::legacy_urdf::of_legacy;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_document::urdd::Urdd;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::report::Kind;
-use urdd_format::urdf::{Geometry, UrdfModule};
+use urdd_format::urdf::Geometry;
 use urdd_geometry::read::{Scene, read};
 use urdd_xml::other_parts::other_parts;
 
@@ -23,10 +22,9 @@ use urdd_xml::other_parts::other_parts;
 /// # Errors
 /// If it does not say what its robot is.
 pub(super) fn open(urdd: Urdd, shown: String) -> Result<Side, DiffError> {
-    let robot: UrdfModule = match urdd.document(ModuleKind::Urdf) {
-        Some(ModuleDocument::Urdf(module)) => (**module).clone(),
-        Some(ModuleDocument::LegacyUrdf(module)) => of_legacy(module),
-        _ => {
+    let robot = match urdd.description() {
+        Some(module) => module.clone(),
+        None => {
             let module = urdd.module(ModuleKind::Urdf);
             let reason = module.and_then(|module| {
                 let fault = module.first_fault();

@@ -7,15 +7,13 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::cancellation::Cancellation;
 use super::canonical;
 use super::discover::ROOT_METADATA;
 use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
 use super::module_entry;
-use super::rehash::replace;
+use super::rehash::{lock, replace};
 use super::root::{ReadError, Root};
-use super::target_lock::TargetLock;
 use super::text_fault::UnreadableText;
 use urdd_format::registry::ModuleKind;
 
@@ -82,10 +80,7 @@ pub fn add_module(
     files: &[(&str, String)],
 ) -> Result<PathBuf, AddModuleError> {
     let parent = root.folder().ok_or(AddModuleError::NotAFolder)?;
-    // Without a lock if the parent folder is not writable: then no other run can replace this one.
-    let _lock = fs::canonicalize(parent)
-        .ok()
-        .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
+    let _lock = lock(parent);
     let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).map_err(AddModuleError::Metadata)?;
     let mut metadata = json::read(&bytes)?.value;
     let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);

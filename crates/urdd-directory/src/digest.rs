@@ -123,20 +123,15 @@ pub fn hashes(file: &mut impl Read, converted: bool) -> Option<Hashes> {
             // Hold back a CR until the next byte shows whether it belongs to a CR LF.
             if carriage_return && byte != b'\n' {
                 as_lf.push(b'\r');
-                as_crlf.push(b'\r');
             }
             carriage_return = byte == b'\r';
-            match byte {
-                b'\r' => {}
-                b'\n' => {
-                    as_lf.push(b'\n');
-                    as_crlf.extend_from_slice(b"\r\n");
-                }
-                other => {
-                    as_lf.push(other);
-                    as_crlf.push(other);
-                }
+            if !carriage_return {
+                as_lf.push(byte);
             }
+        }
+        for &byte in &as_lf {
+            as_crlf.extend((byte == b'\n').then_some(b'\r'));
+            as_crlf.push(byte);
         }
         lf.update(&as_lf);
         crlf.update(&as_crlf);

@@ -45,10 +45,7 @@ pub enum RehashError {
 /// If `urdd.json` or a listed file cannot be read, or the new `urdd.json` cannot be written. Nothing is changed then.
 pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     let folder = root.folder().ok_or(RehashError::NotAFolder)?;
-    // Without a lock if the parent folder is not writable: then no other run can replace this one.
-    let _lock = fs::canonicalize(folder)
-        .ok()
-        .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
+    let _lock = lock(folder);
     let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).map_err(RehashError::Metadata)?;
     let mut metadata = json::read(&bytes)?.value;
     let mut changed = Vec::new();
@@ -59,6 +56,12 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
         replace(folder, canonical::json_string(&metadata).as_bytes())?;
     }
     Ok(changed)
+}
+
+/// Locks the folder of a URDD. `None` if its parent folder is not writable: then no other run can replace it.
+pub(crate) fn lock(folder: &Path) -> Option<TargetLock> {
+    let place = fs::canonicalize(folder).ok()?;
+    TargetLock::acquire(&place, &Cancellation::default()).ok()
 }
 
 /// Writes a temporary file beside `urdd.json` and renames it, so that readers see either the old or the new one.

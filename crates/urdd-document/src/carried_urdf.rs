@@ -43,10 +43,7 @@ pub enum NoUrdf {
 impl NoUrdf {
     /// Whether the file is there, and too large.
     pub fn is_too_large(&self) -> bool {
-        let NoUrdf::Unreadable { error, .. } = self else {
-            return false;
-        };
-        matches!(error, ReadError::TooLarge { .. })
+        matches!(self, NoUrdf::Unreadable { error: ReadError::TooLarge { .. }, .. })
     }
 }
 
@@ -61,9 +58,7 @@ pub(super) fn read(
 ) -> Result<CarriedUrdf, NoUrdf> {
     let path = match (&metadata.json, &metadata.metadata) {
         (JsonFile::Missing, _) => lone_urdf(root, listing)?,
-        (_, None) => {
-            return Err(NoUrdf::MetadataUnusable);
-        }
+        (_, None) => return Err(NoUrdf::MetadataUnusable),
         (_, Some(metadata)) => match &metadata.source {
             Some(Source::Urdf(file)) => file.path.clone(),
             None => return Err(NoUrdf::NoSource),

@@ -1,11 +1,14 @@
 //! The modules that a consumer computes kinematics from: `chain_module` and `dof_module`. In legacy URDDs, only
 //! `urdf_module` has origins and axes.
 
+use nalgebra::{Isometry3, Translation3};
+
 use crate::robot::Robot;
 use crate::urdd::Urdd;
-use urdd_format::chain::{ChainModule, JointInChain, LinkInChain};
+use urdd_format::chain::ChainModule;
 use urdd_format::dof::{Dof, DofModule, Quantity, ResolvedMimic};
 use urdd_format::index::{DofIdx, JointIdx};
+use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation;
@@ -20,56 +23,28 @@ pub struct ConsumerModules {
 
 /// The modules of a URDD in the form of version 1. `None` if one is missing, or if legacy modules are incomplete.
 pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
-    let (chain, dofs) = (urdd.chain()?, urdd.dofs()?);
-    if let (Some(chain), Some(dof)) = (chain.v1, dofs.v1) {
-        return Some(ConsumerModules { chain: chain.clone(), dof: dof.clone() });
+    let mut modules = ConsumerModules { chain: urdd.chain()?.clone(), dof: urdd.dofs()?.clone() };
+    if !urdd.is_legacy(ModuleKind::Chain) && !urdd.is_legacy(ModuleKind::Dof) {
+        return Some(modules);
     }
     let robot = urdd.robot()?;
-    let links_in_chain = chain.links.iter().map(|link| LinkInChain {
-        name: link.name.to_owned(),
-        link_idx: link.link_idx,
-        parent_joint_idx: link.parent_joint_idx,
-        parent_link_idx: link.parent_link_idx,
-        children_joint_idxs: link.children_joint_idxs.to_vec(),
-        children_link_idxs: link.children_link_idxs.to_vec(),
-    });
-    let joints_in_chain = chain.joints.iter().zip(&robot.joints).map(|(joint, source)| {
-        let [x, y, z] = source.origin.xyz;
-        let isometry = nalgebra::Isometry3::from_parts(
-            nalgebra::Translation3::new(x, y, z),
+    let joints = &mut modules.chain.joints_in_chain;
+    joints.truncate(robot.joints.len());
+    for (joint, source) in joints.iter_mut().zip(&robot.joints) {
+        let axis = rotation::unit_axis(source.axis).filter(|_| source.has_axis());
+        joint.joint_type = source.joint_type;
+        joint.origin = from_isometry(&Isometry3::from_parts(
+            Translation3::from(source.origin.xyz),
             rotation::from_rpy(source.origin.rpy),
-        );
-        JointInChain {
-            joint_name: joint.joint_name.to_owned(),
-            joint_idx: joint.joint_idx,
-            parent_link_name: joint.parent_link_name.to_owned(),
-            parent_link_idx: joint.parent_link_idx,
-            child_link_name: joint.child_link_name.to_owned(),
-            child_link_idx: joint.child_link_idx,
-            joint_type: source.joint_type,
-            origin: from_isometry(&isometry),
-            axis: source
-                .has_axis()
-                .then(|| rotation::unit_axis(source.axis))
-                .flatten()
-                .map(|axis| [axis.x, axis.y, axis.z]),
-        }
-    });
-    Some(ConsumerModules {
-        chain: ChainModule {
-            links_in_chain: links_in_chain.collect(),
-            joints_in_chain: joints_in_chain.collect(),
-            kinematic_hierarchy: chain.hierarchy.to_vec(),
-            root_idx: chain.root,
-        },
-        dof: DofModule {
-            num_dofs: dofs.num_dofs,
-            dof_idx_to_joint_idx_mapping: dofs.joint_of_dof.to_vec(),
-            joint_idx_to_dof_idxs_mapping: dofs.dofs_of_joint.to_vec(),
-            joint_idx_to_mimic_mapping: legacy_mimics(urdd, robot, dofs.dofs_of_joint)?,
-            dofs: dofs.joint_of_dof.iter().map(|joint| legacy_dof(robot, *joint)).collect(),
-        },
-    })
+        ));
+        joint.axis = axis.map(|axis| [axis.x, axis.y, axis.z]);
+    }
+    let dof = &mut modules.dof;
+    dof.joint_idx_to_mimic_mapping =
+        legacy_mimics(urdd, robot, &dof.joint_idx_to_dof_idxs_mapping)?;
+    let joints = dof.dof_idx_to_joint_idx_mapping.iter();
+    dof.dofs = joints.map(|joint| legacy_dof(robot, *joint)).collect();
+    Some(modules)
 }
 
 /// The mimics of `urdf_module`. A mimic joint with its own DOF (`dof_module` 0.0.1) follows that DOF.

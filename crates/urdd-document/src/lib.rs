@@ -1,21 +1,17 @@
 //! Internal to urdd; no stability promise.
 //!
-//! A loaded URDD of any version: its files and modules as far as they are readable ([`urdd::Urdd`]), and
-//! version-independent views. Fields with the same name in both versions have the same pointer.
+//! A loaded URDD of any version: its files and modules as far as they are readable ([`urdd::Urdd`]), and views of them.
+//! Legacy modules are raised to version 1 or have version-independent views.
 //!
 //! This crate only describes; `validate` judges.
 
-pub mod bounds;
 pub mod carried_urdf;
-pub mod chain;
-pub mod connections;
 pub mod consumer;
 pub mod dof_layout;
-pub mod dofs;
 pub mod draft;
 pub mod entries;
 pub mod kept;
-pub mod legacy_urdf;
+mod legacy;
 pub mod load;
 pub mod mesh_files;
 pub mod meshes;

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
 use super::draft;
 use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
-use super::schema_check;
+use super::schema_check::{self, SchemaViolation};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
@@ -98,19 +98,21 @@ pub(super) fn read_metadata(root: &Root) -> MetadataFile {
     let json = JsonFile::read(root, ROOT_METADATA);
     let mut file = MetadataFile { json, violations: Vec::new(), metadata: None };
     if let JsonFile::Read(document) = &file.json {
-        match RootMetadata::deserialize(&document.value) {
-            Ok(metadata) => file.metadata = Some(metadata),
-            Err(error) => {
-                let schema = schemars::schema_for!(RootMetadata);
-                let newer = newer_minor(&document.value);
-                (file.metadata, file.violations) =
-                    schema_check::read_newer(&schema, &document.value, newer, &error, |value| {
-                        RootMetadata::deserialize(value).ok()
-                    });
-            }
-        }
+        (file.metadata, file.violations) = metadata_of(&document.value);
     }
     file
+}
+
+/// The root metadata in a document, or its schema violations.
+pub fn metadata_of(document: &serde_json::Value) -> (Option<RootMetadata>, Vec<SchemaViolation>) {
+    let error = match RootMetadata::deserialize(document) {
+        Ok(metadata) => return (Some(metadata), Vec::new()),
+        Err(error) => error,
+    };
+    let schema = schemars::schema_for!(RootMetadata);
+    schema_check::read_newer(&schema, document, newer_minor(document), &error, |value| {
+        RootMetadata::deserialize(value).ok()
+    })
 }
 
 /// Whether root metadata states a later version of the specification with the same major number.
@@ -278,8 +280,8 @@ fn choose_version(kind: Option<ModuleKind>, versions: [Option<&Version>; 2]) -> 
 }
 
 /// The registry's entry for a version. For an unknown newer minor or patch version, the newest entry with the same
-/// major number.
-fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static ModuleSpec>, bool) {
+/// major number, and `true`.
+pub fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static ModuleSpec>, bool) {
     let Some(text) = version else {
         return (registry::find(kind, ""), false);
     };

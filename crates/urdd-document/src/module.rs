@@ -8,7 +8,7 @@ use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::position;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::text_fault::TextFaults;
-use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec};
+use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use urdd_format::root_metadata::RootMetadata;
 
 /// A JSON file, as far as it is readable.
@@ -129,7 +129,7 @@ pub struct Module {
     pub mirror: Mirror,
     /// Schema violations of the document.
     pub violations: Vec<SchemaViolation>,
-    /// The document, if it fits its schema.
+    /// The document, if it fits its schema; raised to version 1 where it can be.
     pub document: Option<ModuleDocument>,
     /// Whether the document breaks its schema only as a draft does: see [`super::draft`].
     pub is_draft: bool,
@@ -144,6 +144,11 @@ impl Module {
     /// Last part of its folder's path.
     pub fn name(&self) -> &str {
         self.folder.rsplit('/').next().unwrap_or(&self.folder)
+    }
+
+    /// Whether its version is from before the specification.
+    pub fn is_legacy(&self) -> bool {
+        self.spec.is_some_and(|spec| spec.profile == Profile::Legacy)
     }
 
     /// Why one of its files cannot be read, if it exists.

@@ -5,7 +5,7 @@ use super::module::Module;
 use super::urdd::Urdd;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::path::{self, PathFault};
-use urdd_format::registry::{ModuleDocument, Profile};
+use urdd_format::registry::ModuleDocument;
 use urdd_format::root_metadata::{RootMetadata, Source};
 
 /// A path in a document.
@@ -48,9 +48,7 @@ impl<'a> NamedPath<'a> {
 
     /// Whether the path is relative to the parent folder of the root, as in legacy modules.
     pub fn from_parent(&self) -> bool {
-        self.module
-            .and_then(|module| module.spec)
-            .is_some_and(|spec| spec.profile == Profile::Legacy)
+        self.module.is_some_and(Module::is_legacy)
     }
 
     /// Where the path leads.

@@ -4,10 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix3;
 
-use crate::legacy_urdf::of_legacy;
 use crate::pose::{has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion};
 use urdd_format::meshes::GeometryKind;
-use urdd_format::registry::ModuleDocument;
 use urdd_format::urdf::{self as v1, JointType};
 
 /// A robot.
@@ -211,16 +209,7 @@ pub(crate) fn num_dofs(joint_type: JointType) -> usize {
     }
 }
 
-/// The robot of a `urdf_module`.
-pub fn view(document: &ModuleDocument) -> Option<Robot> {
-    match document {
-        ModuleDocument::Urdf(module) => Some(of_urdf(module)),
-        ModuleDocument::LegacyUrdf(module) => Some(of_urdf(&of_legacy(module))),
-        _ => None,
-    }
-}
-
-/// The robot of a URDF, or of `urdf_module` of version 1, which is a complete copy of it.
+/// The robot of a URDF, or of `urdf_module`, which is a complete copy of it.
 pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
     let quaternions = has_quaternions(urdf.version.as_deref());
     let link = |link| from_v1_link(link, quaternions);

@@ -11,6 +11,7 @@ use jsonschema::{JsonType, ValidationError};
 use schemars::Schema;
 use serde_json::Value;
 
+use crate::legacy;
 use urdd_directory::json_scan;
 use urdd_format::registry::{ModuleDocument, ModuleSpec};
 
@@ -47,7 +48,7 @@ pub fn read(
     document: &Value,
     newer: bool,
 ) -> (Option<ModuleDocument>, Vec<SchemaViolation>) {
-    let error = match spec.read(document) {
+    let error = match legacy::read(spec, document) {
         Ok(document) => return (Some(document), Vec::new()),
         Err(error) => error,
     };

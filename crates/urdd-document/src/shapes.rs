@@ -3,7 +3,6 @@
 use nalgebra::{Rotation3, Vector3};
 
 use crate::urdd::Urdd;
-use urdd_format::legacy::link_shapes_approximations as legacy;
 use urdd_format::link_shapes_approximations::{BoundingSphere, Obb};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::shape_kind::ShapeKind;
@@ -151,39 +150,31 @@ impl<T> ShapeList<T> {
 
 /// The lists of `link_shapes_approximations_module`: boxes and spheres.
 pub fn approximations(document: &ModuleDocument) -> Option<[ShapeList<Volume>; 4]> {
+    let ModuleDocument::LinkShapesApproximations(module) = document else {
+        return None;
+    };
+    let of_box = |b: &Obb| Volume::Box {
+        half_extents: b.half_extents,
+        offset: b.offset_xyz,
+        rpy: b.offset_rpy,
+    };
+    let of_sphere = |s: &BoundingSphere| Volume::Sphere { radius: s.radius, offset: s.offset_xyz };
     macro_rules! lists {
-        ($module:expr, $sphere:ty) => {{
-            let of_box = |b: &Obb| Volume::Box {
-                half_extents: b.half_extents,
-                offset: b.offset_xyz,
-                rpy: b.offset_rpy,
-            };
-            let of_sphere = |s: &$sphere| Volume::Sphere {
-                radius: s.radius,
-                offset: s.offset_xyz,
-            };
-            lists!($module; Boxes full_obbs of_box, Spheres full_bounding_spheres of_sphere,
-                PieceBoxes decomposition_obbs of_box,
-                PieceSpheres decomposition_bounding_spheres of_sphere)
-        }};
-        ($module:expr; $($kind:ident $field:ident $read:ident),*) => {
-            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, $read)),*]
+        ($($kind:ident $field:ident $read:ident),*) => {
+            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &module.$field, $read)),*]
         };
     }
-    match document {
-        ModuleDocument::LinkShapesApproximations(module) => Some(lists!(module, BoundingSphere)),
-        ModuleDocument::LegacyLinkShapesApproximations(module) => {
-            Some(lists!(module, legacy::BoundingSphere))
-        }
-        _ => None,
-    }
+    Some(lists!(
+        Boxes full_obbs of_box,
+        Spheres full_bounding_spheres of_sphere,
+        PieceBoxes decomposition_obbs of_box,
+        PieceSpheres decomposition_bounding_spheres of_sphere
+    ))
 }
 
 /// The lists of `link_shapes_max_distance_from_origin_module`, in the order of [`ShapeKind::ALL`].
 pub fn max_distances(document: &ModuleDocument) -> Option<[ShapeList<f64>; 6]> {
-    let (ModuleDocument::LinkShapesMaxDistanceFromOrigin(module)
-    | ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module)) = document
-    else {
+    let ModuleDocument::LinkShapesMaxDistanceFromOrigin(module) = document else {
         return None;
     };
     macro_rules! lists {

@@ -2,22 +2,36 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::bounds::{self, Bounds};
 use super::carried_urdf::{CarriedUrdf, NoUrdf};
-use super::chain::{self, Chain};
-use super::connections::{self, Connections};
 use super::dof_layout::DofLayout;
-use super::dofs::{self, Dofs};
 use super::load::Loaded;
 use super::meshes::{self, Meshes};
 use super::mimics::Mimics;
 use super::module::{MetadataFile, Module};
 use super::rigid_groups::RigidGroups;
-use super::robot::{self, Robot};
+use super::robot::{Robot, of_urdf};
 use super::tree::Tree;
 use urdd_directory::root::{Listing, ReadError, Root};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::chain::ChainModule;
+use urdd_format::connections::ConnectionsModule;
+use urdd_format::dof::DofModule;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::root_metadata::RootMetadata;
+use urdd_format::urdf::UrdfModule;
+
+/// Accessors of modules that legacy documents are raised to.
+macro_rules! documents {
+    ($($(#[$doc:meta])* $name:ident -> $kind:ident($type:ty);)*) => {$(
+        $(#[$doc])*
+        pub fn $name(&self) -> Option<&$type> {
+            match self.document(ModuleKind::$kind)? {
+                ModuleDocument::$kind(module) => Some(module),
+                _ => None,
+            }
+        }
+    )*};
+}
 
 /// A loaded URDD, with version-independent views.
 ///
@@ -134,15 +148,37 @@ impl Urdd {
         self.modules().find(|module| module.kind == Some(kind))
     }
 
-    /// The document of a module, if it fits its schema.
+    /// The document of a module, if it fits its schema. That of a legacy module is one of version 1 where it can be.
     pub fn document(&self, kind: ModuleKind) -> Option<&ModuleDocument> {
         self.module(kind)?.document.as_ref()
     }
 
+    /// As [`Urdd::document`], but only of a module of version 1.
+    pub fn document_v1(&self, kind: ModuleKind) -> Option<&ModuleDocument> {
+        self.document(kind).filter(|_| !self.is_legacy(kind))
+    }
+
+    /// Whether a module's version is from before the specification.
+    pub fn is_legacy(&self, kind: ModuleKind) -> bool {
+        self.module(kind).is_some_and(Module::is_legacy)
+    }
+
+    documents! {
+        /// The content of `urdf_module`.
+        description -> Urdf(UrdfModule);
+        /// The content of `dof_module`. A legacy module has no mimics and no descriptions of its DOFs.
+        dofs -> Dof(DofModule);
+        /// The content of `chain_module`. The joints of a legacy module have no motion: see [`crate::consumer`].
+        chain -> Chain(ChainModule);
+        /// The content of `connections_module`. A legacy module has only `link_connection_paths`.
+        connections -> Connections(ConnectionsModule);
+        /// The content of `bounds_module`. A legacy module has only bounds.
+        bounds -> Bounds(BoundsModule);
+    }
+
     /// The robot of `urdf_module` in any version, or that of the source URDF ([`Urdd::with_robot`]).
     pub fn robot(&self) -> Option<&Robot> {
-        let make = || robot::view(self.document(ModuleKind::Urdf)?);
-        self.robot.get_or_init(make).as_ref()
+        self.robot.get_or_init(|| self.description().map(of_urdf)).as_ref()
     }
 
     /// The kinematic tree of [`Urdd::robot`]; `None` if its joints do not form a tree.
@@ -168,26 +204,6 @@ impl Urdd {
         let version = || self.module(ModuleKind::Dof)?.version.as_deref();
         let make = || Some(DofLayout::new(self.robot()?, version() == Some("0.0.1")));
         self.dof_layout.get_or_init(make).as_ref()
-    }
-
-    /// View of `dof_module` in any version.
-    pub fn dofs(&self) -> Option<Dofs<'_>> {
-        dofs::view(self.document(ModuleKind::Dof)?)
-    }
-
-    /// View of `chain_module` in any version.
-    pub fn chain(&self) -> Option<Chain<'_>> {
-        chain::view(self.document(ModuleKind::Chain)?)
-    }
-
-    /// View of `connections_module` in any version.
-    pub fn connections(&self) -> Option<Connections<'_>> {
-        connections::view(self.document(ModuleKind::Connections)?)
-    }
-
-    /// View of `bounds_module` in any version.
-    pub fn bounds(&self) -> Option<Bounds<'_>> {
-        bounds::view(self.document(ModuleKind::Bounds)?)
     }
 
     /// View of a mesh module in any version. `None` for `original_meshes_module` of version 1, which is not organised

@@ -12,14 +12,13 @@ use thiserror::Error;
 use super::cause::at;
 use super::check::Check;
 use super::code::Code;
-use super::effect::{At, Effect};
+use super::effect::Effect;
 use super::examined::Examined;
+use super::file_error::{self, FileError};
 use super::places::retain;
 use super::run::Run;
 use super::skip::SkipReason;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::regular;
-use urdd_format::escape;
+use urdd_directory::position::Position;
 use urdd_format::report::{Kind, StaleIgnore};
 
 /// The only version of the file.
@@ -40,31 +39,6 @@ pub struct Baseline {
 #[error("it is not a baseline of urdd ({0}); `urdd lint --write-baseline FILE` writes one")]
 pub struct BaselineError(String);
 
-/// Why a baseline file cannot be used.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}: {fault}", escape::line(&file.display().to_string()))]
-pub struct BaselineFileError {
-    /// The file, as it was named.
-    pub file: PathBuf,
-    /// What is wrong with it.
-    pub fault: BaselineFileFault,
-}
-
-/// What is wrong with a baseline file.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum BaselineFileFault {
-    /// It cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// Not UTF-8.
-    #[error("it is not UTF-8")]
-    NotUtf8,
-    /// Not a baseline.
-    #[error(transparent)]
-    Content(#[from] BaselineError),
-}
-
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -78,14 +52,11 @@ impl Baseline {
     ///
     /// # Errors
     /// If it cannot be read, or is not a baseline.
-    pub fn read(file: &Path) -> Result<Self, BaselineFileError> {
-        let read = || {
-            let bytes = regular::read(file, MAX_BASELINE_BYTES)?;
-            let text = String::from_utf8(bytes).map_err(|_| BaselineFileFault::NotUtf8)?;
-            let folder = file.parent().unwrap_or(Path::new("."));
-            Ok(Baseline::from_json(&text, folder)?)
-        };
-        read().map_err(|fault| BaselineFileError { file: file.to_owned(), fault })
+    pub fn read(file: &Path) -> Result<Self, FileError<BaselineError>> {
+        let folder = file.parent().unwrap_or(Path::new("."));
+        file_error::read(file, MAX_BASELINE_BYTES, |text| {
+            Baseline::from_json(text, folder).map_err(|error| (None, error))
+        })
     }
 
     /// Reads the text of a baseline file that is in `folder`.
@@ -180,7 +151,7 @@ fn in_the_baseline() -> SkipReason {
 fn leave_out(
     check: &mut Check,
     left: &mut BTreeMap<String, usize>,
-    known: &mut HashSet<(Code, At)>,
+    known: &mut HashSet<(Code, Position)>,
 ) {
     let code = check.rule.code;
     retain(check, in_the_baseline(), |_, place| {
@@ -203,9 +174,6 @@ fn key(code: &str, subject: Option<&str>) -> String {
 }
 
 fn resolved(path: &Path) -> PathBuf {
-    let path = match path.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => path,
-    };
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

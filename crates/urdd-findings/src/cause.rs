@@ -4,28 +4,19 @@ use std::collections::{HashMap, HashSet};
 
 use super::check::{Check, Outcome};
 use super::code::Code;
-use super::effect::{At, Effect};
-use super::finding::Finding;
+use super::effect::Effect;
 use super::places::{parted, retain};
 use super::skip::SkipReason;
+use urdd_directory::position::Position;
 use urdd_format::report::{Place, Severity};
 
 /// Where a place is.
-pub fn at(place: &Place) -> Option<At> {
-    Some((place.line?.get(), place.column?.get()))
-}
-
-/// All places of a finding, each with what it says.
-pub fn said(finding: &Finding) -> impl Iterator<Item = (&Place, &str)> {
-    let all = std::iter::once(&finding.place).chain(&finding.more);
-    all.map(|place| {
-        let message = place.message.as_ref().unwrap_or(&finding.message);
-        (place, message.as_str())
-    })
+pub fn at(place: &Place) -> Option<Position> {
+    Some(Position { line: place.line?.0, column: place.column?.0 })
 }
 
 /// What findings lead to: its severities and places, by rule and place.
-type Effects = HashMap<(Code, At), Vec<(Severity, Place)>>;
+type Effects = HashMap<(Code, Position), Vec<(Severity, Place)>>;
 
 /// Leaves out what follows from a reported cause. Causes name their effects, and are as severe as the worst of them. A rule
 /// with effects alone was prevented by the rule of the cause.
@@ -33,7 +24,11 @@ pub(super) fn fold(checks: &mut [Check]) {
     if checks.iter().all(|check| check.effects.is_empty()) {
         return;
     }
-    let reported: HashSet<(Code, At)> = checks.iter().flat_map(reported).collect();
+    let place = |check: &Check, (place, _): (&Place, &str)| Some((check.rule.code, at(place)?));
+    let reported: HashSet<(Code, Position)> = checks
+        .iter()
+        .flat_map(|check| check.said().filter_map(move |said| place(check, said)))
+        .collect();
     let mut effects = Effects::new();
     let mut prevented: HashMap<Code, Code> = HashMap::new();
     for check in &mut *checks {
@@ -72,11 +67,6 @@ pub(super) fn fold(checks: &mut [Check]) {
     }
 }
 
-fn reported(check: &Check) -> impl Iterator<Item = (Code, At)> {
-    let places = check.findings.iter().flat_map(said);
-    places.filter_map(|(place, _)| Some((check.rule.code, at(place)?)))
-}
-
 /// Adds what findings lead to.
 fn name_effects(check: &mut Check, effects: &Effects) {
     let code = check.rule.code;
@@ -93,9 +83,8 @@ fn name_effects(check: &mut Check, effects: &Effects) {
         for (worst, mut group) in groups {
             group.count += std::mem::take(&mut cut);
             group.severity = worst.or(group.severity);
-            for place in std::iter::once(&mut group.place).chain(&mut group.more) {
-                let effects = of(place).into_iter().flatten();
-                let effects: Vec<Place> = effects.map(|(_, effect)| effect.clone()).collect();
+            for place in group.places_mut() {
+                let effects = of(place).into_iter().flatten().map(|(_, effect)| effect.clone());
                 place.related.extend(effects);
             }
             check.findings.push(group);

@@ -10,7 +10,7 @@ use super::part::NotVerified;
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use super::worst::worst_first;
-use urdd_format::report::Severity;
+use urdd_format::report::{Place, Severity};
 
 /// The outcome of a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,6 +58,11 @@ impl Check {
             faulted: Faulted::default(),
             scope: Scope::default(),
         }
+    }
+
+    /// All places of its findings, each with what it says.
+    pub fn said(&self) -> impl Iterator<Item = (&Place, &str)> {
+        self.findings.iter().flat_map(Finding::said)
     }
 
     /// A rule that does not run.

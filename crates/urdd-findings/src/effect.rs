@@ -1,17 +1,15 @@
 //! What a check says of findings that follow from others.
 
 use super::code::Code;
-
-/// A line and a column.
-pub type At = (usize, usize);
+use urdd_directory::position::Position;
 
 /// A finding of a rule that goes away when the fault of another one is mended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Effect {
     /// Where it is.
-    pub at: At,
+    pub at: Position,
     /// What it says.
     pub message: String,
     /// The finding that it follows from: its rule, and where it is.
-    pub cause: (Code, At),
+    pub cause: (Code, Position),
 }

@@ -1,9 +1,9 @@
 //! The result of examining one URDD or URDF.
 
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::check::{Check, panic_message};
-use urdd_directory::root::ReadError;
 use urdd_format::report::{Kind, Size, Urdd, Verdict};
 
 /// One examined URDD or URDF.
@@ -23,10 +23,10 @@ impl Examined {
 
     /// Examines a URDD or URDF. If it cannot be read, or if the program crashes outside a rule, its report says so; others
     /// still have their reports.
-    pub fn caught(
+    pub fn caught<E: Display>(
         kind: Kind,
         name: &str,
-        examine: impl FnOnce() -> Result<Examined, ReadError>,
+        examine: impl FnOnce() -> Result<Examined, E>,
     ) -> Examined {
         let without_checks =
             |verdict, reason| Examined::without_checks(kind, name, verdict, reason);

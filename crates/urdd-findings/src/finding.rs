@@ -125,9 +125,9 @@ impl Finding {
         self
     }
 
-    /// Adds a change that mends it.
-    pub fn fix(mut self, fix: Fix) -> Self {
-        self.place.fixes.push(fix);
+    /// Adds a change that mends it, if there is one.
+    pub fn fix(mut self, fix: impl Into<Option<Fix>>) -> Self {
+        self.place.fixes.extend(fix.into());
         self
     }
 
@@ -135,6 +135,21 @@ impl Finding {
     pub fn count(mut self, count: usize) -> Self {
         self.count = count;
         self
+    }
+
+    /// All its places, the first one first.
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        std::iter::once(&self.place).chain(&self.more)
+    }
+
+    /// All its places, each with what it says.
+    pub fn said(&self) -> impl Iterator<Item = (&Place, &str)> {
+        self.places().map(|place| (place, place.message.as_deref().unwrap_or(&self.message)))
+    }
+
+    /// As [`Finding::places`], to change them.
+    pub fn places_mut(&mut self) -> impl Iterator<Item = &mut Place> {
+        std::iter::once(&mut self.place).chain(&mut self.more)
     }
 
     /// Adds it to a rule's findings.

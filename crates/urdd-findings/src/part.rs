@@ -20,17 +20,6 @@ pub enum Part {
     },
 }
 
-/// The kinds of meshes of a link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PartKind {
-    /// Plain meshes.
-    Plain,
-    /// Convex hulls.
-    Hull,
-    /// Convex pieces.
-    Piece,
-}
-
 /// Why a part was not verified by a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Why {
@@ -70,10 +59,7 @@ impl Part {
 
     /// The hull or piece that a shape is or bounds.
     pub fn of_shape(kind: ShapeKind, link: usize, piece: usize) -> Part {
-        match kind.is_of_links() {
-            true => Part::Hull(link),
-            false => Part::Piece { link, piece },
-        }
+        if kind.is_of_links() { Part::Hull(link) } else { Part::Piece { link, piece } }
     }
 
     /// Its module, link and piece (0 if links have one mesh).
@@ -89,15 +75,6 @@ impl Part {
     pub fn link(self) -> usize {
         match self {
             Part::Plain(link) | Part::Hull(link) | Part::Piece { link, .. } => link,
-        }
-    }
-
-    /// Which of the link's meshes.
-    pub fn kind(self) -> PartKind {
-        match self {
-            Part::Plain(_) => PartKind::Plain,
-            Part::Hull(_) => PartKind::Hull,
-            Part::Piece { .. } => PartKind::Piece,
         }
     }
 }

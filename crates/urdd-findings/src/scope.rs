@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::code::Code;
-use super::part::{NotVerified, Part, PartKind, Why};
+use super::part::{NotVerified, Part, Why};
 
 /// The parts in which a rule found a fault.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -29,9 +29,9 @@ impl Faulted {
         self.elsewhere
     }
 
-    /// Whether a part of this kind, or something besides single parts, is faulty.
-    pub fn any(&self, kind: PartKind) -> bool {
-        self.elsewhere || self.parts.iter().any(|part| part.kind() == kind)
+    /// Whether a convex piece, or something besides single parts, is faulty.
+    pub fn has_pieces(&self) -> bool {
+        self.elsewhere || self.parts.iter().any(|part| matches!(part, Part::Piece { .. }))
     }
 }
 

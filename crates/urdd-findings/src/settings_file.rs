@@ -1,15 +1,9 @@
 //! Reads a file with settings: `urdd.toml`.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
+use super::file_error::{self, FileError};
 use super::settings::{Parsed, Settings, SettingsError};
-use urdd_directory::position::Position;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::regular;
-use urdd_format::escape;
 
 /// The usual name of a settings file.
 pub const SETTINGS_FILE: &str = "urdd.toml";
@@ -35,30 +29,7 @@ pub struct SettingsFile {
 }
 
 /// What is wrong with a settings file, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SettingsFileError {
-    /// The file, as it was named.
-    pub file: PathBuf,
-    /// Where in the file.
-    pub at: Option<Position>,
-    /// What is wrong.
-    pub fault: SettingsFileFault,
-}
-
-/// What is wrong with a settings file.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum SettingsFileFault {
-    /// It cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// Not UTF-8.
-    #[error("it is not UTF-8")]
-    NotUtf8,
-    /// It has something that is not a setting.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-}
+pub type SettingsFileError = FileError<SettingsError>;
 
 impl SettingsFile {
     /// Reads a settings file.
@@ -66,30 +37,11 @@ impl SettingsFile {
     /// # Errors
     /// If it cannot be read, or [`Settings::from_toml`] refuses it.
     pub fn read(file: &Path) -> Result<SettingsFile, SettingsFileError> {
-        let refused = |at, fault| SettingsFileError { file: file.to_owned(), at, fault };
-        let bytes = regular::read(file, MAX_SETTINGS_BYTES);
-        let bytes = bytes.map_err(|error| refused(None, error.into()))?;
-        let text = String::from_utf8(bytes);
-        let text = text.map_err(|_| refused(None, SettingsFileFault::NotUtf8))?;
-        let parsed = Parsed::new(&text);
-        let parsed = parsed.map_err(|(at, error)| refused(at, error.into()))?;
+        let parsed = file_error::read(file, MAX_SETTINGS_BYTES, Parsed::new)?;
         let folder = file.parent().unwrap_or(Path::new(""));
         Ok(SettingsFile {
             settings: parsed.settings,
             baseline: parsed.baseline.map(|baseline| folder.join(baseline)),
         })
-    }
-}
-
-impl std::error::Error for SettingsFileError {}
-
-impl fmt::Display for SettingsFileError {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let shown = self.file.display().to_string();
-        write!(out, "{}", escape::line(&shown))?;
-        if let Some(at) = self.at {
-            write!(out, ":{at}")?;
-        }
-        write!(out, ": {}", self.fault)
     }
 }

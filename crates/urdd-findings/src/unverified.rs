@@ -39,7 +39,7 @@ impl Examined {
         for check in &self.checks {
             let why = match &check.outcome {
                 Outcome::Skipped(reason) if reason.is_obstacle() => reason.to_string(),
-                Outcome::Crashed(_) => format!("{} crashed", check.rule.code),
+                Outcome::Crashed(_) => SkipReason::Crashed(check.rule.code).to_string(),
                 _ => continue,
             };
             if check.rule.phase == Phase::Geometry {
@@ -61,25 +61,23 @@ impl Examined {
     pub fn model_not_verified(&self) -> Option<ModelNotVerified> {
         let name = ModuleKind::SelfCollisionModel.name();
         let counting = [Code::LRN010, Code::LRN011];
-        let checks = self.checks.iter();
-        let checks: Vec<_> = checks.filter(|check| counting.contains(&check.rule.code)).collect();
-        let mut failed = checks.iter().map(|check| &check.outcome);
+        let checks = self.checks.iter().filter(|check| counting.contains(&check.rule.code));
+        let mut failed = checks.clone().map(|check| &check.outcome);
         let mut modules = self.report.modules.iter();
         if failed.any(|outcome| *outcome == Outcome::Failed)
             || modules.all(|module| module.name != name)
         {
             return None;
         }
-        let why = |check: &&Check| match &check.outcome {
+        let why = |check: &Check| match &check.outcome {
             Outcome::Skipped(SkipReason::Ignored(_) | SkipReason::ForOthers(_)) => None,
             Outcome::Skipped(reason) => Some((check.rule.code, reason.to_string())),
             Outcome::Crashed(_) => {
-                let code = check.rule.code;
-                Some((code, format!("{code} crashed")))
+                Some((check.rule.code, SkipReason::Crashed(check.rule.code).to_string()))
             }
             Outcome::Passed | Outcome::Failed => None,
         };
-        let (codes, reasons) = codes_and_reasons(checks.iter().filter_map(why).collect());
+        let (codes, reasons) = codes_and_reasons(checks.filter_map(why).collect());
         (!codes.is_empty()).then_some(ModelNotVerified { codes, reasons })
     }
 }

@@ -2,10 +2,10 @@
 //! that it depends on are the same.
 
 use super::context::Context;
-use super::learned::TRAINING;
 use super::mesh_stages::{DECOMPOSITION, decomposition};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
+use urdd_learned::train::VERSION;
 
 /// The inputs of a module as text; `None` if it is always built, because that takes no time. The text changes whenever the
 /// stage builds something else from the same modules.
@@ -41,7 +41,7 @@ pub(super) fn text(kind: ModuleKind, context: &Context) -> Option<String> {
         ModuleKind::LinkShapesSkips => {
             serde_json::json!((context.skipped_reasons(), &context.edits.kept)).to_string()
         }
-        ModuleKind::SelfCollisionModel => format!("{TRAINING} {:?}", settings.model_effort),
+        ModuleKind::SelfCollisionModel => format!("{VERSION} {:?}", settings.model_effort),
         _ => return None,
     })
 }

@@ -1,7 +1,6 @@
 //! The stage that trains `self_collision_model_module`: SPEC 8.8.
 
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
 
 use sha2::{Digest, Sha256 as Hash};
 
@@ -9,26 +8,14 @@ use super::context::Context;
 use super::error::GenerateError;
 use super::made::{Digests, Made, made};
 use super::meshes::written::WrittenMesh;
-use crate::train::{self, MOST_PAIRS, NoModel, Subject};
 use urdd_directory::writer::sha256;
-use urdd_format::chain::ChainModule;
-use urdd_format::dof::Quantity;
-use urdd_format::escape;
-use urdd_format::index::DofIdx;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::Sha256;
-use urdd_format::self_collision_model::{AngleInput, LengthInput, ModelInput, RotationVectorInput};
-use urdd_format::urdf::JointType;
 use urdd_geometry::convex::BodyPairs;
+use urdd_learned::train::{MAX_PAIRS, NoModel, Subject, train};
 use urdd_source::note::NoteKind;
-
-/// Distances are clipped at this fraction of the largest distance between two hulls.
-const CLIP: f64 = 1.0 / 16.0;
-
-/// Version of the training; changed whenever the trained model changes.
-pub(super) const TRAINING: &str = "2";
 
 /// Trains the model. Without a document, but with a note, if a model would be of no use.
 pub(super) fn self_collision_model(
@@ -40,22 +27,21 @@ pub(super) fn self_collision_model(
 ) -> Result<Made, GenerateError> {
     let pairs = pairs(pieces, skips).map_err(|error| context.unmeasurable(error))?;
     let trained_on = trained_on(context, skips, digests);
-    let model = inputs(context, &pairs).map_err(NoModel::OfNoUse).and_then(|inputs| {
-        let subject = Subject {
-            kinematics: &context.kinematics,
-            space: &context.space,
-            inputs,
-            pairs: &pairs,
-            clip_distance: clip_distance(statistics),
-            trained_on,
-            effort: context.settings.model_effort,
-        };
-        let progress = |done: usize, total: usize| {
-            context.progress.part(ModuleKind::SelfCollisionModel, done, total);
-        };
-        train::train(subject, &context.settings.cancellation, &progress)
-    });
-    match model {
+    let distances = statistics.full_convex_hulls.max_distances.iter().flatten();
+    let subject = Subject {
+        chain: &context.chain,
+        dof: &context.dof,
+        kinematics: &context.kinematics,
+        space: &context.space,
+        pairs: &pairs,
+        largest_distance: distances.copied().fold(0.0, f64::max),
+        trained_on,
+        effort: context.settings.model_effort,
+    };
+    let progress = |done: usize, total: usize| {
+        context.progress.part(ModuleKind::SelfCollisionModel, done, total);
+    };
+    match train(subject, &context.settings.cancellation, &progress) {
         Ok(module) => made(&module),
         Err(NoModel::OfNoUse(useless)) => {
             let problem = format!("a self-collision model would be of no use: {useless}");
@@ -104,7 +90,7 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
     for (i, a) in links.iter().enumerate() {
         for (j, b) in links.iter().enumerate().skip(i + 1) {
             // Beyond this number no model is trained, so the exact number does not matter.
-            if pairs.bodies().len() > MOST_PAIRS {
+            if pairs.bodies().len() > MAX_PAIRS {
                 return Ok(pairs);
             }
             let skipped = |a: usize, b: usize| match &skips.decomposition_convex_hulls_skips {
@@ -115,11 +101,6 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
         }
     }
     Ok(pairs)
-}
-
-fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
-    let distances = &statistics.full_convex_hulls.max_distances;
-    train::rounded(CLIP * distances.iter().flatten().copied().fold(0.0, f64::max))
 }
 
 /// SHA-256 over the concatenated hashes of all files that the model depends on: SPEC 8.8.7.
@@ -139,62 +120,4 @@ fn trained_on(context: &Context, skips: &LinkShapesSkipsModule, digests: &Digest
         text.push('\n');
     }
     sha256(&Hash::digest(text))
-}
-
-/// The network's inputs: the DOFs that move the links of a pair relative to each other.
-fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, String> {
-    let dofs: BTreeSet<usize> = pairs
-        .bodies()
-        .flat_map(|links| between(&context.chain, links))
-        .flat_map(|joint| {
-            let own = context.dof.joint_idx_to_dof_idxs_mapping[joint].iter();
-            let mimic = context.dof.joint_idx_to_mimic_mapping[joint].as_ref();
-            let followed = mimic.and_then(|mimic| mimic.dof_idx.as_ref());
-            own.chain(followed).map(|dof| dof.get())
-        })
-        .collect();
-    let mut inputs = Vec::new();
-    let mut turned: BTreeSet<usize> = BTreeSet::new();
-    for dof in dofs {
-        let of = &context.dof.dofs[dof];
-        let joint = of.joint_idx.get();
-        let joint_type = context.chain.joints_in_chain[joint].joint_type;
-        let dofs = &context.dof.joint_idx_to_dof_idxs_mapping[joint];
-        let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
-        match (of.quantity, joint_type) {
-            (Quantity::Length, JointType::Floating | JointType::Planar) => {
-                let name = escape::line(&of.name);
-                return Err(format!("DOF `{name}` is a length without limits"));
-            }
-            (Quantity::Length, _) => {
-                let [lower, upper] = context.bounds.bounds[dof];
-                let half_range = train::rounded(0.5 * (upper - lower).abs());
-                inputs.push(ModelInput::Length(LengthInput {
-                    dof_idx: index(dof),
-                    middle: train::rounded(0.5 * lower + 0.5 * upper),
-                    half_range: if half_range > 0.0 { half_range } else { 1.0 },
-                }));
-            }
-            (Quantity::Angle, JointType::Floating | JointType::Spherical) => {
-                if let (true, Some(dof_idxs)) = (turned.insert(joint), dofs.last_chunk()) {
-                    let dof_idxs = *dof_idxs;
-                    inputs.push(ModelInput::RotationVector(RotationVectorInput { dof_idxs }));
-                }
-            }
-            (Quantity::Angle, _) => {
-                inputs.push(ModelInput::Angle(AngleInput { dof_idx: index(dof) }));
-            }
-        }
-    }
-    Ok(inputs)
-}
-
-fn between(chain: &ChainModule, [a, b]: [usize; 2]) -> Vec<usize> {
-    let links = &chain.links_in_chain;
-    let above = |link: &usize| Some(links[*link].parent_link_idx?.get());
-    let joints = |link: usize| -> BTreeSet<usize> {
-        let path = std::iter::successors(Some(link), above);
-        path.filter_map(|link| Some(links[link].parent_joint_idx?.get())).collect()
-    };
-    joints(a).symmetric_difference(&joints(b)).copied().collect()
 }

@@ -55,7 +55,6 @@ mod shape_stages;
 pub mod shapes;
 mod size;
 mod stages;
-pub mod train;
 
 pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh};
@@ -67,6 +66,7 @@ pub use robot::{Generated, UrddFiles, generate, generate_in_memory, generate_tex
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, Pieces, Settings};
 pub(crate) use size::MOST_LINKS;
+pub use urdd_learned::train::Effort;
 pub use urdd_source::{
     Files as SourceFiles, MAX_SOURCE_BYTES, PackagePathError, Packages, Settings as SourceSettings,
     SourceError, XacroSettings, fault, note,

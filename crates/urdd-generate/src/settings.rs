@@ -1,11 +1,11 @@
 //! Settings of the generator.
 
 use super::selection::Selection;
-use crate::train::Effort;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
+use urdd_learned::train::Effort;
 
 /// Settings of the generator.
 #[derive(Debug, Clone)]

@@ -8,13 +8,13 @@ use std::str::FromStr;
 use roxmltree::{Document, Node};
 
 use urdd_directory::position::{LineIndex, Position};
+use urdd_findings::cause::at;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::places::retain;
 use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::report::StaleIgnore;
 
-/// A code in a comment.
 struct Allow {
     written: String,
     /// `None`: there is no such rule.
@@ -34,14 +34,11 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
         let code = check.rule.code;
         let reason = SkipReason::Ignored("a comment in the file allows it".to_owned());
         retain(check, reason, |_, place| {
-            let (Some(line), Some(column)) = (place.line, place.column) else {
-                return true;
-            };
-            let at = (line.get(), column.get());
+            let Some(at) = at(place) else { return true };
             let mut keeps = true;
             for allow in &mut allows {
-                let (from, to) = (numbers(allow.from), numbers(allow.to));
-                if allow.codes.is_some_and(|codes| codes.holds(code)) && from <= at && at <= to {
+                let is_inside = allow.from <= at && at <= allow.to;
+                if is_inside && allow.codes.is_some_and(|codes| codes.holds(code)) {
                     (allow.is_used, keeps) = (true, false);
                 }
             }
@@ -64,14 +61,9 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
         .collect()
 }
 
-fn numbers(position: Position) -> (usize, usize) {
-    (position.line as usize, position.column as usize)
-}
-
 fn allows(document: &Document) -> Vec<Allow> {
-    let comments = document.descendants().filter(Node::is_comment);
-    let comments = comments.filter_map(|node| Some((node, codes_of(node.text()?)?)));
-    let comments: Vec<_> = comments.collect();
+    let nodes = document.descendants().filter(Node::is_comment);
+    let comments: Vec<_> = nodes.filter_map(|node| Some((node, codes_of(node.text()?)?))).collect();
     if comments.is_empty() {
         return Vec::new();
     }
@@ -101,16 +93,14 @@ fn allows(document: &Document) -> Vec<Allow> {
 pub fn codes_of(text: &str) -> Option<Vec<&str>> {
     let listed = text.trim().strip_prefix("urdd:")?.trim_start().strip_prefix("allow")?;
     let mut codes = Vec::new();
-    let mut rest = listed.strip_prefix(char::is_whitespace)?.trim_start();
-    loop {
-        let end = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
-        let (code, after) = rest.split_at(end);
-        if !code.is_empty() {
-            codes.push(code);
-        }
-        match after.trim_start().strip_prefix(',') {
-            Some(next) if !code.is_empty() => rest = next.trim_start(),
-            _ => return Some(codes),
+    for part in listed.strip_prefix(char::is_whitespace)?.split(',') {
+        let part = part.trim();
+        let end = part.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(part.len());
+        codes.extend(Some(&part[..end]).filter(|code| !code.is_empty()));
+        // What follows the code is the reason.
+        if end == 0 || end < part.len() {
+            break;
         }
     }
+    Some(codes)
 }

@@ -2,14 +2,13 @@
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
+use super::inertial::mass;
 use urdd_document::robot::{Origin, Robot};
 use urdd_document::tree::Tree;
 use urdd_format::urdf::JointType;
 
-/// The bodies of a robot.
 #[derive(Debug)]
 pub struct Bodies {
-    /// The kinematic tree.
     pub tree: Tree,
     /// The topmost link of each link's body.
     pub top: Vec<usize>,
@@ -55,10 +54,7 @@ impl Bodies {
 /// their inertia has no effect. A base is fixed if it is called `world`, or has no mass to move by.
 pub fn slide_only(robot: &Robot, bodies: &Bodies) -> Vec<bool> {
     let root = bodies.tree.root;
-    let has_mass = |link: usize| {
-        let inertial = robot.links[link].inertial.as_ref();
-        inertial.and_then(|inertial| inertial.mass) > Some(0.0)
-    };
+    let has_mass = |link: usize| mass(&robot.links[link]) > Some(0.0);
     let is_fixed = robot.links[root].name == "world" || !bodies.members(root).any(has_mass);
     let mut slides = vec![false; robot.links.len()];
     for &link in &bodies.tree.order {

@@ -7,11 +7,11 @@ use std::hash::Hash;
 use super::offset::offset;
 use super::subject::Subject;
 use super::unknown::{Unknown, What};
-use urdd_directory::position::LineIndex;
-use urdd_findings::cause::{at, said};
+use urdd_directory::position::{LineIndex, Position};
+use urdd_findings::cause::at;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
-use urdd_findings::effect::{At, Effect};
+use urdd_findings::effect::Effect;
 use urdd_format::report::Place;
 use urdd_xml::element::{Edit, apply};
 
@@ -31,9 +31,8 @@ const OF_ONE_PART: [(Code, Code); 7] = [
     (Code::SRC006, Code::LNT017),
 ];
 
-/// A misspelt name.
 struct Misspelling {
-    at: At,
+    at: Position,
     subject: Option<String>,
     meant: &'static str,
     edits: Vec<Edit>,
@@ -56,7 +55,7 @@ pub fn mark_misspelt(
     checks: &mut [Check],
     again: impl FnOnce(&str) -> Option<Vec<Check>>,
 ) {
-    let misspelt: HashSet<At> =
+    let misspelt: HashSet<Position> =
         reported(checks, Code::LNT040).filter_map(|(place, _)| at(place)).collect();
     let mut misspellings = misspellings(urdf);
     misspellings.retain(|one| misspelt.contains(&one.at));
@@ -68,20 +67,27 @@ pub fn mark_misspelt(
     let Some(others) = again(&mended) else {
         return;
     };
-    let moved = Moved::new(urdf.text, &mended, edits);
+    let (from, to) = (LineIndex::new(urdf.text), LineIndex::new(&mended));
+    let moved = |at| {
+        let before = offset(urdf.text, &from, at)?;
+        let mut offset = before;
+        for edit in edits.iter().filter(|edit| edit.range.start < before) {
+            offset = (offset + edit.text.len()).checked_sub(edit.range.len())?;
+        }
+        Some(to.position(offset))
+    };
     for check in checks.iter_mut().filter(|check| check.rule.code != Code::LNT040) {
         let mut others = others.iter();
         let other = others.find(|other| other.rule.code == check.rule.code);
         let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
         if let Some(other) = other.filter(ran) {
-            let gone = gone(check, other, &moved);
-            let gone = gone.into_iter().map(|(place, at, message)| Effect {
+            let effect = |(place, at, message): (&Place, Position, String)| Effect {
                 at,
                 cause: (Code::LNT040, cause(&misspellings, place, &message)),
                 message,
-            });
-            let gone: Vec<Effect> = gone.collect();
-            check.effects.extend(gone);
+            };
+            let effects = gone(check, other, moved).into_iter().map(effect);
+            check.effects.extend(effects.collect::<Vec<_>>());
         }
     }
 }
@@ -93,8 +99,8 @@ fn follow<K: Eq + Hash>(
     cause: Code,
     key: impl Fn(&Place) -> Option<K>,
 ) {
-    let causes = reported(checks, cause).filter_map(|(place, _)| Some((key(place)?, at(place)?)));
-    let causes: HashMap<K, At> = causes.collect();
+    let places = reported(checks, cause).filter_map(|(place, _)| Some((key(place)?, at(place)?)));
+    let causes: HashMap<K, Position> = places.collect();
     let effects = reported(checks, effect).filter_map(|(place, message)| {
         Some(Effect {
             at: at(place)?,
@@ -110,8 +116,7 @@ fn follow<K: Eq + Hash>(
 
 /// The places of a rule's findings, with what they say.
 fn reported(checks: &[Check], code: Code) -> impl Iterator<Item = (&Place, &str)> {
-    let checks = checks.iter().filter(move |check| check.rule.code == code);
-    checks.flat_map(|check| &check.findings).flat_map(said)
+    checks.iter().filter(move |check| check.rule.code == code).flat_map(Check::said)
 }
 
 /// What is misspelt, but not what cannot be renamed: two attributes of one name are no XML.
@@ -130,61 +135,37 @@ fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
                 (urdf.at_attribute(node, name, ""), range.into_iter().collect())
             }
         };
-        let edits = ranges.into_iter().map(|range| Edit { range, text: meant.to_owned() });
-        let edits: Vec<Edit> = edits.collect();
+        let edit = |range| Edit { range, text: meant.to_owned() };
         found.extend(at(&finding.place).map(|at| Misspelling {
             at,
             subject: finding.place.subject,
             meant,
-            edits,
+            edits: ranges.into_iter().map(edit).collect(),
         }));
     }
     found
 }
 
-/// Places of a text in the text that edits make of it.
-struct Moved<'a> {
-    from: LineIndex<'a>,
-    text: &'a str,
-    to: LineIndex<'a>,
-    edits: Vec<Edit>,
-}
-
-impl<'a> Moved<'a> {
-    fn new(from: &'a str, to: &'a str, edits: Vec<Edit>) -> Self {
-        Moved { from: LineIndex::new(from), text: from, to: LineIndex::new(to), edits }
-    }
-
-    fn at(&self, (line, column): At) -> Option<At> {
-        let mut offset = offset(self.text, &self.from, line, column)?;
-        let before = offset;
-        for edit in self.edits.iter().filter(|edit| edit.range.start < before) {
-            offset = (offset + edit.text.len()).checked_sub(edit.range.len())?;
-        }
-        let position = self.to.position(offset);
-        Some((position.line as usize, position.column as usize))
-    }
-}
-
-/// The places of a rule's findings that are not there among the others, each with what it says. Of a link or joint, no more
-/// than it has fewer findings: one that only says something else is still there.
-fn gone<'c>(check: &'c Check, other: &Check, moved: &Moved) -> Vec<(&'c Place, At, String)> {
-    fn places(check: &Check) -> impl Iterator<Item = (&Place, &str)> {
-        check.findings.iter().flat_map(said)
-    }
-    let left: HashSet<(At, &str)> =
-        places(other).filter_map(|(place, message)| Some((at(place)?, message))).collect();
+/// The places of a rule's findings that are not there among the others, where `moved` says that they would be; each with
+/// what it says. Of a link or joint, no more than it has fewer findings: one that only says something else is still there.
+fn gone<'c>(
+    check: &'c Check,
+    other: &Check,
+    moved: impl Fn(Position) -> Option<Position>,
+) -> Vec<(&'c Place, Position, String)> {
+    let left: HashSet<(Position, &str)> =
+        other.said().filter_map(|(place, message)| Some((at(place)?, message))).collect();
     let mut fewer: HashMap<Option<&str>, usize> = HashMap::new();
-    for (place, _) in places(check) {
+    for (place, _) in check.said() {
         *fewer.entry(place.subject.as_deref()).or_default() += 1;
     }
-    for (place, _) in places(other) {
+    for (place, _) in other.said() {
         let count = fewer.entry(place.subject.as_deref()).or_default();
         *count = count.saturating_sub(1);
     }
     let mut gone = Vec::new();
-    for (place, message) in places(check) {
-        let Some((here, there)) = at(place).and_then(|at| Some((at, moved.at(at)?))) else {
+    for (place, message) in check.said() {
+        let Some((here, there)) = at(place).and_then(|at| Some((at, moved(at)?))) else {
             continue;
         };
         let count = fewer.entry(place.subject.as_deref()).or_default();
@@ -198,12 +179,12 @@ fn gone<'c>(check: &'c Check, other: &Check, moved: &Moved) -> Vec<(&'c Place, A
 
 /// The misspelling that a finding follows from: one in the same link or joint, if there is one; and one whose right name the
 /// finding mentions.
-fn cause(misspellings: &[Misspelling], place: &Place, message: &str) -> At {
+fn cause(misspellings: &[Misspelling], place: &Place, message: &str) -> Position {
     let rank = |one: &&Misspelling| {
         let is_near = place.subject.is_some() && one.subject == place.subject;
         (is_near, message.contains(one.meant))
     };
     // The first of the best.
     let best = misspellings.iter().rev().max_by_key(rank);
-    best.map_or((1, 1), |best| best.at)
+    best.map_or(Position { line: 1, column: 1 }, |best| best.at)
 }

@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use urdd_xml::element::{attribute, children};
+use urdd_xml::element::children;
 
 /// The joint types that have an axis.
 pub const WITH_AXIS: [&str; 4] = ["revolute", "continuous", "prismatic", "planar"];
@@ -12,11 +12,6 @@ pub const ONE_DOF: [&str; 3] = ["revolute", "continuous", "prismatic"];
 /// The first child element of a name.
 pub fn child<'a>(node: Node<'a, 'a>, wanted: &str) -> Option<Node<'a, 'a>> {
     children(node).find(|(name, _)| *name == wanted).map(|(_, child)| child)
-}
-
-/// The text of an attribute.
-pub fn text<'a>(node: Node<'a, 'a>, name: &str) -> Option<&'a str> {
-    attribute(node, name).map(|attribute| attribute.value())
 }
 
 /// Finite numbers in an attribute, separated by white space; `None` if they are not `N` numbers (URD011 says so).

@@ -70,7 +70,7 @@ pub fn examined(
         code.family() == FAMILY || of_mended.contains(&code)
     };
     for check in examined.checks.iter_mut().filter(is_of_mended) {
-        for place in check.findings.iter_mut().flat_map(places) {
+        for place in check.findings.iter_mut().flat_map(Finding::places_mut) {
             as_reported(place, lines, is_mended);
         }
     }
@@ -164,11 +164,6 @@ fn complete(examined: &mut Examined, of_mended: Examined) -> Vec<Code> {
     }
     (examined.report.name, examined.report.size) = (of_mended.report.name, of_mended.report.size);
     taken
-}
-
-/// All places of a finding.
-fn places(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
-    std::iter::once(&mut finding.place).chain(&mut finding.more)
 }
 
 /// The pointers that findings are folded by are no pointers into a document. In a text that was mended, lines at the

@@ -8,9 +8,11 @@ use thiserror::Error;
 use super::offset::offset;
 use super::target::{LeftAlone, target};
 use super::{LintError, LintSettings, sources, stems};
-use urdd_directory::position::LineIndex;
+use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
+use urdd_findings::finding::Finding;
+use urdd_format::index::Count;
 use urdd_format::report::{Fix, Place, TextEdit};
 use urdd_xml::element::{Edit, apply};
 
@@ -73,8 +75,7 @@ pub fn mend(
 ) -> Result<Vec<Mended>, LintError> {
     let (files, _) = sources(paths, settings)?;
     let to = |path: &Path| target(path, paths, is_forced).ok();
-    let mended = files.par_iter().filter_map(|path| mended(path, settings, to));
-    let mended = mended.collect();
+    let mended = files.par_iter().filter_map(|path| mended(path, settings, to)).collect();
     settings.report.cancellation.check()?;
     Ok(mended)
 }
@@ -97,15 +98,10 @@ fn mended(
     let mut text = read.text;
     let mut places = 0;
     for _ in 0..ROUNDS {
-        let mut examined = [super::lint_text(&text, &name, &folder, settings)];
-        if let Some(baseline) = &settings.baseline {
-            baseline.apply(path, &mut examined[0]);
-        }
-        settings.report.apply(&mut examined);
-        let findings = examined[0].checks.iter().flat_map(|check| &check.findings);
-        let found =
-            findings.flat_map(|finding| std::iter::once(&finding.place).chain(&finding.more));
-        let (next, mended) = with_fixes(&text, &name, found);
+        let examined = super::lint_text(&text, &name, &folder, settings);
+        let examined = settings.apply(Some(path), name.clone(), examined);
+        let findings = examined.checks.iter().flat_map(|check| &check.findings);
+        let (next, mended) = with_fixes(&text, &name, findings.flat_map(Finding::places));
         if mended == 0 || settings.report.cancellation.is_cancelled() {
             break;
         }
@@ -151,7 +147,10 @@ fn with_fixes<'a>(
 }
 
 fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
-    let start = offset(text, lines, edit.line.get(), edit.column.get())?;
-    let end = offset(text, lines, edit.end_line.get(), edit.end_column.get())?;
+    let offset = |line: Count, column: Count| {
+        offset(text, lines, Position { line: line.0, column: column.0 })
+    };
+    let start = offset(edit.line, edit.column)?;
+    let end = offset(edit.end_line, edit.end_column)?;
     (start <= end).then(|| Edit { range: start..end, text: edit.text.clone() })
 }

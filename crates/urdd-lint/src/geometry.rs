@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use rayon::prelude::*;
@@ -10,7 +9,7 @@ use rayon::prelude::*;
 use super::bodies::{Bodies, isometry};
 use super::hull::Hull;
 use super::primitives::corners;
-use urdd_document::robot::{Element, Robot};
+use urdd_document::robot::Robot;
 use urdd_findings::part::Why;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Geometry;
@@ -35,7 +34,6 @@ pub fn is_read_here(file: &Path) -> bool {
 pub struct MeshFacts {
     /// Corners of the convex hull, before the element's scale; all vertices where they have no volume.
     pub corners: Vec<[f64; 3]>,
-    /// Number of triangles.
     pub triangles: usize,
     /// Format of the content.
     pub format: Format,
@@ -46,15 +44,14 @@ pub struct MeshFacts {
 }
 
 /// A mesh file as it was read, or why it cannot be.
-pub type ReadMesh = Result<Arc<MeshFacts>, String>;
+pub type ReadMesh = Result<MeshFacts, String>;
 
-/// The geometry of a robot.
 #[derive(Debug)]
 pub struct RobotGeometry {
     /// The shapes of each link.
-    pub links: Vec<LinkGeometry>,
+    pub links: Vec<Shapes>,
     /// The shapes of each body, by its topmost link.
-    pub bodies: BTreeMap<usize, BodyGeometry>,
+    pub bodies: BTreeMap<usize, Shapes>,
     /// Every mesh file that is there.
     pub files: HashMap<PathBuf, ReadMesh>,
     /// The links of which a mesh was not read though no rule finds a fault in it, and why.
@@ -68,29 +65,19 @@ pub struct NamedMesh<'a> {
     pub kind: GeometryKind,
     /// The factors of the element.
     pub scale: [f64; 3],
-    /// The file.
     pub file: &'a Path,
     /// What it holds, or why it cannot be read.
     pub facts: Result<&'a MeshFacts, &'a str>,
 }
 
-/// The shapes of a link, each in the link's frame.
+/// The shapes of a link, in its frame, or of a body, in its topmost link's frame.
 #[derive(Debug, Default)]
-pub struct LinkGeometry {
-    /// Its shapes, visual before collision.
+pub struct Shapes {
+    /// The shapes; those of a link visual before collision.
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
-}
-
-/// The shapes of a body, in its topmost link's frame.
-#[derive(Debug, Default)]
-pub struct BodyGeometry {
-    /// Its shapes.
-    pub shapes: Vec<Shape>,
-    /// Whether a shape is missing.
-    pub is_partial: bool,
-    /// The hull of all shapes; `None` if they span no volume.
+    /// The hull of a body's shapes; `None` if they span no volume. It is not computed for links.
     pub hull: Option<Hull>,
 }
 
@@ -105,8 +92,16 @@ pub struct Shape {
     pub corners: Vec<Vector3<f64>>,
 }
 
-impl LinkGeometry {
-    /// Whether one of its shapes is turned, as in [`Shape::is_turned`].
+impl Shape {
+    /// The shape moved by a pose.
+    pub fn placed(&self, pose: &Isometry3<f64>) -> Shape {
+        let place = |corner: &Vector3<f64>| pose.transform_point(&Point3::from(*corner)).coords;
+        Shape { corners: self.corners.iter().map(place).collect(), ..*self }
+    }
+}
+
+impl Shapes {
+    /// Whether one of the shapes is turned, as in [`Shape::is_turned`].
     pub fn is_turned(&self) -> bool {
         self.shapes.iter().any(|shape| shape.is_turned)
     }
@@ -121,20 +116,12 @@ impl LinkGeometry {
         let of_kind = self.shapes.iter().filter(move |shape| shape.kind == kind);
         of_kind.flat_map(|shape| shape.corners.iter().copied())
     }
-}
 
-impl BodyGeometry {
-    /// Whether one of its shapes is turned, as in [`Shape::is_turned`].
-    pub fn is_turned(&self) -> bool {
-        self.shapes.iter().any(|shape| shape.is_turned)
-    }
-
-    /// The corners of all shapes in the frame of a link whose pose in the topmost link's frame is given.
-    pub fn in_frame(&self, link: &Isometry3<f64>) -> Vec<Vector3<f64>> {
-        let corners = self.shapes.iter().flat_map(|shape| &shape.corners);
+    /// The corners of all shapes in the frame whose pose is given.
+    pub fn in_frame(&self, frame: &Isometry3<f64>) -> Vec<Vector3<f64>> {
         let seen =
-            |corner: &Vector3<f64>| link.inverse_transform_point(&Point3::from(*corner)).coords;
-        corners.map(seen).collect()
+            |corner: Vector3<f64>| frame.inverse_transform_point(&Point3::from(corner)).coords;
+        self.corners().map(seen).collect()
     }
 }
 
@@ -159,7 +146,7 @@ impl RobotGeometry {
         let files: HashMap<PathBuf, ReadMesh> = files
             .into_par_iter()
             .map(|file| {
-                let facts = source.read(file).map(|scene| Arc::new(facts(&scene)));
+                let facts = source.read(file).map(|scene| facts(&scene));
                 (file.clone(), facts)
             })
             .collect();
@@ -211,14 +198,14 @@ fn of_links(
     source: &SourceMeshes,
     robot: &Robot,
     files: &HashMap<PathBuf, ReadMesh>,
-) -> Vec<LinkGeometry> {
+) -> Vec<Shapes> {
     let key = |mesh: &SourceMesh| (mesh.link, mesh.geometry, mesh.element);
     let meshes: HashMap<_, &SourceMesh> =
         source.meshes.iter().map(|mesh| (key(mesh), mesh)).collect();
     let mut left = MAX_CORNERS;
     let mut links = Vec::with_capacity(robot.links.len());
     for (index, link) in robot.links.iter().enumerate() {
-        let mut geometry = LinkGeometry::default();
+        let mut geometry = Shapes::default();
         for kind in [GeometryKind::Visual, GeometryKind::Collision] {
             for (place, element) in link.elements(kind).iter().enumerate() {
                 let Some(shape) = &element.geometry else {
@@ -230,12 +217,10 @@ fn of_links(
                         let named = meshes.get(&(index, kind, place));
                         let file = named.and_then(|mesh| mesh.file.as_ref().ok());
                         let facts = file.and_then(|file| files.get(file)?.as_ref().ok());
-                        let is_gltf = |facts: &Arc<MeshFacts>| {
+                        is_turned = facts.is_some_and(|facts| {
                             matches!(facts.format, Format::Gltf | Format::Glb)
-                        };
-                        is_turned = facts.is_some_and(is_gltf);
-                        let scale = mesh.scale.unwrap_or([1.0; 3]);
-                        facts.map(|facts| scaled(&facts.corners, scale))
+                        });
+                        facts.map(|facts| scaled(&facts.corners, mesh.scale.unwrap_or([1.0; 3])))
                     }
                     primitive => Some(corners(primitive)),
                 };
@@ -244,11 +229,10 @@ fn of_links(
                     Some(points)
                 });
                 match points {
-                    Some(points) => geometry.shapes.push(Shape {
-                        kind,
-                        is_turned,
-                        corners: placed(points, element),
-                    }),
+                    Some(corners) => {
+                        let shape = Shape { kind, is_turned, corners };
+                        geometry.shapes.push(shape.placed(&isometry(&element.origin)));
+                    }
                     None => geometry.is_partial = true,
                 }
             }
@@ -263,25 +247,14 @@ fn scaled(points: &[[f64; 3]], [x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
     points.iter().map(scaled).collect()
 }
 
-fn placed(points: Vec<Vector3<f64>>, element: &Element) -> Vec<Vector3<f64>> {
-    let pose = isometry(&element.origin);
-    let place = |point: Vector3<f64>| pose.transform_point(&Point3::from(point)).coords;
-    points.into_iter().map(place).collect()
-}
-
-fn of_body(top: usize, bodies: &Bodies, links: &[LinkGeometry]) -> BodyGeometry {
-    let mut body = BodyGeometry::default();
+fn of_body(top: usize, bodies: &Bodies, links: &[Shapes]) -> Shapes {
+    let mut body = Shapes::default();
     for link in bodies.members(top) {
         let geometry = &links[link];
         body.is_partial |= geometry.is_partial;
-        let pose = bodies.pose[link];
-        let place = |point: &Vector3<f64>| pose.transform_point(&Point3::from(*point)).coords;
-        body.shapes.extend(geometry.shapes.iter().map(|shape| Shape {
-            kind: shape.kind,
-            is_turned: shape.is_turned,
-            corners: shape.corners.iter().map(place).collect(),
-        }));
+        let place = |shape: &Shape| shape.placed(&bodies.pose[link]);
+        body.shapes.extend(geometry.shapes.iter().map(place));
     }
-    body.hull = Hull::of(body.shapes.iter().flat_map(|shape| shape.corners.iter().copied()));
+    body.hull = Hull::of(body.corners());
     body
 }

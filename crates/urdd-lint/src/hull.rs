@@ -1,6 +1,5 @@
 //! Convex hulls with what rules ask of them.
 
-use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
@@ -10,7 +9,6 @@ use urdd_geometry::hull::ConvexHull;
 /// A convex hull with a volume.
 #[derive(Debug, Clone)]
 pub struct Hull {
-    /// Its corners.
     pub corners: Vec<Vector3<f64>>,
     /// Its triangles, outward.
     pub triangles: Vec<[usize; 3]>,
@@ -83,90 +81,5 @@ impl Hull {
             second += (sum.norm_squared() + squares) * (part / 20.0);
         }
         2.0 * (second / volume - (first / volume).norm_squared())
-    }
-
-    /// How deep two hulls overlap: the least distance, m, by which one must move to be free of the other; 0 or less if they
-    /// are apart. Candidates are the normals of faces, and of those pairs of edges that make a face of the hulls' Minkowski
-    /// difference (Gregorius 2013).
-    pub fn depth(&self, other: &Hull) -> f64 {
-        let normals = self.planes.iter().map(|(normal, _)| *normal);
-        let normals = normals.chain(other.planes.iter().map(|(normal, _)| -normal));
-        let mut least = f64::INFINITY;
-        for normal in normals {
-            least = least.min(self.overlap(other, &normal));
-            if least <= 0.0 {
-                return least;
-            }
-        }
-        let others: Vec<Edge> = other.edges();
-        for one in self.edges() {
-            for two in &others {
-                if !one.makes_a_face_with(two) {
-                    continue;
-                }
-                let Some(normal) = one.along.cross(&two.along).try_normalize(0.0) else {
-                    continue;
-                };
-                let both = [normal, -normal].map(|normal| self.overlap(other, &normal));
-                least = least.min(both[0].min(both[1]));
-                if least <= 0.0 {
-                    return least;
-                }
-            }
-        }
-        least
-    }
-
-    /// The distance that the other hull must move along a direction to be free of this one.
-    fn overlap(&self, other: &Hull, direction: &Vector3<f64>) -> f64 {
-        let farthest = |hull: &Hull, sign: f64| {
-            let along = hull.corners.iter().map(|corner| sign * corner.dot(direction));
-            along.fold(f64::NEG_INFINITY, f64::max)
-        };
-        farthest(self, 1.0) + farthest(other, -1.0)
-    }
-
-    /// The edges between faces of different directions.
-    fn edges(&self) -> Vec<Edge> {
-        const FLAT: f64 = 1.0 - 1e-12;
-        let mut first: HashMap<(usize, usize), Vector3<f64>> = HashMap::new();
-        let mut edges = Vec::new();
-        for &[a, b, c] in &self.triangles {
-            let (p, q, r) = (self.corners[a], self.corners[b], self.corners[c]);
-            let Some(normal) = (q - p).cross(&(r - p)).try_normalize(0.0) else {
-                continue;
-            };
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                match first.remove(&(to, from)) {
-                    Some(other) if normal.dot(&other) < FLAT => edges.push(Edge {
-                        along: self.corners[to] - self.corners[from],
-                        normals: [normal, other],
-                    }),
-                    Some(_) => {}
-                    None => {
-                        first.insert((from, to), normal);
-                    }
-                }
-            }
-        }
-        edges
-    }
-}
-
-/// An edge of a hull, with the outward normals of its two faces.
-struct Edge {
-    along: Vector3<f64>,
-    normals: [Vector3<f64>; 2],
-}
-
-impl Edge {
-    /// Whether the arcs between the normals of this edge and the negated ones of the other cross on the unit sphere.
-    fn makes_a_face_with(&self, other: &Edge) -> bool {
-        let [a, b] = self.normals;
-        let [c, d] = other.normals.map(|normal| -normal);
-        let (across_this, across_other) = (b.cross(&a), d.cross(&c));
-        let (cba, dba) = (c.dot(&across_this), d.dot(&across_this));
-        let (adc, bdc) = (a.dot(&across_other), b.dot(&across_other));
-        cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0
     }
 }

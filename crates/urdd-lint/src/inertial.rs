@@ -4,6 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use urdd_document::robot::Link;
 
+/// The mass that a link states, kg.
+pub fn mass(link: &Link) -> Option<f64> {
+    link.inertial.as_ref()?.mass
+}
+
 /// The mass properties of a link, in the link's frame. The mass is above 0, and all numbers are finite.
 #[derive(Debug, Clone, Copy)]
 pub struct Inertial {

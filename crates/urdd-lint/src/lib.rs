@@ -19,7 +19,7 @@ pub mod hull;
 pub mod inertial;
 mod named_file;
 mod offset;
-mod pose;
+pub mod pose;
 mod primitives;
 mod rule;
 pub mod rules;
@@ -48,9 +48,9 @@ use examine::examined;
 use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
-use urdd_format::report::{Kind, StaleIgnore, Verdict};
+use urdd_format::report::{Kind, StaleIgnore};
 use urdd_source::robots::{BatchError, jobs};
-use urdd_source::{SourceText, included, read_source};
+use urdd_source::{SourceError, SourceText, included, read_source};
 use written::Sources;
 
 /// Why a run has no result.
@@ -74,8 +74,7 @@ pub enum LintError {
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
     let (files, excluded) = sources(paths, settings)?;
-    let linted = files.par_iter().map(|path| lint_file(path, paths, settings));
-    let linted = linted.collect();
+    let linted = files.par_iter().map(|path| lint_file(path, paths, settings)).collect();
     settings.report.cancellation.check()?;
     Ok(run_of(&files, linted, excluded, settings))
 }
@@ -156,20 +155,10 @@ pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
 }
 
 fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted {
-    let (seen, name) = (seen_from(path, given), stems(path).1);
+    let seen = seen_from(path, given);
     let (mut stale, mut text) = (Vec::new(), None);
-    let mut examined = Examined::caught(Kind::Urdf, &seen, || {
-        let read = match read_source(path, &settings.source, &settings.report.cancellation) {
-            Ok(read) => read,
-            Err(error) => {
-                return Ok(Examined::without_checks(
-                    Kind::Urdf,
-                    &name,
-                    Verdict::Unreadable,
-                    error.to_string(),
-                ));
-            }
-        };
+    let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
+        let read = read_source(path, &settings.source, &settings.report.cancellation)?;
         let (mut examined, unused) = of_source(path, &read, settings);
         text = Some(read.text);
         stale.extend(unused);

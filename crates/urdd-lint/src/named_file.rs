@@ -9,7 +9,6 @@ use roxmltree::Node;
 pub struct NamedFile<'a, 'n> {
     /// The element with the attribute `filename`.
     pub node: Node<'a, 'a>,
-    /// The name.
     pub name: &'n str,
 }
 

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
-use super::elements::text;
 use super::subject::Subject;
 use urdd_directory::regular;
 
@@ -40,7 +39,7 @@ pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
             .descendants()
             .filter(|node: &Node| node.tag_name().name() == "disable_collisions");
         pairs.extend(disabled.filter_map(|node| {
-            let (a, b) = (text(node, "link1")?, text(node, "link2")?);
+            let (a, b) = (node.attribute("link1")?, node.attribute("link2")?);
             Some((a.min(b).to_owned(), a.max(b).to_owned()))
         }));
     });

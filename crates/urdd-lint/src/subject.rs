@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
 use super::bodies::Bodies;
-use super::elements::{child, numbers, text};
+use super::elements::{child, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::skip::{WITHOUT_MESHES, refused};
@@ -67,10 +67,9 @@ impl<'a> Subject<'a> {
         // Elements are found by their indices in both.
         let source = source.map_err(Clone::clone).and_then(|source| {
             let robot = &source.robot;
-            match (robot.links.len(), robot.joints.len()) == (links.len(), joints.len()) {
-                true => Ok(source),
-                false => Err(refused("its links and joints could not be told apart")),
-            }
+            let is_same = (robot.links.len(), robot.joints.len()) == (links.len(), joints.len());
+            let why = || refused("its links and joints could not be told apart");
+            is_same.then_some(source).ok_or_else(why)
         });
         Subject {
             file,
@@ -96,10 +95,7 @@ impl<'a> Subject<'a> {
 
     /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
     pub fn reads_meshes(&self, findings: &mut Findings) -> Option<()> {
-        match self.without_meshes {
-            true => findings.skip(WITHOUT_MESHES),
-            false => Some(()),
-        }
+        if self.without_meshes { findings.skip(WITHOUT_MESHES) } else { Some(()) }
     }
 
     /// The robot with its mesh files. Skips the rule if the URDF describes none.
@@ -111,11 +107,9 @@ impl<'a> Subject<'a> {
     pub fn bodies(&self, findings: &mut Findings) -> Option<(&Robot, &Bodies)> {
         let source = self.source(findings)?;
         // URDD readers take 0 for them; rules would tell of poses that are not there.
-        let poses = match self.parts().any(is_unreadable) {
-            true => Err(SkipReason::Failed(Code::URD011)),
-            false => Ok(()),
-        };
-        findings.or_skip(poses)?;
+        if self.parts().any(is_unreadable) {
+            findings.skip(SkipReason::Failed(Code::URD011))?;
+        }
         let (robot, bodies) = self.robot.get_or_init(|| {
             let robot = of_urdf(&source.robot);
             let bodies = Bodies::new(&robot);
@@ -171,7 +165,7 @@ impl<'a> Subject<'a> {
                 kind: mesh.geometry,
                 scale,
                 file,
-                facts: read.as_deref().map_err(String::as_str),
+                facts: read.as_ref().map_err(String::as_str),
             };
             Some((node, named))
         });
@@ -249,7 +243,7 @@ impl<'a> Subject<'a> {
         });
         let mut seen = HashSet::new();
         let named = named.filter_map(|node| {
-            let name = text(node, "filename")?;
+            let name = node.attribute("filename")?;
             let file = NamedFile { node, name };
             seen.insert((part(node).map(|part| part.id()), name)).then_some(file)
         });

@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::elements::text;
 use super::named_file::NamedFile;
 use super::subject::Subject;
 use urdd_findings::finding::Findings;
 use urdd_source::MissingMesh;
 
-/// A texture of a material.
 pub struct Texture<'a> {
     /// Its `<texture>`, and the name there.
     pub named: NamedFile<'a, 'a>,
@@ -21,7 +19,7 @@ pub fn textures<'a>(urdf: &Subject<'a>, findings: &mut Findings) -> Option<Vec<T
     let source = urdf.source(findings)?;
     let in_material = |file: &NamedFile<'a, 'a>| {
         let above = file.node.parent_element();
-        text(file.node, "filename").is_some_and(|name| !name.trim().is_empty())
+        !file.name.trim().is_empty()
             && file.node.tag_name().name() == "texture"
             && above.is_some_and(|above| above.tag_name().name() == "material")
     };

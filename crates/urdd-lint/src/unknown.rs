@@ -29,6 +29,20 @@ pub enum What<'a> {
     Attribute(&'a str),
 }
 
+impl<'a> Unknown<'a> {
+    /// `near` is the name that is meant, and whether no other is as near; `has` finds the elements that it belongs to.
+    fn new(
+        node: Node<'a, 'a>,
+        what: What<'a>,
+        near: Option<(&'static str, bool)>,
+        has: impl Fn(&&Known) -> bool,
+    ) -> Self {
+        let (meant, is_only) = near.unzip();
+        let belongs = KNOWN.iter().filter(has).map(|known| known.name).collect();
+        Unknown { node, what, meant, is_only: is_only == Some(true), belongs }
+    }
+}
+
 /// Attributes that many elements have: one in a wrong place says nothing.
 const EVERYWHERE: [&str; 5] = ["name", "type", "value", "link", "joint"];
 
@@ -46,13 +60,7 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                     known.attributes.contains(&name) && !EVERYWHERE.contains(&name)
                 };
                 let near = near_attribute(node, name, known.attributes);
-                found.push(Unknown {
-                    node,
-                    what: What::Attribute(name),
-                    meant: near.map(|(meant, _)| meant),
-                    is_only: near.is_some_and(|(_, is_only)| is_only),
-                    belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
-                });
+                found.push(Unknown::new(node, What::Attribute(name), near, has));
             }
         }
         for (name, child) in children(node).filter(|(name, _)| !name.contains(':')) {
@@ -61,14 +69,7 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                 left.extend(inside.map(|known| (child, known)));
             } else if !known.other_children.contains(&name) {
                 let has = |known: &&Known| known.children.contains(&name);
-                let near = near(name, known.children);
-                found.push(Unknown {
-                    node: child,
-                    what: What::Element,
-                    meant: near.map(|(meant, _)| meant),
-                    is_only: near.is_some_and(|(_, is_only)| is_only),
-                    belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
-                });
+                found.push(Unknown::new(child, What::Element, near(name, known.children), has));
             }
         }
     }
@@ -82,8 +83,8 @@ fn near_attribute(node: Node, name: &str, known: &[&'static str]) -> Option<(&'s
     if best.1 || !node.has_attribute(best.0) {
         return Some(best);
     }
-    let missing = known.iter().filter(|known| !node.has_attribute(**known));
-    let missing: Vec<&'static str> = missing.copied().collect();
+    let mut missing = known.to_vec();
+    missing.retain(|known| !node.has_attribute(*known));
     let other = near(name, &missing).map(|(other, _)| (other, false));
     other.or(Some(best))
 }

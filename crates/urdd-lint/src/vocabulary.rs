@@ -38,8 +38,7 @@ pub fn near<'a>(name: &str, known: &[&'a str]) -> Option<(&'a str, bool)> {
         return None;
     }
     let lower = name.to_lowercase();
-    let longer = known.iter().filter(|known| known.starts_with(&lower));
-    let longer: Vec<_> = longer.collect();
+    let longer: Vec<_> = known.iter().filter(|known| known.starts_with(&lower)).collect();
     if let ([one], true) = (&longer[..], lower.chars().count() >= 5) {
         return Some((one, true));
     }

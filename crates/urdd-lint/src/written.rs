@@ -7,6 +7,7 @@ use roxmltree::Node;
 use urdd_directory::position::LineIndex;
 use urdd_directory::regular;
 use urdd_findings::check::Check;
+use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_xml::element::name;
@@ -51,16 +52,15 @@ impl Sources {
     /// Says of each finding about a link or joint where that is written.
     pub fn place(&self, checks: &mut [Check]) {
         let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
-        for finding in findings {
-            for place in std::iter::once(&mut finding.place).chain(&mut finding.more) {
-                let found = place.subject.as_deref().and_then(|subject| self.find(subject));
-                place.written_at = found.cloned();
-                place.related.iter_mut().for_each(|related: &mut Place| {
-                    let subject = related.subject.as_deref();
-                    related.written_at = subject.and_then(|subject| self.find(subject)).cloned();
-                });
-            }
+        for place in findings.flat_map(Finding::places_mut) {
+            self.place_one(place);
+            place.related.iter_mut().for_each(|related| self.place_one(related));
         }
+    }
+
+    fn place_one(&self, place: &mut Place) {
+        let subject = place.subject.as_deref();
+        place.written_at = subject.and_then(|subject| self.find(subject)).cloned();
     }
 
     /// Where "link `NAME`" is written: the one element whose name fits with the most fixed letters.
@@ -115,28 +115,17 @@ fn element(node: Node, lines: &LineIndex, file: &str) -> Option<Element> {
 
 /// What is between `${…}` and `$(…)` in a name.
 pub fn fixed_parts(name: &str) -> Vec<String> {
-    let mut parts = vec![String::new()];
-    let mut rest = name;
-    while let Some(character) = rest.chars().next() {
-        let end = match rest.get(..2) {
-            Some("${") => rest.find('}'),
-            Some("$(") => rest.find(')'),
-            _ => None,
-        };
-        let length = match end {
-            Some(end) => {
-                parts.push(String::new());
-                end + 1
-            }
-            None => {
-                if let Some(last) = parts.last_mut() {
-                    last.push(character);
-                }
-                character.len_utf8()
-            }
-        };
-        rest = &rest[length..];
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for (at, _) in name.match_indices('$').filter(|(at, _)| name[at + 1..].starts_with(['{', '(']))
+    {
+        let close = if name[at + 1..].starts_with('{') { '}' } else { ')' };
+        if let (true, Some(length)) = (at >= start, name[at..].find(close)) {
+            parts.push(name[start..at].to_owned());
+            start = at + length + 1;
+        }
     }
+    parts.push(name[start..].to_owned());
     parts
 }
 

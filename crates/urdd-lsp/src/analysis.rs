@@ -13,7 +13,6 @@ use crate::urdd_documents;
 use crate::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_findings::check::Outcome;
-use urdd_findings::examined::Examined;
 use urdd_lint::skip::WITHOUT_MESHES;
 use urdd_lint::{LintSettings, lint_text};
 
@@ -29,7 +28,6 @@ pub enum Depth {
 /// What was found in a version of a document.
 #[derive(Debug, Default)]
 pub struct Analysis {
-    /// The findings.
     pub found: Vec<Found>,
     /// The rules that only [`Depth::Files`] runs; those of the last run stay until then.
     pub postponed: Postponed,
@@ -48,24 +46,21 @@ pub enum Postponed {
 }
 
 impl Analysis {
+    /// Findings of a run of every rule.
+    pub fn of(found: Vec<Found>) -> Self {
+        Analysis { found, postponed: Postponed::None }
+    }
+
     /// Examines a document. `None` if it is cancelled.
     pub fn new(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Option<Self> {
-        if snapshot.kind == Kind::Other {
-            return Some(Analysis::default());
-        }
-        if let Some(excess) = snapshot.excess() {
-            return Some(too_large(snapshot, excess));
-        }
-        let analysis = match &snapshot.kind {
-            Kind::Urdf | Kind::Xacro => of_xml(snapshot, depth, cancellation),
-            Kind::Urdd { schema, is_yaml } => {
-                let found = urdd_documents::check(snapshot, *schema, *is_yaml);
-                Analysis {
-                    found: found.into_iter().map(Found::from).collect(),
-                    postponed: Postponed::None,
-                }
+        let analysis = match (snapshot.kind, snapshot.excess()) {
+            (Kind::Other, _) => Analysis::default(),
+            (_, Some(excess)) => return Some(too_large(snapshot, excess)),
+            (Kind::Urdf | Kind::Xacro, None) => of_xml(snapshot, depth, cancellation),
+            (Kind::Urdd { schema, is_yaml }, None) => {
+                let found = urdd_documents::check(snapshot, schema, is_yaml);
+                Analysis::of(found.into_iter().map(Found::from).collect())
             }
-            Kind::Other => Analysis::default(),
         };
         (!cancellation.is_cancelled()).then_some(analysis)
     }
@@ -78,10 +73,7 @@ fn too_large(snapshot: &Snapshot, excess: &str) -> Analysis {
     };
     let message =
         format!("the file is too large for the editor: {excess}; `{command}` examines it");
-    Analysis {
-        found: vec![at_the_top(snapshot, DiagnosticSeverity::WARNING, &message)],
-        postponed: Postponed::None,
-    }
+    Analysis::of(vec![at_the_top(snapshot, DiagnosticSeverity::WARNING, &message)])
 }
 
 fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Analysis {
@@ -93,9 +85,7 @@ fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Ana
         (Kind::Xacro, Depth::Text) => {
             Analysis { found: xacro::of_text(snapshot), postponed: Postponed::All }
         }
-        (Kind::Xacro, Depth::Files) => {
-            Analysis { found: xacro::of_files(snapshot, &project), postponed: Postponed::None }
-        }
+        (Kind::Xacro, Depth::Files) => Analysis::of(xacro::of_files(snapshot, &project)),
         _ => of_urdf(snapshot, depth, &project),
     };
     analysis.found.extend(project.faults);
@@ -108,23 +98,14 @@ fn of_urdf(snapshot: &Snapshot, depth: Depth, project: &Project) -> Analysis {
     let text = snapshot.text.content();
     let examined = lint_text(text, &snapshot.name(), &snapshot.folder, &settings);
     let examined = project.apply(snapshot, examined);
-    let waiting =
-        examined.checks.iter().filter(|check| check.outcome == Outcome::Skipped(WITHOUT_MESHES));
-    Analysis {
-        postponed: match depth {
-            Depth::Text => {
-                Postponed::Codes(waiting.map(|check| check.rule.code.as_str()).collect())
-            }
-            Depth::Files => Postponed::None,
-        },
-        found: found(snapshot, &examined),
-    }
-}
-
-/// The findings of a report, and that a rule crashed.
-fn found(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
     let checks = examined.checks.iter();
-    let mut found: Vec<Found> = checks.flat_map(|check| of_check(snapshot, check)).collect();
-    found.extend(failures(snapshot, examined));
-    found
+    let mut found: Vec<Found> =
+        checks.clone().flat_map(|check| of_check(snapshot, check)).collect();
+    found.extend(failures(snapshot, &examined));
+    if depth == Depth::Files {
+        return Analysis::of(found);
+    }
+    let waiting = checks.filter(|check| check.outcome == Outcome::Skipped(WITHOUT_MESHES));
+    let codes = waiting.map(|check| check.rule.code.as_str()).collect();
+    Analysis { found, postponed: Postponed::Codes(codes) }
 }

@@ -8,7 +8,8 @@ use lsp_types::{CompletionItem, CompletionItemKind, CompletionTextEdit, Position
 use crate::document::Snapshot;
 use crate::markup::{Place, escaped};
 use crate::reference::{Names, names};
-use crate::vocabulary::{self, JOINT_TYPES};
+use crate::vocabulary;
+use urdd_format::urdf::JointType;
 
 /// What can be written at a position.
 pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
@@ -108,9 +109,8 @@ fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
     let parent = markup.parent_name(text, element).unwrap_or_default();
     let name = markup.name(text, element);
     if (name, attribute) == ("joint", "type") {
-        let types = JOINT_TYPES.iter();
-        let one = |word: &&str| ((*word).to_owned(), CompletionItemKind::ENUM_MEMBER, None);
-        return types.map(one).collect();
+        let types = JointType::ALL.iter().map(|kind| kind.as_str().to_lowercase());
+        return types.map(|word| (word, CompletionItemKind::ENUM_MEMBER, None)).collect();
     }
     // What gives a name does not take one that is there.
     let is_definition = match name {
@@ -163,10 +163,7 @@ fn attributes(
     let free = vocabulary::attributes(parent, markup.name(text, element)).into_iter();
     let free = free.filter(|name| !written.contains(name));
     free.map(|name| {
-        let new = match has_value {
-            true => name.to_owned(),
-            false => format!("{name}=\"\""),
-        };
+        let new = if has_value { name.to_owned() } else { format!("{name}=\"\"") };
         item(snapshot, &range, name, new, CompletionItemKind::PROPERTY, None)
     })
     .collect()

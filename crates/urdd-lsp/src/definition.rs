@@ -13,9 +13,9 @@ pub fn definition(snapshot: &Snapshot, at: Position) -> Option<Location> {
     let Found { to, .. } = reference(snapshot, snapshot.text.offset(at))?;
     let outline = snapshot.outline();
     let element = match &to {
-        Reference::Link(name) => outline.link(name)?.element,
-        Reference::Joint(name) => outline.joint(name)?.element,
-        Reference::Material(name) => outline.material(name)?.element,
+        Reference::Link(name) => outline.element("link", name)?,
+        Reference::Joint(name) => outline.element("joint", name)?,
+        Reference::Material(name) => outline.element("material", name)?,
         Reference::Mesh(name) => return mesh(snapshot, name),
     };
     let markup = snapshot.markup();

@@ -13,6 +13,7 @@ use crate::uri;
 use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
 use urdd_format::escape;
+use urdd_format::index::Count;
 use urdd_format::report::{Fix, Place, Severity};
 
 /// What diagnostics name as their source.
@@ -21,7 +22,6 @@ pub const SOURCE: &str = "urdd";
 /// A finding at one place.
 #[derive(Debug, Clone)]
 pub struct Found {
-    /// As an editor shows it.
     pub diagnostic: Diagnostic,
     /// Changes that mend it, the best first.
     pub repairs: Vec<Repair>,
@@ -30,11 +30,9 @@ pub struct Found {
 /// A change that mends a finding.
 #[derive(Debug, Clone)]
 pub struct Repair {
-    /// What it does.
     pub title: String,
     /// Whether it is the one right answer.
     pub is_safe: bool,
-    /// What to change in the document.
     pub edits: Vec<TextEdit>,
 }
 
@@ -77,36 +75,33 @@ pub fn at_the_top(snapshot: &Snapshot, severity: DiagnosticSeverity, message: &s
 
 /// The findings of a rule, each place by itself.
 pub fn of_check(snapshot: &Snapshot, check: &Check) -> Vec<Found> {
-    let mut found = Vec::new();
-    for finding in &check.findings {
-        let severity = severity(finding.severity.unwrap_or(check.severity));
-        for place in std::iter::once(&finding.place).chain(&finding.more) {
-            found.push(of_place(snapshot, check, severity, finding, place));
-        }
-    }
-    found
+    let places =
+        check.findings.iter().flat_map(|finding| finding.places().map(move |p| (finding, p)));
+    places.map(|(finding, place)| of_place(snapshot, check, finding, place)).collect()
 }
 
-/// The severity as editors name it.
-pub fn severity(severity: Severity) -> DiagnosticSeverity {
-    match severity {
+/// A place of a finding of a rule, shown at a byte offset of the document.
+pub fn of_offset(
+    snapshot: &Snapshot,
+    check: &Check,
+    finding: &Finding,
+    place: &Place,
+    offset: usize,
+    message: &str,
+) -> Diagnostic {
+    let severity = match finding.severity.unwrap_or(check.severity) {
         Severity::Error => DiagnosticSeverity::ERROR,
         Severity::Warning => DiagnosticSeverity::WARNING,
         Severity::Info => DiagnosticSeverity::INFORMATION,
-    }
+    };
+    let range = snapshot.text.range(marked(snapshot, offset));
+    let values = (place.expected.as_deref(), place.actual.as_deref());
+    diagnostic(range, severity, check.rule.code.as_str(), message, values)
 }
 
-fn of_place(
-    snapshot: &Snapshot,
-    check: &Check,
-    severity: DiagnosticSeverity,
-    finding: &Finding,
-    place: &Place,
-) -> Found {
-    let message = message(finding, place);
-    let values = (place.expected.as_deref(), place.actual.as_deref());
-    let range = snapshot.text.range(marked(snapshot, offset(snapshot, place)));
-    let mut diagnostic = diagnostic(range, severity, check.rule.code.as_str(), &message, values);
+fn of_place(snapshot: &Snapshot, check: &Check, finding: &Finding, place: &Place) -> Found {
+    let at = offset(snapshot, place);
+    let mut diagnostic = of_offset(snapshot, check, finding, place, at, &message(finding, place));
     let related: Vec<DiagnosticRelatedInformation> =
         place.related.iter().filter_map(|other| related(snapshot, other)).collect();
     diagnostic.related_information = (!related.is_empty()).then_some(related);
@@ -129,11 +124,9 @@ pub fn message(finding: &Finding, place: &Place) -> String {
 
 /// The offset of a place; the start of the text if it has none.
 fn offset(snapshot: &Snapshot, place: &Place) -> usize {
-    let line = place.line.map(|line| line.get());
-    let column = place.column.map_or(1, |column| column.get());
-    let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    match line {
-        Some(line) => snapshot.text.reported(as_u32(line), as_u32(column)),
+    let column = place.column.map_or(1, Count::get);
+    match place.line {
+        Some(line) => snapshot.text.reported(line.get(), column),
         None => snapshot.text.content_start(),
     }
 }
@@ -141,15 +134,12 @@ fn offset(snapshot: &Snapshot, place: &Place) -> usize {
 fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInformation> {
     let message = place.message.clone().or_else(|| place.subject.clone());
     let is_here = place.file.as_deref().is_none_or(|file| file == snapshot.name());
-    let location = match is_here {
-        true => Location {
-            uri: snapshot.uri.clone(),
-            range: snapshot.text.range(marked(snapshot, offset(snapshot, place))),
-        },
-        false => {
-            let line = place.line.map_or(1, |line| line.get());
-            line_of(&snapshot.folder.join(place.file.as_deref()?), line)?
-        }
+    let location = if is_here {
+        let range = snapshot.text.range(marked(snapshot, offset(snapshot, place)));
+        Location { uri: snapshot.uri.clone(), range }
+    } else {
+        let line = place.line.map_or(1, Count::get);
+        line_of(&snapshot.folder.join(place.file.as_deref()?), line)?
     };
     Some(further(location, &message.unwrap_or_default()))
 }
@@ -157,8 +147,8 @@ fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInform
 /// The start of a line of another file, from 1. Its columns cannot be counted without its text: the line is enough.
 pub fn line_of(file: &Path, line: usize) -> Option<Location> {
     let line = u32::try_from(line.saturating_sub(1)).unwrap_or(u32::MAX);
-    let start = Position { line, character: 0 };
-    Some(Location { uri: uri::of_path(file)?, range: lsp_types::Range { start, end: start } })
+    let start = Position::new(line, 0);
+    Some(Location { uri: uri::of_path(file)?, range: lsp_types::Range::new(start, start) })
 }
 
 /// A further place that a diagnostic points to.
@@ -170,12 +160,8 @@ pub fn further(location: Location, message: &str) -> DiagnosticRelatedInformatio
 fn repair(snapshot: &Snapshot, fix: &Fix) -> Option<Repair> {
     let name = snapshot.name();
     let edit = |edit: &urdd_format::report::TextEdit| {
-        let offset = |line: usize, column: usize| {
-            let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-            snapshot.text.reported(as_u32(line), as_u32(column))
-        };
-        let start = offset(edit.line.get(), edit.column.get());
-        let end = offset(edit.end_line.get(), edit.end_column.get());
+        let start = snapshot.text.reported(edit.line.get(), edit.column.get());
+        let end = snapshot.text.reported(edit.end_line.get(), edit.end_column.get());
         (edit.file == name).then(|| TextEdit {
             range: snapshot.text.range(start..end.max(start)),
             new_text: edit.text.clone(),

@@ -28,11 +28,9 @@ pub struct Snapshot {
     pub path: Option<PathBuf>,
     /// The folder that relative names refer to.
     pub folder: PathBuf,
-    /// What it is.
     pub kind: Kind,
     /// The editor's number of the version.
     pub version: i32,
-    /// The text.
     pub text: Text,
     /// What the user set.
     pub options: Options,
@@ -81,7 +79,6 @@ impl Snapshot {
         }
     }
 
-    /// The next version.
     pub fn next(self: &Arc<Self>, version: i32, text: Text, options: &Options) -> Self {
         let earlier = match self.robot.get() {
             Some(Some(robot)) => Some(Earlier::Robot(Arc::clone(robot))),
@@ -95,7 +92,7 @@ impl Snapshot {
             uri: self.uri.clone(),
             path: self.path.clone(),
             folder: self.folder.clone(),
-            kind: self.kind.clone(),
+            kind: self.kind,
             version,
             text,
             options: options.clone(),
@@ -125,9 +122,9 @@ impl Snapshot {
 
     /// The elements of the text, also where it is half typed. None if it is too large, or is not XML.
     pub fn markup(&self) -> &Markup {
-        self.markup.get_or_init(|| match self.kind.is_xml() && !self.is_too_large() {
-            true => Markup::new(self.text.as_str()),
-            false => Markup::new(""),
+        self.markup.get_or_init(|| {
+            let is_read = self.kind.is_xml() && !self.is_too_large();
+            Markup::new(if is_read { self.text.as_str() } else { "" })
         })
     }
 
@@ -140,7 +137,7 @@ impl Snapshot {
     /// The robot: of this version, or of the last one that described one.
     pub fn robot(&self) -> Option<Arc<RobotModel>> {
         let of_this = self.robot.get_or_init(|| {
-            if self.kind != Kind::Urdf || self.is_too_large() {
+            if !matches!(self.kind, Kind::Urdf) || self.is_too_large() {
                 return None;
             }
             let settings = self.options.lint_settings(&Cancellation::default());

@@ -63,9 +63,8 @@ fn link(model: &RobotModel, name: &str) -> Option<String> {
                     word(joint.joint_type),
                     code(&joint.parent)
                 ));
-                let pose = model.poses.get(index)?;
-                lines
-                    .push(format!("- pose in {root}, default configuration: {}", pose_words(pose)));
+                let pose = pose_words(model.poses.get(index)?);
+                lines.push(format!("- pose in {root}, default configuration: {pose}"));
             }
         }
         let children = &tree.child_joints[index];
@@ -77,10 +76,8 @@ fn link(model: &RobotModel, name: &str) -> Option<String> {
         if children.len() > MOST_CHILDREN {
             names.push(format!("{} more", children.len() - MOST_CHILDREN));
         }
-        lines.push(match names.is_empty() {
-            true => "- children: none".to_owned(),
-            false => format!("- children: {}", names.join(", ")),
-        });
+        let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        lines.push(format!("- children: {names}"));
     }
     lines.push(format!("- {} visual, {} collision", link.visual.len(), link.collision.len()));
     Some(lines.join("\n"))
@@ -166,14 +163,6 @@ fn limits(joint: &Joint) -> Vec<String> {
     lines
 }
 
-fn word(kind: JointType) -> &'static str {
-    match kind {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        JointType::Fixed => "fixed",
-        JointType::Floating => "floating",
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
-    }
+fn word(kind: JointType) -> String {
+    kind.as_str().to_lowercase()
 }

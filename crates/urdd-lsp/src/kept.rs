@@ -83,11 +83,7 @@ fn around(snapshot: &Snapshot, offset: usize) -> Option<(String, String, Range<u
 
 /// The bytes of the link or joint of a name.
 fn named(snapshot: &Snapshot, kind: &str, name: &str) -> Option<Range<usize>> {
-    let outline = snapshot.outline();
-    let element = match kind {
-        "link" => outline.link(name)?.element,
-        _ => outline.joint(name)?.element,
-    };
+    let element = snapshot.outline().element(kind, name)?;
     let element = &snapshot.markup().elements[element];
     Some(element.tag.start..element.end)
 }

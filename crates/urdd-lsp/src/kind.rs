@@ -3,22 +3,24 @@
 use std::fs;
 use std::path::Path;
 
+use serde_json::Value;
+
 use crate::uri;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_format::registry::{self, ModuleKind, ModuleSpec, modules};
+use urdd_document::load::{find_spec, metadata_of};
+use urdd_document::schema_check::{self, SchemaViolation};
+use urdd_format::registry::{ModuleKind, modules};
+use urdd_format::schema::Subject;
 
 /// What a document is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub enum Kind {
-    /// A URDF.
     Urdf,
-    /// A xacro file.
     Xacro,
     /// `urdd.json`, or the document of a module, as JSON or YAML.
     Urdd {
         /// Its schema; `None` for an extension.
         schema: Option<Schema>,
-        /// Whether it is YAML.
         is_yaml: bool,
     },
     /// Nothing that is known here.
@@ -47,19 +49,18 @@ impl Kind {
         }
     }
 
-    /// Whether it is XML.
-    pub fn is_xml(&self) -> bool {
+    pub fn is_xml(self) -> bool {
         matches!(self, Kind::Urdf | Kind::Xacro)
     }
 }
 
 /// The schema of a document.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Schema {
-    /// Of `urdd.json`.
-    Root,
-    /// Of a module: its index in [`modules`], and whether the document is of a later minor version.
-    Module(usize, bool),
+#[derive(Clone, Copy)]
+pub struct Schema {
+    /// The document that it is of.
+    pub subject: Subject,
+    /// Whether the document is a module of a later minor version.
+    pub is_newer: bool,
 }
 
 impl Schema {
@@ -67,7 +68,8 @@ impl Schema {
     pub fn of_file(path: &Path) -> Option<Kind> {
         let name = path.file_name()?.to_str()?;
         if name == ROOT_METADATA {
-            return Some(Kind::Urdd { schema: Some(Schema::Root), is_yaml: false });
+            let schema = Schema { subject: Subject::RootMetadata, is_newer: false };
+            return Some(Kind::Urdd { schema: Some(schema), is_yaml: false });
         }
         let is_yaml = match name {
             "module.json" => false,
@@ -84,32 +86,21 @@ impl Schema {
         Some(Kind::Urdd { schema: kind.and_then(|kind| Schema::of_module(kind, folder)), is_yaml })
     }
 
-    /// The schema of a module in a folder, by its `VERSION`: as the validator chooses it.
+    /// The schema of a module in a folder, by its `VERSION`.
     fn of_module(kind: ModuleKind, folder: &Path) -> Option<Schema> {
         let text = fs::read_to_string(folder.join("VERSION")).unwrap_or_default();
         let text = text.trim_end();
-        let of = |spec: &ModuleSpec| {
-            modules()
-                .iter()
-                .position(|other| other.kind == spec.kind && other.version == spec.version)
-        };
-        if let Some(spec) = registry::find(kind, text) {
-            return Some(Schema::Module(of(spec)?, false));
+        let (spec, is_newer) = find_spec(kind, Some(text));
+        // A module that somebody begins to write.
+        let newest = || modules().iter().find(|spec| spec.kind == kind && text.is_empty());
+        Some(Schema { subject: Subject::Module(spec.or_else(newest)?), is_newer })
+    }
+
+    /// How a document breaks it.
+    pub fn violations(self, document: &Value) -> Vec<SchemaViolation> {
+        match self.subject {
+            Subject::Module(spec) => schema_check::read(spec, document, self.is_newer).1,
+            _ => metadata_of(document).1,
         }
-        if text.is_empty() {
-            // A module that somebody begins to write.
-            let newest = modules().iter().find(|spec| spec.kind == kind)?;
-            return Some(Schema::Module(of(newest)?, false));
-        }
-        let version = semver::Version::parse(text).ok()?;
-        let known = modules().iter().filter(|spec| spec.kind == kind);
-        let known =
-            known.filter_map(|spec| Some((semver::Version::parse(spec.version).ok()?, spec)));
-        let newest = known
-            .filter(|(known, _)| {
-                known.major == version.major && *known < version && known.major >= 1
-            })
-            .max_by(|a, b| a.0.cmp(&b.0));
-        Some(Schema::Module(of(newest?.1)?, true))
     }
 }

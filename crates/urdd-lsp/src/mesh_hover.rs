@@ -51,8 +51,7 @@ fn extent(mesh: &Mesh, scale: [f64; 3]) -> Option<String> {
         axes.map(|axis| pick(bounds.min[axis] * scale[axis], bounds.max[axis] * scale[axis]))
     };
     let (low, high) = (ends(f64::min), ends(f64::max));
-    let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
-    let size = size.map(|x| number(x, DIGITS)).join(" × ");
+    let size = [0, 1, 2].map(|axis| number(high[axis] - low[axis], DIGITS)).join(" × ");
     Some(format!("- bounding box: {size} m, from ({}) to ({})", triple(low), triple(high)))
 }
 

@@ -7,7 +7,6 @@ use crate::markup::Markup;
 /// An element with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Named {
-    /// Its name.
     pub name: String,
     /// Its index.
     pub element: usize,
@@ -16,11 +15,9 @@ pub struct Named {
 /// A joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Joint {
-    /// Its name.
     pub name: String,
     /// Its index.
     pub element: usize,
-    /// Its type.
     pub kind: String,
     /// Name of the link that it moves with; empty if it is not written yet.
     pub parent: String,
@@ -42,7 +39,6 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Reads the names.
     pub fn new(text: &str, markup: &Markup) -> Self {
         let mut outline = Outline::default();
         let mut inner_materials = Vec::new();
@@ -80,24 +76,26 @@ impl Outline {
         outline
     }
 
-    /// The link of a name.
     pub fn link(&self, name: &str) -> Option<&Named> {
         self.links.get(*self.links_by_name.get(name)?)
     }
 
-    /// The index of the link of a name.
     pub fn link_index(&self, name: &str) -> Option<usize> {
         self.links_by_name.get(name).copied()
     }
 
-    /// The joint of a name.
     pub fn joint(&self, name: &str) -> Option<&Joint> {
         self.joints.get(*self.joints_by_name.get(name)?)
     }
 
-    /// The material of a name.
-    pub fn material(&self, name: &str) -> Option<&Named> {
-        self.materials.iter().find(|one| one.name == name)
+    /// The element of the link, joint or material of a name.
+    pub fn element(&self, kind: &str, name: &str) -> Option<usize> {
+        match kind {
+            "link" => Some(self.link(name)?.element),
+            "joint" => Some(self.joint(name)?.element),
+            "material" => Some(self.materials.iter().find(|one| one.name == name)?.element),
+            _ => None,
+        }
     }
 }
 

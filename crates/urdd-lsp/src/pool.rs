@@ -11,7 +11,6 @@ type Job = Box<dyn FnOnce() + Send>;
 pub struct Pool(Sender<Job>);
 
 impl Pool {
-    /// Starts threads.
     pub fn new(name: &str, threads: usize) -> Self {
         let (sender, receiver) = unbounded::<Job>();
         for _ in 0..threads {
@@ -28,7 +27,6 @@ impl Pool {
         Pool(sender)
     }
 
-    /// Adds a job.
     pub fn add(&self, job: impl FnOnce() + Send + 'static) {
         let _ = self.0.send(Box::new(job));
     }

@@ -47,8 +47,7 @@ impl Project {
                 faults.push(at_the_top(snapshot, DiagnosticSeverity::WARNING, &message));
             }
         }
-        let folder = nearest.as_deref().and_then(Path::parent);
-        let folder = folder.map(Path::to_owned);
+        let folder = nearest.as_deref().and_then(Path::parent).map(Path::to_owned);
         let path = snapshot.path.as_deref();
         let seen = path.map(|path| seen_from(path, folder.as_slice()));
         Project { settings, faults, seen: seen.unwrap_or_else(|| snapshot.name()) }

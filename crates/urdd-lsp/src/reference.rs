@@ -3,44 +3,34 @@
 use std::ops::Range;
 
 use crate::document::Snapshot;
-use crate::markup::{Markup, Place, unescaped};
+use crate::markup::{Attribute, Markup, Place, unescaped};
 
 /// What is named.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Reference {
-    /// A link.
     Link(String),
-    /// A joint.
     Joint(String),
-    /// A material.
     Material(String),
-    /// A mesh file.
     Mesh(String),
 }
 
 /// What a place names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
-    /// What is named.
     pub to: Reference,
     /// The bytes that name it.
     pub range: Range<usize>,
-    /// The element.
     pub element: usize,
 }
 
 /// What the names in an attribute are of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Names {
-    /// Links.
     Links,
-    /// Joints.
     Joints,
     /// Links and joints.
     Both,
-    /// Materials.
     Materials,
-    /// Mesh files.
     Meshes,
 }
 
@@ -61,38 +51,31 @@ pub fn names(text: &str, markup: &Markup, element: usize, attribute: &str) -> Op
 pub fn reference(snapshot: &Snapshot, offset: usize) -> Option<Found> {
     let text = snapshot.text.as_str();
     let markup = snapshot.markup();
-    let outline = snapshot.outline();
-    let place = markup.place(text, offset);
-    let element = match place {
-        Place::Content { .. } | Place::EndTag { .. } => return None,
-        other => other.element()?,
+    let names = |element, attribute: &Attribute| {
+        names(text, markup, element, &text[attribute.name.clone()])
     };
-    let (name, attribute) = match place {
-        Place::Value { attribute, .. } => {
+    let (element, attribute, range) = match markup.place(text, offset) {
+        Place::Content { .. } | Place::EndTag { .. } => return None,
+        Place::Value { element, attribute } => {
             let attribute = markup.elements[element].attributes.get(attribute)?;
-            (&text[attribute.name.clone()], attribute)
+            (element, attribute, attribute.value.clone())
         }
         // Anywhere else in the start tag: its first attribute that names something.
-        _ => {
-            let mut attributes = markup.elements[element].attributes.iter();
-            let first = attributes.find(|attribute| {
-                names(text, markup, element, &text[attribute.name.clone()]).is_some()
-            })?;
-            (&text[first.name.clone()], first)
+        Place::TagName { element } | Place::AttributeName { element, .. } => {
+            let tag = &markup.elements[element];
+            let mut attributes = tag.attributes.iter();
+            let first = attributes.find(|attribute| names(element, attribute).is_some())?;
+            (element, first, tag.tag.clone())
         }
     };
     let value = unescaped(&text[attribute.value.clone()]).into_owned();
-    let to = match names(text, markup, element, name)? {
+    let to = match names(element, attribute)? {
         Names::Links => Reference::Link(value),
         Names::Joints => Reference::Joint(value),
-        Names::Both if outline.link(&value).is_none() => Reference::Joint(value),
+        Names::Both if snapshot.outline().link(&value).is_none() => Reference::Joint(value),
         Names::Both => Reference::Link(value),
         Names::Materials => Reference::Material(value),
         Names::Meshes => Reference::Mesh(value),
-    };
-    let range = match place {
-        Place::Value { .. } => attribute.value.clone(),
-        _ => markup.elements[element].tag.clone(),
     };
     Some(Found { to, range, element })
 }

@@ -15,7 +15,7 @@ pub fn symbols(snapshot: &Snapshot, is_nested: bool) -> Option<DocumentSymbolRes
         return None;
     }
     let (outline, mut found) = (snapshot.outline(), Vec::new());
-    if snapshot.kind == Kind::Xacro {
+    if matches!(snapshot.kind, Kind::Xacro) {
         found = macros(snapshot);
     }
     let mut tree = Tree::new(snapshot, outline);

@@ -33,7 +33,6 @@ impl Encoding {
         offered.find_map(known).unwrap_or_default()
     }
 
-    /// Its name in the protocol.
     pub fn kind(self) -> PositionEncodingKind {
         match self {
             Encoding::Utf8 => PositionEncodingKind::UTF8,
@@ -83,12 +82,10 @@ pub struct Text {
 impl Text {
     /// A text as an editor sent it.
     pub fn new(text: String, encoding: Encoding) -> Self {
-        let starts = std::iter::once(0).chain(line_starts(&text, 0));
-        let starts = starts.collect();
+        let starts = std::iter::once(0).chain(line_starts(&text, 0)).collect();
         Text { starts, text, encoding, units: OnceLock::new(), scalars: OnceLock::new() }
     }
 
-    /// All of it.
     pub fn as_str(&self) -> &str {
         &self.text
     }
@@ -100,10 +97,7 @@ impl Text {
 
     /// Byte offset of [`Text::content`].
     pub fn content_start(&self) -> usize {
-        match self.text.starts_with(BYTE_ORDER_MARK) {
-            true => BYTE_ORDER_MARK.len_utf8(),
-            false => 0,
-        }
+        if self.text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 }
     }
 
     /// The byte offset of an editor's position. A position beyond a line gives the line's end.
@@ -178,15 +172,14 @@ impl Text {
     }
 
     /// The byte offset of a line and a column, from 1, in scalar values of [`Text::content`]: as reports have them.
-    pub fn reported(&self, line: u32, column: u32) -> usize {
-        let line = (line as usize).saturating_sub(1);
+    pub fn reported(&self, line: usize, column: usize) -> usize {
+        let line = line.saturating_sub(1);
         let Some(&start) = self.starts.get(line) else {
             return self.text.len();
         };
         let start = start.max(if line == 0 { self.content_start() } else { 0 });
         let end = self.starts[line] + self.line(line).len();
-        let column = (column as usize).saturating_sub(1);
-        self.behind(start.min(end)..end, column, Encoding::Utf32)
+        self.behind(start.min(end)..end, column.saturating_sub(1), Encoding::Utf32)
     }
 
     /// The offset of the end of the line of an offset, without what ends it.
@@ -226,7 +219,7 @@ impl Text {
         self.starts.truncate(first + 1);
         let found = line_starts(&self.text, from).take_while(|&start_of| start_of < until);
         self.starts.extend(found);
-        if later.is_empty() && ends_line(&self.text) {
+        if later.is_empty() && self.text.ends_with(['\n', '\r']) {
             self.starts.push(self.text.len());
         }
         self.starts.extend(later);
@@ -240,10 +233,6 @@ fn line_starts(text: &str, from: usize) -> impl Iterator<Item = usize> {
         **byte == b'\n' || (**byte == b'\r' && bytes.get(from + at + 1) != Some(&b'\n'))
     });
     ends.map(move |(at, _)| from + at + 1)
-}
-
-fn ends_line(text: &str) -> bool {
-    text.ends_with(['\n', '\r'])
 }
 
 fn count(n: usize) -> u32 {

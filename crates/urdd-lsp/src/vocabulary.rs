@@ -16,10 +16,6 @@ const WORDS: &[Word] = &[
     ("ros2_control", "joint", &["name"], &["command_interface", "state_interface", "param"]),
 ];
 
-/// The types of joints.
-pub const JOINT_TYPES: &[&str] =
-    &["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
-
 /// The attributes of an element in another one.
 pub fn attributes(parent: &str, name: &str) -> Vec<&'static str> {
     let attributes = match find(parent, name) {

@@ -5,15 +5,14 @@ use std::path::PathBuf;
 
 use lsp_types::{Diagnostic, DiagnosticSeverity, Location};
 
-use crate::diagnostics::{
-    Found, at_the_top, diagnostic, further, line_of, marked, message, severity,
-};
+use crate::diagnostics::{Found, at_the_top, further, line_of, message, of_offset};
 use crate::document::Snapshot;
 use crate::failures::{failures, not_well_formed};
 use crate::includes::{included, missing};
 use crate::project::Project;
 use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
+use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_lint::lint_source;
 use urdd_source::read_source;
@@ -55,10 +54,8 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let files = Files { own: fs::canonicalize(path).ok(), included: included(snapshot) };
     for check in &examined.checks {
         for finding in &check.findings {
-            let places = std::iter::once(&finding.place).chain(&finding.more);
-            found.extend(
-                places.map(|place| of_place(snapshot, &files, check, finding, place).into()),
-            );
+            let place = |place| of_place(snapshot, &files, check, finding, place).into();
+            found.extend(finding.places().map(place));
         }
     }
     found
@@ -90,18 +87,12 @@ fn of_place(
             offset
         }
         None => same_name(snapshot, place).unwrap_or_else(|| {
-            let line = place.line.map_or(1, |line| line.get());
+            let line = place.line.map_or(1, Count::get);
             message += &format!(" (line {line} of the expanded file)");
             snapshot.text.content_start()
         }),
     };
-    let mut found = diagnostic(
-        snapshot.text.range(marked(snapshot, offset)),
-        severity(finding.severity.unwrap_or(check.severity)),
-        check.rule.code.as_str(),
-        &message,
-        (place.expected.as_deref(), place.actual.as_deref()),
-    );
+    let mut found = of_offset(snapshot, check, finding, place, offset, &message);
     found.related_information = related;
     found
 }
@@ -123,15 +114,13 @@ enum Written {
 
 impl Written {
     fn new(snapshot: &Snapshot, files: &Files, at: &WrittenAt) -> Self {
-        let line = at.line.map_or(1, |line| line.get());
-        let column = at.column.map_or(1, |column| column.get());
+        let (line, column) = (at.line.map_or(1, Count::get), at.column.map_or(1, Count::get));
         let file = fs::canonicalize(snapshot.folder.join(&at.file)).unwrap_or_default();
         if files.own.as_ref() == Some(&file) {
-            let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-            return Written::Here(snapshot.text.reported(as_u32(line), as_u32(column)));
+            return Written::Here(snapshot.text.reported(line, column));
         }
-        let in_macro = at.macro_name.as_ref();
-        let in_macro = in_macro.map_or_else(String::new, |name| format!(", in the macro `{name}`"));
+        let in_macro = |name| format!(", in the macro `{name}`");
+        let in_macro = at.macro_name.as_ref().map(in_macro).unwrap_or_default();
         let mut included = files.included.iter();
         let element = included.find(|(included, _)| *included == file);
         Written::There {
@@ -148,11 +137,6 @@ fn same_name(snapshot: &Snapshot, place: &Place) -> Option<usize> {
     let mut parts = subject.split('`');
     let kind = parts.next()?.trim();
     let name = parts.next()?;
-    let outline = snapshot.outline();
-    let element = match kind {
-        "link" => outline.link(name)?.element,
-        "joint" => outline.joint(name)?.element,
-        _ => return None,
-    };
+    let element = snapshot.outline().element(kind, name)?;
     Some(snapshot.markup().elements[element].tag.start)
 }

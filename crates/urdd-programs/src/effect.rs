@@ -81,6 +81,31 @@ impl Effects {
     }
 }
 
+/// What a program refuses to be without.
+impl Effects {
+    pub(crate) fn needed<'t>(
+        &mut self,
+        node: Node<'t>,
+        name: &'static str,
+    ) -> Reading<&'t Attribute<'t>> {
+        match node.attribute(name) {
+            Some(value) => Ok(value),
+            None => self.refuse(node, Fault::Missing(name)),
+        }
+    }
+
+    pub(crate) fn needed_element<'t>(
+        &mut self,
+        node: Node<'t>,
+        name: &'static str,
+    ) -> Reading<Node<'t>> {
+        match node.child(name) {
+            Some(child) => Ok(child),
+            None => self.refuse(node, Fault::MissingElement(name)),
+        }
+    }
+}
+
 /// Something with a place in the file.
 pub(crate) trait At {
     /// Its first byte.

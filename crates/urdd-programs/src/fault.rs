@@ -132,16 +132,16 @@ impl fmt::Display for Fault {
             Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
             Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
             Fault::UnknownElement { name, like } if name == like => {
-                write!(f, "`<{name}>` is in a place where URDF does not have it")
+                write!(f, "`<{name}>` is where URDF does not have it")
             }
             Fault::UnknownElement { name, like } => {
-                write!(f, "`<{name}>` is not an element that URDF has there, unlike `{like}`")
+                write!(f, "`<{name}>` is not an element of URDF here (`<{like}>` is)")
             }
             Fault::UnknownAttribute { name, like } if name == like => {
                 write!(f, "`{name}` is on an element that does not have it")
             }
             Fault::UnknownAttribute { name, like } => {
-                write!(f, "`{name}` is not an attribute that URDF has there, unlike `{like}`")
+                write!(f, "`{name}` is not an attribute of URDF here (`{like}` is)")
             }
             Fault::Version(version) => write!(f, "URDF has no version `{version}`"),
             Fault::Name { kind, name, rule } => {

@@ -25,7 +25,8 @@ pub(crate) fn istream(text: &str) -> Read<'_> {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
     let (number, rest) = decimal(unsigned).filter(|(number, _)| number.is_finite())?;
-    let is_cut = rest.starts_with(['e', 'E']);
+    let read = &unsigned[..unsigned.len() - rest.len()];
+    let is_cut = rest.starts_with(['e', 'E']) && !read.contains(['e', 'E']);
     (!is_cut).then_some((sign * number, rest))
 }
 

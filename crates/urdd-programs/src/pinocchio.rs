@@ -211,8 +211,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Refuses a name of a file that has another scheme than those that it knows.
+    /// Refuses a name of a file that is too long, or has another scheme than those that it knows.
     fn scheme(&mut self, file: &Attribute<'_>) -> Reading<()> {
+        const LONGEST: usize = 255;
+        if file.value.split('/').any(|name| name.len() > LONGEST) {
+            let why = "its name has a part of more than 255 bytes";
+            return self.effects.refuse(file, Fault::Mesh(why));
+        }
         match file.value.split_once("://") {
             Some((scheme, _)) if !matches!(scheme, "package" | "model" | "file") => {
                 let why = "the scheme of its name is none of package, model and file";
@@ -225,6 +230,9 @@ impl Reader<'_> {
     fn mesh(&mut self, mesh: Node<'_>) -> Reading<()> {
         let Some(filename) = mesh.attribute("filename") else { return Ok(()) };
         self.scheme(filename)?;
+        if filename.value.is_empty() {
+            return self.effects.refuse(filename, Fault::Empty("filename"));
+        }
         let why = match self.file.mesh(&filename.value) {
             Mesh::Unknown => return Ok(()),
             Mesh::Missing => "the file of the mesh was not found",
@@ -292,6 +300,7 @@ fn is_read(name: &str, facts: &MeshFacts) -> bool {
         "stl" if is_stl => facts.size > 84,
         "stl" => facts.head.starts_with(b"solid") && facts.triangles > 0,
         "obj" => facts.size >= 16 && facts.triangles > 0,
+        "ply" | "glb" | "gltf" | "off" | "3ds" | "fbx" | "step" => facts.size > 0,
         // A file without an ending that is known is guessed by what is in it.
         _ => facts.triangles > 0 && !is_stl,
     }

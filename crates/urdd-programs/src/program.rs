@@ -3,7 +3,7 @@
 use crate::effect::{Effects, Reading};
 use crate::file::File;
 use crate::unknown::{self, Names, Reads};
-use crate::{mujoco, pinocchio, pybullet, three, urdfdom, usd, yourdfpy};
+use crate::{drake, mujoco, pinocchio, pybullet, three, urdfdom, usd, yourdfpy};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,6 +16,8 @@ pub enum Program {
     Urdfdom3,
     /// Pinocchio.
     Pinocchio,
+    /// Drake.
+    Drake,
     /// `PyBullet`.
     PyBullet,
     /// urdf-usd-converter.
@@ -88,11 +90,12 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 10] = [
+    pub const ALL: [Program; 11] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
         Program::Pinocchio,
+        Program::Drake,
         Program::MuJoCo,
         Program::MuJoCo33,
         Program::PyBullet,
@@ -127,6 +130,9 @@ impl Program {
                 version: "4.1.0",
                 read: pinocchio::read,
             },
+            Program::Drake => {
+                Facts { id: "drake", name: "Drake", version: "1.51.1", read: drake::read }
+            }
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
@@ -209,6 +215,15 @@ impl Program {
             _ => Names::Exact,
         };
         let never: &[&str] = match self.id() {
+            "drake" => &[
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+            ],
             "pinocchio" => &[
                 "mimic",
                 "safety_controller",

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use crate::tree::{Attribute, Element, Tree};
+use crate::tree::{Attribute, Element, Tree, repeated};
 
 /// Why a document is refused.
 pub(crate) struct Malformed {
@@ -101,7 +101,6 @@ impl<'a> Parser<'a> {
             if rest.starts_with(b"<!--") {
                 self.at += 4;
                 self.until(b"-->", "a comment is not closed")?;
-                self.inside(None);
             } else if rest.starts_with(b"<![CDATA[") {
                 self.at += 9;
                 let text = self.until(b"]]>", "a CDATA section is not closed")?;
@@ -144,6 +143,9 @@ impl<'a> Parser<'a> {
             return self.refuse(start, "`<` is not followed by a name");
         };
         let (attributes, is_empty) = self.attributes()?;
+        if let Some(second) = repeated(&attributes) {
+            return self.refuse(second, "an attribute stands twice in one element");
+        }
         // `</name/>` is an empty element.
         if closes && !is_empty {
             let Some((open, _)) = self.open.pop() else { return Ok(true) };
@@ -205,9 +207,6 @@ impl<'a> Parser<'a> {
             };
             self.at += 1;
             let value = self.until(&quote, "the value of an attribute is not closed")?;
-            if attributes.iter().any(|one| one.name == name) {
-                return self.refuse(start, "an attribute stands twice in one element");
-            }
             attributes.push(Attribute { name, value: decoded(value), range: start..self.at });
         }
     }
@@ -226,7 +225,7 @@ fn is_name(byte: u8) -> bool {
     is_name_start(byte) || byte.is_ascii_digit() || matches!(byte, b'.' | b'-')
 }
 
-/// Text with its entities and ends of lines replaced.
+/// Text with its entities and ends of lines replaced, up to a NUL.
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let text = String::from_utf8_lossy(bytes);
     if !text.contains(['&', '\r', '\n']) {
@@ -242,6 +241,9 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
             [b'\r' | b'\n', ..] => ('\n', 1),
             _ => entity(rest).unwrap_or(('&', 1)),
         };
+        if replaced == '\0' {
+            return Cow::Owned(out);
+        }
         out.push(replaced);
         rest = &rest[length..];
     }
@@ -261,11 +263,17 @@ fn entity(text: &str) -> Option<(char, usize)> {
         "gt" => '>',
         other => {
             let number = other.strip_prefix('#')?;
-            let code = match number.strip_prefix('x') {
-                Some(digits) => u32::from_str_radix(digits, 16),
-                None => number.parse(),
+            let (digits, radix) = match number.strip_prefix('x') {
+                Some(digits) => (digits, 16),
+                None => (number, 10),
             };
-            char::from_u32(code.ok()?)?
+            if !digits.chars().all(|digit| digit.is_digit(radix)) {
+                return None;
+            }
+            // No digits are 0, where the text ends.
+            let code =
+                if digits.is_empty() { 0 } else { u32::from_str_radix(digits, radix).ok()? };
+            char::from_u32(code)?
         }
     };
     Some((character, end + 1))

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use crate::number::is_space;
 use crate::tinyxml::{Malformed, Parsed};
-use crate::tree::{Attribute, Element, Tree};
+use crate::tree::{Attribute, Element, Tree, repeated};
 
 /// Parses a file.
 pub(crate) fn parse(bytes: &[u8]) -> Parsed<Tree<'_>> {
@@ -21,14 +21,6 @@ pub(crate) fn parse(bytes: &[u8]) -> Parsed<Tree<'_>> {
 enum Encoding {
     Utf8,
     Other,
-}
-
-/// How a tag ends.
-enum End {
-    Open,
-    Closed,
-    /// By an attribute that stands there before: what follows is not read.
-    Repeated,
 }
 
 struct Parser<'a> {
@@ -162,7 +154,9 @@ impl<'a> Parser<'a> {
         self.at += 1;
         let name = self.name();
         let mut attributes = Vec::new();
-        let end = self.attributes(start, &mut attributes)?;
+        let is_closed = self.attributes(start, &mut attributes)?;
+        // What follows is not read.
+        let is_repeated = repeated(&attributes).is_some();
         let index = self.tree.elements.len();
         match self.open.last() {
             Some(&open) => self.tree.elements[open].children.push(index),
@@ -177,10 +171,10 @@ impl<'a> Parser<'a> {
             text: None,
             tag,
         });
-        if matches!(end, End::Open) {
+        if !is_closed && !is_repeated {
             self.open.push(index);
         }
-        Ok(!matches!(end, End::Repeated))
+        Ok(!is_repeated)
     }
 
     fn name(&mut self) -> &'a [u8] {
@@ -189,27 +183,24 @@ impl<'a> Parser<'a> {
         name
     }
 
-    fn attributes(&mut self, tag: usize, found: &mut Vec<Attribute<'a>>) -> Parsed<End> {
+    /// Attributes, and whether the tag ends with `/>`.
+    fn attributes(&mut self, tag: usize, found: &mut Vec<Attribute<'a>>) -> Parsed<bool> {
         loop {
             match self.skip_space() {
                 None => return self.refuse(tag, "an element is not closed"),
                 Some(b'/') => {
                     self.at += 2;
                     return match self.bytes.get(self.at - 1) {
-                        Some(b'>') => Ok(End::Closed),
+                        Some(b'>') => Ok(true),
                         _ => self.refuse(tag, "`/` is not followed by `>`"),
                     };
                 }
                 Some(b'>') => {
                     self.at += 1;
-                    return Ok(End::Open);
+                    return Ok(false);
                 }
                 Some(_) => {
-                    let attribute = self.attribute()?;
-                    if found.iter().any(|one| one.name == attribute.name) {
-                        return Ok(End::Repeated);
-                    }
-                    found.push(attribute);
+                    found.push(self.attribute()?);
                 }
             }
         }

@@ -18,7 +18,7 @@ pub(crate) struct Element<'a> {
     pub attributes: Vec<Attribute<'a>>,
     /// Indices of the elements inside, in order.
     pub children: Vec<usize>,
-    /// The text before the first child of another kind; none if there is an element or a comment first.
+    /// The text before the first child of another kind; none if there is an element first.
     pub text: Option<Cow<'a, str>>,
     /// From `<` to the end of the start tag, bytes of the file.
     pub tag: Range<usize>,
@@ -90,6 +90,11 @@ impl<'t> Node<'t> {
         self.attribute(name).map(|one| &*one.value)
     }
 
+    /// Whether it has neither attributes nor elements.
+    pub fn is_empty(self) -> bool {
+        self.attributes().is_empty() && self.element().children.is_empty()
+    }
+
     pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
         let tree = self.tree;
         self.element().children.iter().map(move |&index| Node { tree, index })
@@ -132,4 +137,12 @@ impl<'t> Node<'t> {
     pub fn child(self, name: &str) -> Option<Node<'t>> {
         self.named(name).next()
     }
+}
+
+/// The place of an attribute that stands twice in an element.
+pub(crate) fn repeated(attributes: &[Attribute<'_>]) -> Option<usize> {
+    let mut names: Vec<(&str, usize)> =
+        attributes.iter().map(|one| (&*one.name, one.range.start)).collect();
+    names.sort_unstable();
+    names.windows(2).find(|two| two[0].0 == two[1].0).map(|two| two[1].1)
 }

@@ -1,6 +1,8 @@
 //! Elements and attributes that look like those of URDF, and that programs ignore: `<Visual>`, `x:origin`, `efort="3"`,
 //! `<inertial>` below `<robot>`. What resembles nothing is an extension, and is not judged.
 
+use std::collections::HashSet;
+
 use crate::effect::Effects;
 use crate::fault::{Fault, shortened};
 use crate::tinyxml;
@@ -164,11 +166,13 @@ impl Finder<'_> {
         let (mut visuals, mut collisions) = (0, 0);
         // What stands between links is of the one before, most likely.
         let mut here = place.clone();
+        let kinds = node.children().filter_map(|child| of_name(child.name()));
+        let inside: HashSet<&str> = kinds.map(|kind| kind.name).collect();
         for child in node.children() {
             let name = self.read_as(child.name());
             let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
             else {
-                self.unknown(node, child, known, &here);
+                self.unknown((node, &inside), child, known, &here);
                 continue;
             };
             let count = match kind.name {
@@ -202,28 +206,34 @@ impl Finder<'_> {
     }
 
     /// An element that does not stand in its parent.
-    fn unknown(&mut self, parent: Node<'_>, node: Node<'_>, known: &Known, place: &Place) {
+    fn unknown(
+        &mut self,
+        (parent, inside): (Node<'_>, &HashSet<&str>),
+        node: Node<'_>,
+        known: &Known,
+        place: &Place,
+    ) {
         let name = node.name();
         if is_extension(name) {
             return;
         }
-        if let Some(like) = meant_element(parent, name, known) {
-            let is_material = (known.name, like) == ("robot", "material");
-            let material = format!("material/{}", node.value("name").unwrap_or_default());
-            self.add(node, if is_material { &material } else { &place.part }, name, like);
+        if let Some(like) = meant_element(inside, name, known) {
+            self.add(node, &part_meant(node, like, known, place), name, like);
         } else if let Some(other) = of_name(name) {
-            if (other.name, known.name) != ("material", "collision") {
+            let is_default =
+                name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
+            if !is_default && (other.name, known.name) != ("material", "collision") {
                 self.add(node, &place.owner, name, other.name);
             }
         } else if let Some(like) = meant_attribute(parent, name, known) {
             self.add(node, &place.part, name, like);
         } else if without_prefix(name) == name {
-            self.wrapped(parent, node, known, place);
+            self.wrapped(inside, node, known, place);
         }
     }
 
     /// Elements that would be read outside of an unknown element.
-    fn wrapped(&mut self, parent: Node<'_>, wrapper: Node<'_>, known: &Known, place: &Place) {
+    fn wrapped(&mut self, beside: &HashSet<&str>, wrapper: Node<'_>, known: &Known, place: &Place) {
         for inner in wrapper.children() {
             let Some(kind) = of_name(inner.name()) else { continue };
             let is_whole = match kind.name {
@@ -234,20 +244,38 @@ impl Finder<'_> {
                 "material" => inner.attribute("name").is_some(),
                 _ => true,
             };
-            if is_whole && kind.parents.contains(&known.name) && would_be_read(parent, kind) {
-                self.add(inner, &place.part, kind.name, kind.name);
+            if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
+                self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
             }
         }
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
+        let plain = |name| match self.reads.names {
+            Names::AnyPrefix => without_prefix(name),
+            _ => name,
+        };
+        let free = |one: &&str| !node.attributes().iter().any(|other| plain(&other.name) == *one);
+        let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
+        let text = node.text().unwrap_or_default();
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let is_value = !text.trim().is_empty() && text.split_whitespace().all(is_number);
+        if is_value
+            && !missing.is_empty()
+            && !missing.iter().any(|one| self.reads.never.contains(one))
+        {
+            let fault =
+                Fault::Other("numbers are inside of the element, and not in its attributes");
+            self.effects.drop(node, format!("{part}/?"), fault);
+        }
         for attribute in node.attributes() {
-            let name = &*attribute.name;
-            if known.attributes.contains(&name) || name.starts_with("xml") || has_prefix(name) {
+            let name = plain(&attribute.name);
+            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let is_default = is_zero(&attribute.value) && matches!(known.name, "origin" | "axis");
+            if is_other || is_default || known.attributes.contains(&name) {
                 continue;
             }
-            let free = |one: &&str| node.attribute(one).is_none();
-            let own = known.attributes.iter().copied().filter(free).find(|one| is_like(name, one));
+            let own = missing.iter().copied().find(|one| is_like(name, one));
             // The attribute of an element beside or inside.
             let is_near = |one: &Known| {
                 one.parents.contains(&known.name)
@@ -274,6 +302,16 @@ impl Finder<'_> {
     }
 }
 
+/// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
+fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> String {
+    match (known.name, like) {
+        ("robot", "link" | "joint" | "material") => {
+            part_of("robot", like, node.value("name").unwrap_or_default(), 0)
+        }
+        _ => place.part.clone(),
+    }
+}
+
 /// The part that an element is about; that of its parent, if it is none itself.
 fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
     match element {
@@ -288,24 +326,30 @@ fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
 }
 
 /// The element that is meant by a name that is not one, if it would be read.
-fn meant_element(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
+fn meant_element(beside: &HashSet<&str>, name: &str, known: &Known) -> Option<&'static str> {
     let mut children = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
     let one = children.find(|one| is_like(name, one.name))?;
-    would_be_read(parent, one).then_some(one.name)
+    would_be_read(beside, one).then_some(one.name)
 }
 
 /// The attribute that is written as an element: `<value>3</value>`.
 fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
     let inside = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
-    let own = known.attributes.iter().copied().filter(|one| parent.attribute(one).is_none());
+    let own = known.attributes.iter().copied();
     let inside = inside.flat_map(|one| one.attributes.iter().copied());
-    own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)
+    let found = own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)?;
+    parent.attribute(found).is_none().then_some(found)
 }
 
 /// Whether another element of a kind is read where there may be one already.
-fn would_be_read(parent: Node<'_>, kind: &Known) -> bool {
+fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
     let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
-    is_often || kind.parents.contains(&"robot") || parent.child(kind.name).is_none()
+    is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+}
+
+/// Whether a value is that of an origin which is not written.
+fn is_zero(value: &str) -> bool {
+    value.split_whitespace().all(|word| word.parse() == Ok(0.0))
 }
 
 fn of_name(name: &str) -> Option<&'static Known> {

@@ -1,4 +1,4 @@
-//! Batches of configurations: allocation of the results, and the threads that write them.
+//! The results of batches of configurations: their allocation, and the room for them.
 
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
@@ -27,35 +27,6 @@ pub(super) fn room<T: Clone + Default + Send>(
     Ok(room)
 }
 
-/// Writes the results of a batch of configurations, `width` values each, into `out`, in blocks of `block`
-/// configurations on rayon's thread pool. `write` gets the scratch state that a block shares, the index of the
-/// configuration and its part of `out`. A single block is written on the caller's thread. Apart from the state and
-/// `write`, nothing allocates.
-///
-/// # Errors
-/// The error of `write` for the first configuration that fails. Results after it may then be missing.
-pub fn fill<T: Send, S: Default, E: Send>(
-    out: &mut [T],
-    width: usize,
-    block: usize,
-    write: impl Fn(&mut S, usize, &mut [T]) -> Result<(), E> + Sync,
-) -> Result<(), E> {
-    if width == 0 {
-        return Ok(());
-    }
-    let write_block = |(number, out): (usize, &mut [T])| {
-        let mut shared = S::default();
-        let mut each = out.chunks_mut(width).enumerate();
-        each.find_map(|(k, row)| write(&mut shared, number * block + k, row).err())
-    };
-    let size = width.saturating_mul(block);
-    let error = match out.len() <= size {
-        true => write_block((0, out)),
-        false => (out.par_chunks_mut(size).enumerate()).find_map_first(write_block),
-    };
-    error.map_or(Ok(()), Err)
-}
-
 /// # Errors
 /// [`RobotError::Room`] if `found` is not `count` times `width`.
 pub(super) fn check_room(found: usize, count: usize, width: usize) -> Result<(), RobotError> {
@@ -77,24 +48,6 @@ mod tests {
         }
         assert_eq!(room::<bool>(3, 2), Ok(vec![false; 6]));
         assert_eq!(room::<f64>(usize::MAX, 0), Ok(Vec::new()));
-    }
-
-    #[test]
-    fn the_first_error_counts() {
-        let mut out = vec![0; 3000];
-        let write = |_: &mut (), k: usize, out: &mut [usize]| match k {
-            517 | 900 => Err(k),
-            _ => {
-                out.fill(k);
-                Ok(())
-            }
-        };
-        assert_eq!(fill(&mut out, 3, 7, write), Err(517));
-        let all = |_: &mut (), k: usize, out: &mut [usize]| write(&mut (), k % 500, out);
-        assert_eq!(fill(&mut out, 3, 7, all), Ok(()));
-        let expected = (0..1000).flat_map(|k| [k % 500; 3]);
-        assert!(out.into_iter().eq(expected));
-        assert_eq!(fill(&mut [0; 0], 0, 7, write), Ok(()));
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Queries on batches of configurations, stored one after another in one slice.
 
-use super::batch::{check_room, fill};
+use super::batch::check_room;
 use super::checked::Checked;
 use super::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::fill;
 
 /// A motion takes at least as long as this many configurations.
 const MOTION: usize = 8;

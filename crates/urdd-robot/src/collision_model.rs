@@ -3,7 +3,7 @@
 use super::Robot;
 use super::error::RobotError;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
-use urdd_kinematics::learn::CollisionModel;
+use urdd_learned::CollisionModel;
 
 impl Robot {
     /// The learned self-collision model (SPEC 8.8): an estimate of the clearance between links. It filters out

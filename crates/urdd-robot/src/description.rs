@@ -4,8 +4,7 @@ use super::Robot;
 use super::error::RobotError;
 use urdd_directory::read_error::ReadError;
 use urdd_document::carried_urdf::read_file;
-use urdd_document::legacy_urdf::of_legacy;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::Source;
 use urdd_format::urdf::UrdfModule;
 
@@ -26,11 +25,7 @@ impl Robot {
     /// If `urdf_module` is missing or unusable.
     pub fn description(&self) -> Result<UrdfModule, RobotError> {
         let part = self.part(&[ModuleKind::Urdf])?;
-        match part.document(ModuleKind::Urdf) {
-            Some(ModuleDocument::Urdf(module)) => Ok((**module).clone()),
-            Some(ModuleDocument::LegacyUrdf(module)) => Ok(of_legacy(module)),
-            _ => Err(RobotError::Missing(ModuleKind::Urdf)),
-        }
+        part.description().cloned().ok_or(RobotError::Missing(ModuleKind::Urdf))
     }
 
     /// The source URDF that the URDD includes, according to its metadata. `None` if there is none, or in a legacy URDD.

@@ -3,12 +3,12 @@
 use nalgebra::{Isometry3, Matrix6xX, Point3};
 
 use super::Robot;
-use super::batch::{check_room, fill, room};
+use super::batch::{check_room, room};
 use super::error::RobotError;
 use super::names::check_link;
 use super::workspace::{Workspace, with_workspace};
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::Place;
+use urdd_kinematics::{Place, fill};
 
 /// 6 rows, one column for each DOF: linear velocity, then angular velocity.
 pub type Jacobian = Matrix6xX<f64>;

@@ -60,8 +60,6 @@ mod textured;
 mod workspace;
 pub mod world;
 
-#[doc(hidden)]
-pub use batch::fill;
 pub use description::SourceFile;
 pub use edge::{EdgeSettings, FirstContact};
 pub use error::RobotError;
@@ -81,6 +79,8 @@ pub use skip_edits::EditedSkips;
 pub use skips::Skips;
 pub use space::Configurations;
 pub use statistics::PairStatistics;
+#[doc(hidden)]
+pub use urdd_kinematics::fill;
 pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution, Verdict};
-pub use urdd_kinematics::learn::{Clearance, CollisionModel};
+pub use urdd_learned::{Clearance, CollisionModel};
 pub use world::{ObstacleDistance, ObstacleGradient, WorldProximity};

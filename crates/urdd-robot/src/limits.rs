@@ -20,7 +20,7 @@ impl Robot {
     fn limits(&self) -> Result<&[Vec<f64>; 2], RobotError> {
         keep(&self.limits, || {
             let part = self.part(&[ModuleKind::Bounds])?;
-            let Some(ModuleDocument::Bounds(bounds)) = part.document(ModuleKind::Bounds) else {
+            let Some(ModuleDocument::Bounds(bounds)) = part.document_v1(ModuleKind::Bounds) else {
                 return Err(RobotError::Missing(ModuleKind::Bounds));
             };
             let limits = [&bounds.dof_velocity_limits, &bounds.dof_effort_limits];

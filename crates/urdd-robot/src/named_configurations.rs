@@ -84,7 +84,7 @@ impl Robot {
         edits: &[ConfigurationEdit],
     ) -> Result<Vec<Result<NamedConfiguration, RobotError>>, RobotError> {
         let part = self.part(&[ModuleKind::Dof, ModuleKind::Bounds])?;
-        let documents = (part.document(ModuleKind::Dof), part.document(ModuleKind::Bounds));
+        let documents = (part.document_v1(ModuleKind::Dof), part.document_v1(ModuleKind::Bounds));
         let (Some(ModuleDocument::Dof(dof)), Some(ModuleDocument::Bounds(bounds))) = documents
         else {
             return Err(RobotError::Metadata("it is not of version 1".to_owned()));

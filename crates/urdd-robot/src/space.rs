@@ -19,18 +19,17 @@ impl Configurations {
     pub(super) fn new(part: &Urdd) -> Result<Self, RobotError> {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
         let bounds = part.bounds().ok_or(RobotError::Missing(ModuleKind::Bounds))?;
-        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, bounds.bounds)?;
-        let is_limited = match bounds.v1 {
-            Some(v1) if v1.dof_limited.len() == bounds.bounds.len() => v1.dof_limited.clone(),
+        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, &bounds.bounds)?;
+        let is_limited = if bounds.dof_limited.len() == bounds.bounds.len() {
+            bounds.dof_limited.clone()
+        } else {
             // Of a legacy URDD, the joint's type says so.
-            _ => {
-                let joint_of = &modules.dof.dof_idx_to_joint_idx_mapping;
-                let limited = |k: usize| {
-                    let joint = modules.chain.joints_in_chain.get(joint_of.get(k)?.get())?;
-                    Some(matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic))
-                };
-                (0..bounds.bounds.len()).map(|k| limited(k) == Some(true)).collect()
-            }
+            let joint_of = &modules.dof.dof_idx_to_joint_idx_mapping;
+            let limited = |k: usize| {
+                let joint = modules.chain.joints_in_chain.get(joint_of.get(k)?.get())?;
+                Some(matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic))
+            };
+            (0..bounds.bounds.len()).map(|k| limited(k) == Some(true)).collect()
         };
         // A producer may write the two bounds in either order.
         let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];

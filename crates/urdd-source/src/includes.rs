@@ -1,18 +1,13 @@
 //! The files that a xacro file includes, to notice their changes.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::thread;
 
 use crate::files::Files;
-use crate::process::{Ended, Running};
 use crate::settings::Settings;
-use crate::xacro::PackageIndex;
+use crate::xacro::{PackageIndex, run};
 use urdd_directory::cancellation::Cancellation;
 
-/// Maximum length of the list, bytes, and maximum number of files.
-const MAX_LIST: u64 = 1 << 20;
+/// Maximum number of folders, and of files, that are listed.
 const MAX_FILES: usize = 2000;
 /// Files that xacro reads.
 const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
@@ -35,30 +30,10 @@ fn has_macros(file: &Path) -> bool {
 }
 
 fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
-    let mut command = Command::new("xacro");
-    command.arg("--deps").arg(file.canonicalize().ok()?);
-    command.args(&settings.xacro.arguments);
     let given = PackageIndex::new(&settings.packages).ok()?;
-    given.tell(&mut command);
-    let mut running = Running::start(command).ok()?;
-    let (output, errors) = running.streams();
-    let read = |stream: Option<Box<dyn Read + Send>>| {
-        thread::spawn(move || {
-            let mut text = String::new();
-            stream?.take(MAX_LIST).read_to_string(&mut text).ok()?;
-            Some(text)
-        })
-    };
-    let output = read(output.map(|stream| Box::new(stream) as _));
-    read(errors.map(|stream| Box::new(stream) as _));
-    let limit = settings.xacro.time_limit;
-    let ended = running.wait(limit, cancellation, || false).ok()?;
-    if !matches!(ended, Ended::Itself(status) if status.success()) {
-        return None;
-    }
-    let text = output.join().ok()??;
-    let files = text.split_whitespace().map(PathBuf::from);
-    let files: Vec<PathBuf> = files.map(|file| given.lasting(file)).collect();
+    let text = run(&["--deps"], file, "", &settings.xacro, &given, cancellation).ok()?;
+    let files = text.split_whitespace().map(|file| given.lasting(PathBuf::from(file)));
+    let files: Vec<PathBuf> = files.collect();
     // A name with a blank is listed as two.
     files.iter().all(|file| file.is_file()).then_some(files)
 }

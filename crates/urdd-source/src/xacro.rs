@@ -62,12 +62,30 @@ pub(super) fn expand(
     packages: &Packages,
     cancellation: &Cancellation,
 ) -> Result<String, SourceError> {
+    let given = PackageIndex::new(packages).map_err(|error| {
+        let (file, reason) = (shown.to_owned(), error.to_string());
+        SourceError::Xacro { file, reason }
+    })?;
+    run(&[], path, shown, settings, &given, cancellation)
+}
+
+/// Runs xacro with these options on a file, and returns its output.
+///
+/// # Errors
+/// As for [`expand`].
+pub(super) fn run(
+    options: &[&str],
+    path: &Path,
+    shown: &str,
+    settings: &XacroSettings,
+    given: &PackageIndex,
+    cancellation: &Cancellation,
+) -> Result<String, SourceError> {
     let failed = |reason: String| SourceError::Xacro { file: shown.to_owned(), reason };
     // An absolute path cannot be mistaken for an option.
     let path = path.canonicalize().map_err(|error| failed(error.to_string()))?;
-    let given = PackageIndex::new(packages).map_err(|error| failed(error.to_string()))?;
     let mut command = Command::new("xacro");
-    command.arg(&path).args(&settings.arguments);
+    command.args(options).arg(&path).args(&settings.arguments);
     given.tell(&mut command);
     let mut running = Running::start(command).map_err(|error| match error.kind() {
         ErrorKind::NotFound => SourceError::NoXacro { file: shown.to_owned() },

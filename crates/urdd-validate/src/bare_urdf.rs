@@ -52,7 +52,7 @@ pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined
 
 /// Examines the text of a URDF with the rules that need nothing else. `name` is its name in the report.
 pub fn examine_urdf(text: &str, name: &str) -> Examined {
-    Examined::caught(Kind::Urdf, name, || {
+    Examined::caught::<ReadError>(Kind::Urdf, name, || {
         let urdf = CarriedUrdf::of_bytes(name, text.as_bytes())?;
         let no_files = Memory::new(name, BTreeMap::new()).map_err(|_| ReadError::Missing)?;
         Ok(judged(alone(Root::of(no_files), urdf), name, &rules::all()))

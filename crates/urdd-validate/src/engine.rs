@@ -123,11 +123,8 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             None => Some(SkipReason::absent(kind)),
             Some(module) => module.unusable().map(SkipReason::obstacle),
         },
-        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes).or_else(|| {
-            let spec = context.module(kind)?.spec;
-            let of_v1 = spec.is_some_and(|spec| spec.profile == Profile::V1);
-            (!of_v1).then_some(skip::not_in_this_version(kind))
-        }),
+        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes)
+            .or_else(|| context.is_legacy(kind).then_some(skip::not_in_this_version(kind))),
         Need::AnyModule(kinds) => {
             let usable = |kind: &ModuleKind| context.document(*kind).is_some();
             (!kinds.iter().any(usable)).then_some(skip::none_usable(kinds))
@@ -141,7 +138,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             context.urdf().err().map(|why| SkipReason::LeftOut(why.to_string().into()))
         }
         Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
-        Need::NotFailedInV1(_) | Need::NoPartInV1(..) | Need::EachInV1(_)
+        Need::NotFailedInV1(_) | Need::NoPieceInV1(_) | Need::EachInV1(_)
             if context.profile() != Profile::V1 =>
         {
             None
@@ -149,7 +146,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::Each(codes) | Need::EachInV1(codes) => {
             codes.iter().find_map(|code| obstacle(outcomes, *code, Faulted::elsewhere))
         }
-        Need::NoPartInV1(code, kind) => obstacle(outcomes, code, |faulted| faulted.any(kind)),
+        Need::NoPieceInV1(code) => obstacle(outcomes, code, Faulted::has_pieces),
         Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
             Some(Outcome::Passed) => None,
             Some(Outcome::Failed) => Some(SkipReason::Failed(code)),

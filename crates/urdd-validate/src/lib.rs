@@ -169,8 +169,9 @@ fn run_of(
     settings: &Settings,
     load: impl FnOnce() -> Result<Urdd, ReadError>,
 ) -> Result<Run, ValidateError> {
-    let mut examined =
-        Examined::caught(Kind::Urdd, name, || Ok(examine(load()?, name, settings, &rules::all())));
+    let mut examined = Examined::caught::<ReadError>(Kind::Urdd, name, || {
+        Ok(examine(load()?, name, settings, &rules::all()))
+    });
     settings.cancellation.check()?;
     bound::trim(&mut examined.checks, bound::of_each(1));
     let folders = vec![PathBuf::from(name)];

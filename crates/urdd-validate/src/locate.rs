@@ -13,13 +13,10 @@ use urdd_format::registry::ModuleKind;
 
 /// Completes the places of findings, and then those related to them.
 pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
-    fn own(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
-        std::iter::once(&mut finding.place).chain(&mut finding.more)
-    }
     let names = Names::new(context);
-    let places = findings.iter_mut().flat_map(own);
+    let places = findings.iter_mut().flat_map(Finding::places_mut);
     complete(context, &names, places);
-    let related = findings.iter_mut().flat_map(own);
+    let related = findings.iter_mut().flat_map(Finding::places_mut);
     complete(context, &names, related.flat_map(|place| &mut place.related));
 }
 

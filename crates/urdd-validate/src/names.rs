@@ -109,7 +109,7 @@ impl<'a> Names<'a> {
     }
 
     fn dof(&self, dof: usize) -> Option<String> {
-        let joint = self.context.dofs()?.joint_of_dof.get(dof)?.get();
+        let joint = self.context.dofs()?.dof_idx_to_joint_idx_mapping.get(dof)?.get();
         Some(format!("DOF {dof} of {}", self.joint(joint)?))
     }
 

@@ -2,7 +2,6 @@
 
 use super::rule::Need::{self, *};
 use urdd_findings::code::Code::*;
-use urdd_findings::part::PartKind;
 use urdd_format::registry::ModuleKind as Kind;
 
 /// At least one module of meshes per link.
@@ -94,7 +93,7 @@ pub const PIECES_LISTED: Need = NoneFailed(&[MSH001, MSH004, MSH007]);
 pub const SHAPES_LISTED: Need = NoneFailed(&[SHP001, SHP002]);
 
 /// In a URDD of version 1: no piece is listed twice.
-pub const NO_PIECE_TWICE: Need = NoPartInV1(MSH005, PartKind::Piece);
+pub const NO_PIECE_TWICE: Need = NoPieceInV1(MSH005);
 
 /// Boxes, spheres, and the hulls and pieces that they contain.
 pub const ENCLOSURES: Need = All(&[

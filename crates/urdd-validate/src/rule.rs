@@ -6,7 +6,6 @@ use super::context::Context;
 use urdd_findings::code::Code;
 use urdd_findings::description::{Consequence, Description};
 use urdd_findings::finding::Findings;
-use urdd_findings::part::PartKind;
 use urdd_format::registry::ModuleKind;
 
 /// A precondition of a rule. The rule does not run unless all its needs are met, so its check may take with `?`
@@ -42,8 +41,8 @@ pub enum Need {
     Each(&'static [Code]),
     /// The same, in a URDD of version 1 only: in legacy URDDs, these rules often report a convention.
     EachInV1(&'static [Code]),
-    /// In a URDD of version 1: the other rule found no fault in parts of this kind.
-    NoPartInV1(Code, PartKind),
+    /// In a URDD of version 1: the other rule found no fault in convex pieces.
+    NoPieceInV1(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.
@@ -57,7 +56,7 @@ impl Need {
             Need::Passed(code)
             | Need::NotFailed(code)
             | Need::NotFailedInV1(code)
-            | Need::NoPartInV1(code, _) => vec![*code],
+            | Need::NoPieceInV1(code) => vec![*code],
             Need::NoneFailed(codes) | Need::Each(codes) | Need::EachInV1(codes) => codes.to_vec(),
             Need::All(needs) => needs.iter().flat_map(Need::codes).collect(),
             _ => Vec::new(),

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+
+use parking_lot::Mutex;
 
 use crate::drop_folder::Drops;
 use crate::revision;
@@ -131,7 +133,7 @@ impl Shown {
         let path = self.path();
         // Taken before the files are listed, so that later changes are detected.
         let revision = revision::of(&path);
-        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut opened = self.opened.lock();
         if let Some((of, known)) = opened.as_ref()
             && *of == revision
         {
@@ -149,64 +151,59 @@ impl Shown {
     /// # Errors
     /// As [`Shown::open`].
     pub fn own_files(&self) -> Result<Root, ReadError> {
-        let known = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, opened)) = known.as_ref() {
-            return Ok(opened.own.clone());
-        }
-        drop(known);
-        Ok(self.open()?.1.own)
+        let known = self.opened.lock().as_ref().map(|(_, opened)| opened.own.clone());
+        known.map_or_else(|| Ok(self.open()?.1.own), Ok)
     }
 
     /// The path of its folder or archive.
     pub fn path(&self) -> PathBuf {
-        self.standing().path.clone()
+        self.standing.lock().path.clone()
     }
 
     /// The assumptions made when it was generated for display.
     pub fn notes(&self) -> Vec<String> {
-        self.standing().notes.clone()
+        self.standing.lock().notes.clone()
     }
 
     /// Whether its skips can be saved.
     pub fn is_writable(&self) -> bool {
-        self.standing().kind == Kind::Writable
+        self.standing.lock().kind == Kind::Writable
     }
 
     /// Whether it is deleted when the program ends, unless it is saved.
     pub fn is_temporary(&self) -> bool {
-        self.standing().kind == Kind::Temporary
+        self.standing.lock().kind == Kind::Temporary
     }
 
     /// Progress of its generation.
     pub fn making(&self) -> Making {
-        self.standing().making.clone()
+        self.standing.lock().making.clone()
     }
 
     /// Sets the progress of its generation.
     pub fn set_making(&self, making: Making) {
-        self.standing().making = making;
+        self.standing.lock().making = making;
     }
 
     /// Whether there is something to show.
     pub fn is_ready(&self) -> bool {
-        self.standing().is_ready
+        self.standing.lock().is_ready
     }
 
     /// Records that a page shows it, or waits for it.
     pub fn see(&self) {
-        *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+        *self.seen.lock() = Some(Instant::now());
     }
 
     /// How long ago a page last asked for it.
     pub fn unseen_for(&self) -> Option<Duration> {
-        let seen = *self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        seen.map(|seen| seen.elapsed())
+        self.seen.lock().map(|seen| seen.elapsed())
     }
 
     /// Shows what was generated at a path, with these assumptions, while `making` goes on. Not if it was saved
     /// meanwhile.
     pub fn show(&self, path: PathBuf, notes: Vec<String>, making: Making) {
-        let mut standing = self.standing();
+        let mut standing = self.standing.lock();
         if standing.kind == Kind::Temporary {
             standing.path = path;
             standing.notes = notes;
@@ -217,15 +214,11 @@ impl Shown {
 
     /// Records that it is now in a folder of the user.
     pub(super) fn keep_at(&self, path: PathBuf) {
-        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = None;
-        let mut standing = self.standing();
+        *self.opened.lock() = None;
+        let mut standing = self.standing.lock();
         standing.path = path;
         standing.kind = Kind::Writable;
         standing.making = Making::Done;
-    }
-
-    fn standing(&self) -> MutexGuard<'_, Standing> {
-        self.standing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -284,8 +277,7 @@ impl Collection {
     pub fn add_root(&self, root: &Root) -> Result<Arc<Shown>, ReadError> {
         let opened = Opened::of(root)?;
         let shown = self.put(root.folder_name(), None, PathBuf::new(), Kind::ReadOnly);
-        let opened = Some((revision::GONE.to_owned(), opened));
-        *shown.opened.lock().unwrap_or_else(PoisonError::into_inner) = opened;
+        *shown.opened.lock() = Some((revision::GONE.to_owned(), opened));
         Ok(shown)
     }
 
@@ -303,7 +295,7 @@ impl Collection {
         let word = if word.is_empty() { "robot" } else { &word };
         let mut id = word.to_owned();
         let mut number = 2;
-        let mut listed = self.listed();
+        let mut listed = self.listed.lock();
         while !listed.ids.insert(id.clone()) {
             id = format!("{word}.{number}");
             number += 1;
@@ -319,10 +311,7 @@ impl Collection {
                 is_ready: is_made,
                 notes: Vec::new(),
                 kind,
-                making: match is_made {
-                    true => Making::Done,
-                    false => Making::Waiting,
-                },
+                making: if is_made { Making::Done } else { Making::Waiting },
             }),
             opened: Mutex::default(),
             seen: Mutex::default(),
@@ -336,18 +325,12 @@ impl Collection {
 
     /// The robots.
     pub fn robots(&self) -> Vec<Arc<Shown>> {
-        self.listed().robots.clone()
+        self.listed.lock().robots.clone()
     }
 
     /// Finds a robot by its id.
     pub fn find(&self, id: &str) -> Option<Arc<Shown>> {
-        let listed = self.listed();
-        let found = listed.robots.iter().find(|robot| robot.id == id);
-        found.map(Arc::clone)
-    }
-
-    fn listed(&self) -> MutexGuard<'_, Listed> {
-        self.listed.lock().unwrap_or_else(PoisonError::into_inner)
+        self.listed.lock().robots.iter().find(|robot| robot.id == id).cloned()
     }
 }
 

@@ -3,7 +3,9 @@
 
 use std::io;
 use std::net::{Shutdown, TcpStream};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
+
+use parking_lot::Mutex;
 
 /// Maximum number of simultaneous connections, and of those that have sent the token. The difference is left for new
 /// ones.
@@ -28,18 +30,11 @@ struct Open {
     is_known: bool,
 }
 
-impl Connections {
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
 impl State {
     /// Closes the oldest connection that has, or has not, sent the token.
     fn close_oldest(&mut self, is_known: bool) {
         if let Some(oldest) = self.open.iter().position(|open| open.is_known == is_known) {
-            let gone = self.open.remove(oldest);
-            let _ = gone.stream.shutdown(Shutdown::Both);
+            let _ = self.open.remove(oldest).stream.shutdown(Shutdown::Both);
         }
     }
 }
@@ -58,25 +53,23 @@ impl Connection {
     /// If the stream cannot be cloned.
     pub fn begin(stream: &TcpStream, all: &Arc<Connections>) -> io::Result<Self> {
         let stream = stream.try_clone()?;
-        let mut state = all.state();
+        let mut state = all.0.lock();
         if state.open.len() >= MAX_CONNECTIONS {
             state.close_oldest(false);
         }
         let number = state.next;
         state.next += 1;
         state.open.push(Open { number, stream, is_known: false });
-        let all = Arc::clone(all);
-        Ok(Connection { number, all })
+        Ok(Connection { number, all: Arc::clone(all) })
     }
 
     /// Marks the connection as having sent the token. If too many have, closes the oldest of them.
     pub fn keep(&self) {
-        let mut state = self.all.state();
+        let mut state = self.all.0.lock();
         if state.open.iter().filter(|open| open.is_known).count() >= MAX_KNOWN {
             state.close_oldest(true);
         }
-        let mut open = state.open.iter_mut();
-        if let Some(own) = open.find(|open| open.number == self.number) {
+        if let Some(own) = state.open.iter_mut().find(|open| open.number == self.number) {
             own.is_known = true;
         }
     }
@@ -84,7 +77,6 @@ impl Connection {
 
 impl Drop for Connection {
     fn drop(&mut self) {
-        let mut state = self.all.state();
-        state.open.retain(|open| open.number != self.number);
+        self.all.0.lock().open.retain(|open| open.number != self.number);
     }
 }

@@ -2,7 +2,10 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+
+use parking_lot::Mutex;
+
+use crate::reply::Failure;
 
 /// Maximum size of all drops, bytes.
 const MAX_TOTAL: u64 = 1 << 30;
@@ -36,9 +39,9 @@ impl Drops {
     /// A new folder for so many bytes.
     ///
     /// # Errors
-    /// A status of HTTP and the reason, if there is no room.
-    pub(super) fn begin(&self, bytes: u64) -> Result<PathBuf, (u16, String)> {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+    /// If there is no room.
+    pub(super) fn begin(&self, bytes: u64) -> Result<PathBuf, Failure> {
+        let mut taken = self.taken.lock();
         if taken.bytes.saturating_add(bytes) > MAX_TOTAL {
             let why = "more than 1 GiB was dropped; give the path to `urdd view` instead";
             return Err((413, why.to_owned()));

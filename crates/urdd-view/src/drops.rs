@@ -16,8 +16,7 @@ use zip::ZipArchive;
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
 use crate::endings::Endings;
-use crate::reply::Reply;
-use crate::save::Failure;
+use crate::reply::{Failure, Reply};
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::path;
 use urdd_source::robots;
@@ -44,10 +43,7 @@ pub fn take(collection: &Collection, body: &[u8], is_gone: &dyn Fn() -> bool) ->
     let Some(drops) = &collection.drops else {
         return Reply::failure(403, "no URDFs are taken here\n");
     };
-    match taken(collection, drops, body, is_gone) {
-        Ok(ids) => Reply::json(&json!({ "robots": ids })),
-        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
-    }
+    Reply::of(taken(collection, drops, body, is_gone).map(|ids| json!({ "robots": ids })))
 }
 
 fn taken(
@@ -58,9 +54,9 @@ fn taken(
 ) -> Result<Vec<String>, Failure> {
     let (mut items, mut content) = items(body)?;
     let unpacked;
-    let wanted = || match is_gone() {
-        true => Err((409, "the page does not wait any more".to_owned())),
-        false => Ok(()),
+    let wanted = || {
+        let gone = || (409, "the page does not wait any more".to_owned());
+        (!is_gone()).then_some(()).ok_or_else(gone)
     };
     if let [item] = &*items
         && item.path.to_ascii_lowercase().ends_with(".zip")
@@ -75,9 +71,8 @@ fn taken(
     let sources = sources.inspect_err(|_| {
         let _ = fs::remove_dir_all(&folder);
     })?;
-    let robots = sources.into_iter();
-    let robots = robots.map(|(name, source)| collection.add_source(name, source).id.clone());
-    Ok(robots.collect())
+    let add = |(name, source)| collection.add_source(name, source).id.clone();
+    Ok(sources.into_iter().map(add).collect())
 }
 
 /// The files of a drop, and their bytes.
@@ -111,15 +106,13 @@ fn of_zip(
         }
         let room = MAX_BODY.saturating_sub(content.len() as u64);
         // The size that the archive states is not believed.
-        let mut limited = (&mut file).take(room + 1);
-        let size = limited.read_to_end(&mut content);
+        let size = (&mut file).take(room + 1).read_to_end(&mut content);
         let size = size.map_err(|error| bad(&error))? as u64;
         if size > room {
             let why = format!("this .zip has more than {} MiB in it", MAX_BODY >> 20);
             return Err((413, why));
         }
-        let path = file.name().to_owned();
-        items.push(Item { path, size });
+        items.push(Item { path: file.name().to_owned(), size });
     }
     Ok((items, content))
 }

@@ -105,8 +105,8 @@ pub(super) struct Published {
 /// Collects what is published of a robot.
 pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
     let root = robot.open().map_err(|error| unread(robot, error))?.1.own;
-    let report = report::report_on(&root, &robot.name);
-    let report = report.unwrap_or_else(|error| json!({ "error": error }).to_string());
+    let report = report::report_on(&root, &robot.name)
+        .unwrap_or_else(|error| json!({ "error": error }).to_string());
     let mut entry = route::entry_with(robot, &report);
     // A site is read-only, and notes name files of this machine.
     entry["writable"] = json!(false);
@@ -116,7 +116,7 @@ pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
 }
 
 pub(super) fn unread(robot: &Shown, error: ReadError) -> ExportError {
-    ExportError::Robot { robot: robot.name.clone(), error }
+    ExportError::Robot(robot.name.clone(), error)
 }
 
 /// Writes a robot: its files, their list, and its report.

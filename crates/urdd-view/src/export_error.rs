@@ -16,49 +16,32 @@ pub enum ExportError {
     #[error("{}: this folder is not empty, and not a site that `urdd view --export` wrote; give another one", .0.display())]
     Occupied(PathBuf),
     /// The folder contains a site of 0.2.0, which has no list of its files.
+    /// The paths written by 0.2.0 that still exist are named.
     #[error(
         "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; check \
          that nothing below robots is yours) and run this again: all other files stay",
-        folder.display(), names(left)
+        .0.display(), names(.1)
     )]
-    Unlisted {
-        /// The folder.
-        folder: PathBuf,
-        /// The paths written by 0.2.0 that still exist.
-        left: Vec<PathBuf>,
-    },
+    Unlisted(PathBuf, Vec<PathBuf>),
     /// The user's files are at the paths of the site's files.
     #[error(
         "{}: not written by the last export, or changed since, and would be overwritten; nothing was changed. Move it \
          away, and run this again",
-        names(files)
+        names(.0)
     )]
-    InTheWay {
-        /// The files.
-        files: Vec<PathBuf>,
-    },
+    InTheWay(Vec<PathBuf>),
     /// It cannot be written.
     #[error(transparent)]
     Write(#[from] StagingError),
     /// The page's built-in data is corrupt.
     #[error("the page cannot be unpacked: {0}")]
     Page(io::Error),
-    /// A robot is too large for one file.
-    #[error("{robot}: {size} bytes are too many for a page in one file; give a folder")]
-    TooLarge {
-        /// Its name.
-        robot: String,
-        /// Its size in bytes.
-        size: u64,
-    },
+    /// A robot is too large for one file: its name, and its size in bytes.
+    #[error("{0}: {1} bytes are too many for a page in one file; give a folder")]
+    TooLarge(String, u64),
     /// A robot cannot be read.
-    #[error("{robot}: {error}")]
-    Robot {
-        /// Its name.
-        robot: String,
-        /// Why.
-        error: ReadError,
-    },
+    #[error("{0}: {1}")]
+    Robot(String, ReadError),
 }
 
 fn names(paths: &[PathBuf]) -> String {

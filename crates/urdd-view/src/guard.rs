@@ -66,10 +66,7 @@ impl Guard {
     /// # Errors
     /// The reason for the refusal.
     pub fn entrance(&self, caller: &Caller) -> Result<(), Refusal> {
-        let site = match caller.follows_a_link() {
-            true => Some("none"),
-            false => caller.site,
-        };
+        let site = if caller.follows_a_link() { Some("none") } else { caller.site };
         self.page(&Caller { site, ..*caller })
     }
 
@@ -105,10 +102,7 @@ impl Guard {
         let own = self.token.as_bytes();
         // Compares every byte, so that timing reveals nothing.
         let differ = own.iter().zip(given).fold(0, |sum, (a, b)| sum | (a ^ b));
-        match own.len() == given.len() && differ == 0 {
-            true => Ok(()),
-            false => Err(Refusal::Token),
-        }
+        if own.len() == given.len() && differ == 0 { Ok(()) } else { Err(Refusal::Token) }
     }
 }
 

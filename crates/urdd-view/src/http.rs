@@ -28,7 +28,7 @@ const MAX_LINGER: u64 = 1 << 20;
 
 /// A request.
 #[derive(Debug, Default)]
-pub struct Asked {
+pub struct Request {
     /// Its method.
     pub method: String,
     /// Its URL, as sent.
@@ -39,7 +39,7 @@ pub struct Asked {
     pub body: Vec<u8>,
 }
 
-impl Asked {
+impl Request {
     /// The value of a header; empty if the header is repeated.
     pub fn header(&self, name: &str) -> Option<&str> {
         let mut found = self.headers.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
@@ -66,10 +66,7 @@ impl Timed {
     /// The time left for the next step.
     fn left(&self) -> io::Result<Duration> {
         let left = self.until.saturating_duration_since(Instant::now());
-        match left.is_zero() {
-            true => Err(io::ErrorKind::TimedOut.into()),
-            false => Ok(left.min(SILENCE)),
-        }
+        if left.is_zero() { Err(io::ErrorKind::TimedOut.into()) } else { Ok(left.min(SILENCE)) }
     }
 }
 
@@ -96,28 +93,28 @@ impl Write for Timed {
 /// closed the connection.
 pub fn converse(
     stream: TcpStream,
-    admit: impl FnOnce(&Asked) -> Result<u64, Reply>,
-    answer: impl FnOnce(&Asked, &dyn Fn() -> bool) -> Reply,
+    admit: impl FnOnce(&Request) -> Result<u64, Reply>,
+    answer: impl FnOnce(&Request, &dyn Fn() -> bool) -> Reply,
 ) -> io::Result<()> {
     stream.set_nodelay(true)?;
     let until = Instant::now() + MAX_HEAD_TIME;
     let mut reader = BufReader::new(Timed { stream, until });
     let (reply, head_only) = match head(&mut reader)? {
         Err(refused) => (refused, false),
-        Ok(mut asked) => {
-            let admitted = admit(&asked).and_then(|limit| length(&asked, limit));
+        Ok(mut request) => {
+            let admitted = admit(&request).and_then(|limit| length(&request, limit));
             let received = match admitted {
                 Err(refused) => Err(refused),
                 Ok(length) => {
                     reader.get_mut().for_another(MAX_BODY_TIME);
-                    body(&mut reader, length, &mut asked.body)?
+                    body(&mut reader, length, &mut request.body)?
                 }
             };
-            let head_only = asked.method == "HEAD";
+            let head_only = request.method == "HEAD";
             match received {
                 Ok(()) => {
                     let stream = &reader.get_ref().stream;
-                    (answer(&asked, &|| is_closed(stream)), head_only)
+                    (answer(&request, &|| is_closed(stream)), head_only)
                 }
                 Err(refused) => (refused, head_only),
             }
@@ -145,7 +142,7 @@ fn is_closed(stream: &TcpStream) -> bool {
 }
 
 /// Reads a request up to its body; an invalid request gives the response to send.
-fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
+fn head(reader: &mut impl Read) -> io::Result<Result<Request, Reply>> {
     let mut head = Vec::new();
     while !head.ends_with(b"\r\n\r\n") {
         if head.len() >= MAX_HEAD {
@@ -161,7 +158,7 @@ fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
         return Ok(Err(Reply::failure(400, "this is no request\n")));
     }
     let text = |value: &[u8]| std::str::from_utf8(value).unwrap_or_default().to_owned();
-    Ok(Ok(Asked {
+    Ok(Ok(Request {
         method: parsed.method.unwrap_or_default().to_owned(),
         url: parsed.path.unwrap_or_default().to_owned(),
         headers: parsed
@@ -174,11 +171,11 @@ fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
 }
 
 /// The length of a request's body, or the response that rejects it.
-fn length(asked: &Asked, limit: u64) -> Result<u64, Reply> {
-    if asked.header("Transfer-Encoding").is_some() {
+fn length(request: &Request, limit: u64) -> Result<u64, Reply> {
+    if request.header("Transfer-Encoding").is_some() {
         return Err(Reply::failure(411, "the length of the body is missing\n"));
     }
-    match asked.header("Content-Length").map(str::parse::<u64>) {
+    match request.header("Content-Length").map(str::parse::<u64>) {
         None => Ok(0),
         Some(Ok(length)) if length <= limit => Ok(length),
         Some(Ok(_)) => Err(Reply::failure(413, "the body is too long\n")),
@@ -196,24 +193,17 @@ fn body(reader: &mut impl Read, length: u64, body: &mut Vec<u8>) -> io::Result<R
 
 fn write(stream: &mut Timed, reply: Reply, head_only: bool) -> io::Result<()> {
     let mut head = format!("HTTP/1.1 {} {}\r\n", reply.status, word(reply.status));
-    let mut add = |name: &str, value: &str| {
-        head.push_str(name);
-        head.push_str(": ");
-        head.push_str(value);
-        head.push_str("\r\n");
-    };
     for (name, value) in HEADERS {
-        add(name, value);
+        head += &format!("{name}: {value}\r\n");
     }
-    add("Content-Type", reply.media_type);
+    head += &format!("Content-Type: {}\r\n", reply.media_type);
     if reply.brotli {
-        add("Content-Encoding", "br");
+        head += "Content-Encoding: br\r\n";
     }
     if let Some(size) = reply.body.size() {
-        add("Content-Length", &size.to_string());
+        head += &format!("Content-Length: {size}\r\n");
     }
-    add("Connection", "close");
-    head.push_str("\r\n");
+    head += "Connection: close\r\n\r\n";
     stream.write_all(head.as_bytes())?;
     if !head_only {
         match reply.body {
@@ -255,16 +245,16 @@ mod tests {
     use super::*;
 
     /// Reads a request whose body may have up to 10 bytes.
-    fn read(mut text: &[u8]) -> io::Result<Result<Asked, Reply>> {
-        let mut asked = match head(&mut text)? {
-            Ok(asked) => asked,
+    fn read(mut text: &[u8]) -> io::Result<Result<Request, Reply>> {
+        let mut request = match head(&mut text)? {
+            Ok(request) => request,
             Err(refused) => return Ok(Err(refused)),
         };
-        let length = match length(&asked, 10) {
+        let length = match length(&request, 10) {
             Ok(length) => length,
             Err(refused) => return Ok(Err(refused)),
         };
-        Ok(body(&mut text, length, &mut asked.body)?.map(|()| asked))
+        Ok(body(&mut text, length, &mut request.body)?.map(|()| request))
     }
 
     fn status(text: &[u8]) -> u16 {
@@ -277,11 +267,11 @@ mod tests {
     #[test]
     fn a_request_is_read() {
         let text = b"POST /a?b HTTP/1.1\r\nHost: x\r\ncontent-length: 3\r\n\r\nabcdef";
-        let asked = read(text).expect("read").ok().expect("a request");
-        assert_eq!((&*asked.method, &*asked.url), ("POST", "/a?b"));
-        assert_eq!(asked.header("host"), Some("x"));
-        assert_eq!(asked.header("origin"), None);
-        assert_eq!(asked.body, b"abc");
+        let request = read(text).expect("read").ok().expect("a request");
+        assert_eq!((&*request.method, &*request.url), ("POST", "/a?b"));
+        assert_eq!(request.header("host"), Some("x"));
+        assert_eq!(request.header("origin"), None);
+        assert_eq!(request.body, b"abc");
     }
 
     #[test]

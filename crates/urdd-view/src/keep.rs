@@ -6,9 +6,8 @@ use serde::Deserialize;
 use serde_json::json;
 
 use crate::collection::{Making, Shown};
-use crate::reply::Reply;
+use crate::reply::{Failure, Reply, wish};
 use crate::revision;
-use crate::save::Failure;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::staging::Staging;
@@ -25,17 +24,11 @@ struct Wish {
 
 /// Saves a generated URDD into a new or empty folder.
 pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
-    let wish: Wish = match serde_json::from_slice(body) {
-        Ok(wish) => wish,
-        Err(error) => return Reply::failure(400, format!("not the name of a folder: {error}\n")),
-    };
-    match kept(robot, &wish.folder) {
-        Ok(folder) => Reply::json(&json!({
-            "folder": folder.display().to_string(),
-            "revision": revision::of(&folder),
-        })),
-        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
-    }
+    let kept = wish(body, "the name of a folder").and_then(|Wish { folder }| kept(robot, &folder));
+    Reply::of(kept.map(|folder| {
+        let revision = revision::of(&folder);
+        json!({ "folder": folder.display().to_string(), "revision": revision })
+    }))
 }
 
 fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
@@ -43,15 +36,12 @@ fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
         return Err((403, "this URDD is already in a folder".to_owned()));
     }
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
-    let unfinished = || {
-        let why = "this robot is still being generated; save it when it is complete";
-        (409, why.to_owned())
-    };
     // While this is locked, no run replaces what is copied.
     let path = robot.path();
     let lock = TargetLock::at_once(&path).map_err(|error| failed(&error))?;
     if lock.is_none() || robot.making() != Making::Done || robot.path() != path {
-        return Err(unfinished());
+        let why = "this robot is still being generated; save it when it is complete";
+        return Err((409, why.to_owned()));
     }
     let target = resolved(folder)?;
     free(&target)?;
@@ -73,12 +63,9 @@ fn resolved(folder: &str) -> Result<PathBuf, Failure> {
         return Err((400, "give a folder".to_owned()));
     }
     let path = match said.strip_prefix("~/") {
-        Some(rest) => match std::env::home_dir() {
-            Some(home) => home.join(rest),
-            None => {
-                return Err((400, "the home folder is unknown: write the full path".to_owned()));
-            }
-        },
+        Some(rest) => std::env::home_dir()
+            .ok_or_else(|| (400, "the home folder is unknown: write the full path".to_owned()))?
+            .join(rest),
         None => PathBuf::from(said),
     };
     absolute(&path).map_err(|error| (400, format!("{said}: {error}")))

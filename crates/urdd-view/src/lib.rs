@@ -3,18 +3,18 @@
 //! `urdd view`: the page `page/`, the robots that it shows, and a server for both. Only a browser on this machine with
 //! the printed address can use the server.
 
-pub mod assets;
-pub mod collection;
+mod assets;
+mod collection;
 mod connections;
 mod drop_folder;
 mod drops;
 mod endings;
-pub mod export;
+mod export;
 mod export_error;
 mod guard;
 mod http;
 mod keep;
-pub mod live;
+mod live;
 mod meanings;
 mod one_file;
 mod picture;
@@ -24,10 +24,10 @@ mod revision;
 mod route;
 mod save;
 mod sent_states;
-pub mod server;
+mod server;
 mod site_list;
 mod states;
-pub mod temporary;
+mod temporary;
 
 pub use collection::{Collection, Making, Shown, Source};
 pub use export::export;

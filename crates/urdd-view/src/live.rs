@@ -6,10 +6,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::thread::{self, Scope, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
+use parking_lot::Mutex;
 use rayon::ThreadPool;
 
 use crate::collection::{Collection, Making, Shown, Source};
@@ -46,6 +47,7 @@ pub struct Live<'a> {
 }
 
 /// A robot that was opened.
+#[derive(Clone)]
 struct Followed {
     shown: Arc<Shown>,
     source: Source,
@@ -117,10 +119,10 @@ impl Live<'_> {
             return true;
         };
         let robot = self.followed(Arc::clone(shown), source);
-        let whole = self.whole(&robot, self.settings.cancellation.clone());
-        let generated = whole.is_ok();
-        robot.end(whole);
-        generated
+        let outcome = self.whole(&robot, self.settings.cancellation.clone());
+        let is_made = outcome.is_ok();
+        robot.end(outcome);
+        is_made
     }
 
     fn followed(&self, shown: Arc<Shown>, source: Source) -> Followed {
@@ -142,9 +144,8 @@ impl Live<'_> {
     fn picture(&self, robot: &mut Followed, pool: Option<&ThreadPool>) {
         robot.turn += 1;
         // Before anything is read, so that later changes are noticed.
-        let known = robot.files.keys().cloned();
-        let before = known.map(|file| (revision::of_file(&file), file));
-        let files = Mutex::new(before.map(|(word, file)| (file, word)).collect());
+        let before = robot.files.keys().map(|file| (file.clone(), revision::of_file(file)));
+        let files = Mutex::new(before.collect());
         let target = robot.picture_path();
         let progress = Reading { shown: &robot.shown, files: &files };
         let made = Selection::parse(PICTURE.iter().copied()).ok();
@@ -165,7 +166,7 @@ impl Live<'_> {
             }
         });
         let settings = robot.source.settings(self.settings);
-        let mut files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut files = files.into_inner();
         for file in included(&robot.job.source, &settings.source, &settings.cancellation) {
             let word = revision::of_file(&file);
             files.entry(file).or_insert(word);
@@ -197,21 +198,9 @@ impl Live<'_> {
         let waiting = waiting.filter(|(_, robot)| is_watched(&robot.shown));
         let (id, robot) = waiting.min_by_key(|(_, robot)| robot.shown.unseen_for())?;
         let cancellation = Cancellation::default();
-        let copy = Followed {
-            shown: Arc::clone(&robot.shown),
-            source: robot.source.clone(),
-            job: robot.job.clone(),
-            folder: robot.folder.clone(),
-            files: Files::new(),
-            ..*robot
-        };
-        let wish = cancellation.clone();
-        Some(Run {
-            id: id.clone(),
-            turn: robot.turn,
-            cancellation,
-            thread: scope.spawn(move || self.whole(&copy, wish)),
-        })
+        let (copy, wish) = (robot.clone(), cancellation.clone());
+        let thread = scope.spawn(move || self.whole(&copy, wish));
+        Some(Run { id: id.clone(), turn: robot.turn, cancellation, thread })
     }
 
     fn whole(
@@ -273,17 +262,13 @@ impl Followed {
 
     /// Whether no file changed since it was read.
     fn is_current(&self) -> bool {
-        let mut files = self.files.iter();
-        files.all(|(file, word)| revision::of_file(file) == *word)
+        self.files.iter().all(|(file, word)| revision::of_file(file) == *word)
     }
 
     /// Shows the whole URDD, or why there is none.
     fn end(&self, outcome: Result<Generated, GenerateError>) {
         match outcome {
-            Ok(generated) => {
-                let notes = notes(&generated);
-                self.shown.show(self.whole_path(), notes, Making::Done);
-            }
+            Ok(made) => self.shown.show(self.whole_path(), notes(&made), Making::Done),
             Err(error) => self.shown.set_making(Making::Failed(error.to_string())),
         }
     }
@@ -296,20 +281,13 @@ fn notes(generated: &Generated) -> Vec<String> {
 /// The last URDDs of a robot, from which unchanged links are taken.
 fn donors<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<Root> {
     let paths: BTreeSet<&PathBuf> = paths.into_iter().filter(|path| path.is_dir()).collect();
-    let roots = paths.into_iter();
-    roots.filter_map(|path| Root::open_folder(path).ok()).collect()
+    paths.into_iter().filter_map(|path| Root::open_folder(path).ok()).collect()
 }
 
 /// Collects the files of a picture.
 struct Reading<'a> {
     shown: &'a Shown,
     files: &'a Mutex<Files>,
-}
-
-impl Reading<'_> {
-    fn files(&self) -> MutexGuard<'_, Files> {
-        self.files.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 impl Progress for Reading<'_> {
@@ -321,10 +299,8 @@ impl Progress for Reading<'_> {
     }
 
     fn reads(&self, file: &Path) {
-        let mut files = self.files();
-        if !files.contains_key(file) {
-            files.insert(file.to_owned(), revision::of_file(file));
-        }
+        let first = || revision::of_file(file);
+        self.files.lock().entry(file.to_owned()).or_insert_with(first);
     }
 }
 

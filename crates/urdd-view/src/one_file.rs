@@ -85,12 +85,10 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         let text = STANDARD.encode(packed);
         carried.push_str(&format!("<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"));
     };
+    let rules = meanings(&serde_json::from_str(&report).unwrap_or_default());
     for (id, bytes) in [
         ("robots.json", json!([entry]).to_string().into_bytes()),
-        (
-            "rules.json",
-            meanings(&serde_json::from_str(&report).unwrap_or_default()).to_string().into_bytes(),
-        ),
+        ("rules.json", rules.to_string().into_bytes()),
         ("report.json", report.into_bytes()),
         ("robot.zip", archive(robot, &root)?),
         ("app.js", script.into_bytes()),
@@ -105,20 +103,14 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         if of_page.starts_with("<meta name=\"urdd-mode\"") {
             page.push_str("<meta name=\"urdd-mode\" content=\"inline\" />");
         } else if of_page.starts_with("<meta http-equiv=\"Content-Security-Policy\"") {
-            page.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"");
-            page.push_str(&policy);
-            page.push_str("\" />");
+            page +=
+                &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\" />");
         } else if of_page.starts_with("<link rel=\"stylesheet\"") {
-            page.push_str("<style>");
-            page.push_str(&style);
-            page.push_str("</style>");
+            page += &format!("<style>{style}</style>");
         } else if of_page.starts_with("<script src=") {
             continue;
         } else if of_page.starts_with("</body>") {
-            page.push_str(&carried);
-            page.push_str("<script>");
-            page.push_str(START);
-            page.push_str("</script>\n</body>");
+            page += &format!("{carried}<script>{START}</script>\n</body>");
         } else {
             page.push_str(line);
         }
@@ -138,17 +130,12 @@ fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
 fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
     let unread = |error: ReadError| unread(robot, error);
     let listing = root.list().map_err(unread)?;
-    let files = listing.entries.iter();
-    let all: BTreeSet<&str> = files
-        .filter(|entry| entry.kind == EntryKind::File)
-        .map(|entry| entry.path.as_str())
-        .collect();
-    let needed = needed(root, &all);
-    let sizes = listing.entries.iter();
-    let size: u64 =
-        sizes.filter(|entry| needed.contains(entry.path.as_str())).map(|entry| entry.size).sum();
+    let files = || listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
+    let needed = needed(root, &files().map(|file| file.path.as_str()).collect());
+    let is_needed = |path: &str| needed.contains(path);
+    let size = files().filter(|file| is_needed(&file.path)).map(|file| file.size).sum();
     if size > MAX_ROBOT_BYTES {
-        return Err(ExportError::TooLarge { robot: robot.name.clone(), size });
+        return Err(ExportError::TooLarge(robot.name.clone(), size));
     }
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // Stored: the archive is compressed as a whole.
@@ -202,11 +189,8 @@ fn round_normals(glb: &mut [u8]) -> Option<()> {
 /// The files of a URDD that the page reads: one format of each mesh, one copy of each document, and the original meshes
 /// that the page draws.
 fn needed<'a>(root: &Root, all: &BTreeSet<&'a str>) -> BTreeSet<&'a str> {
-    let derived = [
-        ModuleKind::PlainMeshes,
-        ModuleKind::ConvexHullMeshes,
-        ModuleKind::ConvexDecompositionMeshes,
-    ];
+    use ModuleKind::{ConvexDecompositionMeshes, ConvexHullMeshes, PlainMeshes};
+    let derived = [PlainMeshes, ConvexHullMeshes, ConvexDecompositionMeshes];
     let stem = |path: &str| -> Option<(ModuleKind, String)> {
         let kind = derived.iter().find(|kind| is_below(path, **kind))?;
         let name = path.rsplit('/').next()?;
@@ -227,7 +211,9 @@ fn needed<'a>(root: &Root, all: &BTreeSet<&'a str>) -> BTreeSet<&'a str> {
         }
         match &drawn {
             Some(drawn) if is_below(path, ModuleKind::OriginalMeshes) => {
-                is_document(path) || drawn.contains(*path)
+                path.ends_with("/module.json")
+                    || path.ends_with("/VERSION")
+                    || drawn.contains(*path)
             }
             _ => true,
         }
@@ -238,10 +224,6 @@ fn needed<'a>(root: &Root, all: &BTreeSet<&'a str>) -> BTreeSet<&'a str> {
 fn is_below(path: &str, kind: ModuleKind) -> bool {
     let rest = path.strip_prefix(kind.folder());
     rest.is_some_and(|rest| rest.starts_with('/'))
-}
-
-fn is_document(path: &str) -> bool {
-    path.ends_with("/module.json") || path.ends_with("/VERSION")
 }
 
 /// The original meshes that the page reads: those of collision elements, and the visual ones of links with a texture.
@@ -257,10 +239,7 @@ fn drawn_originals(root: &Root) -> Option<BTreeSet<String>> {
         listed.into_iter().flatten().filter_map(Value::as_str).collect()
     };
     let references = module["references"].as_array()?;
-    let with_path = || {
-        let references = references.iter();
-        references.filter_map(|reference| Some((reference, reference["path"].as_str()?)))
-    };
+    let with_path = || references.iter().filter_map(|it| Some((it, it["path"].as_str()?)));
     let is_visual = |reference: &Value| reference["geometry"] == "Visual";
     let textured: BTreeSet<u64> = with_path()
         .filter(|(reference, path)| is_visual(reference) && !side_files(path).is_empty())

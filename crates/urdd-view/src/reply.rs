@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use urdd_directory::source::OpenFile;
@@ -56,13 +57,22 @@ pub const HEADERS: &[(&str, &str)] = &[
 ];
 
 impl Reply {
+    /// A response of a media type, without an error.
+    pub fn ok(media_type: &'static str, body: Body) -> Self {
+        Self { status: 200, media_type, brotli: false, body }
+    }
+
     /// A text response with an error message.
     pub fn failure(status: u16, message: impl Into<String>) -> Self {
-        Self {
-            status,
-            media_type: "text/plain; charset=utf-8",
-            brotli: false,
-            body: Body::Bytes(message.into().into_bytes()),
+        let body = Body::Bytes(message.into().into_bytes());
+        Self { status, ..Self::ok("text/plain; charset=utf-8", body) }
+    }
+
+    /// What was done, as JSON, or why it was not.
+    pub fn of(result: Result<Value, Failure>) -> Self {
+        match result {
+            Ok(value) => Self::json(&value),
+            Err((status, message)) => Self::failure(status, format!("{message}\n")),
         }
     }
 
@@ -78,26 +88,17 @@ impl Reply {
 
     /// JSON that is already text.
     pub fn json_text(text: String) -> Self {
-        Self {
-            status: 200,
-            media_type: "application/json",
-            brotli: false,
-            body: Body::Bytes(text.into_bytes()),
-        }
+        Self::ok("application/json", Body::Bytes(text.into_bytes()))
     }
+}
 
-    /// A picture.
-    pub fn picture(body: Vec<u8>) -> Self {
-        Self { status: 200, media_type: "image/png", brotli: false, body: Body::Bytes(body) }
-    }
+/// Why a request was not done: an HTTP status, and the reason.
+pub type Failure = (u16, String);
 
-    /// A file of a robot: never displayed as a page.
-    pub fn file(file: OpenFile, size: u64) -> Self {
-        Self {
-            status: 200,
-            media_type: "application/octet-stream",
-            brotli: false,
-            body: Body::File(file, size),
-        }
-    }
+/// Reads the JSON that the page sends; `what` says what it is to be.
+///
+/// # Errors
+/// If it is something else.
+pub fn wish<T: DeserializeOwned>(body: &[u8], what: &str) -> Result<T, Failure> {
+    serde_json::from_slice(body).map_err(|error| (400, format!("not {what}: {error}")))
 }

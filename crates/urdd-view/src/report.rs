@@ -23,7 +23,7 @@ const MAX_TEXT_BYTES: usize = 8 << 20;
 /// that is generated for the page as `urdd lint --format json` prints that of its URDF, with the text and the
 /// explanations of rules besides.
 pub fn report_of(collection: &Collection, robot: &Shown) -> String {
-    let mut known = robot.report.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut known = robot.report.lock();
     let source = robot.source.as_ref().filter(|_| robot.is_temporary());
     let path = robot.path();
     let revision = match source {
@@ -59,7 +59,7 @@ pub fn report_of(collection: &Collection, robot: &Shown) -> String {
     if let (Some(revision), Ok(report)) = (revision, &made) {
         *known = Some((revision, report.clone()));
     }
-    made.unwrap_or_else(failed)
+    made.unwrap_or_else(|error| json!({ "error": error }).to_string())
 }
 
 /// The settings for a URDF: those of the nearest `urdd.toml`, unless it was dropped on the page.
@@ -128,8 +128,4 @@ pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
 
 fn as_json(run: &Run) -> Result<String, String> {
     report::json(&run.report).map_err(|error| error.to_string())
-}
-
-fn failed(error: String) -> String {
-    json!({ "error": error }).to_string()
 }

@@ -38,11 +38,8 @@ fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
     let mut lines = Vec::new();
     let mut waiting = vec![path.to_owned()];
     while let Some(at) = waiting.pop() {
-        let metadata = match at == path {
-            true => fs::metadata(&at),
-            false => fs::symlink_metadata(&at),
-        };
-        let Ok(metadata) = metadata else {
+        let read = if at == path { fs::metadata(&at) } else { fs::symlink_metadata(&at) };
+        let Ok(metadata) = read else {
             continue;
         };
         if metadata.is_dir() {
@@ -53,11 +50,10 @@ fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
         if lines.len() > MAX_FILES {
             break;
         }
-        let time = metadata.modified().ok();
-        let time = time.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        let time = metadata.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
         let name = at.strip_prefix(path).unwrap_or(&at).display().to_string();
-        let time = time.unwrap_or_default().as_nanos();
-        lines.push((name, metadata.len(), time, changed(&metadata)));
+        let nanoseconds = time.unwrap_or_default().as_nanos();
+        lines.push((name, metadata.len(), nanoseconds, changed(&metadata)));
     }
     if lines.is_empty() {
         return GONE.to_owned();

@@ -22,30 +22,37 @@ pub enum Route {
     Asset(String),
     /// The list of robots.
     Robots,
-    /// The fingerprint of a robot's files.
-    Revision(String),
-    /// The list of a robot's files.
-    Files(String),
-    /// The report of a robot.
-    Report(String),
-    /// A file of a robot.
-    File(String, String),
-    /// The gallery's summary of a robot.
-    Summary(String),
-    /// A small picture of a robot.
-    Picture(String),
-    /// Saves the skips of a robot.
-    Skips(String),
-    /// Saves a named configuration of a robot.
-    Configurations(String),
-    /// Saves a generated robot.
-    Keep(String),
-    /// The configurations that a program shows of a robot.
-    States(String),
+    /// What is asked of the robot with this id.
+    Robot(String, Asked),
     /// Takes URDFs that were dropped on the page.
     Drops,
     /// No known resource.
     Unknown,
+}
+
+/// What is asked of a robot.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// The fingerprint of its files.
+    Revision,
+    /// The list of its files.
+    Files,
+    /// Its report.
+    Report,
+    /// A file.
+    File(String),
+    /// The gallery's summary.
+    Summary,
+    /// A small picture.
+    Picture,
+    /// Saves its skips.
+    Skips,
+    /// Saves a named configuration.
+    Configurations,
+    /// Saves a generated robot.
+    Keep,
+    /// The configurations that a program shows of it.
+    States,
 }
 
 impl Route {
@@ -72,19 +79,11 @@ impl Route {
             [""] => Route::Asset("index.html".to_owned()),
             ["robots.json"] => Route::Robots,
             ["drops"] => Route::Drops,
-            ["robots", id, "revision.json"] => Route::Revision((*id).to_owned()),
-            ["robots", id, "files.json"] => Route::Files((*id).to_owned()),
-            ["robots", id, "report.json"] => Route::Report((*id).to_owned()),
-            ["robots", id, "summary.json"] => Route::Summary((*id).to_owned()),
-            ["robots", id, "picture.png"] => Route::Picture((*id).to_owned()),
-            ["robots", id, "keep"] => Route::Keep((*id).to_owned()),
-            ["robots", id, "configurations"] => Route::Configurations((*id).to_owned()),
-            ["robots", id, "states"] => Route::States((*id).to_owned()),
-            ["robots", id, "skips"] => Route::Skips((*id).to_owned()),
-            ["robots", id, "files", rest @ ..] if !rest.is_empty() => {
-                Route::File((*id).to_owned(), rest.join("/"))
-            }
             [name] => Route::Asset((*name).to_owned()),
+            ["robots", id, about @ ..] => match Asked::of(about) {
+                Some(asked) => Route::Robot((*id).to_owned(), asked),
+                None => Route::Unknown,
+            },
             _ => Route::Unknown,
         }
     }
@@ -92,9 +91,9 @@ impl Route {
     /// Maximum size of a request body, in bytes.
     pub fn max_body(&self) -> u64 {
         match self {
-            Route::Skips(_) => 64 << 20,
-            Route::Configurations(_) | Route::States(_) => 1 << 20,
-            Route::Keep(_) => 64 << 10,
+            Route::Robot(_, Asked::Skips) => 64 << 20,
+            Route::Robot(_, Asked::Configurations | Asked::States) => 1 << 20,
+            Route::Robot(_, Asked::Keep) => 64 << 10,
             Route::Drops => drops::MAX_BODY,
             _ => 0,
         }
@@ -111,60 +110,77 @@ impl Route {
     }
 }
 
-/// The response to a read request. `brotli` says whether the client accepts Brotli.
+impl Asked {
+    fn of(words: &[&str]) -> Option<Self> {
+        Some(match words {
+            ["revision.json"] => Asked::Revision,
+            ["files.json"] => Asked::Files,
+            ["report.json"] => Asked::Report,
+            ["summary.json"] => Asked::Summary,
+            ["picture.png"] => Asked::Picture,
+            ["keep"] => Asked::Keep,
+            ["configurations"] => Asked::Configurations,
+            ["states"] => Asked::States,
+            ["skips"] => Asked::Skips,
+            ["files", path @ ..] if !path.is_empty() => Asked::File(path.join("/")),
+            _ => return None,
+        })
+    }
+}
+
+/// The response to a read request that is not about one robot. `brotli` says whether the client accepts Brotli.
 pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
-    let with = |id: &str, answer: &dyn Fn(&Shown) -> Result<Reply, ReadError>| {
-        let Some(robot) = collection.find(id) else {
-            return Reply::failure(404, "there is no such robot\n");
-        };
-        answer(&robot).unwrap_or_else(|error| failure(&error))
-    };
     match route {
         Route::Asset(name) => asset(name, brotli),
         Route::Robots => {
             let robots = collection.robots();
             Reply::json(&robots.iter().map(|robot| entry(robot)).collect())
         }
-        Route::Revision(id) => with(id, &|robot| {
+        _ => no_page(),
+    }
+}
+
+fn no_page() -> Reply {
+    Reply::failure(404, "there is no such page\n")
+}
+
+/// The response to a read request about a robot.
+pub fn answer_about(collection: &Collection, robot: &Shown, asked: &Asked) -> Reply {
+    about(collection, robot, asked).unwrap_or_else(|error| failure(&error))
+}
+
+fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply, ReadError> {
+    Ok(match asked {
+        Asked::Revision => {
             // Whoever asks for this shows the robot, or waits for it: see `live`.
             robot.see();
             // The entry first: a revision may be newer than what is said of the robot, and never older.
             let entry = entry(robot);
             let revision = robot.is_ready().then(|| revision::of(&robot.path()));
-            Ok(Reply::json(&json!({ "revision": revision, "entry": entry })))
-        }),
-        Route::Files(id) => with(id, &|robot| {
-            let (revision, opened) = robot.open()?;
-            Ok(Reply::json(&json!({
-                "name": opened.own.folder_name(),
-                "files": files(&opened.own)?,
-                "revision": revision,
-            })))
-        }),
-        Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(collection, robot)))),
-        Route::File(id, path) => with(id, &|robot| {
-            let (file, size) = robot.own_files()?.open_file(path)?;
-            match size > MAX_FILE_BYTES {
-                true => Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES }),
-                false => Ok(Reply::file(file, size)),
-            }
-        }),
-        Route::Summary(id) => {
-            with(id, &|robot| Ok(Reply::json(&entry_with(robot, &report_of(collection, robot)))))
+            Reply::json(&json!({ "revision": revision, "entry": entry }))
         }
-        Route::Picture(id) => with(id, &|robot| {
-            Ok(match picture_of(robot) {
-                Some(bytes) => Reply::picture(bytes),
-                None => Reply::nothing(),
-            })
-        }),
-        Route::Skips(_)
-        | Route::Configurations(_)
-        | Route::Keep(_)
-        | Route::States(_)
-        | Route::Drops
-        | Route::Unknown => Reply::failure(404, "there is no such page\n"),
-    }
+        Asked::Files => {
+            let (revision, opened) = robot.open()?;
+            let name = opened.own.folder_name();
+            let files = files(&opened.own)?;
+            Reply::json(&json!({ "name": name, "files": files, "revision": revision }))
+        }
+        Asked::Report => Reply::json_text(report_of(collection, robot)),
+        Asked::File(path) => {
+            let (file, size) = robot.own_files()?.open_file(path)?;
+            if size > MAX_FILE_BYTES {
+                return Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES });
+            }
+            // Never displayed as a page.
+            Reply::ok("application/octet-stream", Body::File(file, size))
+        }
+        Asked::Summary => Reply::json(&entry_with(robot, &report_of(collection, robot))),
+        Asked::Picture => match picture_of(robot) {
+            Some(bytes) => Reply::ok("image/png", Body::Bytes(bytes)),
+            None => Reply::nothing(),
+        },
+        Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States => no_page(),
+    })
 }
 
 fn failure(error: &ReadError) -> Reply {
@@ -179,7 +195,7 @@ fn failure(error: &ReadError) -> Reply {
 
 fn asset(name: &str, brotli: bool) -> Reply {
     let Some(asset) = assets::find(name) else {
-        return Reply::failure(404, "there is no such page\n");
+        return no_page();
     };
     let body = match name {
         "index.html" => assets::live_page().map(String::into_bytes),
@@ -188,10 +204,8 @@ fn asset(name: &str, brotli: bool) -> Reply {
     };
     match body {
         Ok(body) => Reply {
-            status: 200,
-            media_type: asset.media_type,
             brotli: brotli && name != "index.html",
-            body: Body::Bytes(body),
+            ..Reply::ok(asset.media_type, Body::Bytes(body))
         },
         Err(error) => Reply::failure(500, error.to_string()),
     }
@@ -240,7 +254,7 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
 
 /// The picture of a robot, if it has one. Rendered once for each revision.
 pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
-    let mut known = robot.picture.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut known = robot.picture.lock();
     let (revision, opened) = robot.open().ok()?;
     if let Some((of, picture)) = known.as_ref()
         && *of == revision
@@ -258,9 +272,8 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
 /// # Errors
 /// If they cannot be listed.
 fn files(root: &Root) -> Result<Value, ReadError> {
-    let entries = root.list()?.entries;
-    let files = entries.iter().filter(|entry| entry.kind == EntryKind::File);
-    Ok(files.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())
+    let entries = root.list()?.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
+    Ok(entries.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())
 }
 
 #[cfg(test)]
@@ -269,12 +282,12 @@ mod tests {
 
     #[test]
     fn addresses() {
-        let file = |path: &str| Route::File("a".to_owned(), path.to_owned());
+        let of_a = |asked: Asked| Route::Robot("a".to_owned(), asked);
         assert_eq!(Route::of("/"), Route::Asset("index.html".to_owned()));
         assert_eq!(Route::of("/app.js?1#2"), Route::Asset("app.js".to_owned()));
         assert_eq!(Route::of("/robots.json"), Route::Robots);
-        assert_eq!(Route::of("/robots/a/files/b/c%20d"), file("b/c d"));
-        assert_eq!(Route::of("/robots/a/files.json"), Route::Files("a".to_owned()));
+        assert_eq!(Route::of("/robots/a/files/b/c%20d"), of_a(Asked::File("b/c d".to_owned())));
+        assert_eq!(Route::of("/robots/a/files.json"), of_a(Asked::Files));
     }
 
     #[test]

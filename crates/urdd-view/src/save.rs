@@ -2,10 +2,11 @@
 //! and named configurations. Also undoes saves of skips.
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use crate::collection::Shown;
-use crate::reply::Reply;
+use crate::reply::{Failure, Reply, wish};
 use crate::revision;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::replacement::{Files, Replacement};
@@ -60,36 +61,28 @@ pub fn configuration(robot: &Shown, body: &[u8]) -> Reply {
     answered(robot, body, "a named configuration", save_configuration)
 }
 
-fn answered<T: for<'a> Deserialize<'a>>(
+fn answered<T: DeserializeOwned>(
     robot: &Shown,
     body: &[u8],
     what: &str,
     save: impl Fn(&Shown, T) -> Result<Value, Failure>,
 ) -> Reply {
-    let wish: T = match serde_json::from_slice(body) {
-        Ok(wish) => wish,
-        Err(error) => return Reply::failure(400, format!("not {what}: {error}\n")),
-    };
-    if !robot.is_writable() {
-        let why = "this URDD cannot be written: it is an archive, or was made for this view\n";
-        return Reply::failure(403, why);
-    }
-    match save(robot, wish) {
-        Ok(value) => Reply::json(&value),
-        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
-    }
+    Reply::of(wish(body, what).and_then(|wish| match robot.is_writable() {
+        true => save(robot, wish),
+        false => {
+            let why = "this URDD cannot be written: it is an archive, or was made for this view";
+            Err((403, why.to_owned()))
+        }
+    }))
 }
 
-/// An HTTP status, and the reason.
-pub(super) type Failure = (u16, String);
-
 fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
-    let mut undo = robot.undo.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut undo = robot.undo.lock();
     let (now, before) = write(robot, &wish.revision, || match wish.undo {
         true => {
             let last = undo.last().filter(|(after, _)| *after == wish.revision);
-            let last = last.map(|(_, files)| files.clone());
-            last.ok_or_else(|| (409, "there is nothing to undo".to_owned()))
+            let nothing = || (409, "there is nothing to undo".to_owned());
+            last.map(|(_, files)| files.clone()).ok_or_else(nothing)
         }
         false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons),
     })?;
@@ -112,7 +105,7 @@ fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
 }
 
 fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value, Failure> {
-    let mut undo = robot.undo.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut undo = robot.undo.lock();
     let (now, _) = write(robot, &wish.revision, || named(robot, &wish))?;
     // Earlier saves cannot be undone past this one, which may have added a file.
     undo.clear();
@@ -130,12 +123,9 @@ fn write(
     let path = robot.path();
     // From here on, no other process of this program writes there.
     let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
-    let unchanged = |is_same: bool| match is_same {
-        true => Ok(()),
-        false => Err((
-            409,
-            "the files changed on disk since the page read them; nothing was written".to_owned(),
-        )),
+    let unchanged = |is_same: bool| {
+        let why = "the files changed on disk since the page read them; nothing was written";
+        is_same.then_some(()).ok_or_else(|| (409, why.to_owned()))
     };
     unchanged(revision::of(&path) == expected)?;
     // The new content hard-links the unchanged files, which by itself changes their full revision.
@@ -178,7 +168,7 @@ fn named(robot: &Shown, wish: &Pose) -> Result<Files, Failure> {
         None => edits.push(edit),
     }
     let edited = opened.with_named_configurations(&edits);
-    Ok(edited.map_err(|error| refused(&error))?.files)
+    edited.map(|edited| edited.files).map_err(|error| refused(&error))
 }
 
 /// The files that change.

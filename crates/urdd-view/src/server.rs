@@ -11,10 +11,10 @@ use crate::collection::{Collection, Shown};
 use crate::connections::{Connection, Connections};
 use crate::drops;
 use crate::guard::{Caller, Guard};
-use crate::http::{Asked, converse};
+use crate::http::{Request, converse};
 use crate::keep;
 use crate::reply::Reply;
-use crate::route::{Route, answer};
+use crate::route::{Asked, Route, answer, answer_about};
 use crate::save;
 use crate::sent_states;
 use urdd_directory::cancellation::Cancellation;
@@ -110,9 +110,10 @@ impl Server {
             let (answers, ended) = (Arc::clone(&answers), cancellation.clone());
             // If no thread can be started, the connection is closed.
             let _ = thread::Builder::new().spawn(move || {
-                let admit = |asked: &Asked| answers.admit(asked, &connection);
-                let _ =
-                    converse(stream, admit, |asked, is_gone| answers.reply(asked, is_gone, &ended));
+                let admit = |request: &Request| answers.admit(request, &connection);
+                let _ = converse(stream, admit, |request, is_gone| {
+                    answers.reply(request, is_gone, &ended)
+                });
             });
         }
     }
@@ -120,17 +121,17 @@ impl Server {
 
 impl Answers {
     /// The maximum size of the request body, or the response that refuses the request.
-    fn admit(&self, asked: &Asked, connection: &Connection) -> Result<u64, Reply> {
+    fn admit(&self, request: &Request, connection: &Connection) -> Result<u64, Reply> {
         let caller = Caller {
-            host: asked.header("Host"),
-            origin: asked.header("Origin"),
-            site: asked.header("Sec-Fetch-Site"),
-            mode: asked.header("Sec-Fetch-Mode"),
-            destination: asked.header("Sec-Fetch-Dest"),
-            token: asked.header("X-Urdd-Token"),
+            host: request.header("Host"),
+            origin: request.header("Origin"),
+            site: request.header("Sec-Fetch-Site"),
+            mode: request.header("Sec-Fetch-Mode"),
+            destination: request.header("Sec-Fetch-Dest"),
+            token: request.header("X-Urdd-Token"),
         };
-        let route = Route::of(&asked.url);
-        let allowed = match (&route, &*asked.method) {
+        let route = Route::of(&request.url);
+        let allowed = match (&route, &*request.method) {
             (route, "GET" | "HEAD") if route.is_entrance() => self.guard.entrance(&caller),
             (route, _) if route.is_public() => self.guard.page(&caller),
             _ => self.guard.robots(&caller).map(|()| connection.keep()),
@@ -142,30 +143,44 @@ impl Answers {
     }
 
     /// The response to an admitted request. `is_gone` says whether the client has closed the connection.
-    fn reply(&self, asked: &Asked, is_gone: &dyn Fn() -> bool, ended: &Cancellation) -> Reply {
-        let route = Route::of(&asked.url);
-        let with = |id: &str, reply: &dyn Fn(&Shown) -> Reply| match self.collection.find(id) {
-            Some(robot) => reply(&robot),
-            None => Reply::failure(404, "there is no such robot\n"),
-        };
-        let body = &asked.body;
-        match (&*asked.method, &route) {
-            ("GET", Route::States(id)) => with(id, &|robot| robot.states.stream(ended)),
-            ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
-            ("POST", Route::Skips(id)) => with(id, &|robot| save::skips(robot, body)),
-            ("POST", Route::Configurations(id)) => {
-                with(id, &|robot| save::configuration(robot, body))
-            }
-            ("POST", Route::States(id)) => with(id, &|robot| sent_states::take(robot, body)),
-            ("POST", Route::Drops) => drops::take(&self.collection, body, is_gone),
-            ("POST", Route::Keep(id)) => with(id, &|robot| keep::keep(robot, body)),
-            _ => Reply::failure(405, "this cannot be done here\n"),
+    fn reply(&self, request: &Request, is_gone: &dyn Fn() -> bool, ended: &Cancellation) -> Reply {
+        let (all, body) = (&self.collection, &request.body);
+        match (&*request.method, Route::of(&request.url)) {
+            (method @ ("GET" | "HEAD" | "POST"), Route::Robot(id, asked)) => match all.find(&id) {
+                Some(robot) => self.about(&robot, (method, &asked), body, ended),
+                None => Reply::failure(404, "there is no such robot\n"),
+            },
+            ("GET" | "HEAD", route) => answer(all, &route, takes_brotli(request)),
+            ("POST", Route::Drops) => drops::take(all, body, is_gone),
+            _ => cannot_be_done(),
+        }
+    }
+
+    fn about(
+        &self,
+        robot: &Shown,
+        asked: (&str, &Asked),
+        body: &[u8],
+        ended: &Cancellation,
+    ) -> Reply {
+        match asked {
+            ("GET", Asked::States) => robot.states.stream(ended),
+            ("GET" | "HEAD", asked) => answer_about(&self.collection, robot, asked),
+            ("POST", Asked::Skips) => save::skips(robot, body),
+            ("POST", Asked::Configurations) => save::configuration(robot, body),
+            ("POST", Asked::States) => sent_states::take(robot, body),
+            ("POST", Asked::Keep) => keep::keep(robot, body),
+            _ => cannot_be_done(),
         }
     }
 }
 
-fn takes_brotli(asked: &Asked) -> bool {
-    let words = asked.header("Accept-Encoding").unwrap_or_default();
+fn cannot_be_done() -> Reply {
+    Reply::failure(405, "this cannot be done here\n")
+}
+
+fn takes_brotli(request: &Request) -> bool {
+    let words = request.header("Accept-Encoding").unwrap_or_default();
     let mut words = words.split(',').map(|word| word.split(';').next().unwrap_or_default());
     words.any(|word| word.trim() == "br")
 }

@@ -56,16 +56,16 @@ impl SiteList {
             let left: Vec<PathBuf> = left.filter(|path| path.symlink_metadata().is_ok()).collect();
             return match left.is_empty() {
                 true => Ok(Self::default()),
-                false => Err(ExportError::Unlisted { folder: folder.to_owned(), left }),
+                false => Err(ExportError::Unlisted(folder.to_owned(), left)),
             };
         };
         let mut list = SiteList::default();
         for file in files {
-            if let (Some(path), Some(hash)) = (file["path"].as_str(), file["sha256"].as_str()) {
-                // Do not trust the list: paths that no export writes are never replaced.
-                if is_of_site(path) {
-                    list.add(path, hash);
-                }
+            // Do not trust the list: paths that no export writes are never replaced.
+            if let (Some(path), Some(hash)) = (file["path"].as_str(), file["sha256"].as_str())
+                && is_of_site(path)
+            {
+                list.add(path, hash);
             }
         }
         Ok(list)
@@ -91,14 +91,11 @@ impl SiteList {
     }
 
     fn text(&self) -> String {
-        let files: Vec<Value> = self
-            .0
-            .iter()
-            .flat_map(|(path, hashes)| hashes.iter().map(move |hash| (path, hash)))
-            .map(|(path, hash)| json!({ "path": path, "sha256": hash }))
-            .collect();
-        let version = PROGRAM_VERSION;
-        json!({ "made by": MADE_BY, "version": version, "files": files }).to_string()
+        let of_path = |(path, hashes): (&String, &BTreeSet<String>)| -> Vec<Value> {
+            hashes.iter().map(|hash| json!({ "path": path, "sha256": hash })).collect()
+        };
+        let files: Vec<Value> = self.0.iter().flat_map(of_path).collect();
+        json!({ "made by": MADE_BY, "version": PROGRAM_VERSION, "files": files }).to_string()
     }
 
     /// Refuses to overwrite the user's files: a file at one of these paths that is not from an export, or a file of
@@ -123,10 +120,7 @@ impl SiteList {
                 }
             }
         }
-        match files.is_empty() {
-            true => Ok(()),
-            false => Err(ExportError::InTheWay { files }),
-        }
+        if files.is_empty() { Ok(()) } else { Err(ExportError::InTheWay(files)) }
     }
 
     /// Moves the files of this list from `content` into the folder, and removes the files of `before` that are not in

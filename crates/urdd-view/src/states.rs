@@ -1,8 +1,9 @@
 //! Configurations that a program shows: pages follow them.
 
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
+use parking_lot::{Condvar, Mutex};
 use serde_json::json;
 
 use crate::reply::{Body, Reply};
@@ -21,14 +22,14 @@ pub struct States {
 impl States {
     /// Shows a configuration: one value for each DOF, rad or m.
     pub fn set(&self, configuration: &[f64]) {
-        let mut last = self.last();
+        let mut last = self.last.lock();
         *last = (last.0 + 1, format!("{}\n", json!({ "q": configuration })).into());
         self.changed.notify_all();
     }
 
     /// Whether a program has shown any.
     pub(crate) fn are_sent(&self) -> bool {
-        self.last().0 > 0
+        self.last.lock().0 > 0
     }
 
     /// Each configuration as a line of JSON, from the last one on, and empty lines meanwhile.
@@ -36,10 +37,8 @@ impl States {
         let (states, cancellation) = (Arc::clone(self), cancellation.clone());
         let mut seen = 0;
         let next = move || {
-            let last = states.last();
-            let waited =
-                states.changed.wait_timeout_while(last, PAUSE, |(count, _)| *count == seen);
-            let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
+            let mut last = states.last.lock();
+            states.changed.wait_while_for(&mut last, |(count, _)| *count == seen, PAUSE);
             if cancellation.is_cancelled() {
                 return None;
             }
@@ -47,15 +46,6 @@ impl States {
             seen = last.0;
             Some(if news { Arc::clone(&last.1) } else { "\n".into() })
         };
-        Reply {
-            status: 200,
-            media_type: "application/jsonl",
-            brotli: false,
-            body: Body::Lines(Box::new(next)),
-        }
-    }
-
-    fn last(&self) -> MutexGuard<'_, (u64, Arc<str>)> {
-        self.last.lock().unwrap_or_else(PoisonError::into_inner)
+        Reply::ok("application/jsonl", Body::Lines(Box::new(next)))
     }
 }

@@ -17,152 +17,58 @@ pub struct Known {
 /// Elements whose content is other programs' matter.
 pub const CLOSED: &[&str] = &["transmission", "gazebo", "ros2_control"];
 
-const fn known(
-    name: &'static str,
-    attributes: &'static [&'static str],
-    children: &'static [&'static str],
-) -> Known {
-    Known { name, attributes, children, other_attributes: &[], other_children: &[] }
+/// A line or two for each element: its name, attributes and children, then those of extensions.
+macro_rules! known {
+    ($($name:ident [$($attribute:ident)*] [$($child:ident)*]
+        $(or [$($other_attribute:ident)*] [$($other_child:ident)*])?;)*) => {
+        &[$(Known {
+            name: stringify!($name),
+            attributes: &[$(stringify!($attribute)),*],
+            children: &[$(stringify!($child)),*],
+            other_attributes: &[$($(stringify!($other_attribute)),*)?],
+            other_children: &[$($(stringify!($other_child)),*)?],
+        }),*]
+    };
 }
 
 /// Every element of URDF.
-pub const KNOWN: &[Known] = &[
-    Known {
-        other_attributes: &["scale"],
-        other_children: &[
-            "sensor",
-            "mujoco",
-            "loop_joint",
-            "force_element",
-            "frame",
-            "collision_filter_group",
-            "group",
-            "group_state",
-            "disable_collisions",
-            "passive_joint",
-            "end_effector",
-            "virtual_joint",
-            "model_state",
-            "property",
-            "deformable",
-            "gripper",
-        ],
-        ..known(
-            "robot",
-            &["name", "version"],
-            &["link", "joint", "material", "transmission", "gazebo", "ros2_control"],
-        )
-    },
-    Known {
-        other_attributes: &["type", "concave"],
-        other_children: &[
-            "contact",
-            "self_collision_checking",
-            "audio_source",
-            "sensor",
-            "gazebo",
-            "inertia_scaling",
-            "friction_anchor",
-            "laser_inertia",
-            "self_collision",
-        ],
-        ..known("link", &["name"], &["inertial", "visual", "collision"])
-    },
-    known("inertial", &[], &["origin", "mass", "inertia"]),
-    Known {
-        other_attributes: &["concave"],
-        other_children: &["verbose"],
-        ..known("visual", &["name"], &["origin", "geometry", "material"])
-    },
-    Known {
-        other_attributes: &["concave", "group", "mask"],
-        other_children: &["verbose", "contact_coefficients", "surface", "contact", "material"],
-        ..known("collision", &["name"], &["origin", "geometry"])
-    },
-    Known {
-        other_children: &[
-            "plane",
-            "cdf",
-            "sdf",
-            "ellipsoid",
-            "superellipsoid",
-            "cone",
-            "heightmap",
-            "convex",
-            "empty",
-        ],
-        ..known("geometry", &[], &["mesh", "box", "cylinder", "capsule", "sphere"])
-    },
-    Known {
-        other_children: &["specular", "ambient", "emissive", "shininess", "script", "diffuse"],
-        ..known("material", &["name"], &["color", "texture"])
-    },
-    Known {
-        other_children: &["transmission", "gazebo", "sensor", "hardware", "drive"],
-        ..known(
-            "joint",
-            &["name", "type"],
-            &[
-                "origin",
-                "parent",
-                "child",
-                "axis",
-                "limit",
-                "dynamics",
-                "mimic",
-                "safety_controller",
-                "calibration",
-            ],
-        )
-    },
-    known("origin", &["xyz", "rpy", "quat_xyzw"], &[]),
-    known("mass", &["value"], &[]),
-    Known {
-        // The other half of the same tensor.
-        other_attributes: &["iyx", "izx", "izy"],
-        ..known("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], &[])
-    },
-    known("color", &["rgba"], &[]),
-    known("texture", &["filename"], &[]),
-    known("parent", &["link"], &[]),
-    known("child", &["link"], &[]),
-    known("axis", &["xyz"], &[]),
-    Known {
-        other_attributes: &["k_velocity", "k_position"],
-        ..known(
-            "limit",
-            &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
-            &[],
-        )
-    },
-    Known {
-        other_attributes: &[
-            "coulomb_window",
-            "coulomb",
-            "stiffness",
-            "rotor_inertia",
-            "armature",
-            "spring_reference",
-            "spring_stiffness",
-        ],
-        ..known("dynamics", &["damping", "friction"], &[])
-    },
-    known("mimic", &["joint", "multiplier", "offset"], &[]),
-    known(
-        "safety_controller",
-        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
-        &[],
-    ),
-    Known {
-        other_attributes: &["reference_position"],
-        ..known("calibration", &["rising", "falling"], &[])
-    },
-    Known { other_attributes: &["convex"], ..known("mesh", &["filename", "scale"], &[]) },
-    known("box", &["size"], &[]),
-    known("cylinder", &["radius", "length"], &[]),
-    known("capsule", &["radius", "length"], &[]),
-    known("sphere", &["radius"], &[]),
-];
+pub const KNOWN: &[Known] = known! {
+    robot [name version] [link joint material transmission gazebo ros2_control]
+        or [scale] [sensor mujoco loop_joint force_element frame collision_filter_group group group_state
+            disable_collisions passive_joint end_effector virtual_joint model_state property deformable gripper];
+    link [name] [inertial visual collision]
+        or [type concave] [contact self_collision_checking audio_source sensor gazebo inertia_scaling
+            friction_anchor laser_inertia self_collision];
+    inertial [] [origin mass inertia];
+    visual [name] [origin geometry material] or [concave] [verbose];
+    collision [name] [origin geometry]
+        or [concave group mask] [verbose contact_coefficients surface contact material];
+    geometry [] [mesh box cylinder capsule sphere]
+        or [] [plane cdf sdf ellipsoid superellipsoid cone heightmap convex empty];
+    material [name] [color texture] or [] [specular ambient emissive shininess script diffuse];
+    joint [name type] [origin parent child axis limit dynamics mimic safety_controller calibration]
+        or [] [transmission gazebo sensor hardware drive];
+    origin [xyz rpy quat_xyzw] [];
+    mass [value] [];
+    // The other half of the same tensor.
+    inertia [ixx ixy ixz iyy iyz izz] [] or [iyx izx izy] [];
+    color [rgba] [];
+    texture [filename] [];
+    parent [link] [];
+    child [link] [];
+    axis [xyz] [];
+    limit [lower upper effort velocity acceleration deceleration jerk] [] or [k_velocity k_position] [];
+    dynamics [damping friction] []
+        or [coulomb_window coulomb stiffness rotor_inertia armature spring_reference spring_stiffness] [];
+    mimic [joint multiplier offset] [];
+    safety_controller [soft_lower_limit soft_upper_limit k_position k_velocity] [];
+    calibration [rising falling] [] or [reference_position] [];
+    mesh [filename scale] [] or [convex] [];
+    box [size] [];
+    cylinder [radius length] [];
+    capsule [radius length] [];
+    sphere [radius] [];
+};
 
 /// The element of a name.
 pub fn of(name: &str) -> Option<&'static Known> {

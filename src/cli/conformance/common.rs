@@ -12,12 +12,10 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::follow::{Follow, cannot_write};
-use crate::cli::output;
-use crate::cli::signals::Signals;
+use crate::cli::output::{self, Failure, about};
+use crate::cli::signals::{self, Signals};
 use urdd_conformance::skips::{self, Skip};
 use urdd_directory::regular;
-use urdd_format::escape;
-use urdd_source::process;
 use urdd_validate::report;
 
 /// Maximum size of a skip list, in bytes.
@@ -94,38 +92,33 @@ impl RunArguments {
     }
 
     /// Creates the progress display and the log.
-    pub fn follow(&self) -> Result<Follow, String> {
-        let log = match &self.log {
-            None => None,
-            Some(path) => {
-                self.check_log(path)?;
-                let file = File::create(path);
-                let file = file.map_err(|error| cannot_write(path, &error))?;
-                Some((path.clone(), file))
-            }
+    pub fn follow(&self) -> Result<Follow, Failure> {
+        let Some(path) = &self.log else {
+            return Ok(Follow::new(None));
         };
-        Ok(Follow::new(log))
+        self.check_log(path)?;
+        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        Ok(Follow::new(Some((path.clone(), file))))
     }
 
     /// An error if the log would overwrite another file.
-    fn check_log(&self, path: &Path) -> Result<(), String> {
+    fn check_log(&self, path: &Path) -> Result<(), Failure> {
         output::check_name(path)?;
         if self.output.as_deref() == Some(path) {
-            return Err("--log and --output name the same file: give two".to_owned());
+            Err("--log and --output name the same file: give two")?;
         }
         // Writing to devices and pipes is allowed.
         let is_there = fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0);
-        match is_there && !self.force && !is_log(path) {
-            true => Err(format!(
-                "{}: this file exists and is not a log of this command: give another file, or --force to overwrite it",
-                escape::line(&path.display().to_string())
-            )),
-            false => Ok(()),
+        if is_there && !self.force && !is_log(path) {
+            Err(about(path)(
+                "this file exists and is not a log of this command: give another file, or --force to overwrite it",
+            ))?;
         }
+        Ok(())
     }
 
     /// The skip list.
-    pub fn skips(&self, words: usize, form: &'static str) -> Result<Vec<Skip>, String> {
+    pub fn skips(&self, words: usize, form: &'static str) -> Result<Vec<Skip>, Failure> {
         let Some(file) = &self.skip else {
             return Ok(Vec::new());
         };
@@ -133,19 +126,16 @@ impl RunArguments {
         let unreadable = |reason: &dyn Display| format!("{shown}: cannot be read: {reason}");
         let bytes = regular::read(file, MAX_SKIP_BYTES).map_err(|error| unreadable(&error))?;
         let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))?;
-        skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))
+        Ok(skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
     }
 
     /// Prints a result, and writes it to the file of `--output`.
-    pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), String> {
-        let json = report::json(result).map_err(|error| error.to_string())?;
+    pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), Failure> {
+        let json = report::json(result)?;
         if let Some(file) = &self.output {
             output::write_file(file, &json)?;
         }
-        match self.format {
-            Format::Human => output::print(human),
-            Format::Json => output::print(&json),
-        }
+        Ok(output::print(if self.format == Format::Json { &json } else { human })?)
     }
 }
 
@@ -164,16 +154,7 @@ fn is_log(file: &Path) -> bool {
 
 /// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, or
 /// an error message.
-pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
-    let signals = match Signals::listen() {
-        Ok(signals) => signals,
-        Err(error) => return output::ended(Err(error.to_string())),
-    };
-    process::adopt_orphans();
-    let result = result(&signals);
-    if let Some(status) = signals.status() {
-        output::error("stopped by a signal; all started processes have ended");
-        return ExitCode::from(status);
-    }
-    output::ended(result.map(|passed| if passed { PASSED } else { FAILED }))
+pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> ExitCode {
+    let stopped = "stopped by a signal; all started processes have ended";
+    signals::run(Some(stopped), |signals| Ok(if result(signals)? { PASSED } else { FAILED }))
 }

@@ -1,11 +1,11 @@
 //! `urdd conformance export`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::cli::output;
+use crate::cli::output::{self, Failure};
 use crate::suite;
 use urdd_conformance::catalogue::CATALOGUE;
 use urdd_conformance::export::{Exported, export};
@@ -20,10 +20,11 @@ pub struct ExportArguments {
 
 /// Runs `urdd conformance export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
-    let suite = suite::carried().map_err(|error| error.to_string());
-    let exported = suite
-        .and_then(|suite| export(&suite, &arguments.folder).map_err(|error| error.to_string()));
-    output::printed(exported.and_then(|exported| output::print(&told(&exported))))
+    output::printed(exported(&arguments.folder))
+}
+
+fn exported(folder: &Path) -> Result<String, Failure> {
+    Ok(told(&export(&suite::carried()?, folder)?))
 }
 
 fn told(exported: &Exported) -> String {

@@ -3,12 +3,13 @@
 use std::fs::File;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use parking_lot::Mutex;
 use serde::Serialize;
 
 /// Time between two lines where standard error is not a terminal.
@@ -47,17 +48,15 @@ impl State {
 impl Follow {
     /// Begins to follow a run. `log` is an open file with its path.
     pub fn new(log: Option<(PathBuf, File)>) -> Follow {
-        match std::io::stderr().is_terminal() {
-            true => Follow::with(ProgressDrawTarget::stderr(), log),
-            false => {
-                let mut follow = Follow::with(ProgressDrawTarget::hidden(), log);
-                follow.print_every(INTERVAL, |line| {
-                    // Nobody may read it.
-                    let _ = writeln!(std::io::stderr().lock(), "{line}");
-                });
-                follow
-            }
+        if std::io::stderr().is_terminal() {
+            return Follow::with(ProgressDrawTarget::stderr(), log);
         }
+        let mut follow = Follow::with(ProgressDrawTarget::hidden(), log);
+        follow.print_every(INTERVAL, |line| {
+            // Nobody may read it.
+            let _ = writeln!(std::io::stderr().lock(), "{line}");
+        });
+        follow
     }
 
     fn with(target: ProgressDrawTarget, log: Option<(PathBuf, File)>) -> Follow {
@@ -75,15 +74,14 @@ impl Follow {
         self.lines = Some(end);
         thread::spawn(move || {
             while ended.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
-                let line = state.lock().unwrap_or_else(PoisonError::into_inner).line();
-                print(&line);
+                print(&state.lock().line());
             }
         });
     }
 
     /// Sets the number of items to run.
     pub fn start(&self, of: usize) {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner).of = of;
+        self.state.lock().of = of;
         self.bar.set_length(of as u64);
         self.bar.tick();
     }
@@ -99,7 +97,7 @@ impl Follow {
 
     /// Records a finished item.
     pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.state.lock();
         state.done += 1;
         state.wrong += usize::from(wrong);
         if let (Some(result), Some((path, file))) = (result, &mut state.log) {
@@ -122,8 +120,7 @@ impl Follow {
     pub fn finish(mut self) -> Result<(), String> {
         self.lines.take();
         self.bar.finish_and_clear();
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.failed.take().map_or(Ok(()), Err)
+        self.state.lock().failed.take().map_or(Ok(()), Err)
     }
 }
 

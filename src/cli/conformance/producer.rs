@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::common::{self, RunArguments};
+use crate::cli::output::Failure;
 use crate::cli::signals::Signals;
 use crate::cli::words::Class;
 use crate::suite;
@@ -42,12 +43,10 @@ pub fn run(arguments: &ProducerArguments) -> ExitCode {
     common::run(|signals| result(arguments, signals))
 }
 
-fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, String> {
-    let command = Template::new(&arguments.run.command, &["urdf", "out"])
-        .map_err(|error| error.to_string())?;
+fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Failure> {
     let plan = Plan {
-        command,
-        class: arguments.class.class(),
+        command: Template::new(&arguments.run.command, &["urdf", "out"])?,
+        class: arguments.class.into(),
         robots: arguments.robots.clone(),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,
@@ -55,18 +54,18 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Stri
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
-    let suite = suite::carried().map_err(|error| error.to_string())?;
+    let suite = suite::carried()?;
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
         Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
         Event::Refused(urdf) => follow.done(urdf.status == ScoreStatus::Failed, Some(urdf)),
     };
-    let result = run_producer(&plan, &suite, &observe).map_err(|error| error.to_string());
+    let result = run_producer(&plan, &suite, &observe);
     follow.finish()?;
     let result = result?;
     let mut text = String::new();
-    human(&result, &mut text).map_err(|error| error.to_string())?;
+    human(&result, &mut text)?;
     arguments.run.print(&result, &text)?;
     Ok(result.passed)
 }
@@ -103,15 +102,21 @@ fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
     writeln!(out, "{verdict}")
 }
 
-fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
-    match (urdf.status, &urdf.skipped_since) {
-        (ScoreStatus::Passed, _) => return Ok(()),
-        (ScoreStatus::Failed, _) => writeln!(out, "{} FAILED", urdf.robot)?,
-        (ScoreStatus::Skipped, reason) => {
-            let reason = reason.as_deref().unwrap_or_default();
-            writeln!(out, "{} skipped ({reason})", urdf.robot)?;
-        }
+fn status(status: ScoreStatus, skipped_since: Option<&str>) -> String {
+    match status {
+        ScoreStatus::Passed => "passed".to_owned(),
+        ScoreStatus::Failed => "FAILED".to_owned(),
+        ScoreStatus::Skipped => format!("skipped ({})", skipped_since.unwrap_or_default()),
     }
+}
+
+/// What a command printed.
+fn indented(text: Option<&str>, out: &mut String) -> std::fmt::Result {
+    text.into_iter().flat_map(str::lines).try_for_each(|line| writeln!(out, "    {line}"))
+}
+
+fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
+    let status = status(urdf.status, urdf.skipped_since.as_deref());
     let fault = match urdf.outcome {
         RefusedOutcome::Refused | RefusedOutcome::Repaired => return Ok(()),
         RefusedOutcome::Written => "neither refused nor repaired",
@@ -119,11 +124,9 @@ fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
         RefusedOutcome::Silent => "refused, but did not say why",
         RefusedOutcome::Crashed => "crashed, or did not end by itself",
     };
-    writeln!(out, "  {fault}: {}", urdf.end)?;
+    writeln!(out, "{} {status}\n  {fault}: {}", urdf.robot, urdf.end)?;
     if urdf.outcome == RefusedOutcome::Crashed {
-        for line in urdf.stderr.iter().flat_map(|text| text.lines()) {
-            writeln!(out, "    {line}")?;
-        }
+        indented(urdf.stderr.as_deref(), out)?;
     }
     if let Some(reason) = &urdf.unreadable {
         writeln!(out, "  {reason}")?;
@@ -135,20 +138,14 @@ fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
 }
 
 fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
-    match (robot.status, &robot.skipped_since) {
-        (ScoreStatus::Passed, _) => return writeln!(out, "{} passed", robot.robot),
-        (ScoreStatus::Failed, _) => writeln!(out, "{} FAILED", robot.robot)?,
-        (ScoreStatus::Skipped, reason) => {
-            let reason = reason.as_deref().unwrap_or_default();
-            writeln!(out, "{} skipped ({reason})", robot.robot)?;
-        }
+    let status = status(robot.status, robot.skipped_since.as_deref());
+    writeln!(out, "{} {status}", robot.robot)?;
+    if robot.status == ScoreStatus::Passed {
+        return Ok(());
     }
     if robot.end != "exit status 0" {
         writeln!(out, "  {}", robot.end)?;
-        let said = robot.stderr.iter().flat_map(|text| text.lines());
-        for line in said {
-            writeln!(out, "    {line}")?;
-        }
+        indented(robot.stderr.as_deref(), out)?;
     }
     if let Some(reason) = &robot.unreadable {
         writeln!(out, "  {reason}")?;

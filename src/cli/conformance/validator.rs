@@ -7,6 +7,7 @@ use clap::Args;
 use semver::Version;
 
 use super::common::{self, RunArguments};
+use crate::cli::output::Failure;
 use crate::cli::signals::Signals;
 use crate::suite;
 use urdd_conformance::process::Template;
@@ -57,14 +58,13 @@ pub fn run(arguments: &ValidatorArguments) -> ExitCode {
     common::run(|signals| result(arguments, signals))
 }
 
-fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, String> {
+fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Failure> {
     let command = match arguments.batch {
         true => Template::batch(&arguments.run.command, "dir"),
         false => Template::new(&arguments.run.command, &["dir"]),
     };
-    let command = command.map_err(|error| error.to_string())?;
     let plan = Plan {
-        command,
+        command: command?,
         is_batch: arguments.batch,
         spec_version: arguments.spec_version.clone(),
         limit: arguments.run.limit(),
@@ -76,7 +76,7 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Str
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
-    let suite = suite::carried().map_err(|error| error.to_string())?;
+    let suite = suite::carried()?;
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
@@ -88,11 +88,11 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Str
         }
         Event::NotRun => follow.done(false, None::<&Judged>),
     };
-    let result = run_validator(&plan, &suite, &observe).map_err(|error| error.to_string());
+    let result = run_validator(&plan, &suite, &observe);
     follow.finish()?;
     let result = result?;
     let mut text = String::new();
-    human(&result, &mut text).map_err(|error| error.to_string())?;
+    human(&result, &mut text)?;
     arguments.run.print(&result, &text)?;
     Ok(result.passed)
 }

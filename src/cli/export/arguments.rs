@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::mjcf::MjcfArguments;
-use crate::cli::making::Skip;
-use crate::cli::shapes::Shapes;
+use crate::cli::words::{Shapes, Skip};
 use urdd_export::{Detail, Format};
 
 /// Arguments of `urdd export`.

@@ -4,18 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::arguments::{ExportArguments, Target};
-use crate::cli::{output, srdf_file};
+use crate::cli::inputs;
+use crate::cli::output::{self, Failure, about, shown};
 use urdd_directory::regular;
 use urdd_export::{Export, merge_srdf};
-use urdd_format::escape;
 
 /// The existing SRDF, merged with the new pairs.
-fn merged(file: &Path, new: &str) -> Result<String, String> {
-    let shown = escape::line(&file.display().to_string()).into_owned();
-    let failed = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
-    let old = srdf_file::read(file)
-        .map_err(|error| format!("{error}; omit --update to write a new file"))?;
-    let merged = merge_srdf(&old, new).map_err(|error| failed(&error))?;
+fn merged(file: &Path, new: &str) -> Result<String, Failure> {
+    let help = |error| format!("{error}; omit --update to write a new file");
+    let merged = merge_srdf(&inputs::srdf(file).map_err(help)?, new).map_err(about(file))?;
     let pairs = |count: usize| match count {
         1 => "1 pair of links".to_owned(),
         _ => format!("{count} pairs of links"),
@@ -38,14 +35,13 @@ pub(super) fn write(
     arguments: &ExportArguments,
     output: &Path,
     mut made: Export,
-) -> Result<(), String> {
-    let report = arguments.report.clone();
-    let report = report.map(|file| (file, made.report.as_bytes()));
+) -> Result<(), Failure> {
+    let report = arguments.report.clone().map(|file| (file, made.report.as_bytes()));
     if output.as_os_str() == "-" {
         let report: Vec<(PathBuf, &[u8])> = report.into_iter().collect();
         refuse_others(arguments, &report)?;
         output::write_files(&report)?;
-        return output::print_raw(&made.text);
+        return Ok(output::print_raw(&made.text)?);
     }
     let (own, folder) = match &made.path {
         Some(path) => (output.join(path), output),
@@ -56,15 +52,13 @@ pub(super) fn write(
         made.text = merged(&own, &made.text)?;
     }
     // The file that references the others is last.
-    let files = made.files.iter();
-    let files = files.map(|(path, bytes)| (folder.join(path), bytes.as_slice()));
+    let files = made.files.iter().map(|(path, bytes)| (folder.join(path), bytes.as_slice()));
     let mut files: Vec<(PathBuf, &[u8])> = files.collect();
     if arguments.update {
         files.retain(|file| {
             let stays = is_other(file);
             if stays {
-                let shown = file.0.display().to_string();
-                output::error(&format!("note: {} stays as it is", escape::line(&shown)));
+                output::error(&format!("note: {} stays as it is", shown(&file.0)));
             }
             !stays
         });
@@ -73,14 +67,14 @@ pub(super) fn write(
     let own = (own, made.text.as_bytes());
     refuse_others(arguments, files.iter().chain((!is_merged).then_some(&own)))?;
     files.push(own);
-    output::write_files(&files)
+    Ok(output::write_files(&files)?)
 }
 
 /// An error if a file exists with different content.
 fn refuse_others<'f>(
     arguments: &ExportArguments,
     files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
-) -> Result<(), String> {
+) -> Result<(), Failure> {
     let mut files = files.into_iter();
     if !arguments.force
         && let Some((there, _)) = files.find(|file| is_other(file))
@@ -92,10 +86,7 @@ fn refuse_others<'f>(
             }
             _ => "",
         };
-        return Err(format!(
-            "{} already exists: --force overwrites it{also}",
-            escape::line(&there.display().to_string())
-        ));
+        Err(format!("{} already exists: --force overwrites it{also}", shown(there)))?;
     }
     Ok(())
 }

@@ -16,12 +16,10 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::self_collision_model::ModelEvaluation;
 use urdd_validate::{ModelVerdict, verify_model};
 
-/// The contents of a URDD.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Info {
     /// Name of the URDD in reports.
     pub path: String,
-    /// Name of the robot.
     pub robot_name: Option<String>,
     /// Version of the specification that the root metadata states.
     pub urdd_version: Option<String>,
@@ -29,11 +27,9 @@ pub struct Info {
     pub conformance_class: Option<String>,
     /// Path of the carried source URDF.
     pub urdf: Option<String>,
-    /// Number of links.
     pub links: Option<usize>,
     /// Number of joints of each type.
     pub joints: BTreeMap<String, usize>,
-    /// The degrees of freedom.
     pub dofs: Vec<DofInfo>,
     /// Name of the base link of a composed robot: the link that carries parts and belongs to none.
     pub base: Option<String>,
@@ -41,18 +37,15 @@ pub struct Info {
     pub parts: Vec<PartInfo>,
     /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
-    /// The modules.
     pub modules: Vec<ModuleInfo>,
 }
 
-/// A degree of freedom.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DofInfo {
     /// Its name; for legacy modules, the name of its joint.
     pub name: String,
     /// `rad` or `m`, if the module states it.
     pub unit: Option<&'static str>,
-    /// Lower and upper bound.
     pub bounds: Option<[f64; 2]>,
 }
 
@@ -101,23 +94,22 @@ impl ModelInfo {
             true => String::new(),
             false => format!(": {}", safe(&self.reasons.join(", "))),
         };
+        let Self { miss_rate, near_contact_miss_rate: near, clear_rate, .. } = self;
+        let margin = "            ";
         writeln!(out, "  model     rates {verdict}{reasons} (95 % intervals in brackets)")?;
-        writeln!(out, "            misses {} collisions", self.miss_rate)?;
-        let near = &self.near_contact_miss_rate;
+        writeln!(out, "{margin}misses {miss_rate} collisions")?;
         writeln!(
             out,
-            "            misses {near} collisions within a step of 0.05 rad or m of contact"
+            "{margin}misses {near} collisions within a step of 0.05 rad or m of contact"
         )?;
-        writeln!(out, "            clears {} free configurations", self.clear_rate)
+        writeln!(out, "{margin}clears {clear_rate} free configurations")
     }
 }
 
-/// A module.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModuleInfo {
     /// Path of its folder.
     pub path: String,
-    /// Its version.
     pub version: Option<String>,
     /// Number of its files.
     pub files: usize,
@@ -187,17 +179,13 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
         return Vec::new();
     };
     let bounds = urdd.bounds();
-    let described = match urdd.document(ModuleKind::Dof) {
-        Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
-        _ => None,
-    };
     let name_of_joint = |dof: usize| {
-        let joint = dofs.joint_of_dof.get(dof)?;
+        let joint = dofs.dof_idx_to_joint_idx_mapping.get(dof)?;
         Some(urdd.robot()?.joints.get(joint.get())?.name.clone())
     };
-    (0..dofs.joint_of_dof.len())
+    (0..dofs.dof_idx_to_joint_idx_mapping.len())
         .map(|dof| {
-            let description = described.and_then(|list| list.get(dof));
+            let description = dofs.dofs.get(dof);
             DofInfo {
                 name: description
                     .map(|description| description.name.clone())
@@ -240,18 +228,15 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     writeln!(out, "  source    {}", or(&info.urdf, "no URDF is carried"))?;
     let links = info.links.map(|links| links.to_string());
     writeln!(out, "  links     {}", or(&links, "not known"))?;
-    let joints = info.joints.iter().map(|(kind, n)| format!("{n} {kind}"));
-    let joints: Vec<String> = joints.collect();
+    let joints = info.joints.iter().map(|(kind, n)| format!("{n} {kind}")).collect::<Vec<_>>();
     let joints = (!joints.is_empty()).then(|| joints.join(", "));
     writeln!(out, "  joints    {}", or(&joints, "none"))?;
     writeln!(out, "  DOFs      {}", info.dofs.len())?;
     let width = widest(info.dofs.iter().map(|dof| &dof.name));
     for (index, dof) in info.dofs.iter().enumerate() {
         let unit = dof.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
-        let bounds = dof
-            .bounds
-            .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
-            .unwrap_or_default();
+        let bounds = dof.bounds.map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"));
+        let bounds = bounds.unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
     }
     if let Some(model) = &info.collision_model {
@@ -266,11 +251,8 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let width = widest(info.modules.iter().map(|module| &module.path));
     for module in &info.modules {
         let version = safe(module.version.as_deref().unwrap_or("-"));
-        let unusable = module
-            .unusable
-            .as_ref()
-            .map(|reason| format!("  ({})", safe(reason)))
-            .unwrap_or_default();
+        let unusable = module.unusable.as_ref().map(|reason| format!("  ({})", safe(reason)));
+        let unusable = unusable.unwrap_or_default();
         writeln!(
             out,
             "    {:width$}  {version:6}  {:>4} files  {:>9} kB{unusable}",

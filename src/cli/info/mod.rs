@@ -8,9 +8,9 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::output;
+use super::output::{self, Failure, one_line};
 use contents::Info;
-use urdd_directory::discover::discover;
+use urdd_directory::discover::{Found, discover};
 use urdd_format::escape;
 use urdd_validate::report;
 
@@ -36,29 +36,23 @@ enum Format {
 
 /// Runs `urdd info`.
 pub fn run(arguments: &InfoArguments) -> ExitCode {
-    output::printed(tell(arguments).and_then(|text| output::print(&text)))
+    output::printed(tell(arguments))
 }
 
-fn tell(arguments: &InfoArguments) -> Result<String, String> {
+fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
     let mut infos = Vec::new();
     for path in &arguments.paths {
-        for found in
-            discover(path).map_err(|error| escape::line(&error.to_string()).into_owned())?
-        {
-            if let Some(error) = found.closed {
-                return Err(format!("{}: {error}", escape::line(&found.name)));
-            }
-            let info = Info::read(&found.path, &found.name)
-                .map_err(|error| format!("{}: {error}", escape::line(&found.name)))?;
-            infos.push(info);
+        for Found { path, name, closed } in discover(path).map_err(one_line)? {
+            let info = closed.map_or_else(|| Info::read(&path, &name), Err);
+            infos.push(info.map_err(|error| format!("{}: {error}", escape::line(&name)))?);
         }
     }
     if arguments.format == Format::Json {
-        return report::json(&infos).map_err(|error| error.to_string());
+        return Ok(report::json(&infos)?);
     }
     let mut text = String::new();
     for info in &infos {
-        contents::write(info, &mut text).map_err(|error| error.to_string())?;
+        contents::write(info, &mut text)?;
         text.push('\n');
     }
     Ok(text)

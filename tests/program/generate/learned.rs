@@ -6,8 +6,7 @@ use std::sync::OnceLock;
 
 use serde_json::Value;
 use urdd_generate::note::NoteKind;
-use urdd_generate::train::Effort;
-use urdd_generate::{Generated, Selection, Settings, generate};
+use urdd_generate::{Effort, Generated, Selection, Settings, generate};
 use urdd_robot::Robot;
 
 use super::{findings_of, read_json};

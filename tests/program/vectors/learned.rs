@@ -5,7 +5,7 @@ use urdd_format::rate::Rate;
 use urdd_format::self_collision_model::{
     ModelEvaluation, ModelInput, ModelLayer, ModelPair, SelfCollisionModelModule,
 };
-use urdd_kinematics::learn::CollisionModel;
+use urdd_robot::CollisionModel;
 
 use super::{assert_near, vectors};
 

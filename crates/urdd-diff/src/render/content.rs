@@ -160,18 +160,17 @@ fn links(links: &[LinkDifference]) -> Vec<Line> {
         for geometry in &link.geometry {
             lines.extend(geometry.changes.iter().map(|it| change(1, it)));
             let kind = geometry.geometry.as_str().to_lowercase();
-            let mut changes = geometry.changes.iter();
-            let is_mesh_changed = changes.any(|change| change.field.ends_with(".mesh"));
-            let boxes = [&geometry.bounds_before, &geometry.bounds_after];
-            let title = format!("bounding box of the {kind} geometry: ");
-            let mut spans = vec![words(title)];
-            match boxes {
-                [a, b] if a == b && (a.is_none() || !is_mesh_changed) => continue,
-                [a, b] if a == b => spans.push(words("unchanged")),
-                [a, b] => {
-                    let [a, b] = [a, b].map(|of| words(bounds(of.as_ref())));
-                    spans.extend([a, Span::Arrow, b]);
-                }
+            let is_mesh = |change: &ValueChange| change.field.ends_with(".mesh");
+            let is_mesh_changed = geometry.changes.iter().any(is_mesh);
+            let boxes @ [a, b] = [&geometry.bounds_before, &geometry.bounds_after];
+            let mut spans = vec![words(format!("bounding box of the {kind} geometry: "))];
+            if a != b {
+                let [a, b] = boxes.map(|of| words(bounds(of.as_ref())));
+                spans.extend([a, Span::Arrow, b]);
+            } else if a.is_some() && is_mesh_changed {
+                spans.push(words("unchanged"));
+            } else {
+                continue;
             }
             lines.push(Line { depth: 1, spans });
         }
@@ -204,14 +203,8 @@ fn poses(poses: &PoseDifference) -> Line {
         1 => "1 link is elsewhere: ".to_owned(),
         count => format!("{count} links are elsewhere, the farthest of them "),
     };
-    Line {
-        depth: 0,
-        spans: vec![
-            words(count),
-            name(&poses.farthest),
-            words(format!(", by {}{angle}", metres(poses.distance))),
-        ],
-    }
+    let place = words(format!(", by {}{angle}", metres(poses.distance)));
+    Line { depth: 0, spans: vec![words(count), name(&poses.farthest), place] }
 }
 
 fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
@@ -248,10 +241,8 @@ fn pairs(pairs: &[PairDifference]) -> Vec<Line> {
             _ => pair.shapes.join(", "),
         };
         let [a, b] = &pair.links;
-        Line {
-            depth: 0,
-            spans: vec![words(word), name(a), words(" - "), name(b), words(format!(" ({kinds})"))],
-        }
+        let kinds = words(format!(" ({kinds})"));
+        Line { depth: 0, spans: vec![words(word), name(a), words(" - "), name(b), kinds] }
     });
     lines.collect()
 }

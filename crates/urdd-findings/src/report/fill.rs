@@ -83,10 +83,8 @@ fn status(check: &Check) -> CheckStatus {
 
 /// The rules that could not verify something, by reason.
 fn not_checked(checks: &[CheckStatus]) -> Vec<NotChecked> {
-    let of_reason =
-        |(reason, codes): (&str, Vec<String>)| NotChecked { codes, reason: reason.to_owned() };
-    let open = by_reason(checks, Skipped::NotVerified);
-    open.into_iter().map(of_reason).collect()
+    let open = by_reason(checks, Skipped::NotVerified).into_iter();
+    open.map(|(reason, codes)| NotChecked { codes, reason: reason.to_owned() }).collect()
 }
 
 /// The rules that were skipped in this way, by reason.
@@ -102,9 +100,8 @@ pub(super) fn by_reason(checks: &[CheckStatus], how: Skipped) -> BTreeMap<&str, 
 
 /// The findings of all checks: by module, then by severity, code and place.
 fn findings(modules: &[Module], checks: Vec<Check>) -> Vec<Finding> {
-    let folders = modules.iter().enumerate();
-    let folders: HashMap<&str, usize> =
-        folders.map(|(idx, module)| (module.path.as_str(), idx)).collect();
+    let paths = modules.iter().map(|module| module.path.as_str());
+    let folders: HashMap<&str, usize> = paths.zip(0..).collect();
     let mut findings: Vec<(Option<usize>, Code, Finding)> = Vec::new();
     for mut check in checks {
         for found in std::mem::take(&mut check.findings) {

@@ -3,6 +3,7 @@
 
 use std::fmt::{self, Write};
 
+use super::human::times;
 use super::place::file_in;
 use urdd_format::escape;
 use urdd_format::report::{Report, Severity, Status};
@@ -47,9 +48,7 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
                     text += &format!("; {label}: {part}");
                 }
             }
-            if finding.count.get() > 1 {
-                text += &format!(" ({} times)", finding.count);
-            }
+            text += &times(finding);
             let title = property(&format!("{} {}", finding.code, finding.name));
             writeln!(out, ",title={title}::{}", data(&text))?;
         }

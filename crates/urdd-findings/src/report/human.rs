@@ -131,8 +131,7 @@ fn describe(urdd: &Urdd) -> String {
 
 /// Writes one finding.
 pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
-    let times =
-        if finding.count.get() > 1 { format!(" ({} times)", finding.count) } else { String::new() };
+    let times = times(finding);
     let code = style.paint(BOLD, &finding.code);
     let word = severity(finding.severity, style);
     writeln!(out, "    {word} {code} {}{times}", finding.name)?;
@@ -191,6 +190,11 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
         writeln!(out, "      {}", style.paint(DIM, more))?;
     }
     Ok(())
+}
+
+/// How often a folded finding was found.
+pub(super) fn times(finding: &Finding) -> String {
+    if finding.count.get() > 1 { format!(" ({} times)", finding.count) } else { String::new() }
 }
 
 /// Whether the value found consists of numbers only, which do not show the difference.
@@ -279,11 +283,8 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
         (report.count(Verdict::Unreadable), "unreadable"),
         (report.count(Verdict::Incomplete), "incomplete"),
     ];
-    let verdicts: Vec<String> = verdicts
-        .into_iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, word)| format!("{count} {word}"))
-        .collect();
+    let some = verdicts.into_iter().filter(|(count, _)| *count > 0);
+    let verdicts: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();
     writeln!(
         out,
         "{}: {}. {}: {}, {}, {}.",

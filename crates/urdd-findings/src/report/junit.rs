@@ -161,8 +161,7 @@ fn described(finding: &Finding) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = human::write_finding(finding, super::style::Style::default(), &mut text);
-    let lines = text.lines();
-    let lines = lines.map(|line| line.strip_prefix("    ").unwrap_or(line));
+    let lines = text.lines().map(|line| line.strip_prefix("    ").unwrap_or(line));
     escape::lines(&(lines.collect::<Vec<_>>().join("\n") + "\n")).into_owned()
 }
 

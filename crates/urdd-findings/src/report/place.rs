@@ -38,10 +38,7 @@ pub fn file_in(place: &str, file: Option<&str>) -> String {
             part => parts.push(part),
         }
     }
-    match parts.is_empty() {
-        true => folder(place),
-        false => parts.join("/"),
-    }
+    if parts.is_empty() { folder(place) } else { parts.join("/") }
 }
 
 /// A path as seen from the current folder, with `/`. None if it is outside.

@@ -59,9 +59,7 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     let failed = !notifications.is_empty();
     let unverified = placed().flat_map(|(urdd, place)| {
         unverified::describe(urdd).into_iter().map(move |text| {
-            let locations =
-                json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
-            json!({"level": "note", "message": message(&text), "locations": locations})
+            json!({"level": "note", "message": message(&text), "locations": [folder(place)]})
         })
     });
     let notifications: Vec<Value> = notifications.into_iter().chain(unverified).collect();
@@ -173,8 +171,8 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
         if !related.is_empty() {
             result["relatedLocations"] = json!(related);
         }
-        let fixes = finding.places.iter().flat_map(|here| &here.fixes);
-        let fixes: Vec<Value> = fixes.map(|fix| mend(place, fix)).collect();
+        let changes = finding.places.iter().flat_map(|here| &here.fixes);
+        let fixes: Vec<Value> = changes.map(|fix| mend(place, fix)).collect();
         if !fixes.is_empty() {
             result["fixes"] = json!(fixes);
         }
@@ -195,23 +193,17 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
 /// The whole finding as one text: few readers show other fields of a result.
 fn text(finding: &Finding) -> String {
     let mut text = escape::line(&finding.message).into_owned();
-    let mut line = |label: &str, value: &str| {
-        text.push_str(&format!("\n{label}: {}", escape::line(value)));
-    };
-    if let Some(expected) = &finding.expected {
-        line("Expected", expected);
-    }
-    if let Some(actual) = &finding.actual {
-        line("Found", actual);
-    }
-    if let Some(tolerance) = finding.tolerance {
-        line("Tolerance", &number(tolerance, 2));
-    }
-    if let Some(subject) = &finding.subject {
-        line("Of", subject);
-    }
-    if finding.count.get() > 1 {
-        line("Times", &finding.count.to_string());
+    let lines = [
+        ("Expected", finding.expected.clone()),
+        ("Found", finding.actual.clone()),
+        ("Tolerance", finding.tolerance.map(|tolerance| number(tolerance, 2))),
+        ("Of", finding.subject.clone()),
+        ("Times", Some(finding.count).filter(|count| count.get() > 1).map(|n| n.to_string())),
+    ];
+    for (label, value) in lines {
+        if let Some(value) = value {
+            text.push_str(&format!("\n{label}: {}", escape::line(&value)));
+        }
     }
     text
 }
@@ -227,8 +219,7 @@ fn kind(finding: &Finding, place: &str) -> [String; 3] {
     let what = match &finding.pointer {
         Some(pointer) => {
             let is_index = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-            let parts = pointer.split('/');
-            let parts = parts.map(|part| if is_index(part) { "" } else { part });
+            let parts = pointer.split('/').map(|part| if is_index(part) { "" } else { part });
             parts.collect::<Vec<_>>().join("/")
         }
         None => finding.subject.clone().unwrap_or_default(),
@@ -298,6 +289,11 @@ fn location(urdd: &str, place: &Place) -> Value {
     location
 }
 
+/// The location of a URDD.
+fn folder(urdd: &str) -> Value {
+    location(urdd, &Place::default())
+}
+
 fn artifact(urdd: &str, file: Option<&str>) -> Value {
     let path = file_in(urdd, file);
     json!({"uri": utf8_percent_encode(&path, KEPT).to_string(), "uriBaseId": BASE})
@@ -305,7 +301,7 @@ fn artifact(urdd: &str, file: Option<&str>) -> Value {
 
 /// The errors that prevented a full examination of a URDD.
 fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
-    let locations = json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
+    let locations = [folder(place)];
     let mut notifications = Vec::new();
     if let Some(reason) = &urdd.reason {
         let text = match urdd.verdict {

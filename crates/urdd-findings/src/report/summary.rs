@@ -42,50 +42,55 @@ const NAME: usize = 28;
 pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     write_table(report, style, out)?;
     let all = causes(report);
+    let unit = unit(report);
     let (errors, lesser): (Vec<_>, Vec<_>) =
-        all.into_iter().partition(|cause| cause.severity == Severity::Error);
+        all.iter().partition(|cause| cause.first.severity == Severity::Error);
     if !errors.is_empty() {
         let title = format!("What to fix first ({} of errors)", plural(errors.len(), "cause"));
         writeln!(out, "{}", style.paint(BOLD, title))?;
-        let most = if style.full { errors.len() } else { CAUSES };
         let mut above = None;
-        for cause in errors.iter().take(most) {
+        write_some(&errors, CAUSES, style, out, |cause, out| {
             let consequence = cause.first.consequence;
             if above.replace(consequence) != Some(consequence) {
                 writeln!(out, "  {}", words(consequence))?;
             }
-            write_cause(cause, unit(report), style, out)?;
-        }
-        write_more(errors.len(), most, style, out)?;
-        writeln!(out)?;
+            write_cause(cause, unit, style, out)
+        })?;
     }
     if !lesser.is_empty() {
         writeln!(out, "{}", style.paint(BOLD, "Warnings, and worth knowing"))?;
-        let most = if style.full { lesser.len() } else { LESSER };
-        for cause in lesser.iter().take(most) {
-            write_cause(cause, unit(report), style, out)?;
-        }
-        write_more(lesser.len(), most, style, out)?;
-        writeln!(out)?;
+        write_some(&lesser, LESSER, style, out, |cause, out| write_cause(cause, unit, style, out))?;
     }
     write_not_checked(report, style, out)?;
     if !style.full {
-        let unit = unit(report);
         let hint = format!("In full: one {unit}, or --full; every place: --format json.");
         writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
 }
 
-fn write_more(of: usize, shown: usize, style: Style, out: &mut impl Write) -> fmt::Result {
-    match of > shown {
-        true => writeln!(
-            out,
-            "    {}",
-            style.paint(DIM, format!("and {} more; --full lists them", of - shown))
-        ),
-        false => Ok(()),
+/// Writes items, without `--full` no more than `most` and the number of others, and an empty line.
+fn write_some<T, W: Write>(
+    items: &[T],
+    most: usize,
+    style: Style,
+    out: &mut W,
+    mut write: impl FnMut(&T, &mut W) -> fmt::Result,
+) -> fmt::Result {
+    let most = if style.full { items.len() } else { most };
+    for item in items.iter().take(most) {
+        write(item, out)?;
     }
+    write_more(items.len(), most, style, out)?;
+    writeln!(out)
+}
+
+fn write_more(of: usize, shown: usize, style: Style, out: &mut impl Write) -> fmt::Result {
+    if of <= shown {
+        return Ok(());
+    }
+    let text = format!("and {} more; --full lists them", of - shown);
+    writeln!(out, "    {}", style.paint(DIM, text))
 }
 
 /// A consequence in words.
@@ -103,7 +108,7 @@ fn words(consequence: Consequence) -> &'static str {
 
 fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write) -> fmt::Result {
     let code = style.paint(BOLD, &cause.first.code);
-    let word = severity(cause.severity, style);
+    let word = severity(cause.first.severity, style);
     let times = match cause.times {
         1 => "once".to_owned(),
         times => format!("{times} times"),
@@ -117,8 +122,7 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
         text += &format!(", {} only by the parts that it names", text_of(cause.borrowed));
     }
     writeln!(out, "    {word} {code} {}: {text}", cause.first.name)?;
-    let urdd = cause.urdds.first().map(|path| shorten(&safe(path), NAME));
-    let urdd = urdd.unwrap_or_default();
+    let urdd = cause.urdds.first().map(|path| shorten(&safe(path), NAME)).unwrap_or_default();
     let example = format!("      {urdd}: {}", safe(&cause.first.message));
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
@@ -145,14 +149,9 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         *urdds += 1;
         codes.extend(open.codes.iter().map(String::as_str));
     }
-    let unverified: Vec<usize> = report
-        .urdds
-        .iter()
-        .map(|urdd| urdd.geometry_not_verified.len())
-        .filter(|links| *links > 0)
-        .collect();
-    let models = report.urdds.iter();
-    let models = models.filter(|urdd| urdd.model_not_verified.is_some()).count();
+    let unverified = report.urdds.iter().map(|urdd| urdd.geometry_not_verified.len());
+    let unverified: Vec<usize> = unverified.filter(|links| *links > 0).collect();
+    let models = report.urdds.iter().filter(|urdd| urdd.model_not_verified.is_some()).count();
     if by_reason.is_empty() && unverified.is_empty() && models == 0 {
         return Ok(());
     }
@@ -168,24 +167,18 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
     reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));
-    let most = if style.full { reasons.len() } else { LESSER };
-    for (reason, (urdds, codes)) in reasons.iter().take(most) {
+    write_some(&reasons, LESSER, style, out, |(reason, (urdds, codes)), out| {
         let rules = plural(codes.len(), "rule");
         let text = format!("    {rules} in {}: {}", plural(*urdds, unit(report)), safe(reason));
-        writeln!(out, "{}", shorten(&text, style.width))?;
-    }
-    write_more(reasons.len(), most, style, out)?;
-    writeln!(out)
+        writeln!(out, "{}", shorten(&text, style.width))
+    })
 }
 
 fn shorten(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        Some(_) => {
-            let kept: String = text.chars().take(longest.saturating_sub(1)).collect();
-            kept + "…"
-        }
-        None => text.to_owned(),
+    if text.chars().nth(longest).is_none() {
+        return text.to_owned();
     }
+    text.chars().take(longest.saturating_sub(1)).chain(['…']).collect()
 }
 
 fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {

@@ -42,8 +42,8 @@ fn describe_links(urdd: &Urdd) -> Option<String> {
         if links.len() > LINKS {
             text += &format!(" and {} more", links.len() - LINKS);
         }
-        let codes: BTreeSet<&String> = links.iter().flat_map(|link| &link.codes).collect();
-        let codes: Vec<String> = codes.into_iter().cloned().collect();
+        let codes: BTreeSet<String> = links.iter().flat_map(|link| link.codes.clone()).collect();
+        let codes = Vec::from_iter(codes);
         let word = if links.len() == 1 { "link" } else { "links" };
         let reasons = reasons.join(", ");
         format!("{word} {text} by {}: {}", list(&codes), safe(&reasons))

@@ -17,10 +17,7 @@ pub(super) fn list(codes: &[String]) -> String {
 /// What a report is about.
 pub(super) fn unit(report: &Report) -> &'static str {
     let is_urdf = |urdd: &Urdd| urdd.kind == Kind::Urdf;
-    match !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) {
-        true => "URDF",
-        false => "URDD",
-    }
+    if !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) { "URDF" } else { "URDD" }
 }
 
 /// A count with its unit.

@@ -1,26 +1,34 @@
 //! Findings with one cause.
 
+use super::DESCRIPTION;
+use crate::check::{Check, Outcome};
+use crate::examined::{Examined, blank};
+use crate::finding::Finding;
 use crate::report::causes::*;
-use urdd_format::report::Place;
+use crate::run::Run;
+use crate::settings::Settings;
+use urdd_format::report::{Kind, Place, Severity};
 
 #[test]
-fn names_and_numbers_do_not_tell_causes_apart() {
-    let same = without_particulars("link `a` is off by 0.25 m, at most 1e-6");
-    assert_eq!(same, without_particulars("link `b c` is off by 3 m, at most 2"));
-    assert_ne!(same, without_particulars("joint `a` is off by 0.25 m, at most 1e-6"));
-}
-
-#[test]
-fn places_do_not_tell_causes_apart() {
-    let same = meaning("shapes 3 (link `a`) and 0 (link `b`): /full_obbs/0/3 is the edit");
-    let other =
-        "shapes 9 (piece 0 of `a`) and 1 (piece 2 of `b`): /decomposition_obbs/1/9 is the edit";
-    assert_eq!(same, meaning(other));
-    assert_eq!(
-        meaning("the sphere about piece 1 of link 1 (`a`) is large"),
-        meaning("the sphere about the hull of link 3 (`b`) is large")
-    );
-    assert_ne!(meaning("the origin (`a`) is lost"), meaning("the axis (`a`) is lost"));
+fn neither_words_nor_places_tell_causes_apart() {
+    let robot = |name: &str| {
+        let finding = |file: &str, message: &str| Finding::at(file, "/a", message);
+        let mut lesser = finding("urdf_module/module.json", "the axis is long");
+        lesser.severity = Some(Severity::Info);
+        let findings = vec![
+            finding("dof_module/module.json", &format!("`{name}` is lost")),
+            finding("urdf_module/module.json", "the origin is lost"),
+            lesser,
+        ];
+        let checks = vec![Check::new(&DESCRIPTION, Outcome::Failed, findings)];
+        Examined { report: blank(Kind::Urdd, name), checks }
+    };
+    let run = Run::of(vec![robot("one"), robot("two")], Vec::new(), 0, &Settings::default());
+    let found = causes(&run.report);
+    let found: Vec<_> =
+        found.iter().map(|cause| (cause.first.severity, cause.times, &cause.urdds[..])).collect();
+    let both = &["one", "two"][..];
+    assert_eq!(found, [(Severity::Error, 4, both), (Severity::Info, 2, both)]);
 }
 
 #[test]

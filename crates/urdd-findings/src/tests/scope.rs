@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::code::Code;
-use crate::part::{Part, PartKind, Why};
+use crate::part::{Part, Why};
 use crate::scope::*;
 
 #[test]
@@ -25,7 +25,10 @@ fn an_unsound_part_is_left_out_and_said() {
 fn a_fault_without_a_part_is_one_of_all_parts() {
     let mut faulted = Faulted::default();
     faulted.add(&[Part::Plain(3)]);
-    assert!(faulted.any(PartKind::Plain) && !faulted.any(PartKind::Piece));
+    assert!(!faulted.parts().is_empty() && !faulted.has_pieces());
+    faulted.add(&[Part::Piece { link: 3, piece: 0 }]);
+    assert!(faulted.has_pieces() && !faulted.elsewhere());
+    let mut faulted = Faulted::default();
     faulted.add(&[]);
-    assert!(faulted.any(PartKind::Piece) && faulted.elsewhere());
+    assert!(faulted.has_pieces() && faulted.elsewhere());
 }

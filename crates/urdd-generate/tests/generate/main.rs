@@ -10,4 +10,3 @@ mod in_memory;
 mod meshes_names;
 mod shape_documents;
 mod shapes_rounding;
-mod train_calibration;

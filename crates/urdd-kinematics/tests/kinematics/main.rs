@@ -7,7 +7,7 @@
 mod closed_forms;
 mod configurations;
 mod faults;
-mod learn_kernel;
+mod fill;
 mod naive_kinematics;
 mod properties;
 mod rotations;

@@ -1,6 +1,4 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A mesh or texture is named by an absolute path.
@@ -22,18 +20,15 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let mut finding = urdf.at_attribute(file.node, "filename", message).actual(file.name);
-        let inside = file.path().and_then(|path| path.strip_prefix(urdf.folder).ok());
-        let relative = inside.and_then(|inside| inside.to_str());
-        let is_there = file.path().is_some_and(std::path::Path::is_file);
-        if let (Some(relative), Some(range), true) =
-            (relative, urdf.value(file.node, "filename"), is_there)
-            && !relative.contains(['&', '<', '"', '\'', '\\'])
-        {
-            finding =
-                finding.fix(urdf.fix("name it relative to the URDF", range, relative.to_owned()));
-        }
-        finding.report(findings);
+        let there = file.path().filter(|path| path.is_file());
+        let relative = there
+            .and_then(|path| path.strip_prefix(urdf.folder).ok()?.to_str())
+            .filter(|relative| !relative.contains(['&', '<', '"', '\'', '\\']));
+        let fix = relative.zip(urdf.value(file.node, "filename")).map(|(relative, range)| {
+            urdf.fix("name it relative to the URDF", range, relative.to_owned())
+        });
+        let finding = urdf.at_attribute(file.node, "filename", message);
+        finding.actual(file.name).fix(fix).report(findings);
     }
     Some(())
 }

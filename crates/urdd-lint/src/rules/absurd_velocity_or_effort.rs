@@ -1,7 +1,4 @@
-use crate::elements::{ONE_DOF, child, number};
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// The effort or velocity of a joint's limit is negative, or one of them is 0.

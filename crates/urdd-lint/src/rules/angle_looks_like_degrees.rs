@@ -1,7 +1,4 @@
-use crate::elements::numbers;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// An angle of an `<origin>` looks like degrees.

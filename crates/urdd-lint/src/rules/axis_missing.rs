@@ -1,7 +1,4 @@
-use crate::elements::{WITH_AXIS, child};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A joint that needs an axis has none.

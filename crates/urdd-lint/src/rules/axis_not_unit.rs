@@ -1,7 +1,4 @@
-use crate::elements::{child, numbers};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 use urdd_format::readable::number;
 
 declare_lint! {
@@ -35,11 +32,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             "the axis has the length {}, by which some programs multiply the motion; write `{mended}`",
             number(length, 4)
         );
-        let mut finding = urdf.at_attribute(element, "xyz", message);
-        if let Some(range) = urdf.value(element, "xyz") {
-            finding = finding.fix(urdf.fix("write the axis with length 1", range, mended));
-        }
-        finding.report(findings);
+        let range = urdf.value(element, "xyz");
+        let fix = range.map(|range| urdf.fix("write the axis with length 1", range, mended));
+        urdf.at_attribute(element, "xyz", message).fix(fix).report(findings);
     }
     Some(())
 }

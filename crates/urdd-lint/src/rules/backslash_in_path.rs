@@ -1,8 +1,4 @@
-use std::path::Path;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// The name of a mesh or texture has a backslash.
@@ -20,13 +16,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let message = "only Windows takes a backslash as a separator; write `/`";
-        let mut finding = urdf.at_attribute(file.node, "filename", message).actual(file.name);
-        let range = urdf.value(file.node, "filename");
-        if let Some(range) = range.filter(|_| is_there(urdf, file.name)) {
-            let mended = urdf.text[range.clone()].replace('\\', "/");
-            finding = finding.fix(urdf.fix("write `/`", range, mended));
-        }
-        finding.report(findings);
+        let range = urdf.value(file.node, "filename").filter(|_| is_there(urdf, file.name));
+        let fix = range.map(|range| {
+            let with_slashes = urdf.text[range.clone()].replace('\\', "/");
+            urdf.fix("write `/`", range, with_slashes)
+        });
+        let finding = urdf.at_attribute(file.node, "filename", message);
+        finding.actual(file.name).fix(fix).report(findings);
     }
     Some(())
 }

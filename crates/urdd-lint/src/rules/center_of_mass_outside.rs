@@ -1,10 +1,5 @@
-use crate::geometry::diagonal;
-use crate::inertial::Inertial;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use nalgebra::Point3;
-use urdd_findings::finding::{Findings, point};
-use urdd_format::readable::metres;
+use super::prelude::*;
+use urdd_findings::finding::point;
 
 declare_lint! {
     /// The centre of mass of a link is outside of its shapes.

@@ -1,8 +1,4 @@
-use urdd_geometry::read::NoteCode;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A COLLADA file is not in metres.

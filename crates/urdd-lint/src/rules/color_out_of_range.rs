@@ -1,7 +1,4 @@
-use crate::elements::numbers;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 use urdd_format::report::Fix;
 
 declare_lint! {
@@ -27,17 +24,16 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let message = "a colour is red, green, blue and opacity from 0 to 1; divide by 255";
-        let mut finding = urdf.at_attribute(color, "rgba", message);
         let is_bytes = rgba.iter().all(|value| (0.0..=BYTE).contains(value));
-        if let (Some(range), true) = (urdf.value(color, "rgba"), is_bytes) {
+        let fix = urdf.value(color, "rgba").filter(|_| is_bytes).map(|range| {
             // An opacity of 1 beside bytes may be either.
             let [r, g, b, a] = rgba;
             let a = if a <= MOST { a } else { a / BYTE };
             let mended = [r / BYTE, g / BYTE, b / BYTE, a].map(|value| format!("{value}"));
             let fix = urdf.fix("divide the colour by 255", range, mended.join(" "));
-            finding = finding.fix(Fix { is_safe: false, ..fix });
-        }
-        finding.report(findings);
+            Fix { is_safe: false, ..fix }
+        });
+        urdf.at_attribute(color, "rgba", message).fix(fix).report(findings);
     }
     Some(())
 }

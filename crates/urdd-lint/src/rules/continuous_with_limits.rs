@@ -1,7 +1,4 @@
-use crate::elements::{child, number};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A continuous joint has a lower and an upper limit.

@@ -1,8 +1,5 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
+use super::prelude::*;
 use crate::vocabulary::hint;
-use urdd_findings::finding::Findings;
-use urdd_xml::element::children;
 
 declare_lint! {
     /// A `<gazebo reference>` names neither a link nor a joint.

@@ -1,10 +1,4 @@
-use roxmltree::Node;
-use urdd_format::meshes::GeometryKind;
-
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_geometry::read::Format;
+use super::prelude::*;
 
 declare_lint! {
     /// A collision mesh has more than 50,000 triangles.

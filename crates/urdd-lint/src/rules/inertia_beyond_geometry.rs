@@ -1,14 +1,7 @@
 use std::collections::HashMap;
 
-use nalgebra::Vector3;
-
+use super::prelude::*;
 use crate::bodies::slide_only;
-use crate::geometry::diagonal;
-use crate::inertial::Inertial;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_format::readable::metres;
 
 declare_lint! {
     /// The inertia of a link is larger than any mass inside its shapes can have.

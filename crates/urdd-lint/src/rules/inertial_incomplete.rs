@@ -1,7 +1,4 @@
-use crate::elements::child;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// An `<inertial>` has no mass, no inertia, or not all numbers of it.

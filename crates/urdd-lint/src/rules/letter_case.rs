@@ -1,10 +1,7 @@
 use std::ops::Range;
 
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::textures::textures;
+use super::prelude::*;
 use urdd_findings::description::Severity;
-use urdd_findings::finding::Findings;
 use urdd_source::resolve::OtherCase;
 
 declare_lint! {

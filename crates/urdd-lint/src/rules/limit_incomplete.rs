@@ -1,7 +1,4 @@
-use crate::elements::child;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A `<limit>` has no effort or no velocity, or a revolute or prismatic joint has no `<limit>`.
@@ -23,8 +20,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             continue;
         };
-        let missing = ["effort", "velocity"].into_iter();
-        let missing: Vec<&str> = missing.filter(|name| !limit.has_attribute(*name)).collect();
+        let mut missing = vec!["effort", "velocity"];
+        missing.retain(|name| !limit.has_attribute(*name));
         if !missing.is_empty() {
             let message = format!(
                 "`<limit>` has no {}, and ROS (urdfdom) refuses the whole file; write both",

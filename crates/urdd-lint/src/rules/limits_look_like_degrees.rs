@@ -1,7 +1,4 @@
-use crate::elements::{child, number};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 use urdd_format::readable::number as shown;
 
 declare_lint! {

@@ -1,12 +1,4 @@
-use std::collections::BTreeSet;
-
-use roxmltree::Node;
-
-use crate::elements::child;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_xml::element::children;
+use super::prelude::*;
 
 declare_lint! {
     /// A visual names a material that is not defined.

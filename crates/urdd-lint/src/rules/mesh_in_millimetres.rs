@@ -1,10 +1,4 @@
-use nalgebra::Vector3;
-
-use crate::geometry::diagonal;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_format::readable::metres;
+use super::prelude::*;
 
 declare_lint! {
     /// A mesh is a hundred times as long as the robot's joints are apart, or shorter than a millimetre.

@@ -1,13 +1,6 @@
-use std::collections::BTreeMap;
-use std::path::Path;
-
+use super::prelude::*;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
-use urdd_format::meshes::GeometryKind;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// Two different collision meshes have one file name in different folders.

@@ -1,7 +1,5 @@
+use super::prelude::*;
 use crate::named_file::NamedFile;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A mesh is not there.

@@ -1,7 +1,5 @@
+use super::prelude::*;
 use crate::geometry::is_read_here;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A mesh is there, but holds no triangles that can be read.

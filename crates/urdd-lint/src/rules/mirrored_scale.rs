@@ -1,9 +1,4 @@
-use urdd_format::meshes::GeometryKind;
-
-use crate::elements::numbers;
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// The scale of a collision mesh mirrors it, or flattens it.

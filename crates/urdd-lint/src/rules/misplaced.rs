@@ -1,9 +1,4 @@
-use roxmltree::Node;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::unknown::{Unknown, What};
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// An element or attribute of URDF is in a place where no program looks.
@@ -21,8 +16,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if meant.is_some() || belongs.is_empty() || is_zero(node, what) {
             continue;
         }
-        let places: Vec<String> = belongs.iter().map(|place| format!("`<{place}>`")).collect();
-        let places = places.join(" or ");
+        let places = format!("`<{}>`", belongs.join(">` or `<"));
         match what {
             What::Element => {
                 let message = format!("programs ignore this element here; it belongs in {places}");

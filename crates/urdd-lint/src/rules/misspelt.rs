@@ -1,8 +1,5 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::unknown::{Unknown, What};
+use super::prelude::*;
 use crate::vocabulary::fits;
-use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An element or attribute is misspelt.
@@ -29,7 +26,6 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             What::Attribute(name) => {
                 let message = format!("programs ignore the attribute `{name}`; write `{meant}`");
-                let mut finding = urdf.at_attribute(node, name, message);
                 // Two attributes of one name are no XML.
                 let others = all.iter().filter(|other| {
                     let is_attribute = matches!(other.what, What::Attribute(_));
@@ -39,12 +35,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 let attribute = node
                     .attribute_node(name)
                     .filter(|attribute| has_one_meaning && fits(meant, attribute.value()));
-                if let Some(attribute) = attribute {
+                let fix = attribute.map(|attribute| {
                     let range = attribute.range_qname();
-                    let fix = urdf.fix(format!("write `{meant}`"), range, meant.to_owned());
-                    finding = finding.fix(fix);
-                }
-                finding.report(findings);
+                    urdf.fix(format!("write `{meant}`"), range, meant.to_owned())
+                });
+                urdf.at_attribute(node, name, message).fix(fix).report(findings);
             }
         }
     }

@@ -32,6 +32,7 @@ mod moving_link_without_inertial;
 mod name_refused;
 mod odd_density;
 mod package_not_found;
+mod prelude;
 mod root_link_with_inertial;
 mod ros2_control_unknown_joint;
 mod same_default_inertia;

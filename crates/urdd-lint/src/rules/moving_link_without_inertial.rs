@@ -1,6 +1,5 @@
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
+use crate::inertial::mass;
 use urdd_format::urdf::JointType;
 
 declare_lint! {
@@ -15,15 +14,9 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
-    let has_mass = |link: usize| {
-        let inertial = robot.links[link].inertial.as_ref();
-        inertial.and_then(|inertial| inertial.mass).is_some_and(|mass| mass != 0.0)
-    };
+    let has_mass = |link: usize| mass(&robot.links[link]).is_some_and(|mass| mass != 0.0);
     // SRC003 tells of a moving link that says 0.
-    let says_zero = |link: usize| {
-        let inertial = robot.links[link].inertial.as_ref();
-        inertial.is_some_and(|inertial| inertial.mass.is_some()) && !has_mass(link)
-    };
+    let says_zero = |link: usize| mass(&robot.links[link]) == Some(0.0);
     let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
     // Of a body without mass, MuJoCo reads collision shapes alone.
     let is_refused = |top: usize| {

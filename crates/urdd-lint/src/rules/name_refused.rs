@@ -1,11 +1,4 @@
-use std::collections::BTreeSet;
-
-use roxmltree::Node;
-
-use crate::elements::{child, text};
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A link or joint has a name that a program refuses.
@@ -21,14 +14,9 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let names = |nodes: &[Node<'_, '_>]| -> BTreeSet<String> {
-        let names = nodes.iter().filter_map(|node| node.attribute("name"));
-        names.map(str::to_owned).collect()
-    };
-    let links = names(&urdf.links);
-    let children = urdf.joints.iter();
-    let children = children.filter_map(|joint| text(child(*joint, "child")?, "link"));
-    let children: BTreeSet<&str> = children.collect();
+    let links: BTreeSet<&str> = urdf.names(&urdf.links).collect();
+    let children = urdf.joints.iter().filter_map(|joint| child(*joint, "child"));
+    let children: BTreeSet<&str> = children.filter_map(|child| child.attribute("link")).collect();
     let all = urdf.links.iter().map(|node| (node, false));
     for (node, is_joint) in all.chain(urdf.joints.iter().map(|node| (node, true))) {
         let Some(name) = node.attribute("name") else {

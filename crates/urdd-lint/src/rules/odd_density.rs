@@ -1,10 +1,5 @@
-use urdd_format::meshes::GeometryKind;
-
-use crate::geometry::diagonal;
-use crate::hull::Hull;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
+use crate::inertial::mass;
 use urdd_format::readable::number;
 
 declare_lint! {
@@ -30,9 +25,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     // LNT022 finds larger ones.
     let longest = urdf.longest_part(findings)?;
     for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
-        let masses =
-            bodies.members(top).filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
-        let mass: f64 = masses.sum();
+        let mass_of = |link: usize| mass(&robot.links[link]);
+        let mass: f64 = bodies.members(top).filter_map(mass_of).sum();
         let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
             continue;
         };
@@ -64,10 +58,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             number(volume * 1000.0, 3),
             number(mass / volume, 3)
         );
-        let mass_of = |link: &usize| robot.links[*link].inertial.as_ref()?.mass;
-        let heaviest = bodies
-            .members(top)
-            .max_by(|a, b| mass_of(a).unwrap_or(0.0).total_cmp(&mass_of(b).unwrap_or(0.0)));
+        let size = |link: &usize| mass_of(*link).unwrap_or(0.0);
+        let heaviest = bodies.members(top).max_by(|a, b| size(a).total_cmp(&size(b)));
         urdf.at(urdf.inertial(heaviest.unwrap_or(top), "mass"), message).report(findings);
     }
     Some(())

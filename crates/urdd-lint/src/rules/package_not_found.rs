@@ -1,9 +1,4 @@
-use std::collections::BTreeSet;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::textures::textures;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 use urdd_format::escape;
 
 declare_lint! {
@@ -18,11 +13,11 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let mut told = BTreeSet::new();
-    let meshes = urdf.meshes(findings)?.into_iter();
-    let meshes = meshes.map(|(node, mesh)| (node, mesh.file.clone()));
-    let textures = textures(urdf, findings)?.into_iter();
-    let textures = textures.map(|texture| (texture.named.node, texture.file));
-    for (node, file) in meshes.chain(textures) {
+    let meshes = urdf.meshes(findings)?;
+    let textures = textures(urdf, findings)?;
+    let of_meshes = meshes.into_iter().map(|(node, mesh)| (node, mesh.file.clone()));
+    let of_textures = textures.into_iter().map(|texture| (texture.named.node, texture.file));
+    for (node, file) in of_meshes.chain(of_textures) {
         let Some(package) = file.err().and_then(|missing| missing.no_package) else {
             continue;
         };

@@ -1,6 +1,5 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
+use crate::inertial::mass;
 
 declare_lint! {
     /// The root link has a mass.
@@ -16,8 +15,7 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let root = bodies.tree.root;
-    let inertial = robot.links[root].inertial.as_ref();
-    let has_mass = inertial.and_then(|inertial| inertial.mass).is_some_and(|mass| mass != 0.0);
+    let has_mass = mass(&robot.links[root]).is_some_and(|mass| mass != 0.0);
     if has_mass && robot.links.len() > 1 {
         let message = "the root link has an inertial, which KDL leaves out; where KDL computes dynamics, put an empty root link above it";
         urdf.at(urdf.links[root], message).report(findings);

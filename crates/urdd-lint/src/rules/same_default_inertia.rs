@@ -1,9 +1,4 @@
-use std::collections::BTreeMap;
-
-use crate::hull::Hull;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 use urdd_format::readable::number;
 
 declare_lint! {

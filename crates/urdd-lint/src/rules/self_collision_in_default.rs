@@ -1,18 +1,9 @@
-use std::collections::BTreeSet;
+use nalgebra::Isometry3;
 
-use nalgebra::Point3;
-
-use urdd_format::meshes::GeometryKind;
-
-use crate::elements::child;
-use crate::geometry::bounds;
-use crate::hull::Hull;
+use super::prelude::*;
 use crate::pose::at_default;
-use crate::rule::declare_lint;
-use crate::srdf;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_format::readable::metres;
+use urdd_geometry::convex::across::PlacedPair;
+use urdd_geometry::convex::{ConvexShape, penetration};
 
 declare_lint! {
     /// Links overlap in the default configuration.
@@ -33,7 +24,7 @@ const MANY: usize = 600;
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let geometry = urdf.geometry(findings)?;
-    let poses = at_default(robot, bodies);
+    let poses = at_default(robot, &bodies.tree);
     let mut items = Vec::new();
     for (link, shapes) in geometry.links.iter().enumerate() {
         for shape in shapes
@@ -41,15 +32,15 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             .iter()
             .filter(|shape| shape.kind == GeometryKind::Collision && !shape.is_turned)
         {
-            let place = |corner: &nalgebra::Vector3<f64>| {
-                poses[link].transform_point(&Point3::from(*corner)).coords
+            let corners = shape.placed(&poses[link]).corners;
+            let Some(bounds) = bounds(corners.iter().copied()) else {
+                continue;
             };
-            let corners: Vec<_> = shape.corners.iter().map(place).collect();
-            if let (Some(bounds), Some(hull)) =
-                (bounds(corners.iter().copied()), Hull::coarse(&corners))
-            {
-                items.push((link, bounds, hull));
-            }
+            let Some(hull) = Hull::coarse(&corners) else {
+                continue;
+            };
+            let corners: Vec<[f64; 3]> = hull.corners.into_iter().map(Into::into).collect();
+            items.extend(ConvexShape::of_points(&corners).ok().map(|shape| (link, bounds, shape)));
         }
     }
     if items.len() > MANY {
@@ -72,7 +63,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             {
                 continue;
             }
-            let depth = first.depth(second);
+            let overlap = penetration(&PlacedPair::new(first, second, &Isometry3::identity()));
+            let depth = overlap.map_or(0.0, |overlap| overlap.depth);
             if depth > LEAST {
                 pairs.insert((top_a.min(top_b), top_a.max(top_b)));
                 if worst.is_none_or(|(most, _, _)| depth > most) {

@@ -1,8 +1,4 @@
-use crate::elements::{child, numbers};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_xml::element::children;
+use super::prelude::*;
 
 declare_lint! {
     /// A collision shape has a size of 0 or less.

@@ -1,13 +1,7 @@
-use std::collections::BTreeSet;
+use roxmltree::Document;
 
-use roxmltree::{Document, Node};
-
-use crate::elements::text;
-use crate::rule::declare_lint;
-use crate::srdf;
-use crate::subject::Subject;
+use super::prelude::*;
 use urdd_directory::position::LineIndex;
-use urdd_findings::finding::{Finding, Findings};
 
 declare_lint! {
     /// The robot's SRDF names a link or joint that the URDF does not have.
@@ -49,7 +43,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
             _ => continue,
         };
         for attribute in attributes {
-            let Some(name) = text(node, attribute).filter(|name| !name.is_empty()) else {
+            let Some(name) = node.attribute(*attribute).filter(|name| !name.is_empty()) else {
                 continue;
             };
             let known = if is_link { &links } else { &joints };

@@ -1,9 +1,4 @@
-use urdd_format::meshes::GeometryKind;
-use urdd_geometry::read::{Format, NoteCode};
-
-use crate::rule::{declare_lint, error_if};
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// An STL is text, or is cut off.

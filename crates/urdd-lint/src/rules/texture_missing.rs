@@ -1,13 +1,6 @@
-use std::path::Path;
-
 use percent_encoding::percent_decode_str;
 
-use urdd_format::meshes::GeometryKind;
-
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::textures::textures;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A texture of a mesh or of a `<material>`, or the material library of an OBJ, is not there.

@@ -1,7 +1,4 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_xml::element::children;
+use super::prelude::*;
 
 declare_lint! {
     /// A `<transmission>` names a joint that the robot does not have.

@@ -1,7 +1,4 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use crate::unknown::{Unknown, What};
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// An element or attribute is neither URDF's nor that of an extension that several programs know.

@@ -1,12 +1,4 @@
-use nalgebra::Vector3;
-
-use urdd_format::meshes::GeometryKind;
-
-use crate::geometry::bounds;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_format::readable::metres;
+use super::prelude::*;
 
 declare_lint! {
     /// The visuals and the collisions of a link are the same, but in different places or in different units.

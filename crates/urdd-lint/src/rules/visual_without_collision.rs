@@ -1,10 +1,4 @@
-use urdd_format::meshes::GeometryKind;
-
-use crate::geometry::diagonal;
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
-use urdd_format::readable::metres;
+use super::prelude::*;
 
 declare_lint! {
     /// A body is drawn, and nothing can collide with it.

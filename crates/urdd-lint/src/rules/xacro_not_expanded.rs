@@ -1,6 +1,4 @@
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// A .urdf is a xacro file.

@@ -1,7 +1,4 @@
-use crate::elements::{child, number};
-use crate::rule::declare_lint;
-use crate::subject::Subject;
-use urdd_findings::finding::Findings;
+use super::prelude::*;
 
 declare_lint! {
     /// The limits of a joint leave out 0.

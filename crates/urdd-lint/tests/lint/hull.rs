@@ -23,33 +23,3 @@ fn an_even_box_has_its_moments() {
     assert!((hull.outside(&Vector3::new(1.9, 2.3, 3.5)) - 0.5).abs() < 1e-12);
     assert!((hull.outside(&Vector3::new(1.3, 2.3, 3.5)) + 0.1).abs() < 1e-12);
 }
-
-#[test]
-fn depth_is_the_way_out() {
-    let a = cuboid([0.0; 3], [1.0; 3]);
-    let b = cuboid([0.9, 0.2, 0.2], [2.0, 0.8, 0.8]);
-    for (x, y) in [(&a, &b), (&b, &a)] {
-        assert!((x.depth(y) - 0.1).abs() < 1e-12);
-    }
-    assert!(a.depth(&cuboid([1.1, 0.0, 0.0], [2.0, 1.0, 1.0])) <= 0.0);
-    // Two wedges whose edges cross: the way out is along the cross product of the edges, z.
-    let wedge =
-        |points: [[f64; 3]; 6]| Hull::of(points.into_iter().map(Vector3::from)).expect("a hull");
-    let lower = wedge([
-        [-1.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [-1.0, -1.0, -1.0],
-        [1.0, -1.0, -1.0],
-        [-1.0, 1.0, -1.0],
-        [1.0, 1.0, -1.0],
-    ]);
-    let upper = wedge([
-        [0.0, -1.0, -0.01],
-        [0.0, 1.0, -0.01],
-        [-1.0, -1.0, 1.0],
-        [-1.0, 1.0, 1.0],
-        [1.0, -1.0, 1.0],
-        [1.0, 1.0, 1.0],
-    ]);
-    assert!((lower.depth(&upper) - 0.01).abs() < 1e-12);
-}

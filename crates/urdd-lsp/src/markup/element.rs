@@ -20,7 +20,6 @@ pub struct Element {
     pub tag: Range<usize>,
     /// The end of the element, with its end tag.
     pub end: usize,
-    /// Its attributes.
     pub attributes: Vec<Attribute>,
     /// Index of the element that contains it.
     pub parent: Option<usize>,

@@ -8,5 +8,6 @@ mod scan;
 #[doc(hidden)]
 pub mod tree;
 
+pub use element::Attribute;
 pub use place::Place;
 pub use tree::{Markup, escaped, unescaped};

@@ -6,10 +6,7 @@ use super::tree::Markup;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The name in a start tag.
-    TagName {
-        /// The element.
-        element: usize,
-    },
+    TagName { element: usize },
     /// In an end tag, or where one is typed.
     EndTag {
         /// The element to close.
@@ -17,18 +14,12 @@ pub enum Place {
     },
     /// The name of an attribute, or the blank where one is typed.
     AttributeName {
-        /// The element.
         element: usize,
         /// Index of the attribute; `None` at a blank.
         attribute: Option<usize>,
     },
     /// The value of an attribute.
-    Value {
-        /// The element.
-        element: usize,
-        /// Index of the attribute.
-        attribute: usize,
-    },
+    Value { element: usize, attribute: usize },
     /// Between tags.
     Content {
         /// The innermost element.

@@ -55,10 +55,8 @@ impl Scan<'_> {
         let name = &inside[..name_length(inside)];
         let behind = start + 2 + name.len();
         let blank = self.text[behind..].len() - self.text[behind..].trim_start().len();
-        let end = match self.text[behind + blank..].starts_with('>') {
-            true => behind + blank + 1,
-            false => behind,
-        };
+        let end =
+            if self.text[behind + blank..].starts_with('>') { behind + blank + 1 } else { behind };
         let is_same = |open: &usize| &self.text[self.elements[*open].name.clone()] == name;
         if let Some(depth) = self.open.iter().rposition(is_same) {
             self.close_to(depth + 1, start);
@@ -121,8 +119,8 @@ impl Scan<'_> {
         if !matches!(name, "link" | "joint") {
             return;
         }
-        let names = self.open.iter().map(|open| &self.text[self.elements[*open].name.clone()]);
-        let names: Vec<&str> = names.collect();
+        let name_of = |open: &usize| &self.text[self.elements[*open].name.clone()];
+        let names: Vec<&str> = self.open.iter().map(name_of).collect();
         let unclosed = names.iter().position(|open| matches!(*open, "link" | "joint"));
         // Within these, joints and links are mentioned.
         let mentions = |open: &&str| matches!(*open, "transmission" | "gazebo" | "ros2_control");

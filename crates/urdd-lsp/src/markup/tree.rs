@@ -8,17 +8,14 @@ use super::scan::scan;
 /// The elements of a text, in the order in which they begin.
 #[derive(Debug)]
 pub struct Markup {
-    /// The elements.
     pub elements: Vec<Element>,
 }
 
 impl Markup {
-    /// Reads a text.
     pub fn new(text: &str) -> Self {
         Markup { elements: scan(text) }
     }
 
-    /// The name of an element.
     pub fn name<'t>(&self, text: &'t str, element: usize) -> &'t str {
         &text[self.elements[element].name.clone()]
     }
@@ -29,7 +26,6 @@ impl Markup {
         Some(self.name(text, parent))
     }
 
-    /// An attribute of an element.
     pub fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
         let mut attributes = self.elements[element].attributes.iter();
         attributes.find(|attribute| &text[attribute.name.clone()] == name)
@@ -52,7 +48,6 @@ impl Markup {
         next.is_some_and(|next| next.parent == Some(element))
     }
 
-    /// The children of an element.
     pub fn children(&self, element: usize) -> impl Iterator<Item = usize> {
         let end = self.elements[element].end;
         let inside = (element + 1..self.elements.len())

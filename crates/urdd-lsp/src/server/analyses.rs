@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use lsp_server::Notification;
 use lsp_types::{Diagnostic, DiagnosticSeverity, PublishDiagnosticsParams, Uri};
 
+use super::open_document::Document;
 use super::state::{Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::diagnostics::{Found, at_the_top};
@@ -26,9 +27,9 @@ impl Server {
     /// Computes the findings that are due.
     pub(super) fn start_due(&mut self) {
         let now = Instant::now();
-        let documents = self.documents.iter_mut();
-        let due = documents.filter(|(_, document)| document.due.is_some_and(|due| due <= now));
-        let due = due.map(|(uri, document)| {
+        let is_due =
+            |(_, document): &(_, &mut Document)| document.due.is_some_and(|due| due <= now);
+        let due = self.documents.iter_mut().filter(is_due).map(|(uri, document)| {
             document.due = None;
             uri.clone()
         });
@@ -43,11 +44,9 @@ impl Server {
             return;
         };
         let snapshot = Arc::clone(&document.snapshot);
-        if depth == Depth::Files {
-            // Documents of a URDD, and texts that are too large, have nothing else.
-            if !snapshot.kind.is_xml() || snapshot.is_too_large() {
-                return;
-            }
+        // Documents of a URDD, and texts that are too large, have nothing else.
+        if depth == Depth::Files && (!snapshot.kind.is_xml() || snapshot.is_too_large()) {
+            return;
         }
         let cancellation = document.cancellation.clone();
         let events = self.events.clone();
@@ -60,17 +59,15 @@ impl Server {
             let crashed = || {
                 let message =
                     "urdd crashed while it examined this file; this is a bug, please report it";
-                Some(Analysis {
-                    found: vec![at_the_top(&snapshot, DiagnosticSeverity::WARNING, message)],
-                    ..Analysis::default()
-                })
+                let found = at_the_top(&snapshot, DiagnosticSeverity::WARNING, message);
+                Some(Analysis::of(vec![found]))
             };
             let Some(analysis) = computed.unwrap_or_else(|_| crashed()) else {
                 return;
             };
             let _ = events.send(Event::Analysed(Arc::clone(&snapshot), depth, analysis));
             // For hovers over later texts that describe no robot.
-            if depth == Depth::Text && snapshot.kind == Kind::Urdf {
+            if depth == Depth::Text && matches!(snapshot.kind, Kind::Urdf) {
                 let _ = catch_unwind(AssertUnwindSafe(|| snapshot.robot()));
             }
         };

@@ -95,7 +95,7 @@ impl Server {
     fn start_all(&mut self, uri: &str) {
         self.start(uri, Depth::Text);
         let document = self.documents.get(uri);
-        if document.is_some_and(|document| document.snapshot.kind == Kind::Urdf) {
+        if document.is_some_and(|document| matches!(document.snapshot.kind, Kind::Urdf)) {
             self.start(uri, Depth::Files);
         }
     }

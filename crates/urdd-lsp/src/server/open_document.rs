@@ -9,9 +9,7 @@ use crate::document::Snapshot;
 use crate::kept::kept;
 use urdd_directory::cancellation::Cancellation;
 
-/// An open document.
 pub struct Document {
-    /// Its current version.
     pub snapshot: Arc<Snapshot>,
     /// When its findings are to be computed.
     pub due: Option<Instant>,

@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use lsp_server::{ErrorCode, Request, RequestId, ResponseError};
+use lsp_server::{ErrorCode, Request, RequestId, Response, ResponseError};
 use lsp_types::{
     CodeActionParams, CompletionParams, DocumentSymbolParams, GotoDefinitionParams, HoverParams,
 };
@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::open_document::Document;
-use super::state::{Event, Server, response};
+use super::state::{Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::code_actions::code_actions;
 use crate::completion::completion;
@@ -33,7 +33,7 @@ impl Server {
         match method.as_str() {
             "shutdown" => {
                 self.is_shut_down = true;
-                self.send(response(id, Ok(Value::Null)));
+                self.send(Response::new_ok(id, Value::Null));
             }
             "textDocument/hover" => self.answer(id, params, |snapshot, params: HoverParams| {
                 hover(snapshot, params.text_document_position_params.position)
@@ -65,8 +65,7 @@ impl Server {
         let client = self.client;
         let uri = uri_of(&params).unwrap_or_default().to_owned();
         let document = self.documents.get(&uri);
-        let known = document.filter(|document| document.of_text.is_some());
-        let known = known.map(Document::findings);
+        let known = document.filter(|one| one.of_text.is_some()).map(Document::findings);
         self.answer(id, params, move |snapshot, params: CodeActionParams| {
             // Before the findings of the newest text are there, as where an editor fixes on save.
             let found = known.or_else(|| {
@@ -92,7 +91,7 @@ impl Server {
             Err(error) => return self.refuse(id, ErrorCode::InvalidParams, error.to_string()),
         };
         let Some(snapshot) = snapshot else {
-            return self.send(response(id, Ok(Value::Null)));
+            return self.send(Response::new_ok(id, Value::Null));
         };
         self.pending.insert(id.clone());
         let events = self.events.clone();
@@ -119,8 +118,7 @@ impl Server {
     }
 
     fn refuse(&self, id: RequestId, code: ErrorCode, message: String) {
-        let error = ResponseError { code: code as i32, message, data: None };
-        self.send(response(id, Err(error)));
+        self.send(Response::new_err(id, code as i32, message));
     }
 }
 

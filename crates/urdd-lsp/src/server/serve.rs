@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::ended::Ended;
 use super::handshake;
-use super::state::{Event, Server, response};
+use super::state::{Event, Server};
 use crate::pool::Pool;
 
 /// How often the server looks whether the editor still runs.
@@ -73,10 +73,7 @@ impl Server {
         match message {
             Message::Request(request) => self.request(request),
             Message::Notification(notification) if notification.method == "exit" => {
-                return Some(match self.is_shut_down {
-                    true => Ended::Orderly,
-                    false => Ended::Exit,
-                });
+                return Some(if self.is_shut_down { Ended::Orderly } else { Ended::Exit });
             }
             Message::Notification(notification) => self.notification(notification),
             Message::Response(response) => self.response(response),
@@ -152,7 +149,7 @@ impl Server {
             // A request that was cancelled has its answer already.
             Event::Answered(id, answer) => {
                 if self.pending.remove(&id) {
-                    self.send(response(id, answer));
+                    self.send(Response { id, response_result: answer });
                 }
             }
         }

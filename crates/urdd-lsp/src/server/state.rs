@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crossbeam_channel::Sender;
-use lsp_server::{Message, Notification, RequestId, Response, ResponseError};
+use lsp_server::{Message, Notification, RequestId, ResponseError};
 use serde_json::{Value, json};
 
 use super::open_document::Document;
@@ -39,13 +39,11 @@ pub struct Server {
     pub quick: Pool,
     /// For findings about files.
     pub slow: Pool,
-    /// For answers.
     pub answers: Pool,
     pub is_shut_down: bool,
 }
 
 impl Server {
-    /// Sends a message.
     pub fn send(&self, message: impl Into<Message>) {
         // If the editor is gone, the next message says so.
         let _ = self.sender.send(message.into());
@@ -55,13 +53,5 @@ impl Server {
     pub fn log(&self, text: &str) {
         let params = json!({ "type": 2, "message": format!("urdd: {text}") });
         self.send(Notification::new("window/logMessage".to_owned(), params));
-    }
-}
-
-/// A response.
-pub fn response(id: RequestId, answer: Result<Value, ResponseError>) -> Response {
-    match answer {
-        Ok(result) => Response::new_ok(id, result),
-        Err(error) => Response::new_err(id, error.code, error.message),
     }
 }

@@ -17,10 +17,7 @@ use urdd_document::schema_check::SchemaViolation;
 
 /// The faults of a document: of its text, and of its schema.
 pub fn check(snapshot: &Snapshot, schema: Option<Schema>, is_yaml: bool) -> Vec<Diagnostic> {
-    match is_yaml {
-        true => of_yaml(snapshot, schema),
-        false => of_json(snapshot, schema),
-    }
+    if is_yaml { of_yaml(snapshot, schema) } else { of_json(snapshot, schema) }
 }
 
 fn of_json(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
@@ -29,8 +26,7 @@ fn of_json(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
         Err(error) => return faults(snapshot, &error.faults),
     };
     let mut found = faults(snapshot, &document.faults);
-    let violations = schema.map(|schema| schema.violations(&document.value));
-    let violations = violations.unwrap_or_default();
+    let violations = schema.map_or_else(Vec::new, |schema| schema.violations(&document.value));
     let places: Vec<String> = violations.iter().map(SchemaViolation::place).collect();
     let places: Vec<&str> = places.iter().map(String::as_str).collect();
     let places = position::locate_all(&document.text, &places);
@@ -45,19 +41,17 @@ fn of_yaml(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
     let text = snapshot.text.as_str();
     let own = yaml::read(text);
     // It is a copy of module.json; without that, at least its form is checked.
-    let beside = snapshot.path.as_ref().map(|path| path.with_file_name("module.json"));
-    let beside = beside.and_then(|path| fs::read(path).ok());
-    let beside = beside.and_then(|bytes| json::read(&bytes).ok());
-    let value = beside.map(|document| document.value);
-    let value = value.as_ref().or(own.as_ref().map(|own| &own.value));
-    let mut found =
-        faults(snapshot, &mirror::check_mirror(text.as_bytes(), value.unwrap_or(&Value::Null)));
+    let beside = snapshot.path.as_ref().and_then(|path| {
+        let bytes = fs::read(path.with_file_name("module.json")).ok()?;
+        Some(json::read(&bytes).ok()?.value)
+    });
+    let value = beside.as_ref().or(own.as_ref().map(|own| &own.value)).unwrap_or(&Value::Null);
+    let mut found = faults(snapshot, &mirror::check_mirror(text.as_bytes(), value));
     let (Some(own), Some(schema)) = (own, schema) else {
         return found;
     };
     for violation in schema.violations(&own.value) {
-        let range = own.range(&violation.place());
-        let range = range.unwrap_or_else(|| value_at(snapshot, 0));
+        let range = own.range(&violation.place()).unwrap_or_else(|| value_at(snapshot, 0));
         found.push(of_violation(snapshot, &violation, range));
     }
     found
@@ -93,7 +87,7 @@ fn faults(snapshot: &Snapshot, faults: &TextFaults) -> Vec<Diagnostic> {
 }
 
 fn offset(snapshot: &Snapshot, place: Position) -> usize {
-    snapshot.text.reported(place.line, place.column)
+    snapshot.text.reported(place.line as usize, place.column as usize)
 }
 
 /// The value that begins at an offset: a text, a word, or a bracket.

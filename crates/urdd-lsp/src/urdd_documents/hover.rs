@@ -9,6 +9,7 @@ use crate::kind::Schema;
 use crate::shown::markdown;
 use urdd_directory::json_scan::pointer_at;
 use urdd_format::annotations;
+use urdd_format::schema::Variant;
 
 /// How many references to other parts of the schema are followed.
 const MOST_REFERENCES: usize = 20;
@@ -25,10 +26,10 @@ pub fn hover(snapshot: &Snapshot, schema: Schema, is_yaml: bool, at: Position) -
         // The token at the cursor counts, also at its start.
         false => pointer_at(text, (offset + 1).min(text.len())),
     };
-    let whole = schema.published();
+    let whole = schema.subject.schema(Variant::Strict);
     let words = words(&whole, &pointer)?;
     let shown = match pointer.as_str() {
-        "" => schema.subject().id(),
+        "" => schema.subject.id(),
         pointer => pointer.to_owned(),
     };
     Some(markdown(format!("**`{shown}`**\n\n{words}"), None))
@@ -45,8 +46,7 @@ fn words(whole: &Value, pointer: &str) -> Option<String> {
     let all: Vec<&Value> = parts.iter().flat_map(|part| meant(whole, part)).collect();
     let mut words: Vec<String> = Vec::new();
     for part in all {
-        let description = part.get("description").and_then(Value::as_str);
-        let description = description.unwrap_or_default().to_owned();
+        let description = part["description"].as_str().unwrap_or_default().to_owned();
         for text in [description, annotations::sentence(part), values(part)] {
             if !text.is_empty() && !words.contains(&text) {
                 words.push(text);
@@ -76,12 +76,10 @@ fn meant<'s>(whole: &'s Value, schema: &'s Value) -> Vec<&'s Value> {
     let mut next = 0;
     while let Some(one) = found.get(next).copied().filter(|_| found.len() < MOST_REFERENCES) {
         next += 1;
-        let reference = one.get("$ref").and_then(Value::as_str);
-        let reference = reference.and_then(|reference| reference.strip_prefix('#'));
+        let reference = one["$ref"].as_str().and_then(|reference| reference.strip_prefix('#'));
         found.extend(reference.and_then(|pointer| whole.pointer(pointer)));
         for choice in ["allOf", "anyOf", "oneOf"] {
-            let choices = one.get(choice).and_then(Value::as_array);
-            found.extend(choices.into_iter().flatten());
+            found.extend(one[choice].as_array().into_iter().flatten());
         }
     }
     found
@@ -92,11 +90,7 @@ fn values(schema: &Value) -> String {
     if let Some(value) = schema.get("const") {
         return format!("`{value}`");
     }
-    let values = schema.get("enum").and_then(Value::as_array);
-    let values = values.into_iter().flatten().map(|value| format!("`{value}`"));
-    let values: Vec<String> = values.collect();
-    match values.is_empty() {
-        true => String::new(),
-        false => format!("One of {}.", values.join(", ")),
-    }
+    let words = schema["enum"].as_array().into_iter().flatten();
+    let values: Vec<String> = words.map(|value| format!("`{value}`")).collect();
+    if values.is_empty() { String::new() } else { format!("One of {}.", values.join(", ")) }
 }

@@ -2,7 +2,6 @@
 
 mod check;
 mod hover;
-mod schema;
 #[doc(hidden)]
 pub mod yaml;
 

@@ -10,7 +10,6 @@ use urdd_directory::json_scan::push_segment;
 use urdd_directory::limits::DEPTH_LIMIT;
 use urdd_directory::yaml::scalar::{Reading, classify};
 
-/// A document.
 pub struct Yaml {
     /// Its value, as YAML 1.2 reads it.
     pub value: Value,

@@ -35,7 +35,7 @@ fn long_lines_are_counted_as_short_ones() {
             // A fifth of them, at each kind of character, and all about the ends of the blocks that are counted.
             if column % 5 == 0 || (offset + 5) % 1024 < 10 {
                 assert_eq!(text.offset(at(1, units)), offset + 1);
-                assert_eq!(text.reported(2, column as u32 + 1), offset + 1);
+                assert_eq!(text.reported(2, column + 1), offset + 1);
             }
             units += encoding.units(c) as u32;
         }

@@ -14,11 +14,13 @@ pub struct Measures {
     pub has_infinite: bool,
     /// The largest coordinate, without its sign.
     pub largest: f64,
-    /// How far a point is from the first one at most, from the line of these two, and from the plane of these three.
+    /// How far a point is from the first one at most, from the line of these two, and from the plane of these three; the
+    /// latter in coordinates of single precision.
     pub spread: [f64; 3],
     /// The size of its box along each axis.
     pub size: [f64; 3],
-    /// The sum of the volumes, each without its sign, between triangles and the mean of their centres.
+    /// The sum of the volumes, each without its sign, between triangles and the mean of their centres; in coordinates of
+    /// single precision.
     pub volume: f64,
 }
 
@@ -47,12 +49,13 @@ impl Measures {
         measures.points = distinct.len();
         measures.size = less(high, low);
         measures.spread = spread(&points, first);
-        measures.volume = volume(triangles);
+        measures.volume = volume(|| triangles().map(|corners| corners.map(single)));
         measures
     }
 }
 
 fn spread<P: Iterator<Item = [f64; 3]>>(points: impl Fn() -> P, first: [f64; 3]) -> [f64; 3] {
+    let flat = single(first);
     let farthest = |distance: &dyn Fn([f64; 3]) -> f64| {
         points()
             .map(|point| (distance(point), point))
@@ -61,8 +64,9 @@ fn spread<P: Iterator<Item = [f64; 3]>>(points: impl Fn() -> P, first: [f64; 3])
     let (from_point, second) = farthest(&|point| length(less(point, first)));
     let line = unit(less(second, first));
     let (from_line, third) = farthest(&|point| length(cross(less(point, first), line)));
-    let normal = unit(cross(line, less(third, first)));
-    let (from_plane, _) = farthest(&|point| dot(less(point, first), normal).abs());
+    let sides = [second, third].map(|point| less(single(point), flat));
+    let normal = unit(cross(unit(sides[0]), sides[1]));
+    let (from_plane, _) = farthest(&|point| dot(less(single(point), flat), normal).abs());
     [from_point, from_line, from_plane]
 }
 
@@ -88,6 +92,12 @@ pub(super) fn has_repeated(points: impl Iterator<Item = [f64; 3]>) -> bool {
     const MOST: usize = 100_000;
     let mut seen = HashSet::new();
     points.take(MOST).any(|point| !seen.insert(point.map(|axis| (axis + 0.0).to_bits())))
+}
+
+/// A point in single precision.
+#[allow(clippy::cast_possible_truncation)]
+fn single(point: [f64; 3]) -> [f64; 3] {
+    point.map(|axis| f64::from(axis as f32))
 }
 
 fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -18,6 +18,8 @@ pub struct ObjFacts {
     pub proper_faces: usize,
     /// Whether a face has an index that is 0, no number, or of no vertex.
     pub has_bad_index: bool,
+    /// Whether some corners of faces have a normal, and others none.
+    pub lacks_normals: bool,
     /// How many objects and groups have faces.
     pub shapes: usize,
 }
@@ -29,13 +31,15 @@ pub(super) fn read(bytes: &[u8]) -> (ObjFacts, Measures) {
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
             Some(b"v") => reader.vertex(words),
+            Some(b"vn") => reader.has_normals = true,
             Some(b"f") => reader.face(words),
             Some(b"o" | b"g") => reader.begins = true,
             _ => {}
         }
     }
-    let Reader { mut facts, vertices, first, highest, .. } = reader;
-    facts.vertices = vertices.len();
+    let Reader { mut facts, vertices, first, highest, corners, with_normals, has_normals, .. } =
+        reader;
+    facts.lacks_normals = has_normals && with_normals > 0 && with_normals < corners;
     facts.has_bad_index |= highest > vertices.len();
     let triangles = || {
         first.iter().filter_map(|corners| {
@@ -55,24 +59,28 @@ struct Reader {
     first: Vec<[usize; 3]>,
     /// Whether the next face is the first of a shape.
     begins: bool,
+    /// Whether there are normals.
+    has_normals: bool,
+    /// How many corners the faces have, and how many of them with a normal.
+    corners: usize,
+    with_normals: usize,
     /// The highest number of a vertex that a face names, counted from 1.
     highest: usize,
 }
 
 impl Reader {
+    /// A vertex. What is no number is read as far as it is one, and as 0.
     fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
-        let number = |word| whole(strtod(std::str::from_utf8(word).ok()?));
         let mut point = [0.0; 3];
         let mut count = 0;
         for (axis, word) in point.iter_mut().zip(words) {
-            let Some(number) = number(word) else { break };
-            *axis = number;
-            count += 1;
+            let read = std::str::from_utf8(word).ok().and_then(strtod);
+            *axis = read.map_or(0.0, |(number, _)| number);
+            count += usize::from(whole(read).is_some());
         }
-        match count {
-            3 => self.vertices.push(point),
-            _ => self.facts.has_bad_vertex = true,
-        }
+        self.vertices.push(point);
+        self.facts.vertices += usize::from(count == 3);
+        self.facts.has_bad_vertex |= count < 3;
     }
 
     fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
@@ -100,8 +108,11 @@ impl Reader {
     }
 
     /// The vertex that a face names with `1`, `-1`, `1/2` or `1//2`, counted from 0.
-    fn index(&self, word: &[u8]) -> Option<usize> {
-        let number = word.split(|&byte| byte == b'/').next()?;
+    fn index(&mut self, word: &[u8]) -> Option<usize> {
+        let mut numbers = word.split(|&byte| byte == b'/');
+        let number = numbers.next()?;
+        self.corners += 1;
+        self.with_normals += usize::from(numbers.nth(1).is_some_and(|normal| !normal.is_empty()));
         let number: i64 = std::str::from_utf8(number).ok()?.parse().ok()?;
         let length = i64::try_from(self.vertices.len()).ok()?;
         let index = if number < 0 { length.checked_add(number)? } else { number.checked_sub(1)? };

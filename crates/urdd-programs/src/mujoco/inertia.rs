@@ -71,7 +71,7 @@ impl Body {
     }
 
     /// Two bodies as one.
-    pub fn with(&self, other: &Body) -> Body {
+    pub fn with(&self, other: &Body, epsilon: f64) -> Body {
         let mass = self.mass + other.mass;
         let centre = [0, 1, 2]
             .map(|axis| (self.mass * self.centre[axis] + other.mass * other.centre[axis]) / mass);
@@ -86,44 +86,48 @@ impl Body {
                 }
             }
         }
-        Body { mass, centre, tensor, moments: eigenvalues(&tensor) }
+        Body { mass, centre, tensor, moments: eigenvalues(&tensor, epsilon) }
     }
 }
 
-/// The eigenvalues of a symmetric matrix from the largest to the smallest, by the rotations that MuJoCo makes: elements
-/// below 1e-12 off the diagonal are none. NaN if an element is not finite.
-pub fn eigenvalues(matrix: &Matrix) -> Vector {
-    const EPSILON: f64 = 1e-12;
+/// The eigenvalues of a symmetric matrix from the largest to the smallest, by rotations that make its largest element off
+/// the diagonal 0. One below `epsilon`, and a rotation that is less, is none. NaN if an element is not finite.
+pub fn eigenvalues(matrix: &Matrix, epsilon: f64) -> Vector {
     const MOST: usize = 500;
     if matrix.iter().flatten().any(|value| !value.is_finite()) {
         return [f64::NAN; 3];
     }
-    let mut turn = IDENTITY;
     let mut turned = *matrix;
     for _ in 0..MOST {
         let off = |row: usize, column: usize| turned[row][column].abs();
-        let (row, column) = if off(0, 1) > off(0, 2) && off(0, 1) > off(1, 2) {
-            (0, 1)
+        let (row, column, other) = if off(0, 1) > off(0, 2) && off(0, 1) > off(1, 2) {
+            (0, 1, 2)
         } else if off(0, 2) > off(1, 2) {
-            (0, 2)
+            (0, 2, 1)
         } else {
-            (1, 2)
+            (1, 2, 0)
         };
         let value = turned[row][column];
-        if value.abs() < EPSILON {
+        if value == 0.0 || value.abs() < epsilon {
             break;
         }
         let tau = (turned[column][column] - turned[row][row]) / (2.0 * value);
         let tangent = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
         let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-        if cosine > 1.0 - EPSILON {
+        if cosine > 1.0 - epsilon {
             break;
         }
-        let mut step = IDENTITY;
-        (step[row][row], step[column][column]) = (cosine, cosine);
-        (step[row][column], step[column][row]) = (tangent * cosine, -tangent * cosine);
-        turn = product(&turn, &step);
-        turned = product(&product(&transposed(&turn), matrix), &turn);
+        let sine = tangent * cosine;
+        turned[row][row] -= tangent * value;
+        turned[column][column] += tangent * value;
+        let (first, second) = (turned[other][row], turned[other][column]);
+        for (at, value) in [
+            ((row, column), 0.0),
+            ((other, row), cosine * first - sine * second),
+            ((other, column), sine * first + cosine * second),
+        ] {
+            (turned[at.0][at.1], turned[at.1][at.0]) = (value, value);
+        }
     }
     let mut values = [0, 1, 2].map(|axis| turned[axis][axis]);
     values.sort_by(|a, b| b.total_cmp(a));

@@ -50,6 +50,7 @@ impl Reader<'_> {
         if !joint.moves() {
             return Ok(joint);
         }
+        self.readable(node, "joint", name);
         if let Some(origin) = node.child("origin") {
             self.finite(origin, &["xyz", "rpy"]);
         }

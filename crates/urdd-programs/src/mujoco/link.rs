@@ -44,10 +44,16 @@ impl Reader<'_> {
         for (index, collision) in link.named("collision").enumerate() {
             solids.push(self.geom(collision, &format!("{part}/collision/{index}"))?);
         }
-        match own {
-            Some(body) if !self.settings.ignores_inertials || solids.is_empty() => Ok(body),
-            _ => self.body_of(link, name, &solids),
-        }
+        let body = match own {
+            Some(body) if !self.settings.ignores_inertials || solids.is_empty() => body,
+            _ => self.body_of(link, name, &solids)?,
+        };
+        let [mass, moment] = self.settings.least;
+        Ok(Body {
+            mass: if body.mass < mass { mass } else { body.mass },
+            moments: body.moments.map(|one| if one < moment { moment } else { one }),
+            ..body
+        })
     }
 
     fn own_material(&mut self, visual: Node<'_>) -> Reading<()> {
@@ -78,35 +84,38 @@ impl Reader<'_> {
             let fault = Fault::Other("a mass that is not above 0 is 0");
             self.effects.read_as(mass, &*part, fault, "0");
         }
-        let kilograms = kilograms.max(self.settings.least[0]);
-        let moments = if name == "world" { [0.0; 3] } else { self.moments(node, six, &part)? };
+        let kilograms = if kilograms < 0.0 { 0.0 } else { kilograms };
+        let moments = self.moments(node, six, name)?;
         let [ixx, iyy, izz, ixy, ixz, iyz] = six;
         let tensor = match moments {
             [0.0, 0.0, 0.0] => [[0.0; 3]; 3],
             _ => [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]],
         };
-        let least = self.settings.least[1];
-        let moments = moments.map(|moment| if moment < least { least } else { moment });
         Ok(Body { moments, ..Body::new(kilograms, &pose, &tensor) })
     }
 
     /// The eigenvalues of a tensor. A tensor of zeros is none.
-    fn moments(&mut self, node: Node<'_>, six: [f64; 6], part: &str) -> Reading<[f64; 3]> {
+    fn moments(&mut self, node: Node<'_>, six: [f64; 6], name: &str) -> Reading<[f64; 3]> {
         let [ixx, iyy, izz, ixy, ixz, iyz] = six;
         if six == [0.0; 6] {
             return Ok([0.0; 3]);
         }
         if six.iter().any(|value| !value.is_finite()) {
             let is_infinite = [ixx, iyy, izz].contains(&f64::INFINITY) && !ixx.is_nan();
-            self.effects.read_as(node, part, Fault::Other("a number of it is not finite"), "0");
+            let fault = Fault::Other("a number of it is not finite");
+            self.effects.read_as(node, format!("link/{name}/inertial"), fault, "0");
             return Ok(if is_infinite { [f64::NAN; 3] } else { [0.0; 3] });
         }
-        let moments = eigenvalues(&[[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]);
-        if moments[2] < LEAST_EIGENVALUE {
+        let moments = eigenvalues(
+            &[[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]],
+            self.release.epsilon(),
+        );
+        let is_bound = self.release == Release::Four && self.settings.least[1] > 0.0;
+        if moments[2] < LEAST_EIGENVALUE && !is_bound {
             let fault = Fault::Other("the inertia has an eigenvalue that is not above 0");
             return self.effects.refuse(node, fault);
         }
-        if moments[2] + moments[1] < moments[0] {
+        if moments[2] + moments[1] < moments[0] && name != "world" {
             if self.settings.balances {
                 return Ok([moments.iter().sum::<f64>() / 3.0; 3]);
             }
@@ -135,7 +144,7 @@ impl Reader<'_> {
             let body = Body { moments, ..Body::new(mass, pose, &tensor) };
             sum = Some(match sum {
                 None => body,
-                Some(sum) => sum.with(&body),
+                Some(sum) => sum.with(&body, self.release.epsilon()),
             });
         }
         let least =
@@ -221,5 +230,5 @@ impl Reader<'_> {
 
 /// Whether a body is too light to move.
 pub(super) fn is_light(body: &Body) -> bool {
-    body.mass < LEAST || body.moments.iter().any(|moment| *moment < LEAST)
+    body.mass.is_nan() || body.mass < LEAST || body.moments.iter().any(|moment| *moment < LEAST)
 }

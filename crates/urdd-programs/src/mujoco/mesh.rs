@@ -42,10 +42,15 @@ impl Reader<'_> {
             Mesh::Found(facts) => facts,
         };
         let volume = facts.measures.volume * scale.iter().product::<f64>().abs();
-        if let Some(why) = bad(&facts, volume) {
+        if let Some(why) = bad(&facts, volume, self.release) {
             return self.effects.refuse(filename, Fault::Mesh(why));
         }
         let size = [0, 1, 2].map(|axis| facts.measures.size[axis] * scale[axis]);
+        // Without triangles the convex hull counts.
+        let volume = match facts.triangles {
+            0 => size.iter().product::<f64>().abs() / 6.0,
+            _ => volume,
+        };
         Ok(Solid::cuboid(volume, size))
     }
 
@@ -75,7 +80,10 @@ impl Reader<'_> {
         if !matches!(beside, Mesh::Missing) {
             return beside;
         }
-        let there = self.file.mesh(name);
+        let there = match folder.is_empty() {
+            true => self.file.mesh(name),
+            false => Mesh::Missing,
+        };
         if !matches!(there, Mesh::Missing) {
             let why = "the mesh is looked for beside the URDF, and its folders do not count";
             self.effects.read_as(filename, part, Fault::Mesh(why), last(name));
@@ -90,7 +98,7 @@ fn last(name: &str) -> &str {
 }
 
 /// Why a mesh is refused.
-fn bad(facts: &MeshFacts, volume: f64) -> Option<&'static str> {
+fn bad(facts: &MeshFacts, volume: f64, release: Release) -> Option<&'static str> {
     let measures = &facts.measures;
     if let Some(stl) = &facts.stl {
         match stl.binary {
@@ -99,7 +107,7 @@ fn bad(facts: &MeshFacts, volume: f64) -> Option<&'static str> {
             Some(count) if count > MAX_TRIANGLES => {
                 return Some("the mesh has more than 200,000 triangles");
             }
-            _ if measures.has_infinite || measures.largest > MAX_COORDINATE => {
+            _ if measures.largest > MAX_COORDINATE => {
                 return Some("the mesh has coordinates that are too large");
             }
             _ => {}
@@ -108,10 +116,15 @@ fn bad(facts: &MeshFacts, volume: f64) -> Option<&'static str> {
         if obj.has_bad_index {
             return Some("the mesh has a face with a vertex that is not there");
         }
+        if obj.lacks_normals && release == Release::Four {
+            return Some("some faces of the mesh have normals, and others none");
+        }
     } else {
         return Some("the mesh cannot be read");
     }
-    if measures.points < 4 {
+    if measures.has_infinite {
+        Some("the mesh has a coordinate that is not finite")
+    } else if measures.points < 4 {
         Some("the mesh has fewer than 4 vertices")
     } else if measures.spread[2] <= 1e-14 * measures.largest {
         Some("all vertices of the mesh are in one plane")

@@ -11,7 +11,7 @@ mod value;
 use std::collections::{HashMap, HashSet};
 
 use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
+use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::tinyxml;
 use crate::tree::Node;
@@ -31,6 +31,16 @@ enum Release {
     Three,
     /// 4.0.0.
     Four,
+}
+
+impl Release {
+    /// What counts as nothing off the diagonal of a tensor.
+    fn epsilon(self) -> f64 {
+        match self {
+            Release::Three => 1e-12,
+            Release::Four => 0.0,
+        }
+    }
 }
 
 struct Reader<'r> {
@@ -78,6 +88,7 @@ fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
 
 impl Reader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
+        self.readable(robot, "robot", robot.value("name").unwrap_or_default());
         self.settings(robot)?;
         self.materials(robot)?;
         let mut links = self.links(robot)?;
@@ -122,9 +133,19 @@ impl Reader<'_> {
             if !names.insert(name) {
                 return self.effects.refuse(node, Fault::not_unique("link", name));
             }
+            self.readable(node, "link", name);
             links.push(Link { node, name, above: None, parent: None, children: Vec::new() });
         }
         Ok(links)
+    }
+
+    /// Says of a name whether Python can read it.
+    fn readable(&mut self, node: Node<'_>, kind: &'static str, name: &str) {
+        if name.contains('\u{fffd}') && std::str::from_utf8(self.file.bytes).is_err() {
+            let rule = "it is not UTF-8: Python cannot list names";
+            let fault = Fault::Name { kind, name: shortened(name), rule };
+            self.effects.read_as(node, "robot/?", fault, "names that Python cannot read");
+        }
     }
 
     fn tree<'t>(&mut self, robot: Node<'t>, links: &mut [Link<'t>]) -> Reading<()> {
@@ -235,7 +256,7 @@ impl Reader<'_> {
                 let at = at.then(&joint.pose);
                 open.push((child, at));
                 if bodies[child].mass >= LEAST {
-                    sum = sum.with(&bodies[child].placed(&at));
+                    sum = sum.with(&bodies[child].placed(&at), self.release.epsilon());
                     if sum.moments[2] < inertia::LEAST_EIGENVALUE {
                         let why = "masses that are fixed together have no inertia about a line";
                         return self.effects.refuse(inertial, Fault::Other(why));

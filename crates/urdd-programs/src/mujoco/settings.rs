@@ -59,6 +59,8 @@ impl Reader<'_> {
         for name in FLAGS {
             self.flag(compiler, name)?;
         }
+        self.keyword(compiler, "angle", &["radian", "degree"])?;
+        self.keyword(compiler, "coordinate", &["local", "global"])?;
         self.each_number(compiler, &["boundmass", "boundinertia", "settotalmass"])?;
         for (name, least) in [("boundmass", 0), ("boundinertia", 1)] {
             let value = compiler.value(name).and_then(|value| whole(strtod(value.trim())));

@@ -65,6 +65,19 @@ fn readers_do_what_their_programs_do() {
     assert!(failed.is_empty(), "{failed:?}: URDD_PROGRAM=NAME lists each with --nocapture");
 }
 
+#[test]
+fn programs_have_names() {
+    for program in Program::ALL {
+        for name in [program.id(), &program.setting()] {
+            assert_eq!(Program::of_name(name), Some(program), "{name}");
+        }
+    }
+    assert_eq!(Program::of_name("humble"), Some(Program::Urdfdom3));
+    assert_eq!(Program::of_name("ros"), Some(Program::Urdfdom6));
+    assert_eq!(Program::of_name("webots"), None);
+    assert!(Program::Urdfdom6.is_asked() && !Program::Urdfdom4.is_asked());
+}
+
 fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 { 100.0 } else { 100.0 * part as f64 / whole as f64 }
 }

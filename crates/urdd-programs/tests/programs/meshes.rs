@@ -20,11 +20,8 @@ pub fn find(program: Program, name: &str) -> Mesh {
     let in_any =
         |rest: &str| [&base, &packages].map(|folder| folder.join(rest.trim_start_matches('/')));
     let places: Vec<PathBuf> = match (program.id(), scheme) {
-        // Schemes are cut off, and packages are looked for in the file's folder alone.
-        ("pybullet", "file" | "package" | "model" | "") => {
-            let rest = rest.strip_prefix("package://").or(rest.strip_prefix("model://"));
-            vec![base.join(rest.unwrap_or(name.split("://").last().unwrap()))]
-        }
+        // Programs were given the files in a folder of another name.
+        (_, "") if rest.starts_with("../base/") => Vec::new(),
         // What is no scheme is a name, relative ones in the folders of packages too.
         ("pinocchio", "") if !rest.starts_with('/') => in_any(rest).into(),
         ("pinocchio", "package" | "model") => in_any(rest).into(),

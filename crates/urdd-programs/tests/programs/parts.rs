@@ -88,6 +88,8 @@ pub fn of_fact(fact: &str) -> Option<String> {
         "damping" | "friction" => "dynamics",
         "safety" => "safety_controller",
         "mass" | "com" | "inertia" => return Some(above.to_owned()),
+        // URDF has none in a collision.
+        "color" | "texture" if above.contains("/collision/") => return None,
         "color" | "texture" => "material",
         "name" if is_shape => return None,
         "geometry" | "origin" if is_shape => return Some(above.to_owned()),

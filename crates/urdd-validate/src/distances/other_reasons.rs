@@ -32,7 +32,7 @@ impl<'a> OtherReasons<'a> {
             _ => false,
         };
         let chain = context.chain().filter(|_| skipped(SkippedReason::Adjacent));
-        let joints = chain.iter().flat_map(|chain| &chain.joints);
+        let joints = chain.iter().flat_map(|chain| &chain.joints_in_chain);
         let adjacent = joints.map(|joint| {
             let (a, b) = (joint.parent_link_idx.get(), joint.child_link_idx.get());
             (a.min(b), a.max(b))

@@ -38,7 +38,7 @@ impl Poses {
         if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
             return Err(skip::LEGACY_COORDINATES);
         }
-        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, bounds.bounds)
+        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, &bounds.bounds)
             .map_err(SkipReason::obstacle)?;
         let kinematics =
             ForwardKinematics::new(&modules.chain, &modules.dof).map_err(SkipReason::obstacle)?;

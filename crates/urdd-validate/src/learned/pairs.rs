@@ -1,6 +1,5 @@
 //! The pairs of links of a model: SPEC 8.8.5.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::solids::Solids;
@@ -14,69 +13,59 @@ use urdd_geometry::convex::BodyPairs;
 /// Maximum number of pairs of pieces: each takes 16 bytes.
 const MOST: usize = 20_000_000;
 
-/// Whether two shapes are skipped: two pieces or, without a matrix over pieces, the hulls of their links.
+/// A link with pieces.
+struct Link {
+    link: usize,
+    /// The indices of its pieces.
+    pieces: Range<usize>,
+    /// Its rows of the matrix; none without a hull.
+    rows: Range<usize>,
+}
+
+/// What is skipped: by the matrix over pieces or, without one, by that over the hulls of links.
 struct Skipped<'a> {
-    pieces: Option<&'a [Vec<bool>]>,
-    full: &'a [Vec<bool>],
-    /// Index of the hull of each link that has one.
-    hulls: HashMap<usize, usize>,
-    /// The links with pieces, in order, and the indices of their pieces.
-    links: Vec<(usize, Range<usize>)>,
+    matrix: &'a [Vec<bool>],
+    is_of_pieces: bool,
+    /// In their order.
+    links: Vec<Link>,
 }
 
 impl<'a> Skipped<'a> {
     fn new(urdd: &'a Urdd, shapes: &Shapes) -> Option<Self> {
-        let [full, _, _, pieces, _, _] = skips(urdd.document(ModuleKind::LinkShapesSkips)?)?;
-        let hulls = shapes.full.iter().enumerate();
-        let mut links: Vec<(usize, Range<usize>)> = Vec::new();
-        for (place, (link, _)) in shapes.pieces.iter().enumerate() {
-            match links.last_mut().filter(|(last, _)| last == link) {
-                Some((_, places)) => places.end = place + 1,
-                None => links.push((*link, place..place + 1)),
-            }
+        let [full, _, _, of_pieces, _, _] = skips(urdd.document(ModuleKind::LinkShapesSkips)?)?;
+        let full = full?;
+        let mut links: Vec<Link> = Vec::new();
+        for own in shapes.pieces.chunk_by(|a, b| a.0 == b.0) {
+            let (link, first) = (own[0].0, links.last().map_or(0, |last| last.pieces.end));
+            let pieces = first..first + own.len();
+            let hull = shapes.full.iter().position(|full| *full == link);
+            let row = hull.map_or(0..0, |row| row..row + 1);
+            let rows = if of_pieces.is_some() { pieces.clone() } else { row };
+            links.push(Link { link, pieces, rows });
         }
-        Some(Self {
-            pieces: pieces.map(AsRef::as_ref),
-            full: full?,
-            hulls: hulls.map(|(place, link)| (*link, place)).collect(),
-            links,
-        })
+        let is_of_pieces = of_pieces.is_some();
+        Some(Self { matrix: of_pieces.unwrap_or(full), is_of_pieces, links })
     }
 
-    /// For two pieces, by their indices among all pieces; `None` if only hulls of links are listed.
-    fn of_pieces(&self, a: usize, b: usize) -> Option<bool> {
-        Some(at(self.pieces?, a, b).unwrap_or(true))
+    fn is_checked(&self, i: usize, j: usize) -> bool {
+        at(self.matrix, i, j) == Some(false)
     }
 
-    /// For the hulls of two links.
-    fn of_hulls(&self, a: usize, b: usize) -> bool {
-        let places = self.hulls.get(&a).zip(self.hulls.get(&b));
-        let skipped = places.and_then(|(a, b)| at(self.full, *a, *b));
-        skipped.unwrap_or(true)
-    }
-
-    /// The pairs of links that are not skipped, by their indices in `links`, the lower link first.
-    fn not_skipped(&self) -> impl Iterator<Item = [&(usize, Range<usize>); 2]> {
+    /// The pairs of links that are not skipped, the lower link first.
+    fn not_skipped(&self) -> impl Iterator<Item = [&Link; 2]> {
         let each = self.links.iter().enumerate();
         let pairs = each.flat_map(|(place, a)| {
             let after = &self.links[place + 1..];
             after.iter().map(move |b| [a, b])
         });
-        pairs.filter(|[a, b]| match self.pieces {
-            Some(_) => a.1.clone().any(|i| {
-                let mut others = b.1.clone();
-                others.any(|j| self.of_pieces(i, j) == Some(false))
-            }),
-            None => !self.of_hulls(a.0, b.0),
-        })
+        pairs.filter(|[a, b]| a.rows.clone().any(|i| b.rows.clone().any(|j| self.is_checked(i, j))))
     }
 }
 
 /// The pairs of links that are not skipped, the lower link first.
 pub fn not_skipped(urdd: &Urdd) -> Option<Vec<[usize; 2]>> {
     let skipped = Skipped::new(urdd, &Shapes::new(urdd)?)?;
-    let pairs = skipped.not_skipped().map(|[a, b]| [a.0, b.0]);
-    Some(pairs.collect())
+    Some(skipped.not_skipped().map(|both| both.map(|one| one.link)).collect())
 }
 
 /// The pieces, with the pairs that are not skipped.
@@ -88,7 +77,7 @@ pub fn pieces(urdd: &Urdd, solids: &Solids) -> Result<BodyPairs, SkipReason> {
     let shapes = Shapes::new(urdd).ok_or_else(open)?;
     let skipped = Skipped::new(urdd, &shapes).ok_or_else(open)?;
     let pairs = skipped.not_skipped();
-    let count = pairs.map(|[a, b]| a.1.len().saturating_mul(b.1.len()));
+    let count = pairs.map(|[a, b]| a.pieces.len().saturating_mul(b.pieces.len()));
     let count = count.fold(0, usize::saturating_add);
     if count > MOST {
         let why = format!(
@@ -104,8 +93,9 @@ pub fn pieces(urdd: &Urdd, solids: &Solids) -> Result<BodyPairs, SkipReason> {
     let meshes: Vec<(usize, &[[f64; 3]])> = meshes.collect::<Option<_>>().ok_or_else(open)?;
     let mut pairs = BodyPairs::new(meshes)
         .map_err(|(piece, error)| SkipReason::obstacle(format!("piece {piece}: {error}")))?;
-    for [a, b] in skipped.not_skipped() {
-        pairs.add([a.0, b.0], |a, b| !skipped.of_pieces(a, b).unwrap_or(false));
+    for both in skipped.not_skipped() {
+        let is_checked = |a, b| !skipped.is_of_pieces || skipped.is_checked(a, b);
+        pairs.add(both.map(|one| one.link), is_checked);
     }
     Ok(pairs)
 }

@@ -42,7 +42,7 @@ pub(super) use urdd_geometry::Mesh;
 /// [`Need::ModuleV1`]: crate::rule::Need::ModuleV1
 macro_rules! document {
     ($context:expr, $kind:ident) => {
-        match $context.document(Kind::$kind) {
+        match $context.document_v1(Kind::$kind) {
             Some(ModuleDocument::$kind(document)) => Some(&**document),
             _ => None,
         }
@@ -59,11 +59,6 @@ pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
 pub(super) fn source(context: &Context) -> Option<&FileEntry> {
     let Source::Urdf(file) = context.metadata()?.source.as_ref()?;
     Some(file)
-}
-
-/// Whether the module's version is from before the specification.
-pub(super) fn is_legacy(module: &Module) -> bool {
-    module.spec.is_some_and(|spec| spec.profile == Profile::Legacy)
 }
 
 /// The values that are present, with their kinds of shape.

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use urdd_document::meshes::{DERIVED, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
 use urdd_findings::part::Part;
-use urdd_format::legacy::urdf as legacy;
-use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_format::registry::{ModuleKind, Profile};
+use urdd_format::urdf::{Geometry, Link, Origin};
 
 /// A file that two entries of a mesh module name.
 pub struct SharedMesh {
@@ -77,7 +77,7 @@ fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = Use<'a>> {
 
 /// Whether two links of a legacy URDD place the same meshes in the same way.
 fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
-    let Some(ModuleDocument::LegacyUrdf(urdf)) = urdd.document(ModuleKind::Urdf) else {
+    let Some(urdf) = urdd.description().filter(|_| urdd.is_legacy(ModuleKind::Urdf)) else {
         return false;
     };
     let (Some(a), Some(b)) = (urdf.links.get(a), urdf.links.get(b)) else {
@@ -88,9 +88,9 @@ fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
 }
 
 /// The meshes that a link shows: origin, file, scale.
-fn placements(link: &legacy::Link) -> Vec<(&legacy::Origin, &str, [f64; 3])> {
+fn placements(link: &Link) -> Vec<(&Option<Origin>, &str, [f64; 3])> {
     let meshes = link.visual.iter().filter_map(|visual| match &visual.geometry {
-        legacy::Geometry::Mesh(mesh) => {
+        Some(Geometry::Mesh(mesh)) => {
             Some((&visual.origin, mesh.filename.as_str(), mesh.scale.unwrap_or([1.0; 3])))
         }
         _ => None,

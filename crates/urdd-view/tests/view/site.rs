@@ -168,7 +168,7 @@ fn a_file_of_a_persons_in_the_way_stops_the_export() {
     fs::write(&page, format!("{text}<p>mine</p>")).expect("written");
     let before = below(&site);
     match exported(&other, &site) {
-        Err(ExportError::InTheWay { files }) => assert_eq!(files.len(), 1, "{files:?}"),
+        Err(ExportError::InTheWay(files)) => assert_eq!(files.len(), 1, "{files:?}"),
         other => panic!("{other:?}"),
     }
     assert_eq!(below(&site), before, "nothing was changed");

@@ -17,10 +17,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
     let mut lists = vec![
         ("bounds", bounds.bounds.len()),
-        ("dof_lower_bounds", bounds.lower.len()),
-        ("dof_upper_bounds", bounds.upper.len()),
+        ("dof_lower_bounds", bounds.dof_lower_bounds.len()),
+        ("dof_upper_bounds", bounds.dof_upper_bounds.len()),
     ];
-    if let Some(v1) = bounds.v1 {
+    if let Some(v1) = document!(context, Bounds) {
         lists.push(("dof_limited", v1.dof_limited.len()));
         lists.push(("dof_velocity_limits", v1.dof_velocity_limits.len()));
         lists.push(("dof_effort_limits", v1.dof_effort_limits.len()));

@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (end, key) in ["lower", "upper"].into_iter().enumerate() {
             let (limit, bound) = (limited.limits[end], limited.bounds[end]);
             // Legacy modules give a locked joint a range; LEG006 reports it.
-            let widened = bounds.v1.is_none() && end == 1 && lower == upper;
+            let widened = context.is_legacy(Kind::Bounds) && end == 1 && lower == upper;
             let agree = numbers_agree(limit, bound)
                 || (widened && numbers_agree(limit + LEGACY_WIDENING, bound));
             if !agree && columns_agree(bounds, dof, end) {

@@ -15,10 +15,12 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
-    for (column, (name, values)) in
-        [("dof_lower_bounds", bounds.lower), ("dof_upper_bounds", bounds.upper)]
-            .into_iter()
-            .enumerate()
+    for (column, (name, values)) in [
+        ("dof_lower_bounds", &bounds.dof_lower_bounds),
+        ("dof_upper_bounds", &bounds.dof_upper_bounds),
+    ]
+    .into_iter()
+    .enumerate()
     {
         for (dof, (pair, value)) in bounds.bounds.iter().zip(values).enumerate() {
             let paired = pair[column];
@@ -64,9 +66,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 /// The right bound and why it is, if the robot and `dof_module` agree on the joint of the DOF. `None` in legacy modules, which may
 /// have other bounds.
 fn decided(context: &Context, dof: usize, end: usize) -> Option<(f64, String)> {
-    context.bounds()?.v1?;
+    document!(context, Bounds)?;
     let (joint, place) = context.dof_layout()?.place(dof)?;
-    let stated = context.dofs()?.joint_of_dof.get(dof)?.get();
+    let stated = context.dofs()?.dof_idx_to_joint_idx_mapping.get(dof)?.get();
     if stated != joint {
         return None;
     }

@@ -15,7 +15,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let bounds = context.bounds()?.v1?;
+    let bounds = document!(context, Bounds)?;
     for (written, (dof, joint)) in bounds.dof_limited.iter().zip(dofs(context)?) {
         let limited = joint.position_limits().is_some();
         if *written != limited {

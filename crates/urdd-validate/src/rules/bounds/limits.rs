@@ -2,8 +2,8 @@
 
 use crate::context::Context;
 use crate::tolerance::numbers_agree;
-use urdd_document::bounds::Bounds;
 use urdd_document::robot::Joint;
+use urdd_format::bounds::BoundsModule;
 
 /// A DOF of a joint with position limits, and the bounds that the module gives it.
 pub(in crate::rules) struct LimitedDof<'a> {
@@ -31,8 +31,8 @@ pub(in crate::rules) fn dofs(context: &Context) -> Option<impl Iterator<Item = (
 }
 
 /// Whether `bounds` and the list of that end agree on a DOF; otherwise BND002 reports it.
-pub(in crate::rules) fn columns_agree(bounds: Bounds<'_>, dof: usize, end: usize) -> bool {
-    let list = [bounds.lower, bounds.upper][end];
+pub(in crate::rules) fn columns_agree(bounds: &BoundsModule, dof: usize, end: usize) -> bool {
+    let list = [&bounds.dof_lower_bounds, &bounds.dof_upper_bounds][end];
     let pair = bounds.bounds.get(dof);
     pair.zip(list.get(dof)).is_none_or(|(pair, value)| numbers_agree(pair[end], *value))
 }

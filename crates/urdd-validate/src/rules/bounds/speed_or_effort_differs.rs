@@ -14,7 +14,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let bounds = context.bounds()?.v1?;
+    let bounds = document!(context, Bounds)?;
     let lists = bounds.dof_velocity_limits.iter().zip(&bounds.dof_effort_limits);
     for ((dof, joint), (speed, effort)) in dofs(context)?.zip(lists) {
         let limit = joint.limit.filter(|_| joint.num_dofs() == 1);

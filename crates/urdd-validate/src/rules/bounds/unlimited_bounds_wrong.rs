@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let kind = joint.joint_type;
-        if bounds.v1.is_none() {
+        if context.is_legacy(Kind::Bounds) {
             let is_one = columns_agree(bounds, dof, 0) && columns_agree(bounds, dof, 1);
             if is_one && !legacy_copy(*pair, joint) {
                 let message = match is_frozen(*pair) {

@@ -17,7 +17,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let (right, written) = (robot.joints.len(), chain.joints.len());
+    let (right, written) = (robot.joints.len(), chain.joints_in_chain.len());
     if right != written {
         finding_in(Kind::Chain, "/joints_in_chain", "one entry per joint of urdf_module is needed")
             .counts(right, written, "joints")
@@ -25,7 +25,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         return Some(());
     }
     let right = robot.joints.iter().zip(&tree.joint_links);
-    for (index, (joint, (right, (parent, child)))) in chain.joints.iter().zip(right).enumerate() {
+    for (index, (joint, (right, (parent, child)))) in
+        chain.joints_in_chain.iter().zip(right).enumerate()
+    {
         let mut expect = |key: &str, right: String, written: String| {
             if right != written {
                 let pointer = format!("/joints_in_chain/{index}/{key}");
@@ -36,9 +38,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut name = |key, right: &str, written: &str| {
             expect(key, format!("{right:?}"), format!("{written:?}"));
         };
-        name("joint_name", &right.name, joint.joint_name);
-        name("parent_link_name", &right.parent, joint.parent_link_name);
-        name("child_link_name", &right.child, joint.child_link_name);
+        name("joint_name", &right.name, &joint.joint_name);
+        name("parent_link_name", &right.parent, &joint.parent_link_name);
+        name("child_link_name", &right.child, &joint.child_link_name);
         let mut idx = |key, right: usize, written: usize| {
             expect(key, right.to_string(), written.to_string());
         };

@@ -15,18 +15,18 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let chain = context.chain()?;
-    let (right, written) = (robot.links.len(), chain.links.len());
+    let (right, written) = (robot.links.len(), chain.links_in_chain.len());
     if right != written {
         finding_in(Kind::Chain, "/links_in_chain", "one entry per link of urdf_module is needed")
             .counts(right, written, "links")
             .report(findings);
         return Some(());
     }
-    for (index, (link, right)) in chain.links.iter().zip(&robot.links).enumerate() {
+    for (index, (link, right)) in chain.links_in_chain.iter().zip(&robot.links).enumerate() {
         if link.name != right.name {
             let message = format!("this is not the name of link {index} of urdf_module");
             finding_in(Kind::Chain, format!("/links_in_chain/{index}/name"), message)
-                .literals(&right.name, link.name)
+                .literals(&right.name, &link.name)
                 .report(findings);
         }
         if link.link_idx.get() != index {

@@ -17,8 +17,8 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let any_order = chain.v1.is_none();
-    for (index, (link, joints)) in chain.links.iter().zip(&tree.child_joints).enumerate() {
+    let any_order = context.is_legacy(Kind::Chain);
+    for (index, (link, joints)) in chain.links_in_chain.iter().zip(&tree.child_joints).enumerate() {
         let links = joints.iter().filter_map(|joint| tree.joint_links.get(*joint));
         let mut links: Vec<usize> = links.map(|(_, child)| *child).collect();
         links.sort_unstable();

@@ -18,16 +18,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
     let levels = tree.levels();
-    if levels.len() != chain.hierarchy.len() {
+    if levels.len() != chain.kinematic_hierarchy.len() {
         let message = "the tree of urdf_module has another number of levels";
         finding_in(Kind::Chain, "/kinematic_hierarchy", message)
-            .counts(levels.len(), chain.hierarchy.len(), "levels")
+            .counts(levels.len(), chain.kinematic_hierarchy.len(), "levels")
             .report(findings);
         return Some(());
     }
-    for (depth, (right, written)) in levels.iter().zip(chain.hierarchy).enumerate() {
+    for (depth, (right, written)) in levels.iter().zip(&chain.kinematic_hierarchy).enumerate() {
         let mut written: Vec<usize> = written.iter().map(|link| link.get()).collect();
-        if chain.v1.is_none() {
+        if context.is_legacy(Kind::Chain) {
             written.sort_unstable();
         }
         if *right != written {

@@ -17,7 +17,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let chain = context.chain()?.v1?;
+    let chain = document!(context, Chain)?;
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let expected = match right.has_axis() {
             false => None,

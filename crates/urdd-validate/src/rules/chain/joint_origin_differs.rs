@@ -19,7 +19,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
-    let chain = context.chain()?.v1?;
+    let chain = document!(context, Chain)?;
     let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let origin = &joint.origin;

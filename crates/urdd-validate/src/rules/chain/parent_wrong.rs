@@ -16,7 +16,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
     let parents = tree.parent_joint.iter().zip(&tree.parent_link);
-    for (index, (link, (joint, parent))) in chain.links.iter().zip(parents).enumerate() {
+    for (index, (link, (joint, parent))) in chain.links_in_chain.iter().zip(parents).enumerate() {
         let written_joint = link.parent_joint_idx.map(|joint| joint.get());
         let written_link = link.parent_link_idx.map(|link| link.get());
         for (key, right, written) in [

@@ -14,7 +14,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let chain = context.chain()?.v1?;
+    let chain = document!(context, Chain)?;
     for (index, joint) in chain.joints_in_chain.iter().enumerate() {
         let quaternion = joint.origin.quaternion_wxyz;
         let at = |message: &str| {

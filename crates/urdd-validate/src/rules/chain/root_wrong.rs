@@ -14,7 +14,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let root = context.tree()?.root;
-    let written = context.chain()?.root;
+    let written = context.chain()?.root_idx;
     if written.get() != root {
         let name = &robot.links.get(root)?.name;
         let message = format!(

@@ -15,7 +15,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let table = &context.connections()?.v1?.lowest_common_ancestors;
+    let table = &document!(context, Connections)?.lowest_common_ancestors;
     report_pairs(
         context,
         findings,

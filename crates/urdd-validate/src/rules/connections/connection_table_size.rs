@@ -17,7 +17,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let connections = context.connections()?;
     let mut tables: Vec<(&str, Vec<usize>)> = Vec::new();
     let mut lists: Vec<(&str, usize)> = Vec::new();
-    if let Some(v1) = connections.v1 {
+    if let Some(v1) = document!(context, Connections) {
         lists.push(("root_paths", v1.root_paths.len()));
         let ancestors = lengths(&v1.lowest_common_ancestors);
         tables.push(("lowest_common_ancestors", ancestors));
@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             tables.push(("link_to_link_paths", lengths(paths)));
         }
     }
-    if let Some(paths) = connections.descendant_paths {
+    if let Some(paths) = &connections.link_connection_paths {
         tables.push(("link_connection_paths", lengths(paths)));
     }
     lists.extend(tables.iter().map(|(name, rows)| (*name, rows.len())));

@@ -17,7 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let table = context.connections()?.descendant_paths;
+    let table = context.connections()?.link_connection_paths.as_deref();
     report_pairs(
         context,
         findings,

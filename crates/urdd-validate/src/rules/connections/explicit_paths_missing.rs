@@ -23,7 +23,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
-    let connections = context.connections()?.v1?;
+    let connections = document!(context, Connections)?;
     let links = tree.parent_link.len();
     if links > EXPLICIT_UP_TO {
         return Some(());

@@ -15,7 +15,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let table = context.connections()?.v1?.link_to_link_paths.as_deref();
+    let table = document!(context, Connections)?.link_to_link_paths.as_deref();
     report_pairs(
         context,
         findings,

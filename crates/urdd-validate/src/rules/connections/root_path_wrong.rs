@@ -16,7 +16,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
-    let connections = context.connections()?.v1?;
+    let connections = document!(context, Connections)?;
     let mut fold = Fold::new(findings);
     let paths = connections.root_paths.iter().zip(&robot.links);
     for (to, (path, link)) in paths.enumerate() {

@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (Some(kind), Some(version)) = (module.kind, &module.version) else {
             continue;
         };
-        let old = context.profile() == Profile::V1 && is_legacy(module);
+        let old = context.profile() == Profile::V1 && module.is_legacy();
         let sound = module.spec.is_some() && !old;
         // DIR006 reports a malformed version, DIR007 a differing one.
         if sound || is_malformed(module) || differing.contains(module.folder.as_str()) {

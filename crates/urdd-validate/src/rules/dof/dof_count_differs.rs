@@ -17,9 +17,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dofs = context.dofs()?;
     let mut counts = vec![
         ("num_dofs", dofs.num_dofs.get()),
-        ("dof_idx_to_joint_idx_mapping", dofs.joint_of_dof.len()),
+        ("dof_idx_to_joint_idx_mapping", dofs.dof_idx_to_joint_idx_mapping.len()),
     ];
-    if let Some(v1) = dofs.v1 {
+    if let Some(v1) = document!(context, Dof) {
         counts.push(("dofs", v1.dofs.len()));
     }
     if let Some((name, count, others)) = odd_one(&counts) {

@@ -17,8 +17,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?;
-    let joint_of_dof: Vec<usize> = dofs.joint_of_dof.iter().map(|joint| joint.get()).collect();
-    let dofs_of_joint = dofs.dofs_of_joint.iter().map(|list| list.iter().map(|dof| dof.get()));
+    let joint_of_dof: Vec<usize> =
+        dofs.dof_idx_to_joint_idx_mapping.iter().map(|joint| joint.get()).collect();
+    let dofs_of_joint =
+        dofs.joint_idx_to_dof_idxs_mapping.iter().map(|list| list.iter().map(|dof| dof.get()));
     if are_inverse(&joint_of_dof, dofs_of_joint.clone()) {
         return Some(());
     }

@@ -17,7 +17,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let layout = context.dof_layout()?;
-    let dofs = context.dofs()?.v1?;
+    let dofs = document!(context, Dof)?;
     for (index, dof) in dofs.dofs.iter().enumerate() {
         let (joint_idx, place) = layout.place(index)?;
         let joint = robot.joints.get(joint_idx)?;

@@ -15,7 +15,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dofs = context.dofs()?;
-    let joints = dofs.joint_of_dof.iter();
+    let joints = dofs.dof_idx_to_joint_idx_mapping.iter();
     for (dof, (before, after)) in (1..).zip(joints.clone().zip(joints.skip(1))) {
         if after < before {
             let pointer = format!("/dof_idx_to_joint_idx_mapping/{dof}");
@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if !findings.is_empty() {
         return Some(());
     }
-    for (joint, list) in dofs.dofs_of_joint.iter().enumerate() {
+    for (joint, list) in dofs.joint_idx_to_dof_idxs_mapping.iter().enumerate() {
         if !list.is_sorted() {
             let written: Vec<usize> = list.iter().map(|dof| dof.get()).collect();
             let mut right = written.clone();

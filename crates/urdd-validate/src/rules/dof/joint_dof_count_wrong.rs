@@ -20,7 +20,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?;
     let joints = robot.joints.iter().zip(&layout.dofs_of_joint);
-    for (index, ((joint, right), list)) in joints.zip(dofs.dofs_of_joint).enumerate() {
+    for (index, ((joint, right), list)) in
+        joints.zip(&dofs.joint_idx_to_dof_idxs_mapping).enumerate()
+    {
         if list.len() == right.len() {
             continue;
         }

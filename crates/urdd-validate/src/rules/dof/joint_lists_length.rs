@@ -16,8 +16,9 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let joints = context.robot()?.joints.len();
     let dofs = context.dofs()?;
-    let mut lists = vec![("joint_idx_to_dof_idxs_mapping", dofs.dofs_of_joint.len())];
-    if let Some(v1) = dofs.v1 {
+    let mut lists =
+        vec![("joint_idx_to_dof_idxs_mapping", dofs.joint_idx_to_dof_idxs_mapping.len())];
+    if let Some(v1) = document!(context, Dof) {
         let mimics = v1.joint_idx_to_mimic_mapping.len();
         lists.push(("joint_idx_to_mimic_mapping", mimics));
     }

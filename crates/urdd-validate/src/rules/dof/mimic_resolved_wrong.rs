@@ -19,7 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let mimics = context.mimics()?;
     let layout = context.dof_layout()?;
-    let dofs = context.dofs()?.v1?;
+    let dofs = document!(context, Dof)?;
     let joints = robot.joints.iter().zip(&mimics.by_joint);
     let written = dofs.joint_idx_to_mimic_mapping.iter();
     for (index, ((joint, right), written)) in joints.zip(written).enumerate() {

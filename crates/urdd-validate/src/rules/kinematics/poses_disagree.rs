@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let dofs = context.dofs()?;
     let modules = findings.or_skip(consumer::modules(context).ok_or(skip::KINEMATICS_OPEN))?;
-    let mut joints = robot.joints.iter().zip(dofs.dofs_of_joint);
+    let mut joints = robot.joints.iter().zip(&dofs.joint_idx_to_dof_idxs_mapping);
     let mimics =
         match joints.any(|(joint, dofs)| joint.active_mimic().is_some() && !dofs.is_empty()) {
             true => MimicDofs::Own,

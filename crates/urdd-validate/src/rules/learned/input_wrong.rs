@@ -21,7 +21,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let model = document!(context, SelfCollisionModel)?;
     let robot = context.robot()?;
-    let dof = context.dofs()?.v1?;
+    let dof = document!(context, Dof)?;
     let mut vectors: Vec<[usize; 3]> = Vec::new();
     for (joint, dofs) in robot.joints.iter().zip(&dof.joint_idx_to_dof_idxs_mapping) {
         let is_vector = matches!(joint.joint_type, JointType::Floating | JointType::Spherical);

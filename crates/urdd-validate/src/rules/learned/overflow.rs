@@ -17,7 +17,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let model = document!(context, SelfCollisionModel)?;
-    let bounds = context.bounds()?.bounds;
+    let bounds = &context.bounds()?.bounds;
     let mut largest: Vec<f64> = Vec::new();
     for input in &model.inputs {
         match input {

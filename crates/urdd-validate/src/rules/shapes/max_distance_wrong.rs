@@ -46,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let expected = volume.reach();
             let tolerance = number_tolerance(expected, value);
             let shortfall = match volume {
-                Volume::Sphere { radius, .. } if is_legacy(module) => {
+                Volume::Sphere { radius, .. } if module.is_legacy() => {
                     radius * LEGACY_SPHERE_SHORTFALL
                 }
                 _ => tolerance,

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = Kind::LinkShapesSimpleSkips;
     let document = context.document(kind)?;
     let shapes = context.shapes()?;
-    let joints = context.chain()?.joints.into_iter();
+    let joints = context.chain()?.joints_in_chain.iter();
     let joined: HashSet<(usize, usize)> = joints
         .map(|joint| ordered(joint.parent_link_idx.get(), joint.child_link_idx.get()))
         .collect();

@@ -16,9 +16,10 @@ pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> 
     let reading = context.urdf_text()?;
     let robot = reading.robot.as_ref()?;
     let actual = &module.json.document()?.value;
-    let expected = match module.document.as_ref()? {
-        ModuleDocument::LegacyUrdf(_) => as_legacy(robot)?,
-        _ => serde_json::to_value(robot).ok()?,
+    module.document.as_ref()?;
+    let expected = match module.is_legacy() {
+        true => as_legacy(robot)?,
+        false => serde_json::to_value(robot).ok()?,
     };
     let lines = LineIndex::new(&carried.text);
     let mut last = None;

@@ -1,0 +1,7 @@
+//! The network's functions and the choice of margins, compared with closed forms.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod calibration;
+mod kernel;
