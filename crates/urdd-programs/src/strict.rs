@@ -163,9 +163,9 @@ fn oddity(text: &str) -> Option<(usize, &'static str)> {
     if let Some((at, _)) = text.match_indices("&#").find(is_bad) {
         return Some((at, "a reference is of no character"));
     }
-    let is_empty = |&(at, _): &(usize, &str)| {
-        let value = text[at..]
-            .trim_start_matches(|one: char| one.is_alphanumeric() || "_-.: ".contains(one));
+    let is_empty = |&(at, mark): &(usize, &str)| {
+        let name = |one: char| one.is_alphanumeric() || "_-.".contains(one);
+        let value = text[at + mark.len()..].trim_start_matches(name);
         value.starts_with("=\"\"") || value.starts_with("=''")
     };
     if let Some((at, _)) = text.match_indices("xmlns:").find(is_empty) {
