@@ -70,7 +70,7 @@ impl<'t> Reader<'_, 't> {
                 self.effects.read_as(link, format!("link/{name}"), fault, "one with the others");
             }
             root = if is_root { Some(link) } else { root };
-            if links.insert(name, link).is_some() {
+            if links.insert(name, link).is_some_and(|other| !other.is_like(link)) {
                 let fault = Fault::not_unique("link", name);
                 self.effects.read_as(link, format!("link/{name}"), fault, "the last");
             }
@@ -324,7 +324,9 @@ impl<'t> Reader<'_, 't> {
         let mut last: HashMap<&str, Node<'t>> = HashMap::new();
         for joint in joints {
             let Some(child) = joint.child else { continue };
-            if let Some(other) = last.insert(child, joint.node) {
+            if let Some(other) =
+                last.insert(child, joint.node).filter(|one| !one.is_like(joint.node))
+            {
                 let part = format!("joint/{}/child", name_of(other));
                 let fault = Fault::Tree("a link is the child of two joints");
                 self.effects.drop(joint.node, part, fault);
