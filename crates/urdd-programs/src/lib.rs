@@ -16,12 +16,14 @@ mod program;
 mod pybullet;
 mod rapidxml;
 mod sdformat;
+mod strict;
+mod three;
 mod tinyxml;
 mod tinyxml1;
 mod tree;
 mod unknown;
-mod urdf_rs;
 mod urdfdom;
+mod usd;
 
 pub use effect::{Deed, Effect, Effects};
 pub use fault::Fault;

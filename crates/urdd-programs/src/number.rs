@@ -103,3 +103,44 @@ fn hexadecimal(text: &str) -> Read<'_> {
     }
     Some((number / scale * f64::from(power).exp2(), &body[end..]))
 }
+
+/// `float()` of Python: any white space around, `_` between digits, digits of any script.
+pub(crate) fn python(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text.chars().map(digit).peekable();
+    while let Some(character) = rest.next() {
+        let is_between = plain.ends_with(|last: char| last.is_ascii_digit())
+            && rest.peek().is_some_and(char::is_ascii_digit);
+        if character != '_' || !is_between {
+            plain.push(character);
+        }
+    }
+    plain.parse().ok()
+}
+
+/// A digit of another script as that of ASCII.
+fn digit(character: char) -> char {
+    const ZEROS: [u32; 16] = [
+        0x660, 0x6f0, 0x7c0, 0x966, 0x9e6, 0xa66, 0xae6, 0xb66, 0xbe6, 0xc66, 0xce6, 0xd66, 0xe50,
+        0xed0, 0xf20, 0xff10,
+    ];
+    let code = u32::from(character);
+    let value = ZEROS.iter().filter_map(|zero| code.checked_sub(*zero)).find(|value| *value < 10);
+    value.and_then(|value| char::from_digit(value, 10)).unwrap_or(character)
+}
+
+/// `parseFloat()` of `JavaScript`: the longest beginning that is a number, behind any white space; NaN if there is none.
+pub(crate) fn parse_float(text: &str) -> f64 {
+    let is_space = |character: char| {
+        character == '\u{feff}' || (character.is_whitespace() && character != '\u{85}')
+    };
+    let text = text.trim_start_matches(is_space);
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    match decimal(unsigned) {
+        Some((number, _)) => sign * number,
+        None if unsigned.starts_with("Infinity") => sign * f64::INFINITY,
+        None => f64::NAN,
+    }
+}

@@ -8,9 +8,23 @@ use crate::fault::Fault;
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
+use crate::program::About;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 use crate::urdfdom::{self, Joint, Link, Model, Release};
+
+/// Pinocchio.
+pub(crate) const ABOUT: About = About {
+    id: "pinocchio",
+    name: "Pinocchio",
+    version: "4.1.0",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &["mimic", "safety_controller", "calibration", "acceleration", "deceleration", "jerk"],
+    read: read,
+};
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = urdfdom::parse(file, effects)?;

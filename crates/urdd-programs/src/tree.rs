@@ -92,6 +92,36 @@ impl<'t> Node<'t> {
         self.children().filter(move |child| child.name() == name)
     }
 
+    /// Whether another element has the same attributes and elements in it.
+    pub fn is_like(self, other: Node<'_>) -> bool {
+        let mut open = vec![(self, other)];
+        while let Some((one, other)) = open.pop() {
+            let (first, second) = (one.attributes().iter(), other.attributes().iter());
+            let (inside, beside) = (one.children(), other.children());
+            let is_same = one.name() == other.name()
+                && first.len() == second.len()
+                && first.zip(second).all(|(a, b)| a.name == b.name && a.value == b.value)
+                && one.child_count() == other.child_count();
+            if !is_same {
+                return false;
+            }
+            open.extend(inside.zip(beside));
+        }
+        true
+    }
+
+    /// Another element beside the first of a name that says something else than it does.
+    pub fn repeated(self, name: &str) -> Option<Node<'t>> {
+        let is_empty = |node: Node<'_>| node.attributes().is_empty() && node.child_count() == 0;
+        let mut all = self.named(name).filter(|node| !is_empty(*node));
+        let first = all.next()?;
+        all.find(|other| !other.is_like(first))
+    }
+
+    fn child_count(self) -> usize {
+        self.element().children.len()
+    }
+
     pub fn child(self, name: &str) -> Option<Node<'t>> {
         self.named(name).next()
     }

@@ -5,16 +5,9 @@ use std::collections::HashSet;
 
 use crate::effect::Effects;
 use crate::fault::{Fault, shortened};
+use crate::program::About;
 use crate::tinyxml;
 use crate::tree::Node;
-
-/// What of URDF a program reads at all.
-#[derive(Clone, Copy)]
-pub(crate) struct Reads {
-    pub names: Names,
-    /// Elements and attributes that it never reads: nothing is lost with them.
-    pub never: &'static [&'static str],
-}
 
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -23,8 +16,6 @@ pub(crate) enum Names {
     Exact,
     /// In any letter case.
     AnyCase,
-    /// With any prefix; elements stand for attributes too.
-    AnyPrefix,
 }
 
 /// An element of URDF.
@@ -133,7 +124,7 @@ const fn known(
 }
 
 /// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(bytes: &[u8], reads: Reads, effects: &mut Effects) {
+pub(crate) fn find(bytes: &[u8], reads: &About, effects: &mut Effects) {
     let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
     let mut finder = Finder { reads, effects };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
@@ -156,7 +147,7 @@ struct Place {
 }
 
 struct Finder<'r> {
-    reads: Reads,
+    reads: &'r About,
     effects: &'r mut Effects,
 }
 
@@ -201,7 +192,6 @@ impl Finder<'_> {
         match self.reads.names {
             Names::Exact => name.to_owned(),
             Names::AnyCase => name.to_lowercase(),
-            Names::AnyPrefix => without_prefix(name).to_owned(),
         }
     }
 
@@ -214,8 +204,7 @@ impl Finder<'_> {
         place: &Place,
     ) {
         let name = node.name();
-        let is_value = self.reads.names == Names::AnyPrefix && known.attributes.contains(&name);
-        if is_extension(name) || is_value && !matches!(known.name, "robot" | "link") {
+        if is_extension(name) {
             return;
         }
         if let Some(like) = meant_element(inside, name, known) {
@@ -252,11 +241,7 @@ impl Finder<'_> {
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
-        let plain = |name| match self.reads.names {
-            Names::AnyPrefix => without_prefix(name),
-            _ => name,
-        };
-        let free = |one: &&str| !node.attributes().iter().any(|other| plain(&other.name) == *one);
+        let free = |one: &&str| node.attribute(one).is_none();
         let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
         let text = node.text().unwrap_or_default();
         let is_number = |word: &str| word.parse::<f64>().is_ok();
@@ -270,9 +255,10 @@ impl Finder<'_> {
             self.effects.drop(node, format!("{part}/?"), fault);
         }
         for attribute in node.attributes() {
-            let name = plain(&attribute.name);
+            let name = &*attribute.name;
             let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
-            let is_default = is_zero(&attribute.value) && matches!(known.name, "origin" | "axis");
+            let is_default =
+                is_zero(&attribute.value) && matches!(known.name, "origin" | "axis" | "inertia");
             if is_other || is_default || known.attributes.contains(&name) {
                 continue;
             }

@@ -10,8 +10,46 @@ use std::collections::{BTreeMap, HashSet};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
+use crate::program::About;
 use crate::tree::{Node, Tree};
+use crate::unknown::Names;
 use crate::{tinyxml, tinyxml1};
+
+/// ROS lyrical and rolling.
+pub(crate) const SIX: About = About {
+    id: "urdfdom6",
+    name: "ROS (urdfdom 6)",
+    version: "6.0.0",
+    settings: &["ros", "lyrical", "rolling"],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[],
+    read: read_six,
+};
+
+/// ROS jazzy and kilted.
+pub(crate) const FOUR: About = About {
+    id: "urdfdom4",
+    name: "ROS jazzy and kilted (urdfdom 4)",
+    version: "4.0.1",
+    settings: &["jazzy", "kilted"],
+    is_asked: false,
+    names: Names::Exact,
+    never: &[],
+    read: read_four,
+};
+
+/// ROS noetic, humble and iron.
+pub(crate) const THREE: About = About {
+    id: "urdfdom3",
+    name: "ROS noetic, humble and iron (urdfdom 3)",
+    version: "3.0.1",
+    settings: &["humble", "noetic", "iron"],
+    is_asked: false,
+    names: Names::Exact,
+    never: &[],
+    read: read_three,
+};
 
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;

@@ -11,8 +11,30 @@ use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{is_space, istream};
+use crate::program::About;
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
+
+/// Drake.
+pub(crate) const ABOUT: About = About {
+    id: "drake",
+    name: "Drake",
+    version: "1.51.1",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "version",
+        "quat_xyzw",
+    ],
+    read: read,
+};
 
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;

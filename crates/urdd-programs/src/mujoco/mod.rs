@@ -13,11 +13,60 @@ use std::collections::{HashMap, HashSet};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
+use crate::program::About;
 use crate::tinyxml;
 use crate::tree::Node;
+use crate::unknown::Names;
 use inertia::{Body, Pose};
 use joint::Joint;
 use settings::Settings;
+
+/// MuJoCo 4.
+pub(crate) const FOUR: About = About {
+    id: "mujoco",
+    name: "MuJoCo 4",
+    version: "4.0.0",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: NEVER_READ.split_at(1).1,
+    read: read_four,
+};
+
+/// MuJoCo 3.3.
+pub(crate) const THREE: About = About {
+    id: "mujoco33",
+    name: "MuJoCo 3.3",
+    version: "3.3.7",
+    settings: &["mujoco3.3"],
+    is_asked: false,
+    names: Names::Exact,
+    never: NEVER_READ,
+    read: read_three,
+};
+
+/// What 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is refused.
+const NEVER_READ: &[&str] = &[
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "version",
+    "quat_xyzw",
+    "texture",
+    "visual",
+    "material",
+    "color",
+    "geometry",
+    "box",
+    "cylinder",
+    "sphere",
+    "capsule",
+    "mesh",
+];
 
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;

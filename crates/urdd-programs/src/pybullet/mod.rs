@@ -11,8 +11,10 @@ use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{is_space, strtod};
+use crate::program::About;
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 
 /// Elements nested in each other, from which tinyxml2 as it is built there refuses.
 const MAX_DEPTH: usize = 99;
@@ -20,6 +22,35 @@ const MAX_DEPTH: usize = 99;
 const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("link", 2100)];
 /// A robot of more links, its root aside, can be asked for nothing.
 const MOST_LINKS: usize = 127;
+
+/// `PyBullet`.
+pub(crate) const ABOUT: About = About {
+    id: "pybullet",
+    name: "PyBullet",
+    version: "3.2.7",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[
+        "mimic",
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "version",
+        "quat_xyzw",
+        "texture",
+        "inertia",
+        "ixx",
+        "ixy",
+        "ixz",
+        "iyy",
+        "iyz",
+        "izz",
+    ],
+    read: read,
+};
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let lines = lines::Lines::of(file.bytes);

@@ -14,9 +14,32 @@ use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::number::{istream, whole};
+use crate::program::About;
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 use crate::urdfdom::{self, Model, Release};
+
+/// Gazebo.
+pub(crate) const ABOUT: About = About {
+    id: "sdformat",
+    name: "Gazebo (libsdformat 12)",
+    version: "12.3.0",
+    settings: &["gazebo"],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[
+        "mimic",
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "texture",
+        "quat_xyzw",
+    ],
+    read: read,
+};
 
 /// Open elements from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 99;

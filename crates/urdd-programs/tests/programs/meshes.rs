@@ -26,6 +26,7 @@ pub fn find(program: Program, name: &str) -> Mesh {
         ("pinocchio", "") if !rest.starts_with('/') => in_any(rest).into(),
         ("pinocchio", "package" | "model") => in_any(rest).into(),
         (_, "package" | "model") => vec![packages.join(rest)],
+        ("usd", "file") => vec![base.join(rest)],
         (_, "file") => vec![rest.into()],
         _ => vec![base.join(name)],
     };
