@@ -1,5 +1,4 @@
 // Driver: libsdformat 12 (Debian 12.3.0), sdf::Root::Load of a URDF. Protocol: paths on stdin, JSON lines on stdout.
-// Build: g++ -O1 -o drive_sdformat drive_sdformat.cpp $(pkg-config --cflags --libs sdformat12)
 // A file "loads" if Load returns no error and there is a model (what gz sim asks for before it spawns a model).
 #include <algorithm>
 #include <cmath>

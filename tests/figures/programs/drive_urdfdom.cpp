@@ -1,7 +1,5 @@
 // Driver: urdfdom (urdf::parseURDFFile, what every ROS program calls in the end).
-// Build 6.0.0: P=/work/peers/lib/python3.11/site-packages/cmeel.prefix; g++ -O1 -std=c++17 -I/tmp/programs/src/wh-3.0.0/cmeel.prefix/include/urdfdom_headers -I/tmp/programs/src/wh-3.0.0/cmeel.prefix/include -I$P/include/urdfdom -I$P/include /tmp/programs/drive_urdfdom.cpp -L$P/lib -lurdfdom_model -lconsole_bridge -Wl,-rpath,$P/lib -o /tmp/programs/drive_urdfdom6
-// Build 4.0.1: P=/tmp/programs/venv_urdfdom4/lib/python3.11/site-packages/cmeel.prefix; g++ -O1 -std=c++17 -DOLD -I/tmp/programs/src/wh-1.1.2/cmeel.prefix/include/urdfdom_headers -I/tmp/programs/src/wh-1.1.2/cmeel.prefix/include -I$P/include/urdfdom -I$P/include /tmp/programs/drive_urdfdom.cpp -L$P/lib -lurdfdom_model -lconsole_bridge -Wl,-rpath,$P/lib -o /tmp/programs/drive_urdfdom4
-// Build 3.0.1 (Debian bookworm; ROS humble has 3.0.2, the same code): X=/tmp/programs/src/deb3/x/usr; g++ -O1 -std=c++17 -DOLD -DTIXML_USE_STL -I$X/include drive_urdfdom.cpp $X/lib/x86_64-linux-gnu/{liburdfdom_model.so.3.0,libtinyxml.so.2.6.2,libconsole_bridge.so.1.0} -Wl,-rpath,$X/lib/x86_64-linux-gnu -Wl,--allow-shlib-undefined -o drive_urdfdom3
+// `install` builds it for 6.0.0; with -DOLD for 4.0.1, and for Debian's 3.0.1, of which ROS humble has 3.0.2.
 #include <console_bridge/console.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
