@@ -29,8 +29,17 @@ struct Score {
 
 #[test]
 fn readers_do_what_their_programs_do() {
-    let (letters, rows) = table::read(&table::folder().join("table.txt"));
+    let (letters, mut rows) = table::read(&table::folder().join("table.txt"));
     let chosen = std::env::var("URDD_PROGRAM").ok();
+    // A plain `cargo test` takes a fifth of the table, and all of it with URDD_TRIALS=5.
+    let trials: usize = std::env::var("URDD_TRIALS").map_or(1, |text| text.parse().unwrap());
+    if chosen.is_none() {
+        let mut index = 0;
+        rows.retain(|row| {
+            index += 1;
+            index % 5 < trials || row.id.ends_with("/unchanged")
+        });
+    }
     let mut failed = Vec::new();
     for program in Program::ALL {
         if chosen.as_ref().is_some_and(|chosen| chosen != program.id()) {
