@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Driver of Drake 1.51.1 (/work/peers/bin/python).
+"""Driver of Drake 1.51.1.
 
 plant, scene_graph = AddMultibodyPlantSceneGraph(DiagramBuilder(), time_step=0.001)
 Parser(plant).AddModels(file) ; plant.Finalize()
 PACKAGES: each folder goes to package_map().PopulateFromFolder(folder).
 """
+
 import json, os, sys, tempfile
 
 proto = os.fdopen(os.dup(1), "w", buffering=1, encoding="utf-8", errors="surrogateescape")
@@ -33,8 +34,15 @@ for h in list(log.handlers):
 log.addHandler(Keep())
 log.propagate = False
 
-TYPES = {"weld": "fixed", "revolute": "revolute", "prismatic": "prismatic", "planar": "planar",
-         "quaternion_floating": "floating", "rpy_floating": "floating", "ball_rpy": "spherical"}
+TYPES = {
+    "weld": "fixed",
+    "revolute": "revolute",
+    "prismatic": "prismatic",
+    "planar": "planar",
+    "quaternion_floating": "floating",
+    "rpy_floating": "floating",
+    "ball_rpy": "spherical",
+}
 
 
 def num(x):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Driver of MuJoCo (4.0.0 in /work/peers/bin/python, 3.3.7 in /tmp/programs/venv_mujoco33/bin/python).
+"""Driver of MuJoCo 4.0.0 and 3.3.7.
 
 Verdict: mujoco.MjModel.from_xml_path(file). Facts: the same file as MjSpec (before static bodies
 are fused, visuals are discarded as always), and that spec compiled with fusestatic off; where this
@@ -11,6 +11,7 @@ MuJoCo 3.3 keeps of a mesh's file name the part behind the last / alone, and loo
 the URDF's folder (and below PACKAGES) into one folder, with a copy of the URDF, as a user of 3.3 does;
 MUJOCO_FLAT=0 in the environment switches that off.
 """
+
 import json, os, sys, tempfile
 
 proto = os.fdopen(os.dup(1), "w", buffering=1, encoding="utf-8", errors="surrogateescape")
@@ -46,8 +47,12 @@ def pose(p, q):
     return nums(p) + " " + nums(quat(q))
 
 
-JT = {mujoco.mjtJoint.mjJNT_FREE: "floating", mujoco.mjtJoint.mjJNT_BALL: "spherical",
-      mujoco.mjtJoint.mjJNT_SLIDE: "prismatic", mujoco.mjtJoint.mjJNT_HINGE: "revolute"}
+JT = {
+    mujoco.mjtJoint.mjJNT_FREE: "floating",
+    mujoco.mjtJoint.mjJNT_BALL: "spherical",
+    mujoco.mjtJoint.mjJNT_SLIDE: "prismatic",
+    mujoco.mjtJoint.mjJNT_HINGE: "revolute",
+}
 
 
 def geometry(g, spec):
@@ -149,7 +154,10 @@ def facts_of(path, model):
             a, b = full.eq_obj1id[i], full.eq_obj2id[i]
             if b >= 0:
                 f["joint/%s/mimic" % full.joint(a).name] = "%s %s %s" % (
-                    full.joint(b).name, num(full.eq_data[i][1]), num(full.eq_data[i][0]))
+                    full.joint(b).name,
+                    num(full.eq_data[i][1]),
+                    num(full.eq_data[i][0]),
+                )
     return f
 
 
@@ -166,8 +174,11 @@ def flat(path):
             for d, ds, fs in os.walk(top):
                 ds.sort()
                 for n in sorted(fs):
-                    if not n.lower().endswith((".urdf", ".xml", ".json", ".py")) and len(os.listdir(made)) < 1500 \
-                            and not os.path.lexists(os.path.join(made, n)):
+                    if (
+                        not n.lower().endswith((".urdf", ".xml", ".json", ".py"))
+                        and len(os.listdir(made)) < 1500
+                        and not os.path.lexists(os.path.join(made, n))
+                    ):
                         os.symlink(os.path.join(d, n), os.path.join(made, n))
         FLATS[folder] = made
     there = os.path.join(FLATS[folder], os.path.basename(path))

@@ -176,11 +176,8 @@ def of_joint(prim, name: str) -> dict[str, object]:
         unit = {"X": Gf.Vec3f(1, 0, 0), "Y": Gf.Vec3f(0, 1, 0), "Z": Gf.Vec3f(0, 0, 1)}[of.GetAxisAttr().Get()]
         facts[f"{key}/axis"] = numbers(joint.GetLocalRot1Attr().Get().Transform(unit))
         lower, upper = of.GetLowerLimitAttr(), of.GetUpperLimitAttr()
-        if (
-            (lower.HasAuthoredValue()
-            and math.isfinite(lower.Get()))
-            or (upper.HasAuthoredValue()
-            and math.isfinite(upper.Get()))
+        if (lower.HasAuthoredValue() and math.isfinite(lower.Get())) or (
+            upper.HasAuthoredValue() and math.isfinite(upper.Get())
         ):
             read = math.radians if turns else float
             facts[f"{key}/lower"], facts[f"{key}/upper"] = number(read(lower.Get())), number(read(upper.Get()))
