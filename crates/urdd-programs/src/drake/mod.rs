@@ -1,0 +1,266 @@
+//! Drake 1.51.1: `Parser.AddModels` into a plant with a scene graph, and `Finalize`. It reads as many numbers as a text
+//! begins with, refuses every mesh that it does not find, and has collisions of few formats of meshes.
+
+mod inertia;
+mod joints;
+mod shapes;
+
+use std::collections::{HashMap, HashSet};
+
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::file::File;
+use crate::number::{is_space, istream};
+use crate::program::About;
+use crate::tinyxml;
+use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
+
+/// Drake.
+pub(crate) const ABOUT: About = About {
+    id: "drake",
+    name: "Drake",
+    version: "1.51.1",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "version",
+        "quat_xyzw",
+    ],
+    read: read,
+};
+
+/// Open elements, the root among them, from which tinyxml2 refuses.
+const MAX_DEPTH: usize = 499;
+
+/// The link that is Drake's own.
+const WORLD: &str = "world";
+
+pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
+        .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
+        return effects.refuse(0, Fault::NotRobot);
+    };
+    let mut reader = Reader { file, effects, materials: HashMap::new() };
+    reader.named(robot, "robot")?;
+    for material in robot.named("material") {
+        reader.material(material, true)?;
+    }
+    let links = reader.links(robot)?;
+    reader.collision_filters(robot, &links)?;
+    reader.joints(robot, &links)
+}
+
+struct Reader<'r> {
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+    /// Those that have been defined up to here, in the robot or in a visual.
+    materials: HashMap<String, Material>,
+}
+
+/// A material with a name.
+struct Material {
+    rgba: Vec<f64>,
+    texture: Option<String>,
+    /// Where its colour is in the file.
+    at: usize,
+}
+
+/// The links by their names, without that of the world.
+type Links<'t> = HashMap<&'t str, Node<'t>>;
+
+impl Reader<'_> {
+    /// The name of the robot or of a link. Empty, it ends the process in C++.
+    fn named<'t>(&mut self, node: Node<'t>, kind: &'static str) -> Reading<&'t str> {
+        let name = self.effects.needed(node, "name")?;
+        let rule = "the program keeps this name for itself";
+        match &*name.value {
+            "" => self.effects.refuse(name, Fault::Empty("name")),
+            "WorldModelInstance" | "DefaultModelInstance" if kind == "robot" => {
+                let fault = Fault::Name { kind, name: shortened(&name.value), rule };
+                self.effects.refuse(name, fault)
+            }
+            name => Ok(name),
+        }
+    }
+
+    fn links<'t>(&mut self, robot: Node<'t>) -> Reading<Links<'t>> {
+        let mut links = HashMap::new();
+        for link in robot.named("link") {
+            if self.is_ignored(link) {
+                continue;
+            }
+            let name = self.named(link, "link")?;
+            let part = format!("link/{name}");
+            let inertial = self.first(link, "inertial", &format!("{part}/inertial"));
+            if name == WORLD {
+                let fault = Fault::Other("a link `world` is the world of the program");
+                self.effects.read_as(link, &*part, fault, "the world");
+                if let Some(inertial) = inertial {
+                    let fault = Fault::NeverRead("inertial".into());
+                    self.effects.drop(inertial, format!("{part}/inertial"), fault);
+                }
+            } else {
+                if let Some(inertial) = inertial {
+                    self.inertial(inertial, &format!("{part}/inertial"))?;
+                }
+                if links.insert(name, link).is_some() {
+                    return self.effects.refuse(link, Fault::not_unique("link", name));
+                }
+            }
+            for kind in ["visual", "collision"] {
+                for (index, shape) in link.named(kind).enumerate() {
+                    self.shape(shape, &format!("{part}/{kind}/{index}"))?;
+                }
+            }
+        }
+        Ok(links)
+    }
+
+    fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
+        let groups = || robot.named("drake:collision_filter_group");
+        let names: HashSet<&str> = groups().filter_map(|group| group.value("name")).collect();
+        for group in groups() {
+            self.effects.needed(group, "name")?;
+            for member in group.named("drake:member") {
+                let link = self.effects.needed(member, "link")?;
+                if !links.contains_key(&*link.value) {
+                    return self.effects.refuse(link, Fault::unknown("link", &link.value));
+                }
+            }
+            for ignored in group.named("drake:ignored_collision_filter_group") {
+                let name = self.effects.needed(ignored, "name")?;
+                if !names.contains(&*name.value) {
+                    return self.effects.refuse(name, Fault::unknown("group", &name.value));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a link or joint says that Drake has to leave it out.
+    fn is_ignored(&mut self, node: Node<'_>) -> bool {
+        let ignored = node.attribute("drake_ignore").filter(|ignored| ignored.value == "true");
+        if let Some(ignored) = ignored {
+            let part = format!("{}/{}", node.name(), node.value("name").unwrap_or_default());
+            self.effects.drop(ignored, part, Fault::Other("`drake_ignore` is `true`"));
+        }
+        ignored.is_some()
+    }
+
+    /// The colour of a material. In a visual it may be a name that was defined before.
+    fn material(&mut self, node: Node<'_>, is_global: bool) -> Reading<Option<(usize, Vec<f64>)>> {
+        let name = node.value("name").unwrap_or_default();
+        if name.is_empty() && is_global {
+            return self.effects.refuse(node, Fault::Missing("name"));
+        }
+        if let Some(map) = node.child("drake:diffuse_map") {
+            return self.effects.refuse(map, Fault::Other("`<drake:diffuse_map>` is not for URDF"));
+        }
+        let texture = node.child("texture").and_then(|texture| texture.attribute("filename"));
+        let texture = texture.filter(|filename| !filename.value.is_empty());
+        if let Some(filename) = texture {
+            self.found(filename, "the file of the texture was not found")?;
+        }
+        let mut color = None;
+        if let Some(of) = node.child("color") {
+            let rgba = self.effects.needed(of, "rgba")?;
+            color = Some((rgba.range.start, self.numbers(rgba, 4, "material")?));
+        }
+        if name.is_empty() {
+            return Ok(color);
+        }
+        if let Some(known) = self.materials.get(name) {
+            let is_other = |color: &[f64]| {
+                let squares = color.iter().zip(&known.rgba).map(|(a, b)| (a - b).powi(2));
+                squares.sum::<f64>().sqrt() > 1e-10
+            };
+            if is_global
+                || texture.is_some_and(|one| known.texture.as_deref() != Some(&*one.value))
+                || color.as_ref().is_some_and(|(_, color)| is_other(color))
+            {
+                return self.effects.refuse(node, Fault::not_unique("material", name));
+            }
+            return Ok(Some((known.at, known.rgba.clone())));
+        }
+        if color.is_none() && texture.is_none() {
+            let fault = match is_global {
+                true => Fault::Other("the material has no colour and no texture"),
+                false => Fault::unknown("material", name),
+            };
+            return self.effects.refuse(node, fault);
+        }
+        let (at, rgba) = color.unwrap_or_else(|| (node.start(), vec![0.0; 4]));
+        let texture = texture.map(|filename| filename.value.to_string());
+        self.materials.insert(name.to_owned(), Material { rgba: rgba.clone(), texture, at });
+        Ok(Some((at, rgba)))
+    }
+
+    /// The first child of a name, which is the one that counts: also if it is empty, and another one is not.
+    fn first<'t>(&mut self, parent: Node<'t>, name: &str, part: &str) -> Option<Node<'t>> {
+        let mut all = parent.named(name);
+        let first = all.next()?;
+        if first.is_empty() && all.any(|other| !other.is_empty()) {
+            self.effects.drop(first, part, Fault::Repeated(name.to_owned()));
+        }
+        Some(first)
+    }
+
+    fn pose(&mut self, parent: Node<'_>, part: &str) -> Reading<()> {
+        let Some(origin) = self.first(parent, "origin", part) else { return Ok(()) };
+        for name in ["xyz", "rpy"] {
+            self.vector(origin, name, 3, part)?;
+        }
+        if let Some(quaternion) = origin.attribute("quat_xyzw") {
+            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
+        }
+        Ok(())
+    }
+
+    /// A number that may be left out.
+    fn number(&mut self, node: Node<'_>, name: &str, part: &str) -> Reading<Option<f64>> {
+        Ok(self.vector(node, name, 1, part)?.and_then(|numbers| numbers.first().copied()))
+    }
+
+    /// Numbers that may be left out.
+    fn vector(
+        &mut self,
+        node: Node<'_>,
+        name: &str,
+        count: usize,
+        part: &str,
+    ) -> Reading<Option<Vec<f64>>> {
+        node.attribute(name).map(|value| self.numbers(value, count, part)).transpose()
+    }
+
+    /// As many numbers as the text begins with: what follows them is left out.
+    fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &str) -> Reading<Vec<f64>> {
+        let text = &*value.value;
+        let (mut numbers, mut rest) = (Vec::new(), text);
+        while let Some((number, behind)) = istream(rest) {
+            numbers.push(number);
+            rest = behind;
+        }
+        let is_only_numbers = rest.trim_start_matches(is_space).is_empty();
+        if numbers.len() != count {
+            let fault = match is_only_numbers && !numbers.is_empty() {
+                true => Fault::count(&value.name, count, text),
+                false => Fault::not_a_number(&value.name, text),
+            };
+            return self.effects.refuse(value, fault);
+        }
+        if !is_only_numbers {
+            let fault = Fault::not_a_number(&value.name, text);
+            let read: Vec<String> = numbers.iter().map(f64::to_string).collect();
+            self.effects.read_as(value, part, fault, read.join(" "));
+        }
+        Ok(numbers)
+    }
+}

@@ -1,0 +1,139 @@
+//! How Drake reads visuals and collisions.
+
+use std::sync::Arc;
+
+use super::Reader;
+use crate::effect::Reading;
+use crate::fault::{Fault, shortened};
+use crate::mesh::{Mesh, MeshFacts};
+use crate::number::is_space;
+use crate::tree::{Attribute, Node};
+
+/// The shapes in the order in which Drake looks for them, and their sizes.
+const SHAPES: [(&str, &[&str]); 7] = [
+    ("box", &["size"]),
+    ("sphere", &["radius"]),
+    ("cylinder", &["radius", "length"]),
+    ("capsule", &["radius", "length"]),
+    ("drake:capsule", &["radius", "length"]),
+    ("mesh", &[]),
+    ("drake:ellipsoid", &["a", "b", "c"]),
+];
+
+impl Reader<'_> {
+    pub(super) fn shape(&mut self, shape: Node<'_>, part: &str) -> Reading<()> {
+        let geometry = self.effects.needed_element(shape, "geometry")?;
+        self.pose(shape, part)?;
+        let known = SHAPES.iter().find_map(|(name, sizes)| Some((geometry.child(name)?, *sizes)));
+        let Some((form, sizes)) = known else {
+            return match geometry.children().next() {
+                Some(other) => self.effects.refuse(other, Fault::Shape(shortened(other.name()))),
+                None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
+            };
+        };
+        for name in sizes {
+            let value = self.effects.needed(form, name)?;
+            let count = if *name == "size" { 3 } else { 1 };
+            let numbers = self.numbers(value, count, part)?;
+            let may_be_zero = form.name() == "sphere";
+            if numbers.iter().any(|&size| size < 0.0 || (size == 0.0 && !may_be_zero)) {
+                let fault = Fault::range(name, &value.value, "a size must be above 0");
+                return self.effects.refuse(value, fault);
+            }
+        }
+        if shape.name() == "visual" {
+            self.color(shape, &format!("{part}/material"))?;
+        }
+        if let Some(name) = shape.attribute("name")
+            && name.value.trim_matches(is_space).is_empty()
+        {
+            return self.effects.refuse(name, Fault::Empty("name"));
+        }
+        match form.name() {
+            "mesh" => self.mesh(form, part, shape.name() == "collision"),
+            _ => Ok(()),
+        }
+    }
+
+    fn color(&mut self, visual: Node<'_>, part: &str) -> Reading<()> {
+        let Some(material) = self.first(visual, "material", part) else { return Ok(()) };
+        let Some((at, rgba)) = self.material(material, false)? else { return Ok(()) };
+        match rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
+            true => Ok(()),
+            false => {
+                let text: Vec<String> = rgba.iter().map(f64::to_string).collect();
+                let fault =
+                    Fault::range("rgba", &text.join(" "), "a colour is of numbers from 0 to 1");
+                self.effects.refuse(at, fault)
+            }
+        }
+    }
+
+    fn mesh(&mut self, mesh: Node<'_>, part: &str, is_collision: bool) -> Reading<()> {
+        let filename = self.effects.needed(mesh, "filename")?;
+        let facts = self.found(filename, "the file of the mesh was not found")?;
+        if let Some(scale) = mesh.attribute("scale") {
+            // One number stands for all three.
+            let count = if scale.value.contains(' ') { 3 } else { 1 };
+            let numbers = self.numbers(scale, count, part)?;
+            if numbers.iter().any(|number| number.abs() < 1e-8) {
+                let fault = Fault::range("scale", &scale.value, "a scale must not be 0");
+                return self.effects.refuse(scale, fault);
+            }
+        }
+        match is_collision {
+            true => self.hull(filename, facts.as_deref()),
+            false => Ok(()),
+        }
+    }
+
+    /// The convex hull of a collision's mesh.
+    fn hull(&mut self, filename: &Attribute<'_>, facts: Option<&MeshFacts>) -> Reading<()> {
+        let name = filename.value.rsplit('/').next().unwrap_or_default();
+        let end = name.rsplit_once('.').filter(|(stem, _)| !stem.is_empty());
+        let end = end.map(|(_, end)| end.to_ascii_lowercase()).unwrap_or_default();
+        let why = match &*end {
+            "obj" => match facts.and_then(|facts| Some((facts.obj.as_ref()?, &facts.measures))) {
+                Some((obj, _)) if obj.vertices < 3 => "the mesh has fewer than three vertices",
+                Some((obj, _)) if obj.faces == 0 => "the mesh has no face",
+                Some((_, measures)) if measures.spread[0] < 1e-12 => "the mesh is a point",
+                Some((_, measures)) if measures.spread[1] < 1e-12 => "the mesh is a line",
+                _ => return Ok(()),
+            },
+            "vtk" | "gltf" => return Ok(()),
+            _ => "a collision can only have a mesh in OBJ, glTF (.gltf) or VTK",
+        };
+        self.effects.refuse(filename, Fault::Mesh(why))
+    }
+
+    /// What is in a file that must be there; none if it is not known.
+    pub(super) fn found(
+        &mut self,
+        filename: &Attribute<'_>,
+        missing: &'static str,
+    ) -> Reading<Option<Arc<MeshFacts>>> {
+        let name = &*filename.value;
+        let mesh = match uri(name) {
+            Some(("file", _, path)) => self.file.mesh(&format!("file:///{path}")),
+            Some(("package" | "model", package, _)) if !package.is_empty() => self.file.mesh(name),
+            None if name.is_empty() => Mesh::Unknown,
+            None if !name.contains("://") => self.file.mesh(name),
+            _ => Mesh::Missing,
+        };
+        match mesh {
+            Mesh::Unknown => Ok(None),
+            Mesh::Found(facts) => Ok(Some(facts)),
+            Mesh::Missing => self.effects.refuse(filename, Fault::Mesh(missing)),
+        }
+    }
+}
+
+/// Scheme, authority and path of a URI. `file://part.stl` is none to Drake.
+fn uri(name: &str) -> Option<(&str, &str, &str)> {
+    let (scheme, rest) = name.split_once("://")?;
+    let (authority, path) = rest.split_once('/')?;
+    let is_scheme =
+        |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || b"+.-".contains(&byte);
+    let fits = !scheme.is_empty() && scheme.bytes().all(is_scheme);
+    fits.then(|| (scheme, authority, path.trim_start_matches('/')))
+}

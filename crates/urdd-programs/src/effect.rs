@@ -1,0 +1,131 @@
+//! What a program does because of something in a file.
+
+use crate::fault::Fault;
+use crate::tree::{Attribute, Node};
+
+/// What becomes of a part of a robot in a program, or of the whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Deed {
+    /// It reads the part otherwise than the file says.
+    Reads,
+    /// It leaves the part out.
+    Drops,
+    /// It refuses the whole file.
+    Refuses,
+    /// It crashes.
+    Crashes,
+}
+
+/// What a program does, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect {
+    /// What it does.
+    pub deed: Deed,
+    /// The element or attribute that is the reason: its first byte in the file.
+    pub at: usize,
+    /// The part that is lost or read otherwise, such as `joint/elbow/limit`; empty for the whole file.
+    pub part: String,
+    /// What is wrong there, or what the program does not know.
+    pub fault: Fault,
+    /// What it makes of the part, if it reads it otherwise: `1`, `fixed`.
+    pub makes: Option<String>,
+}
+
+/// What a program does with a file, as its reader finds it out.
+#[derive(Debug, Clone, Default)]
+pub struct Effects(pub Vec<Effect>);
+
+/// The file is refused: reading ends.
+pub(crate) struct Refused;
+
+/// What a reader's functions give: nothing more where the program stops.
+pub(crate) type Reading<T> = Result<T, Refused>;
+
+impl Effects {
+    /// The worst that happens; none if all is read as it is written.
+    pub fn worst(&self) -> Option<Deed> {
+        self.0.iter().map(|effect| effect.deed).max()
+    }
+
+    /// Whether the program has a robot in the end.
+    pub fn loads(&self) -> bool {
+        self.worst().is_none_or(|worst| worst < Deed::Refuses)
+    }
+
+    fn add(&mut self, deed: Deed, at: usize, part: String, fault: Fault, makes: Option<String>) {
+        self.0.push(Effect { deed, at, part, fault, makes });
+    }
+
+    pub(crate) fn refuse<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
+        self.add(Deed::Refuses, at.at(), String::new(), fault, None);
+        Err(Refused)
+    }
+
+    pub(crate) fn crash<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
+        self.add(Deed::Crashes, at.at(), String::new(), fault, None);
+        Err(Refused)
+    }
+
+    pub(crate) fn drop(&mut self, at: impl At, part: impl Into<String>, fault: Fault) {
+        self.add(Deed::Drops, at.at(), part.into(), fault, None);
+    }
+
+    pub(crate) fn read_as(
+        &mut self,
+        at: impl At,
+        part: impl Into<String>,
+        fault: Fault,
+        makes: impl Into<String>,
+    ) {
+        self.add(Deed::Reads, at.at(), part.into(), fault, Some(makes.into()));
+    }
+}
+
+/// What a program refuses to be without.
+impl Effects {
+    pub(crate) fn needed<'t>(
+        &mut self,
+        node: Node<'t>,
+        name: &'static str,
+    ) -> Reading<&'t Attribute<'t>> {
+        match node.attribute(name) {
+            Some(value) => Ok(value),
+            None => self.refuse(node, Fault::Missing(name)),
+        }
+    }
+
+    pub(crate) fn needed_element<'t>(
+        &mut self,
+        node: Node<'t>,
+        name: &'static str,
+    ) -> Reading<Node<'t>> {
+        match node.child(name) {
+            Some(child) => Ok(child),
+            None => self.refuse(node, Fault::MissingElement(name)),
+        }
+    }
+}
+
+/// Something with a place in the file.
+pub(crate) trait At {
+    /// Its first byte.
+    fn at(self) -> usize;
+}
+
+impl At for usize {
+    fn at(self) -> usize {
+        self
+    }
+}
+
+impl At for Node<'_> {
+    fn at(self) -> usize {
+        self.start()
+    }
+}
+
+impl At for &Attribute<'_> {
+    fn at(self) -> usize {
+        self.range.start
+    }
+}

@@ -1,0 +1,162 @@
+//! What in a file makes a program do something else than its author meant, in words that hold for all programs.
+
+use std::fmt;
+
+/// A reason. Programs that do something at one place for one reason share a sentence.
+// Fields are what the sentence of a fault names.
+#[allow(missing_docs)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Fault {
+    /// The parser of XML cannot read the file.
+    Xml(&'static str),
+    /// The root is another element.
+    NotRobot,
+    /// An attribute that is needed is not there.
+    Missing(&'static str),
+    /// An element that is needed is not there.
+    MissingElement(&'static str),
+    /// An attribute is empty.
+    Empty(&'static str),
+    /// Text that is no number to the program.
+    NotANumber { attribute: String, text: String },
+    /// Another count of numbers than there should be.
+    Count { attribute: String, expected: usize, text: String },
+    /// A number outside of what is allowed: "must not be negative".
+    Range { attribute: String, text: String, rule: &'static str },
+    /// Another element of a name that stands once.
+    Repeated(String),
+    /// Another part of the same kind and name.
+    NotUnique { kind: &'static str, name: String },
+    /// Refers to something that is not there.
+    Unknown { kind: &'static str, name: String },
+    /// A value that is none of those that are allowed.
+    Value { attribute: String, text: String },
+    /// A shape that the program does not know.
+    Shape(String),
+    /// An element or attribute that the program never reads.
+    NeverRead(String),
+    /// An element that URDF does not have in its place, and the one that it looks like.
+    UnknownElement { name: String, like: &'static str },
+    /// An attribute that its element does not have, and the one that it looks like.
+    UnknownAttribute { name: String, like: &'static str },
+    /// The joints and links make no tree.
+    Tree(&'static str),
+    /// A mesh file: "its file was not found".
+    Mesh(&'static str),
+    /// The version of URDF on `<robot>`.
+    Version(String),
+    /// A name that the program cannot have.
+    Name { kind: &'static str, name: String, rule: &'static str },
+    /// Anything else, as a sentence without its end.
+    Other(&'static str),
+}
+
+impl Fault {
+    pub(crate) fn not_a_number(attribute: &str, text: &str) -> Fault {
+        Fault::NotANumber { attribute: attribute.to_owned(), text: shortened(text) }
+    }
+
+    pub(crate) fn count(attribute: &str, expected: usize, text: &str) -> Fault {
+        Fault::Count { attribute: attribute.to_owned(), expected, text: shortened(text) }
+    }
+
+    pub(crate) fn range(attribute: &str, text: &str, rule: &'static str) -> Fault {
+        Fault::Range { attribute: attribute.to_owned(), text: shortened(text), rule }
+    }
+
+    pub(crate) fn value(attribute: &str, text: &str) -> Fault {
+        Fault::Value { attribute: attribute.to_owned(), text: shortened(text) }
+    }
+
+    pub(crate) fn not_unique(kind: &'static str, name: &str) -> Fault {
+        Fault::NotUnique { kind, name: shortened(name) }
+    }
+
+    pub(crate) fn unknown(kind: &'static str, name: &str) -> Fault {
+        Fault::Unknown { kind, name: shortened(name) }
+    }
+
+    /// What to do about it.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Fault::Xml(_) => "mend the XML",
+            Fault::NotRobot => "make `<robot>` the root",
+            Fault::Missing(_) | Fault::MissingElement(_) | Fault::Empty(_) => "write it",
+            Fault::NotANumber { .. } => {
+                "write a decimal number, such as `1.5`, without white space around it"
+            }
+            Fault::Count { .. } => "write them with single spaces between them",
+            Fault::Range { .. } => "write another number",
+            Fault::Repeated(_) => "keep one",
+            Fault::NotUnique { .. } => "rename one of them, or remove it",
+            Fault::Unknown { .. } => "mend the name, or add what it names",
+            Fault::Value { .. } => "write one of those that URDF defines",
+            Fault::Shape(_) => "use box, cylinder, sphere or mesh",
+            Fault::NeverRead(_) => "do not rely on it there",
+            Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
+                "correct the name, or move it to its place"
+            }
+            Fault::Tree(_) => "give each link but one a joint of which it is the child",
+            Fault::Mesh(_) => "export the mesh in another format, or mend its file",
+            Fault::Version(_) => "write `1.0`, or remove it",
+            Fault::Name { .. } => "rename it",
+            Fault::Other(_) => "mend it",
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::Xml(what) | Fault::Tree(what) | Fault::Mesh(what) | Fault::Other(what) => {
+                f.write_str(what)
+            }
+            Fault::NotRobot => f.write_str("the root is not `<robot>`"),
+            Fault::Missing(attribute) => write!(f, "`{attribute}` is missing"),
+            Fault::MissingElement(element) => write!(f, "`<{element}>` is missing"),
+            Fault::Empty(attribute) => write!(f, "`{attribute}` is empty"),
+            Fault::NotANumber { attribute, text } => {
+                write!(f, "`{attribute}` is `{text}`, which is not only a number")
+            }
+            Fault::Count { attribute, expected, text } => {
+                let numbers = if *expected == 1 { "number" } else { "numbers" };
+                write!(f, "`{attribute}` is `{text}`, and should be {expected} {numbers}")
+            }
+            Fault::Range { attribute, text, rule } => {
+                write!(f, "`{attribute}` is `{text}`, and {rule}")
+            }
+            Fault::Repeated(element) => write!(f, "another `<{element}>` is there before"),
+            Fault::NotUnique { kind, name } => write!(f, "another {kind} is called `{name}`"),
+            Fault::Unknown { kind, name } => write!(f, "no {kind} is called `{name}`"),
+            Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
+            Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
+            Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
+            Fault::UnknownElement { name, like } if name == like => {
+                write!(f, "`<{name}>` is where URDF does not have it")
+            }
+            Fault::UnknownElement { name, like } => {
+                write!(f, "`<{name}>` is not an element of URDF here (`<{like}>` is)")
+            }
+            Fault::UnknownAttribute { name, like } if name == like => {
+                write!(f, "`{name}` is on an element that does not have it")
+            }
+            Fault::UnknownAttribute { name, like } => {
+                write!(f, "`{name}` is not an attribute of URDF here (`{like}` is)")
+            }
+            Fault::Version(version) => write!(f, "URDF has no version `{version}`"),
+            Fault::Name { kind, name, rule } => {
+                write!(f, "a {kind} is called `{name}`, and {rule}")
+            }
+        }
+    }
+}
+
+/// Shortens text for a message.
+pub(crate) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}

@@ -1,0 +1,189 @@
+//! Joints.
+
+use std::collections::{HashMap, HashSet};
+
+use super::inertia::Pose;
+use super::{Reader, Release};
+use crate::effect::Reading;
+use crate::fault::Fault;
+use crate::tree::Node;
+
+/// A joint, as the tree asks for it.
+pub(super) struct Joint<'t> {
+    pub node: Node<'t>,
+    pub name: &'t str,
+    pub kind: &'t str,
+    pub pose: Pose,
+}
+
+impl Joint<'_> {
+    pub fn moves(&self) -> bool {
+        self.kind != "fixed"
+    }
+
+    /// Whether it can mimic, and be mimicked.
+    fn is_scalar(&self) -> bool {
+        matches!(self.kind, "revolute" | "continuous" | "prismatic")
+    }
+}
+
+impl Reader<'_> {
+    /// Reads a joint; `names` are those of joints that move.
+    pub fn joint<'t>(
+        &mut self,
+        node: Node<'t>,
+        names: &mut HashSet<&'t str>,
+    ) -> Reading<Joint<'t>> {
+        const KINDS: [&str; 7] =
+            ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+        let Some(kind) = node.attribute("type") else {
+            return self.effects.refuse(node, Fault::Missing("type"));
+        };
+        if !KINDS.contains(&&*kind.value) {
+            return self.effects.refuse(kind, Fault::value("type", &kind.value));
+        }
+        let name = self.text(node, "name")?;
+        let part = format!("joint/{name}");
+        let pose = self.origin(node, &part)?;
+        let joint = Joint { node, name, kind: &kind.value, pose };
+        self.axis(&joint)?;
+        if !joint.moves() {
+            return Ok(joint);
+        }
+        self.readable(node, "joint", name);
+        if let Some(origin) = node.child("origin") {
+            self.finite(origin, &["xyz", "rpy"]);
+        }
+        if !names.insert(name) && !name.is_empty() {
+            let fault = Fault::not_unique("joint", name);
+            match self.release {
+                Release::Three => return self.effects.refuse(node, fault),
+                Release::Four => self.effects.read_as(node, &*part, fault, "without a name"),
+            }
+        }
+        if let Some(dynamics) = self.only(node, "dynamics")? {
+            let part = format!("{part}/dynamics");
+            self.number(dynamics, "damping", &part)?;
+            self.number(dynamics, "friction", &part)?;
+            self.finite(dynamics, &["damping", "friction"]);
+        }
+        self.limit(&joint, &part)?;
+        if joint.kind == "planar" {
+            let fault = Fault::Other("a planar joint becomes three joints");
+            let makes = format!("{name}_TX, {name}_TY and {name}_RZ");
+            self.effects.read_as(kind, &*part, fault, makes);
+        }
+        for unread in ["safety_controller", "calibration"] {
+            if let Some(found) = node.child(unread) {
+                let fault = Fault::NeverRead(unread.to_owned());
+                self.effects.drop(found, format!("{part}/{unread}"), fault);
+            }
+        }
+        Ok(joint)
+    }
+
+    fn axis(&mut self, joint: &Joint<'_>) -> Reading<()> {
+        const LEAST: f64 = 1e-14;
+        let Some(axis) = self.only(joint.node, "axis")? else { return Ok(()) };
+        let numbers: [f64; 3] = self.needed_numbers(axis, "xyz")?;
+        let square: f64 = numbers.iter().map(|number| number * number).sum();
+        if square < LEAST && (joint.is_scalar() || joint.kind == "planar") {
+            return self.effects.refuse(axis, Fault::Other("the axis has no length"));
+        }
+        if joint.moves() {
+            self.finite(axis, &["xyz"]);
+        }
+        Ok(())
+    }
+
+    fn limit(&mut self, joint: &Joint<'_>, part: &str) -> Reading<()> {
+        let part = format!("{part}/limit");
+        let is_limited = matches!(joint.kind, "revolute" | "prismatic");
+        let Some(limit) = self.only(joint.node, "limit")? else {
+            if is_limited {
+                let fault = Fault::MissingElement("limit");
+                self.effects.read_as(joint.node, part, fault, "no limit");
+            }
+            return Ok(());
+        };
+        let reads_range = joint.kind != "continuous" || self.release == Release::Three;
+        let mut range = [None; 2];
+        if reads_range {
+            range = [self.number(limit, "lower", &part)?, self.number(limit, "upper", &part)?];
+        }
+        let has_range = matches!(range, [Some(lower), Some(upper)] if lower < upper);
+        match joint.kind {
+            "spherical" if has_range && range[0] != Some(0.0) => {
+                let why = "the lower limit of a spherical joint is not 0";
+                return self.effects.refuse(limit, Fault::Other(why));
+            }
+            "continuous" if has_range => {
+                let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
+                self.effects.read_as(limit, &*part, fault, "limited");
+            }
+            _ if is_limited && !has_range => {
+                let fault = match range {
+                    [None, _] => Fault::Missing("lower"),
+                    [_, None] => Fault::Missing("upper"),
+                    _ => Fault::Other("`lower` is not below `upper`"),
+                };
+                self.effects.read_as(limit, &*part, fault, "no limit");
+            }
+            _ => {}
+        }
+        self.effort(joint, limit, &part)?;
+        for unread in ["velocity", "acceleration", "deceleration", "jerk"] {
+            if let Some(found) = limit.attribute(unread) {
+                self.effects.drop(found, &*part, Fault::NeverRead(unread.to_owned()));
+            }
+        }
+        Ok(())
+    }
+
+    fn effort(&mut self, joint: &Joint<'_>, limit: Node<'_>, part: &str) -> Reading<()> {
+        let Some(effort) = self.number(limit, "effort", part)? else { return Ok(()) };
+        let Some(value) = limit.attribute("effort") else { return Ok(()) };
+        if matches!(joint.kind, "floating" | "spherical") {
+            self.effects.drop(value, part, Fault::NeverRead("effort".to_owned()));
+        } else if effort == 0.0 || effort.is_nan() {
+            let fault = Fault::range("effort", &value.value, "it limits nothing");
+            self.effects.read_as(value, part, fault, "no limit");
+        } else if effort < 0.0 {
+            let fault = Fault::range("effort", &value.value, "its sign does not count");
+            self.effects.read_as(value, part, fault, (-effort).to_string());
+        }
+        Ok(())
+    }
+
+    /// Mimics, when all joints are known.
+    pub fn mimics(&mut self, joints: &[Joint<'_>]) -> Reading<()> {
+        let mut scalar: HashMap<&str, bool> = HashMap::new();
+        for joint in joints.iter().filter(|joint| joint.moves()) {
+            scalar.entry(joint.name).or_insert(joint.is_scalar());
+        }
+        for joint in joints.iter().filter(|joint| joint.moves()) {
+            let part = format!("joint/{}/mimic", joint.name);
+            if self.release == Release::Three {
+                if let Some(mimic) = joint.node.child("mimic") {
+                    self.effects.drop(mimic, part, Fault::NeverRead("mimic".to_owned()));
+                }
+                continue;
+            }
+            let Some(mimic) = self.only(joint.node, "mimic")? else { continue };
+            let leader = self.text(mimic, "joint")?;
+            self.number(mimic, "multiplier", &part)?;
+            self.number(mimic, "offset", &part)?;
+            if !joint.is_scalar() {
+                let fault = Fault::value("type", joint.kind);
+                self.effects.drop(mimic, part, fault);
+            } else if leader == joint.name {
+                let fault = Fault::Other("the joint mimics itself");
+                return self.effects.refuse(mimic, fault);
+            } else if scalar.get(leader) != Some(&true) {
+                let fault = Fault::unknown("revolute, continuous or prismatic joint", leader);
+                self.effects.drop(mimic, part, fault);
+            }
+        }
+        Ok(())
+    }
+}

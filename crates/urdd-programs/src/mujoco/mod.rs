@@ -1,0 +1,330 @@
+//! MuJoCo 4.0.0 and 3.3.7: `MjModel.from_xml_path`. It loads a file or refuses it whole, drops visuals without reading
+//! them, fixes the base to the world, and fuses links that do not move into the body above.
+
+mod inertia;
+mod joint;
+mod link;
+mod mesh;
+mod settings;
+mod value;
+
+use std::collections::{HashMap, HashSet};
+
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::file::File;
+use crate::program::About;
+use crate::tinyxml;
+use crate::tree::Node;
+use crate::unknown::Names;
+use inertia::{Body, Pose};
+use joint::Joint;
+use settings::Settings;
+
+/// MuJoCo 4.
+pub(crate) const FOUR: About = About {
+    id: "mujoco",
+    name: "MuJoCo 4",
+    version: "4.0.0",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: NEVER_READ.split_at(1).1,
+    read: read_four,
+};
+
+/// MuJoCo 3.3.
+pub(crate) const THREE: About = About {
+    id: "mujoco33",
+    name: "MuJoCo 3.3",
+    version: "3.3.7",
+    settings: &["mujoco3.3"],
+    is_asked: false,
+    names: Names::Exact,
+    never: NEVER_READ,
+    read: read_three,
+};
+
+/// What 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is refused.
+const NEVER_READ: &[&str] = &[
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "version",
+    "quat_xyzw",
+    "texture",
+    "visual",
+    "material",
+    "color",
+    "geometry",
+    "box",
+    "cylinder",
+    "sphere",
+    "capsule",
+    "mesh",
+];
+
+/// Open elements, the root among them, from which tinyxml2 refuses.
+const MAX_DEPTH: usize = 499;
+/// The least mass, and the least moment of inertia, of a link that moves.
+const LEAST: f64 = 1e-15;
+
+/// Which MuJoCo.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Release {
+    /// 3.3.7.
+    Three,
+    /// 4.0.0.
+    Four,
+}
+
+impl Release {
+    /// What counts as nothing off the diagonal of a tensor.
+    fn epsilon(self) -> f64 {
+        match self {
+            Release::Three => 1e-12,
+            Release::Four => 0.0,
+        }
+    }
+}
+
+struct Reader<'r> {
+    release: Release,
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+    settings: Settings,
+    /// The names of collisions.
+    geoms: HashSet<String>,
+}
+
+/// A link in the tree.
+struct Link<'t> {
+    node: Node<'t>,
+    name: &'t str,
+    /// The joint above it: which of all, and its element.
+    above: Option<(usize, Node<'t>)>,
+    parent: Option<usize>,
+    children: Vec<usize>,
+}
+
+pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
+    read(file, effects, Release::Four)
+}
+
+pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
+    read(file, effects, Release::Three)
+}
+
+fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
+    let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
+        .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let root = tree.tops().next();
+    let is_mjcf = |root: &Node<'_>| root.name().eq_ignore_ascii_case("mujoco");
+    if root.as_ref().is_some_and(|root| is_mjcf(root) && root.child("link").is_none()) {
+        return Ok(());
+    }
+    let Some(robot) = root.filter(|root| root.name().eq_ignore_ascii_case("robot")) else {
+        return effects.refuse(root.map_or(0, Node::start), Fault::NotRobot);
+    };
+    let settings = Settings::default();
+    let mut reader = Reader { release, file, effects, settings, geoms: HashSet::new() };
+    reader.robot(robot)
+}
+
+impl Reader<'_> {
+    fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
+        self.readable(robot, "robot", robot.value("name").unwrap_or_default());
+        self.settings(robot)?;
+        self.materials(robot)?;
+        let mut links = self.links(robot)?;
+        self.tree(robot, &mut links)?;
+        let mut bodies = Vec::with_capacity(links.len());
+        for link in &links {
+            bodies.push(self.link(link.node, link.name)?);
+        }
+        let mut joints = Vec::new();
+        let mut names = HashSet::new();
+        for node in robot.named("joint") {
+            joints.push(self.joint(node, &mut names)?);
+        }
+        self.mimics(&joints)?;
+        self.bodies(&links, &bodies, &joints)
+    }
+
+    /// Materials, wherever they are; of each name the first that has a colour.
+    fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
+        let mut known = HashSet::new();
+        let mut open = vec![robot];
+        while let Some(node) = open.pop() {
+            if let Some(name) =
+                node.value("name").filter(|name| node.name() == "material" && !known.contains(name))
+                && let Some(color) = self.only(node, "color")?
+            {
+                self.color(color)?;
+                known.insert(name);
+            }
+            let before = open.len();
+            open.extend(node.children());
+            open[before..].reverse();
+        }
+        Ok(())
+    }
+
+    fn links<'t>(&mut self, robot: Node<'t>) -> Reading<Vec<Link<'t>>> {
+        let mut names = HashSet::new();
+        let mut links = Vec::new();
+        for node in robot.named("link") {
+            let name = self.text(node, "name")?;
+            if !names.insert(name) {
+                return self.effects.refuse(node, Fault::not_unique("link", name));
+            }
+            self.readable(node, "link", name);
+            links.push(Link { node, name, above: None, parent: None, children: Vec::new() });
+        }
+        Ok(links)
+    }
+
+    /// Says of a name whether Python can read it.
+    fn readable(&mut self, node: Node<'_>, kind: &'static str, name: &str) {
+        if name.contains('\u{fffd}') && std::str::from_utf8(self.file.bytes).is_err() {
+            let rule = "it is not UTF-8: Python cannot list names";
+            let fault = Fault::Name { kind, name: shortened(name), rule };
+            self.effects.read_as(node, "robot/?", fault, "names that Python cannot read");
+        }
+    }
+
+    fn tree<'t>(&mut self, robot: Node<'t>, links: &mut [Link<'t>]) -> Reading<()> {
+        let index: HashMap<&str, usize> =
+            links.iter().enumerate().map(|(index, link)| (link.name, index)).collect();
+        for (number, joint) in robot.named("joint").enumerate() {
+            let mut ends = [0; 2];
+            for (name, end) in ["parent", "child"].into_iter().zip(&mut ends) {
+                let node = self.needed(joint, name)?;
+                let link = self.text(node, "link")?;
+                *end = match index.get(link) {
+                    Some(&link) => link,
+                    None => return self.effects.refuse(node, Fault::unknown("link", link)),
+                };
+            }
+            let [parent, child] = ends;
+            if links[child].above.is_some() {
+                return self
+                    .effects
+                    .refuse(joint, Fault::Tree("a link is the child of two joints"));
+            }
+            (links[child].above, links[child].parent) = (Some((number, joint)), Some(parent));
+            links[parent].children.push(child);
+        }
+        let reached = order(links);
+        if reached.len() == links.len() {
+            return Ok(());
+        }
+        let reached: HashSet<usize> = reached.into_iter().collect();
+        let looped = (0..links.len()).find(|link| !reached.contains(link));
+        let at = looped.and_then(|link| links[link].above).map_or(robot, |(_, joint)| joint);
+        self.effects.refuse(at, Fault::Tree("the joints make a loop"))
+    }
+
+    /// What is asked of bodies when all are known.
+    fn bodies(&mut self, links: &[Link<'_>], bodies: &[Body], joints: &[Joint<'_>]) -> Reading<()> {
+        let moving = |link: &Link<'_>| {
+            link.above.and_then(|(joint, _)| joints.get(joint)).filter(|joint| joint.moves())
+        };
+        let mut is_static = vec![false; links.len()];
+        for index in order(links) {
+            let link = &links[index];
+            let on_static = link.parent.is_none_or(|parent| is_static[parent]);
+            let Some(joint) = moving(link) else {
+                is_static[index] = link.name == "world" || on_static;
+                self.unmoved(link, is_static[index]);
+                self.finite_inertial(link, is_static[index]);
+                continue;
+            };
+            if link.name == "world" {
+                return self.effects.refuse(joint.node, Fault::Tree("a joint moves the world"));
+            }
+            if joint.kind == "floating" && !on_static {
+                let fault = Fault::Tree("a floating joint is below a joint that moves");
+                return self.effects.refuse(joint.node, fault);
+            }
+            self.finite_inertial(link, false);
+            let inertial = link.node.child("inertial").unwrap_or(link.node);
+            let sum = self.fused(index, inertial, links, bodies, joints)?;
+            if link::is_light(&sum) {
+                let fault = Fault::Other("a link that a joint moves has no mass, or no inertia");
+                return self.effects.refuse(inertial, fault);
+            }
+        }
+        Ok(())
+    }
+
+    /// A link that no joint moves.
+    fn unmoved(&mut self, link: &Link<'_>, is_static: bool) {
+        if link.name == "world" {
+            let fault = Fault::Other("`world` is MuJoCo's own world");
+            self.effects.read_as(link.node, "link/world", fault, "the world");
+        } else if let Some(inertial) = link.node.child("inertial").filter(|_| is_static) {
+            let fault = Fault::Other("a link that no joint moves is a part of the world");
+            self.effects.drop(inertial, format!("link/{}/inertial", link.name), fault);
+        }
+        if let Some((_, joint)) = link.above.filter(|_| self.settings.fuses) {
+            let part = format!("joint/{}", joint.value("name").unwrap_or_default());
+            let fault = Fault::Other("links that are fixed to each other become one body");
+            self.effects.read_as(joint, part, fault, "one body");
+        }
+    }
+
+    fn finite_inertial(&mut self, link: &Link<'_>, is_static: bool) {
+        let Some(inertial) = link.node.child("inertial").filter(|_| !is_static) else { return };
+        for (name, attributes) in [("origin", &["xyz", "rpy"][..]), ("mass", &["value"])] {
+            if let Some(node) = inertial.child(name) {
+                self.finite(node, attributes);
+            }
+        }
+    }
+
+    /// A body with all that is fixed to it.
+    fn fused(
+        &mut self,
+        index: usize,
+        inertial: Node<'_>,
+        links: &[Link<'_>],
+        bodies: &[Body],
+        joints: &[Joint<'_>],
+    ) -> Reading<Body> {
+        let mut sum = bodies[index].clone();
+        let mut open = vec![(index, Pose::default())];
+        while let Some((index, at)) = open.pop() {
+            for &child in links[index].children.iter().rev() {
+                let joint = links[child].above.and_then(|(joint, _)| joints.get(joint));
+                let Some(joint) = joint.filter(|joint| !joint.moves()) else { continue };
+                let at = at.then(&joint.pose);
+                open.push((child, at));
+                if bodies[child].mass >= LEAST {
+                    sum = sum.with(&bodies[child].placed(&at), self.release.epsilon());
+                    if sum.moments[2] < inertia::LEAST_EIGENVALUE {
+                        let why = "masses that are fixed together have no inertia about a line";
+                        return self.effects.refuse(inertial, Fault::Other(why));
+                    }
+                }
+            }
+        }
+        Ok(sum)
+    }
+}
+
+/// Links from the roots downwards.
+fn order(links: &[Link<'_>]) -> Vec<usize> {
+    let mut order: Vec<usize> =
+        (0..links.len()).filter(|&link| links[link].parent.is_none()).collect();
+    let mut at = 0;
+    while let Some(&link) = order.get(at) {
+        order.extend(&links[link].children);
+        at += 1;
+    }
+    order
+}

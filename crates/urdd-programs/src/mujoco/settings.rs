@@ -1,0 +1,110 @@
+//! `<mujoco>` in a URDF.
+
+use super::Reader;
+use crate::effect::Reading;
+use crate::fault::Fault;
+use crate::number::{is_space, strtod, whole};
+use crate::tree::Node;
+
+/// What `<compiler>` says.
+pub struct Settings {
+    /// Visuals are geoms too.
+    pub has_visuals: bool,
+    /// Only the last part of a mesh's file name counts; none if nothing is said.
+    pub strips_paths: Option<bool>,
+    /// The folder of meshes.
+    pub mesh_folder: String,
+    /// Tensors that no body can have are mended.
+    pub balances: bool,
+    /// Links that are fixed together are one.
+    pub fuses: bool,
+    /// Inertias come from collisions, whatever inertials say.
+    pub ignores_inertials: bool,
+    /// The least mass and the least moment.
+    pub least: [f64; 2],
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            has_visuals: false,
+            strips_paths: None,
+            mesh_folder: String::new(),
+            balances: false,
+            fuses: true,
+            ignores_inertials: false,
+            least: [0.0; 2],
+        }
+    }
+}
+
+impl Reader<'_> {
+    pub fn settings(&mut self, robot: Node<'_>) -> Reading<()> {
+        let Some(mujoco) = self.only(robot, "mujoco")? else { return Ok(()) };
+        if let Some(compiler) = self.only(mujoco, "compiler")? {
+            self.compiler(compiler)?;
+        }
+        if let Some(option) = self.only(mujoco, "option")? {
+            self.each_number(option, &["timestep", "impratio", "tolerance", "gravity", "wind"])?;
+        }
+        if let Some(size) = self.only(mujoco, "size")? {
+            self.each_number(size, &["njmax", "nconmax", "nstack", "nuserdata", "nkey"])?;
+        }
+        Ok(())
+    }
+
+    fn compiler(&mut self, compiler: Node<'_>) -> Reading<()> {
+        const FLAGS: [&str; 6] =
+            ["autolimits", "usethread", "fitaabb", "alignfree", "saveinertial", "discardvisual"];
+        for name in FLAGS {
+            self.flag(compiler, name)?;
+        }
+        self.keyword(compiler, "angle", &["radian", "degree"])?;
+        self.keyword(compiler, "coordinate", &["local", "global"])?;
+        self.each_number(compiler, &["boundmass", "boundinertia", "settotalmass"])?;
+        for (name, least) in [("boundmass", 0), ("boundinertia", 1)] {
+            let value = compiler.value(name).and_then(|value| whole(strtod(value.trim())));
+            self.settings.least[least] = value.unwrap_or(0.0);
+        }
+        self.settings.has_visuals = self.flag(compiler, "discardvisual")? == Some(false);
+        self.settings.strips_paths = self.flag(compiler, "strippath")?;
+        self.settings.balances = self.flag(compiler, "balanceinertia")?.unwrap_or(false);
+        self.settings.fuses = self.flag(compiler, "fusestatic")?.unwrap_or(true);
+        self.settings.mesh_folder = compiler.value("meshdir").unwrap_or_default().to_owned();
+        let ignores = self.keyword(compiler, "inertiafromgeom", &["false", "true", "auto"])?;
+        self.settings.ignores_inertials = ignores == Some("true");
+        Ok(())
+    }
+
+    fn flag(&mut self, node: Node<'_>, name: &str) -> Reading<Option<bool>> {
+        let known =
+            if name == "autolimits" { &["false", "true", "auto"][..] } else { &["false", "true"] };
+        Ok(self.keyword(node, name, known)?.map(|value| value == "true"))
+    }
+
+    fn keyword<'t>(
+        &mut self,
+        node: Node<'t>,
+        name: &str,
+        known: &[&str],
+    ) -> Reading<Option<&'t str>> {
+        match node.attribute(name) {
+            Some(value) if !known.contains(&&*value.value) => {
+                self.effects.refuse(value, Fault::value(name, &value.value))
+            }
+            value => Ok(value.map(|value| &*value.value)),
+        }
+    }
+
+    /// Attributes that are numbers, whatever their count.
+    fn each_number(&mut self, node: Node<'_>, names: &[&str]) -> Reading<()> {
+        for value in names.iter().filter_map(|name| node.attribute(name)) {
+            let mut words = value.value.split(is_space).filter(|word| !word.is_empty());
+            if !words.all(|word| whole(strtod(word)).is_some()) {
+                let fault = Fault::not_a_number(&value.name, &value.value);
+                return self.effects.refuse(value, fault);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,169 @@
+//! Attributes and children, as MuJoCo asks for them.
+
+use super::{Reader, Release};
+use crate::effect::Reading;
+use crate::fault::Fault;
+use crate::number::{is_space, strtod, whole};
+use crate::tree::{Attribute, Node};
+
+/// The least numbers without loss, of double and of single precision.
+const TINY: f64 = f64::MIN_POSITIVE;
+const SINGLE_TINY: f64 = f32::MIN_POSITIVE as f64;
+
+impl Reader<'_> {
+    /// The child of a name; two are refused.
+    pub fn only<'t>(&mut self, node: Node<'t>, name: &str) -> Reading<Option<Node<'t>>> {
+        let mut found = node.named(name);
+        let first = found.next();
+        match found.next() {
+            Some(second) => self.effects.refuse(second, Fault::Repeated(name.to_owned())),
+            None => Ok(first),
+        }
+    }
+
+    pub fn needed<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<Node<'t>> {
+        match self.only(node, name)? {
+            Some(child) => Ok(child),
+            None => self.effects.refuse(node, Fault::MissingElement(name)),
+        }
+    }
+
+    /// An attribute that is needed.
+    pub fn text<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<&'t str> {
+        match node.value(name) {
+            Some(value) => Ok(value),
+            None => self.effects.refuse(node, Fault::Missing(name)),
+        }
+    }
+
+    /// Numbers that may be left out; `part` is what has them.
+    pub fn numbers<const N: usize>(
+        &mut self,
+        node: Node<'_>,
+        name: &'static str,
+        part: &str,
+    ) -> Reading<Option<[f64; N]>> {
+        let Some(value) = node.attribute(name) else { return Ok(None) };
+        let found = self.vector(value)?;
+        if found.is_none() {
+            self.effects.read_as(value, part, Fault::Empty(name), "the default");
+        }
+        Ok(found)
+    }
+
+    pub fn number(
+        &mut self,
+        node: Node<'_>,
+        name: &'static str,
+        part: &str,
+    ) -> Reading<Option<f64>> {
+        Ok(self.numbers(node, name, part)?.map(|[number]: [f64; 1]| number))
+    }
+
+    pub fn needed_numbers<const N: usize>(
+        &mut self,
+        node: Node<'_>,
+        name: &'static str,
+    ) -> Reading<[f64; N]> {
+        let Some(value) = node.attribute(name) else {
+            return self.effects.refuse(node, Fault::Missing(name));
+        };
+        match self.vector(value)? {
+            Some(numbers) => Ok(numbers),
+            None => self.effects.refuse(value, Fault::Empty(name)),
+        }
+    }
+
+    /// Says of numbers that were read whether they are finite: those of parts that move make all that moves unstable.
+    pub fn finite(&mut self, node: Node<'_>, names: &[&str]) {
+        for value in names.iter().filter_map(|name| node.attribute(name)) {
+            let is_finite = |word| whole(strtod(word)).is_none_or(f64::is_finite);
+            if !words(&value.value).all(is_finite) {
+                let fault = Fault::range(&value.name, &value.value, "must be finite");
+                self.effects.read_as(value, "robot/?", fault, "a simulation that is unstable");
+            }
+        }
+    }
+
+    /// A colour, which is read in single precision.
+    pub fn color(&mut self, color: Node<'_>) -> Reading<[f64; 4]> {
+        let rgba: [f64; 4] = self.needed_numbers(color, "rgba")?;
+        let is_fine = |number: &f64| {
+            number.is_infinite()
+                || number.is_nan()
+                || (number.abs() < f64::from(f32::MAX) * (1.0 + f64::from(f32::EPSILON) / 4.0)
+                    && (*number == 0.0
+                        || self.release == Release::Four
+                        || number.abs() >= SINGLE_TINY))
+        };
+        if rgba.iter().all(is_fine) {
+            return Ok(rgba);
+        }
+        let at = color.attribute("rgba").map_or(color.start(), |rgba| rgba.range.start);
+        let fault = Fault::Other("`rgba` has a number that is too large or too small");
+        self.effects.refuse(at, fault)
+    }
+
+    /// Exactly N numbers; none if there is only white space.
+    fn vector<const N: usize>(&mut self, value: &Attribute<'_>) -> Reading<Option<[f64; N]>> {
+        let mut numbers = Vec::new();
+        for word in words(&value.value) {
+            let Some(number) = whole(strtod(word)) else {
+                let fault = Fault::not_a_number(&value.name, &value.value);
+                return self.effects.refuse(value, fault);
+            };
+            if is_too_large(word, number)
+                || (self.release == Release::Three && is_too_small(word, number))
+            {
+                let rule = "the program cannot have so large or small a number";
+                return self.effects.refuse(value, Fault::range(&value.name, &value.value, rule));
+            }
+            numbers.push(number);
+        }
+        if numbers.is_empty() {
+            return Ok(None);
+        }
+        match numbers.try_into() {
+            Ok(numbers) => Ok(Some(numbers)),
+            Err(_) => self.effects.refuse(value, Fault::count(&value.name, N, &value.value)),
+        }
+    }
+
+    /// The scale of a mesh, which is read by a function of its own.
+    pub fn scale(&mut self, mesh: Node<'_>) -> Reading<[f64; 3]> {
+        let Some(value) = mesh.attribute("scale") else { return Ok([1.0; 3]) };
+        let number = |word: &str| {
+            let number = whole(strtod(word))?;
+            let plain = word.strip_prefix('-').unwrap_or(word);
+            let is_word = ["inf", "nan"].iter().any(|one| plain.eq_ignore_ascii_case(one));
+            let is_read = number.is_finite() && !is_too_small(word, number);
+            (is_word || is_read).then_some(number)
+        };
+        let count = words(&value.value).count();
+        let numbers: Option<Vec<f64>> = words(&value.value).take(3).map(number).collect();
+        match numbers.map(<[f64; 3]>::try_from) {
+            None => self.effects.refuse(value, Fault::not_a_number("scale", &value.value)),
+            Some(Ok(scale)) if count == 3 => Ok(scale),
+            _ => self.effects.refuse(value, Fault::count("scale", 3, &value.value)),
+        }
+    }
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(is_space).filter(|word| !word.is_empty())
+}
+
+/// Whether digits make a number beyond all.
+fn is_too_large(word: &str, number: f64) -> bool {
+    number.is_infinite() && !word.contains(['n', 'N'])
+}
+
+/// Whether digits make a number that is not 0, and that has no full precision.
+fn is_too_small(word: &str, number: f64) -> bool {
+    let is_hexadecimal = word.contains(['x', 'X']);
+    let mut mantissa = word.split(['e', 'E']).next().unwrap_or_default().bytes();
+    match number == 0.0 {
+        true => !is_hexadecimal && mantissa.any(|byte| matches!(byte, b'1'..=b'9')),
+        false => number.abs() < TINY,
+    }
+}

@@ -1,0 +1,146 @@
+//! Numbers as the functions of C and C++ read them, in the C locale. Each gives the number and the text behind it.
+
+/// A number, and what follows it.
+pub(crate) type Read<'a> = Option<(f64, &'a str)>;
+
+/// As `isspace` of C has it.
+pub(crate) fn is_space(character: char) -> bool {
+    matches!(character, ' ' | '\t'..='\r')
+}
+
+/// `strtod`: white space, a sign, then a decimal or hexadecimal number, `inf` or `nan`. None if nothing is read.
+pub(crate) fn strtod(text: &str) -> Read<'_> {
+    let text = text.trim_start_matches(is_space);
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    let (number, rest) =
+        hexadecimal(unsigned).or_else(|| word(unsigned)).or_else(|| decimal(unsigned))?;
+    Some((sign * number, rest))
+}
+
+/// `istream >> double` of libstdc++: white space, a sign and a decimal number. None also if the number is too large, or
+/// ends with `e`.
+pub(crate) fn istream(text: &str) -> Read<'_> {
+    let text = text.trim_start_matches(is_space);
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    let (number, rest) = decimal(unsigned).filter(|(number, _)| number.is_finite())?;
+    let read = &unsigned[..unsigned.len() - rest.len()];
+    let is_cut = rest.starts_with(['e', 'E']) && !read.contains(['e', 'E']);
+    (!is_cut).then_some((sign * number, rest))
+}
+
+/// Whether a text is a number and nothing else, by one of the functions above.
+pub(crate) fn whole(read: Read<'_>) -> Option<f64> {
+    read.filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
+}
+
+/// Digits with an optional point and exponent.
+fn decimal(text: &str) -> Read<'_> {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(text);
+    let mut end = whole;
+    let mut has_digits = whole > 0;
+    if text[end..].starts_with('.') {
+        let fraction = digits(&text[end + 1..]);
+        has_digits |= fraction > 0;
+        end += 1 + fraction;
+    }
+    if !has_digits {
+        return None;
+    }
+    if let Some(exponent) = text[end..].strip_prefix(['e', 'E']) {
+        let unsigned = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+        if digits(unsigned) > 0 {
+            end += 1 + (exponent.len() - unsigned.len()) + digits(unsigned);
+        }
+    }
+    Some((text[..end].parse().ok()?, &text[end..]))
+}
+
+/// `inf`, `infinity`, `nan` and `nan(...)`, in any case.
+fn word(text: &str) -> Read<'_> {
+    let starts =
+        |word: &str| text.get(..word.len()).is_some_and(|one| one.eq_ignore_ascii_case(word));
+    let words = [("infinity", f64::INFINITY), ("inf", f64::INFINITY), ("nan", f64::NAN)];
+    let (word, number) = words.into_iter().find(|(word, _)| starts(word))?;
+    let rest = &text[word.len()..];
+    let inside = rest.strip_prefix('(').filter(|_| number.is_nan());
+    let behind = inside.and_then(|inside| inside.split_once(')'));
+    let is_word = |tag: &str| tag.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    Some((number, behind.filter(|(tag, _)| is_word(tag)).map_or(rest, |(_, behind)| behind)))
+}
+
+/// `0x`, hexadecimal digits with an optional point, and an optional binary exponent.
+fn hexadecimal(text: &str) -> Read<'_> {
+    let body = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
+    let (mut number, mut scale, mut digits, mut end) = (0.0, 1.0, 0, 0);
+    let mut has_point = false;
+    for (at, character) in body.char_indices() {
+        match character.to_digit(16) {
+            Some(digit) => {
+                number = number * 16.0 + f64::from(digit);
+                scale *= if has_point { 16.0 } else { 1.0 };
+                digits += 1;
+            }
+            None if character == '.' && !has_point => has_point = true,
+            None => break,
+        }
+        end = at + 1;
+    }
+    if digits == 0 {
+        return None;
+    }
+    let mut power = 0;
+    if let Some(exponent) = body[end..].strip_prefix(['p', 'P']) {
+        let unsigned = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+        let length = unsigned.bytes().take_while(u8::is_ascii_digit).count();
+        if length > 0 {
+            let value: i32 = unsigned[..length].parse().unwrap_or(i32::MAX);
+            power = if exponent.starts_with('-') { -value } else { value };
+            end += 1 + (exponent.len() - unsigned.len()) + length;
+        }
+    }
+    Some((number / scale * f64::from(power).exp2(), &body[end..]))
+}
+
+/// `float()` of Python: any white space around, `_` between digits, digits of any script.
+pub(crate) fn python(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text.chars().map(digit).peekable();
+    while let Some(character) = rest.next() {
+        let is_between = plain.ends_with(|last: char| last.is_ascii_digit())
+            && rest.peek().is_some_and(char::is_ascii_digit);
+        if character != '_' || !is_between {
+            plain.push(character);
+        }
+    }
+    plain.parse().ok()
+}
+
+/// A digit of another script as that of ASCII.
+fn digit(character: char) -> char {
+    const ZEROS: [u32; 16] = [
+        0x660, 0x6f0, 0x7c0, 0x966, 0x9e6, 0xa66, 0xae6, 0xb66, 0xbe6, 0xc66, 0xce6, 0xd66, 0xe50,
+        0xed0, 0xf20, 0xff10,
+    ];
+    let code = u32::from(character);
+    let value = ZEROS.iter().filter_map(|zero| code.checked_sub(*zero)).find(|value| *value < 10);
+    value.and_then(|value| char::from_digit(value, 10)).unwrap_or(character)
+}
+
+/// `parseFloat()` of `JavaScript`: the longest beginning that is a number, behind any white space; NaN if there is none.
+pub(crate) fn parse_float(text: &str) -> f64 {
+    let is_space = |character: char| {
+        character == '\u{feff}' || (character.is_whitespace() && character != '\u{85}')
+    };
+    let text = text.trim_start_matches(is_space);
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    match decimal(unsigned) {
+        Some((number, _)) => sign * number,
+        None if unsigned.starts_with("Infinity") => sign * f64::INFINITY,
+        None => f64::NAN,
+    }
+}

@@ -1,0 +1,321 @@
+//! Pinocchio 4.1.0: `buildModelFromUrdf`, then `buildGeomFromUrdf` for collisions and visuals. It reads by urdfdom 6, makes
+//! the model from what urdfdom has, and reads the file by a second parser for its geometry.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::effect::{Effects, Reading};
+use crate::fault::Fault;
+use crate::file::File;
+use crate::mesh::{Mesh, MeshFacts};
+use crate::number::istream;
+use crate::program::About;
+use crate::rapidxml;
+use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
+use crate::urdfdom::{self, Joint, Link, Model, Release};
+
+/// Pinocchio.
+pub(crate) const ABOUT: About = About {
+    id: "pinocchio",
+    name: "Pinocchio",
+    version: "4.1.0",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &["mimic", "safety_controller", "calibration", "acceleration", "deceleration", "jerk"],
+    read: read,
+};
+
+pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree = urdfdom::parse(file, effects)?;
+    let model = urdfdom::model(&tree, Release::Six, effects)?;
+    let mut reader = Reader { file, effects };
+    let is_reached = reader.model(&model)?;
+    if let Err(bad) = rapidxml::check(file.bytes) {
+        return effects.refuse(bad.at, Fault::Xml(bad.why));
+    }
+    if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
+        return effects.refuse(link, Fault::Missing("name"));
+    }
+    let textures = textures(&model);
+    for kind in ["collision", "visual"] {
+        for (name, link) in model.links.iter().filter(|(name, _)| is_reached.contains(*name)) {
+            Reader { file, effects }.shapes(kind, name, link, &textures)?;
+        }
+    }
+    Ok(())
+}
+
+struct Reader<'r> {
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+}
+
+/// What a walk through the tree has still to do.
+enum Step<'m> {
+    Enter(&'m str),
+    Leave(&'m str),
+}
+
+impl Reader<'_> {
+    /// Walks from the root. Returns the links that it comes to.
+    fn model<'m>(&mut self, model: &'m Model<'_>) -> Reading<HashSet<&'m str>> {
+        let mut above = HashMap::new();
+        let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
+        for joint in model.joints.values() {
+            // Of two joints the last is the link's.
+            above.insert(joint.child, joint);
+            below.entry(joint.parent).or_default().push(joint.child);
+        }
+        let root = model.links.keys().copied().find(|name| !above.contains_key(name));
+        let mut reached: HashSet<&str> = root.into_iter().collect();
+        let mut on_path = HashSet::new();
+        let mut steps: Vec<Step> = root.into_iter().map(Step::Enter).collect();
+        while let Some(step) = steps.pop() {
+            let link = match step {
+                Step::Enter(link) => link,
+                Step::Leave(link) => {
+                    on_path.remove(link);
+                    continue;
+                }
+            };
+            if let Some(joint) = above.get(link) {
+                if !reached.contains(joint.parent) {
+                    let fault = Fault::Tree("the joint's parent comes after its child");
+                    return self.effects.refuse(joint.node, fault);
+                }
+                self.joint(joint)?;
+                if on_path.contains(link) {
+                    return self.effects.crash(joint.node, Fault::Tree("the links are in a loop"));
+                }
+                if !reached.insert(link) {
+                    let fault = Fault::Tree("a link is the child of two joints");
+                    self.effects.read_as(joint.node, format!("link/{link}"), fault, "two links");
+                    continue;
+                }
+            }
+            on_path.insert(link);
+            steps.push(Step::Leave(link));
+            let children = below.get(link).into_iter().flatten().rev();
+            steps.extend(children.map(|child| Step::Enter(child)));
+        }
+        self.unreached(model, &reached);
+        for (name, joint) in model.joints.iter().filter(|(_, joint)| reached.contains(joint.child))
+        {
+            self.unread(joint, name);
+        }
+        Ok(reached)
+    }
+
+    /// Links and joints that hang on no root.
+    fn unreached(&mut self, model: &Model<'_>, reached: &HashSet<&str>) {
+        let fault = Fault::Tree("it is in a loop, which the root does not reach");
+        for (name, link) in model.links.iter().filter(|(name, _)| !reached.contains(*name)) {
+            self.effects.drop(link.node, format!("link/{name}"), fault.clone());
+        }
+        for (name, joint) in &model.joints {
+            if !reached.contains(joint.child) {
+                self.effects.drop(joint.node, format!("joint/{name}"), fault.clone());
+            }
+        }
+    }
+
+    /// The limits that a joint cannot have.
+    fn joint(&mut self, joint: &Joint<'_>) -> Reading<()> {
+        if !matches!(joint.kind, "revolute" | "continuous" | "prismatic") {
+            return Ok(());
+        }
+        for (element, attribute) in
+            [("limit", "effort"), ("dynamics", "friction"), ("limit", "velocity")]
+        {
+            let Some(value) = joint.node.child(element).and_then(|node| node.attribute(attribute))
+            else {
+                continue;
+            };
+            if number(&value.value) < 0.0 {
+                let fault = Fault::range(attribute, &value.value, "must not be negative");
+                return self.effects.refuse(value, fault);
+            }
+        }
+        Ok(())
+    }
+
+    /// What it does not read of a joint, or otherwise.
+    fn unread(&mut self, joint: &Joint<'_>, name: &str) {
+        for unread in ["mimic", "safety_controller", "calibration"] {
+            if let Some(found) = joint.node.child(unread) {
+                let part = format!("joint/{name}/{unread}");
+                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
+            }
+        }
+        let axis = joint.node.child("axis");
+        let xyz = axis.map(|axis| axis.value("xyz").unwrap_or_default());
+        let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
+        let (at, part) = (axis.unwrap_or(joint.node), format!("joint/{name}/axis"));
+        match joint.kind {
+            "planar" => {
+                self.limits(joint, name);
+                if is_up(&numbers) {
+                    return;
+                }
+                let fault = Fault::Other("the plane of a planar joint is always that of x and y");
+                self.effects.read_as(at, part, fault, "0 0 1");
+            }
+            "revolute" | "continuous" | "prismatic" if !has_length(&numbers) => {
+                let text = xyz.unwrap_or_default();
+                let fault = Fault::range("xyz", text, "an axis has a length above 0");
+                self.effects.read_as(at, part, fault, "a joint that does not move");
+            }
+            "floating" => self.limits(joint, name),
+            _ => {}
+        }
+    }
+
+    /// Limits and dynamics of a joint that has none there.
+    fn limits(&mut self, joint: &Joint<'_>, name: &str) {
+        for unread in ["limit", "dynamics"] {
+            if let Some(found) = joint.node.child(unread) {
+                let part = format!("joint/{name}/{unread}");
+                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
+            }
+        }
+    }
+
+    /// A link's visuals or collisions.
+    fn shapes(
+        &mut self,
+        kind: &'static str,
+        name: &str,
+        link: &Link<'_>,
+        materials: &HashMap<&str, Node<'_>>,
+    ) -> Reading<()> {
+        let (kept, is_all) = link.kept[usize::from(kind == "collision")];
+        if !is_all {
+            for (index, shape) in link.node.named(kind).take(kept).enumerate() {
+                let fault = Fault::Other("another one of the link is faulty");
+                self.effects.drop(shape, format!("link/{name}/{kind}/{index}"), fault);
+            }
+            return Ok(());
+        }
+        let link_name = name;
+        for (index, shape) in link.node.named(kind).enumerate() {
+            let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
+            let Some(form) = form else { continue };
+            if form.name() == "mesh" {
+                self.mesh(form)?;
+            }
+            self.checking(link.node, shape, form.name())?;
+            let own = shape.child("material").filter(|_| kind == "visual");
+            let name = own.and_then(|material| material.value("name")).unwrap_or_default();
+            let material = materials.get(name).copied().or(own.filter(|_| name.is_empty()));
+            let texture = material.and_then(|material| material.child("texture"));
+            if let Some(image) = texture.and_then(|texture| texture.attribute("filename")) {
+                self.scheme(image)?;
+                if !image.value.is_empty() && matches!(self.file.mesh(&image.value), Mesh::Missing)
+                {
+                    let fault = Fault::Mesh("the file of the texture was not found");
+                    self.effects.drop(
+                        image,
+                        format!("link/{link_name}/visual/{index}/material"),
+                        fault,
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a name of a file that is too long, or has another scheme than those that it knows.
+    fn scheme(&mut self, file: &Attribute<'_>) -> Reading<()> {
+        const LONGEST: usize = 255;
+        if file.value.split('/').any(|name| name.len() > LONGEST) {
+            let why = "its name has a part of more than 255 bytes";
+            return self.effects.refuse(file, Fault::Mesh(why));
+        }
+        match file.value.split_once("://") {
+            Some((scheme, _)) if !matches!(scheme, "package" | "model" | "file") => {
+                let why = "the scheme of its name is none of package, model and file";
+                self.effects.refuse(file, Fault::Mesh(why))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn mesh(&mut self, mesh: Node<'_>) -> Reading<()> {
+        let Some(filename) = mesh.attribute("filename") else { return Ok(()) };
+        self.scheme(filename)?;
+        if filename.value.is_empty() {
+            return self.effects.refuse(filename, Fault::Empty("filename"));
+        }
+        let why = match self.file.mesh(&filename.value) {
+            Mesh::Unknown => return Ok(()),
+            Mesh::Missing => "the file of the mesh was not found",
+            Mesh::Found(facts) if !is_read(&filename.value, &facts) => "the mesh cannot be read",
+            Mesh::Found(_) => return Ok(()),
+        };
+        self.effects.refuse(filename, Fault::Mesh(why))
+    }
+
+    /// Pinocchio's own `<collision_checking>`: entries are looked through until one names the shape.
+    fn checking(&mut self, link: Node<'_>, shape: Node<'_>, form: &str) -> Reading<()> {
+        let wanted = match form {
+            "cylinder" => "capsule",
+            "mesh" => "convex",
+            _ => return Ok(()),
+        };
+        let Some(checking) = link.child("collision_checking") else { return Ok(()) };
+        for entry in checking.named(wanted) {
+            match entry.value("name") {
+                None => return self.effects.refuse(entry, Fault::Missing("name")),
+                Some(name) if name == shape.value("name").unwrap_or_default() => break,
+                Some(_) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The materials by their names: those of the robot, then the first of a visual.
+fn textures<'t>(model: &Model<'t>) -> HashMap<&'t str, Node<'t>> {
+    let mut links: Vec<Node<'t>> = model.links.values().map(|link| link.node).collect();
+    links.sort_unstable_by_key(|link| link.index);
+    let visuals = links.iter().flat_map(|link| link.named("visual"));
+    let own = visuals.filter_map(|visual| visual.child("material"));
+    let own = own.filter(|one| one.child("color").or(one.child("texture")).is_some());
+    let mut named = HashMap::new();
+    for material in model.robot.named("material").chain(own) {
+        let name = material.value("name").unwrap_or_default();
+        if !name.is_empty() {
+            named.entry(name).or_insert(material);
+        }
+    }
+    named
+}
+
+/// A number that urdfdom took.
+fn number(text: &str) -> f64 {
+    istream(text).map_or(0.0, |(number, _)| number)
+}
+
+fn has_length(axis: &[f64]) -> bool {
+    let square = axis.iter().map(|number| number * number).sum::<f64>();
+    square > 0.0 && square.is_finite()
+}
+
+fn is_up(axis: &[f64]) -> bool {
+    matches!(axis, [0.0, 0.0, z] if *z > 0.0)
+}
+
+/// Whether assimp reads a mesh.
+fn is_read(name: &str, facts: &MeshFacts) -> bool {
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    let is_stl = facts.is_binary_stl();
+    match &*ending {
+        "stl" if is_stl => facts.size > 84,
+        "stl" => facts.head.starts_with(b"solid") && facts.triangles > 0,
+        "obj" => facts.size >= 16 && facts.triangles > 0,
+        "ply" | "glb" | "gltf" | "off" | "3ds" | "fbx" | "step" => facts.size > 0,
+        // A file without an ending that is known is guessed by what is in it.
+        _ => facts.triangles > 0 && !is_stl,
+    }
+}

@@ -1,0 +1,128 @@
+//! The programs.
+
+use crate::effect::{Effects, Reading};
+use crate::file::File;
+use crate::unknown::{self, Names};
+use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
+
+/// A program that reads URDFs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Program {
+    /// ROS lyrical and rolling.
+    Urdfdom6,
+    /// ROS jazzy and kilted.
+    Urdfdom4,
+    /// ROS noetic, humble and iron.
+    Urdfdom3,
+    /// Gazebo, by libsdformat 12.
+    Gazebo,
+    /// MuJoCo 4.
+    MuJoCo,
+    /// MuJoCo 3.3.
+    MuJoCo33,
+    /// Pinocchio.
+    Pinocchio,
+    /// Drake.
+    Drake,
+    /// `PyBullet`.
+    PyBullet,
+    /// urdf-usd-converter.
+    Isaac,
+    /// urdf-loader of three.js.
+    Three,
+}
+
+/// What a reader says of its program.
+pub(crate) struct About {
+    /// As reports and the table of `tests/figures/programs` name it.
+    pub id: &'static str,
+    /// As people know it.
+    pub name: &'static str,
+    /// The version that the reader is held to.
+    pub version: &'static str,
+    /// Names of settings for it besides `id`, the best first.
+    pub settings: &'static [&'static str],
+    /// Whether it is asked if nobody says which programs matter.
+    pub is_asked: bool,
+    /// Which names it takes for those of elements.
+    pub names: Names,
+    /// Elements and attributes that it never reads: nothing is lost with them.
+    pub never: &'static [&'static str],
+    pub read: fn(&File, &mut Effects) -> Reading<()>,
+}
+
+impl Program {
+    /// All, in the order in which they are reported.
+    pub const ALL: [Program; 11] = [
+        Program::Urdfdom6,
+        Program::Urdfdom4,
+        Program::Urdfdom3,
+        Program::Gazebo,
+        Program::MuJoCo,
+        Program::MuJoCo33,
+        Program::Pinocchio,
+        Program::Drake,
+        Program::PyBullet,
+        Program::Isaac,
+        Program::Three,
+    ];
+
+    const fn about(self) -> &'static About {
+        match self {
+            Program::Urdfdom6 => &urdfdom::SIX,
+            Program::Urdfdom4 => &urdfdom::FOUR,
+            Program::Urdfdom3 => &urdfdom::THREE,
+            Program::Gazebo => &sdformat::ABOUT,
+            Program::MuJoCo => &mujoco::FOUR,
+            Program::MuJoCo33 => &mujoco::THREE,
+            Program::Pinocchio => &pinocchio::ABOUT,
+            Program::Drake => &drake::ABOUT,
+            Program::PyBullet => &pybullet::ABOUT,
+            Program::Isaac => &usd::ABOUT,
+            Program::Three => &three::ABOUT,
+        }
+    }
+
+    /// The program that settings name: `ros`, `humble`, `isaac`.
+    pub fn of_name(name: &str) -> Option<Program> {
+        let is_one =
+            |program: &Program| program.id() == name || program.about().settings.contains(&name);
+        Program::ALL.into_iter().find(is_one)
+    }
+
+    /// The name of settings for it.
+    pub fn setting(self) -> &'static str {
+        self.about().settings.first().copied().unwrap_or(self.id())
+    }
+
+    /// Whether it is asked if nobody says which programs matter.
+    pub fn is_asked(self) -> bool {
+        self.about().is_asked
+    }
+
+    /// As reports and the table name it.
+    pub fn id(self) -> &'static str {
+        self.about().id
+    }
+
+    /// As people know it.
+    pub fn name(self) -> &'static str {
+        self.about().name
+    }
+
+    /// The version that its reader is held to.
+    pub fn version(self) -> &'static str {
+        self.about().version
+    }
+
+    /// What it does with a file.
+    pub fn read(self, file: &File) -> Effects {
+        let mut effects = Effects::default();
+        // What a reader refuses is among the effects.
+        let _ = (self.about().read)(file, &mut effects);
+        if effects.loads() {
+            unknown::find(file.bytes, self.about(), &mut effects);
+        }
+        effects
+    }
+}

@@ -1,0 +1,205 @@
+//! How PyBullet reads joints, and what it makes a tree of.
+
+use std::collections::{HashMap, HashSet};
+
+use super::{Links, MOST_LINKS, Reader, atof, pieces};
+use crate::effect::Reading;
+use crate::fault::Fault;
+use crate::tree::{Attribute, Node};
+
+const KINDS: [&str; 7] =
+    ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
+/// A joint, for the tree.
+struct Joint<'t> {
+    node: Node<'t>,
+    name: &'t str,
+    parent: &'t str,
+    child: &'t str,
+}
+
+impl Reader<'_> {
+    pub(super) fn joints(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
+        let mut names = HashSet::new();
+        let mut joints = Vec::new();
+        for node in robot.named("joint") {
+            let joint = self.joint(node, links)?;
+            if !names.insert(joint.name) {
+                return self.effects.crash(node, Fault::not_unique("joint", joint.name));
+            }
+            joints.push(joint);
+        }
+        self.tree(robot, links, &joints)
+    }
+
+    fn joint<'t>(&mut self, node: Node<'t>, links: &Links<'_>) -> Reading<Joint<'t>> {
+        let name = self.named(node, "joint")?;
+        if name.is_empty() {
+            return self.effects.crash(node, Fault::Empty("name"));
+        }
+        let part = format!("joint/{name}");
+        self.pose(node, &format!("{part}/origin"));
+        let (parent, child) = (self.end(node, "parent", links)?, self.end(node, "child", links)?);
+        let Some(kind) = node.attribute("type") else {
+            return self.effects.crash(node, Fault::Missing("type"));
+        };
+        if !KINDS.contains(&&*kind.value) {
+            return self.effects.refuse(kind, Fault::value("type", &kind.value));
+        }
+        let axis = node.child("axis");
+        match &*kind.value {
+            "fixed" => {}
+            "floating" => {
+                self.effects.read_as(kind, &*part, Fault::value("type", "floating"), "fixed");
+            }
+            kind => {
+                if let Some(axis) = axis {
+                    self.axis(axis, kind, &format!("{part}/axis"))?;
+                }
+            }
+        }
+        self.limit(node, &kind.value, &format!("{part}/limit"))?;
+        if let Some(dynamics) = node.child("dynamics") {
+            let values = ["damping", "friction"].map(|name| dynamics.attribute(name));
+            if values.iter().all(Option::is_none) {
+                let fault = Fault::Other("`<dynamics>` has neither damping nor friction");
+                return self.effects.refuse(dynamics, fault);
+            }
+            for value in values.into_iter().flatten() {
+                self.number(value, &format!("{part}/dynamics"));
+            }
+        }
+        for unread in ["mimic", "calibration", "safety_controller"] {
+            if let Some(found) = node.child(unread) {
+                let fault = Fault::NeverRead(unread.into());
+                self.effects.drop(found, format!("{part}/{unread}"), fault);
+            }
+        }
+        Ok(Joint { node, name, parent, child })
+    }
+
+    /// The name of a joint's parent or child.
+    fn end<'t>(
+        &mut self,
+        joint: Node<'t>,
+        name: &'static str,
+        links: &Links<'_>,
+    ) -> Reading<&'t str> {
+        let end = self.effects.needed_element(joint, name)?;
+        match end.value("link") {
+            Some("") => self.effects.refuse(end, Fault::Empty("link")),
+            Some(link) if links.places.contains_key(link) => Ok(link),
+            Some(link) => self.effects.refuse(end, Fault::unknown("link", link)),
+            None if name == "child" => self.effects.crash(end, Fault::Missing("link")),
+            None => self.effects.refuse(end, Fault::Missing("link")),
+        }
+    }
+
+    fn axis(&mut self, axis: Node<'_>, kind: &str, part: &str) -> Reading<()> {
+        let Some(xyz) = axis.attribute("xyz") else {
+            self.effects.read_as(axis, part, Fault::Missing("xyz"), "whatever the memory has");
+            return Ok(());
+        };
+        let pieces = pieces(&xyz.value);
+        if pieces.len() < 3 {
+            return self.effects.refuse(xyz, Fault::count("xyz", 3, &xyz.value));
+        }
+        if kind == "spherical" {
+            self.effects.drop(axis, part, Fault::Other("a spherical joint has no axis"));
+            return Ok(());
+        }
+        self.vector(xyz, part);
+        if pieces[..3].iter().all(|piece| atof(piece) == 0.0) {
+            let fault = Fault::range("xyz", &xyz.value, "an axis needs a length");
+            self.effects.read_as(xyz, part, fault, "nan");
+        }
+        Ok(())
+    }
+
+    fn limit(&mut self, joint: Node<'_>, kind: &str, part: &str) -> Reading<()> {
+        let needs_limit = matches!(kind, "revolute" | "prismatic");
+        let Some(limit) = joint.child("limit") else {
+            return match needs_limit {
+                true => self.effects.refuse(joint, Fault::MissingElement("limit")),
+                false => Ok(()),
+            };
+        };
+        let values = ["lower", "upper", "effort", "velocity"].map(|name| limit.attribute(name));
+        for value in values.into_iter().flatten() {
+            self.number(value, part);
+        }
+        let end = |value: Option<&Attribute<'_>>, default| {
+            value.map_or(default, |value| atof(&value.value))
+        };
+        if needs_limit && end(values[0], 0.0) > end(values[1], -1.0) {
+            let fault = match values[1] {
+                Some(_) => Fault::Other("`lower` is above `upper`"),
+                None => Fault::Missing("upper"),
+            };
+            self.effects.read_as(limit, part, fault, "no limit");
+        }
+        Ok(())
+    }
+
+    fn tree(&mut self, robot: Node<'_>, links: &Links<'_>, joints: &[Joint<'_>]) -> Reading<()> {
+        let mut below: HashMap<&str, Vec<&Joint>> = HashMap::new();
+        for joint in joints {
+            below.entry(joint.parent).or_default().push(joint);
+        }
+        let children: HashSet<&str> = joints.iter().map(|joint| joint.child).collect();
+        let mut roots = links.all.iter().filter(|(name, _)| !children.contains(name));
+        let (root, node) = match (roots.next(), roots.next()) {
+            (Some(root), None) => *root,
+            (_, Some((_, second))) => {
+                let fault = Fault::Tree("two links have no joint above them");
+                return self.effects.crash(*second, fault);
+            }
+            (None, None) => {
+                return self.effects.refuse(robot, Fault::Tree("no link is the root"));
+            }
+        };
+        if root.is_empty() {
+            return self.effects.crash(node, Fault::Empty("name"));
+        }
+        let (mut reached, mut open) = (HashSet::from([root]), vec![root]);
+        while let Some(link) = open.pop() {
+            for joint in below.get(link).into_iter().flatten() {
+                if !reached.insert(joint.child) {
+                    let fault = Fault::Tree("a link is the child of two joints");
+                    return self.effects.crash(joint.node, fault);
+                }
+                open.push(joint.child);
+            }
+        }
+        self.unreached(links, joints, &reached)?;
+        if let Some((_, link)) = links.all.get(MOST_LINKS + 1)
+            && reached.len() > MOST_LINKS + 1
+        {
+            let fault = Fault::Other("a robot of more than 128 links can be asked for nothing");
+            self.effects.drop(*link, "robot", fault);
+        }
+        Ok(())
+    }
+
+    /// Links that the root does not reach are left out. Memory is overwritten if they come before others.
+    fn unreached(
+        &mut self,
+        links: &Links<'_>,
+        joints: &[Joint<'_>],
+        reached: &HashSet<&str>,
+    ) -> Reading<()> {
+        let fault = Fault::Tree("it is in a loop, which the root does not reach");
+        let lost = links.all.iter().filter(|(name, _)| !reached.contains(name));
+        let last = links.all.iter().rposition(|(name, _)| reached.contains(name));
+        for (name, node) in lost {
+            if last.is_some_and(|last| last > reached.len().max(2)) {
+                return self.effects.crash(*node, fault);
+            }
+            self.effects.drop(*node, format!("link/{name}"), fault.clone());
+        }
+        for joint in joints.iter().filter(|joint| !reached.contains(joint.child)) {
+            self.effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
+        }
+        Ok(())
+    }
+}

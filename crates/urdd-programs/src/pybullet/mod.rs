@@ -1,0 +1,270 @@
+//! PyBullet 3.2.7: `loadURDF` with its default flags. It reads URDF by code of its own, which takes any text for a
+//! number, and never reads mimics, calibrations, safety controllers and, by default, tensors of inertia.
+
+mod joints;
+mod lines;
+mod shapes;
+
+use std::collections::HashMap;
+
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::file::File;
+use crate::number::{is_space, strtod};
+use crate::program::About;
+use crate::tinyxml;
+use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
+
+/// Elements nested in each other, from which tinyxml2 as it is built there refuses.
+const MAX_DEPTH: usize = 99;
+/// Names up to this long do no harm. All are copied into 1,024 bytes, and the process ends soon above.
+const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("link", 2100)];
+/// A robot of more links, its root aside, can be asked for nothing.
+const MOST_LINKS: usize = 127;
+
+/// `PyBullet`.
+pub(crate) const ABOUT: About = About {
+    id: "pybullet",
+    name: "PyBullet",
+    version: "3.2.7",
+    settings: &[],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[
+        "mimic",
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "version",
+        "quat_xyzw",
+        "texture",
+        "inertia",
+        "ixx",
+        "ixy",
+        "ixz",
+        "iyy",
+        "iyz",
+        "izz",
+    ],
+    read: read,
+};
+
+pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+    let lines = lines::Lines::of(file.bytes);
+    let reading = read_lines(file, &lines.bytes, effects);
+    for effect in &mut effects.0 {
+        effect.at = lines.place(effect.at).min(file.bytes.len());
+    }
+    reading
+}
+
+fn read_lines(file: &File, bytes: &[u8], effects: &mut Effects) -> Reading<()> {
+    let tree = match tinyxml::parse(bytes, MAX_DEPTH) {
+        Ok(tree) => tree,
+        Err(bad) if tinyxml::parse(file.bytes, MAX_DEPTH).is_ok() => {
+            let why = "a line has more than 8,191 bytes, after which the program breaks it";
+            return effects.refuse(bad.at, Fault::Xml(why));
+        }
+        Err(bad) => return effects.refuse(bad.at, Fault::Xml(bad.why)),
+    };
+    match tree.tops().find(|top| top.name() == "robot") {
+        Some(robot) => Reader { file, effects, materials: HashMap::new() }.robot(robot),
+        None => effects.refuse(0, Fault::NotRobot),
+    }
+}
+
+struct Reader<'r> {
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+    /// The materials that are defined anywhere, with the first colour of each.
+    materials: HashMap<String, String>,
+}
+
+/// The links in their order, and their places in it by their names.
+#[derive(Default)]
+struct Links<'t> {
+    all: Vec<(&'t str, Node<'t>)>,
+    places: HashMap<&'t str, usize>,
+}
+
+impl Reader<'_> {
+    fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
+        self.named(robot, "robot")?;
+        for material in robot.named("material") {
+            let name = material.value("name").unwrap_or_default();
+            let part = format!("material/{name}");
+            match self.materials.get(name) {
+                Some(first) if *first == rgba(material) => {}
+                Some(_) => {
+                    self.effects.drop(material, part, Fault::not_unique("material", name));
+                }
+                None => {
+                    self.material(material, &part);
+                    self.materials.insert(name.to_owned(), rgba(material).to_owned());
+                }
+            }
+        }
+        let visuals = robot.named("link").flat_map(|link| link.named("visual"));
+        for material in visuals.filter_map(|visual| visual.child("material")) {
+            if is_defined(material) {
+                let name = material.value("name").unwrap_or_default().to_owned();
+                self.materials.entry(name).or_insert_with(|| rgba(material).to_owned());
+            }
+        }
+        let mut links = Links::default();
+        for link in robot.named("link") {
+            let name = self.named(link, "link")?;
+            if links.places.insert(name, links.all.len()).is_some() {
+                return self.effects.refuse(link, Fault::not_unique("link", name));
+            }
+            links.all.push((name, link));
+            self.link(link, name)?;
+        }
+        if links.all.is_empty() {
+            return self.effects.refuse(robot, Fault::MissingElement("link"));
+        }
+        self.joints(robot, &links)
+    }
+
+    /// The name of the robot, of a link or of a joint.
+    fn named<'t>(&mut self, node: Node<'t>, kind: &'static str) -> Reading<&'t str> {
+        let name = &*self.effects.needed(node, "name")?.value;
+        let longest = LONGEST_NAMES.iter().find(|(one, _)| *one == kind);
+        if longest.is_some_and(|(_, longest)| name.len() > *longest) {
+            let fault = Fault::Name { kind, name: shortened(name), rule: "the name is too long" };
+            return self.effects.crash(node, fault);
+        }
+        Ok(name)
+    }
+
+    fn material(&mut self, material: Node<'_>, part: &str) {
+        if let Some(texture) = material.child("texture") {
+            self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
+        }
+        if let Some(rgba) = material.child("color").and_then(|color| color.attribute("rgba"))
+            && pieces(&rgba.value).len() != 4
+        {
+            let fault = Fault::count("rgba", 4, &rgba.value);
+            self.effects.read_as(rgba, part, fault, "0 0 0 0");
+        }
+    }
+
+    fn link(&mut self, link: Node<'_>, name: &str) -> Reading<()> {
+        let part = format!("link/{name}");
+        match link.child("inertial") {
+            Some(inertial) => self.inertial(inertial, &format!("{part}/inertial"))?,
+            None if name == "world" => {}
+            None if name.contains("%s") || name.contains("%n") => {
+                let rule = "a warning about its missing inertial takes it for a format";
+                let fault = Fault::Name { kind: "link", name: shortened(name), rule };
+                return self.effects.crash(link, fault);
+            }
+            None => {
+                let fault = Fault::MissingElement("inertial");
+                self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
+            }
+        }
+        for kind in ["visual", "collision"] {
+            for (index, shape) in link.named(kind).enumerate() {
+                self.shape(shape, &format!("{part}/{kind}/{index}"))?;
+            }
+        }
+        // PyBullet's own elements.
+        let contact = link.child("contact");
+        for of in contact.into_iter().flat_map(Node::children) {
+            if CONTACT.contains(&of.name()) {
+                self.effects.needed(of, "value")?;
+            }
+        }
+        let mut data = link.named("bullet").flat_map(|bullet| bullet.named("user-data"));
+        match data.find(|data| data.attribute("key").is_none()) {
+            Some(data) => self.effects.crash(data, Fault::Missing("key")),
+            None => Ok(()),
+        }
+    }
+
+    fn inertial(&mut self, inertial: Node<'_>, part: &str) -> Reading<()> {
+        self.pose(inertial, part);
+        let mass = self.effects.needed_element(inertial, "mass")?;
+        let mass = self.effects.needed(mass, "value")?;
+        self.number(mass, part);
+        let inertia = self.effects.needed_element(inertial, "inertia")?;
+        for name in ["ixx", "iyy", "izz"] {
+            self.effects.needed(inertia, name)?;
+        }
+        let makes = "that of its mass in the shape of its collisions";
+        self.effects.read_as(inertia, part, Fault::NeverRead("inertia".into()), makes);
+        Ok(())
+    }
+
+    fn pose(&mut self, parent: Node<'_>, part: &str) {
+        let Some(origin) = parent.child("origin") else { return };
+        for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
+            self.vector(value, part);
+        }
+        if let Some(quaternion) = origin.attribute("quat_xyzw") {
+            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
+        }
+    }
+
+    /// Three numbers. Fewer are none at all, and what follows is left out.
+    fn vector(&mut self, value: &Attribute<'_>, part: &str) {
+        let pieces = pieces(&value.value);
+        let fault = || Fault::count(&value.name, 3, &value.value);
+        if pieces.len() < 3 {
+            self.effects.read_as(value, part, fault(), "0 0 0");
+        } else if pieces.len() > 3 || pieces.iter().any(|piece| !is_whole(piece)) {
+            let read: Vec<String> =
+                pieces[..3].iter().map(|piece| atof(piece).to_string()).collect();
+            self.effects.read_as(value, part, fault(), read.join(" "));
+        }
+    }
+
+    fn number(&mut self, value: &Attribute<'_>, part: &str) {
+        if !is_whole(&value.value) {
+            let fault = Fault::not_a_number(&value.name, &value.value);
+            self.effects.read_as(value, part, fault, atof(&value.value).to_string());
+        }
+    }
+}
+
+/// What needs a value in a link's `<contact>`.
+const CONTACT: [&str; 7] = [
+    "inertia_scaling",
+    "lateral_friction",
+    "rolling_friction",
+    "restitution",
+    "spinning_friction",
+    "stiffness",
+    "damping",
+];
+
+/// Whether a visual's material is one, and not only the name of one.
+fn is_defined(material: Node<'_>) -> bool {
+    material.children().any(|child| matches!(child.name(), "color" | "texture" | "specular"))
+}
+
+/// The text of a material's colour.
+fn rgba<'t>(material: Node<'t>) -> &'t str {
+    material.child("color").and_then(|color| color.value("rgba")).unwrap_or_default()
+}
+
+/// Pieces between spaces alone.
+fn pieces(text: &str) -> Vec<&str> {
+    text.split(' ').filter(|piece| !piece.is_empty()).collect()
+}
+
+/// `atof`: the number that a text begins with, or 0.
+fn atof(text: &str) -> f64 {
+    strtod(text).map_or(0.0, |(number, _)| number)
+}
+
+/// Whether `atof` reads all of a text, and a finite number.
+fn is_whole(text: &str) -> bool {
+    strtod(text).is_some_and(|(number, rest)| {
+        rest.trim_start_matches(is_space).is_empty() && number.is_finite()
+    })
+}

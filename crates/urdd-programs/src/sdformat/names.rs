@@ -1,0 +1,57 @@
+//! Names that SDF cannot have.
+
+use std::collections::HashSet;
+
+use super::tree::Tree;
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::number::is_space;
+use crate::tree::Node;
+
+/// The names of the robot, and of links and joints that are kept.
+pub(super) fn check(robot: Node<'_>, links: &Tree<'_>, effects: &mut Effects) -> Reading<()> {
+    one(robot, "robot", robot.value("name").unwrap_or_default(), effects)?;
+    let mut names = HashSet::new();
+    let bodies = || links.bodies.iter().filter(|body| body.is_made);
+    let joints = bodies().filter_map(|body| body.joint.as_ref());
+    let all = bodies().map(|body| (body.node, "link", body.name));
+    for (node, kind, name) in all.chain(joints.map(|joint| (joint.node, "joint", joint.name))) {
+        one(node, kind, name, effects)?;
+        let read = trimmed(name);
+        if read != name {
+            let rule = "white space around it is cut off, `true` is 1 and `false` 0";
+            let fault = Fault::Name { kind, name: shortened(name), rule };
+            effects.read_as(node, format!("{kind}/{name}"), fault, read);
+        }
+        if !names.insert(read) {
+            return effects.refuse(node, Fault::not_unique("link or joint", name));
+        }
+    }
+    Ok(())
+}
+
+fn one(node: Node<'_>, kind: &'static str, name: &str, effects: &mut Effects) -> Reading<()> {
+    let read = trimmed(name);
+    let is_reserved = name == "world"
+        || read == "world"
+        || read.len() >= 4 && read.starts_with("__") && read.ends_with("__");
+    let at = node.attribute("name").map_or(node.start(), |name| name.range.start);
+    if read.is_empty() {
+        return effects.refuse(at, Fault::Empty("name"));
+    }
+    if is_reserved {
+        let rule = "the name is one of SDF's own";
+        return effects.refuse(at, Fault::Name { kind, name: shortened(name), rule });
+    }
+    Ok(())
+}
+
+/// A text as SDF has it.
+pub(super) fn trimmed(text: &str) -> &str {
+    let text = text.trim_matches(is_space);
+    match text {
+        _ if text.eq_ignore_ascii_case("true") => "1",
+        _ if text.eq_ignore_ascii_case("false") => "0",
+        _ => text,
+    }
+}

@@ -1,0 +1,234 @@
+//! XML as parsers have it that keep to the standard: expat of Python, and those of browsers.
+
+use std::borrow::Cow;
+
+use roxmltree::{Document, Error, Node, ParsingOptions, StringStorage, TextPos};
+
+use crate::tinyxml::Malformed;
+use crate::tree::{Attribute, Element, Tree};
+
+/// How a parser names elements and attributes that have a prefix.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Names {
+    /// `{namespace}name`.
+    Expanded,
+    /// `prefix:name`.
+    Written,
+}
+
+/// The text of a file.
+pub(crate) struct Text<'a> {
+    pub text: Cow<'a, str>,
+    /// The place in the file of each byte of the text, if they differ.
+    places: Option<Vec<usize>>,
+}
+
+impl<'a> Text<'a> {
+    /// UTF-8, whatever the file says; bytes that are none become U+FFFD.
+    pub fn utf8(bytes: &'a [u8]) -> Text<'a> {
+        if let Ok(text) = std::str::from_utf8(bytes) {
+            return Text { text: text.into(), places: None };
+        }
+        let mut at = 0;
+        let mut characters = Vec::with_capacity(bytes.len());
+        for chunk in bytes.utf8_chunks() {
+            characters.extend(chunk.valid().char_indices().map(|(of, one)| (one, at + of)));
+            at += chunk.valid().len();
+            if !chunk.invalid().is_empty() {
+                characters.push((char::REPLACEMENT_CHARACTER, at));
+            }
+            at += chunk.invalid().len();
+        }
+        Text::of(characters.into_iter())
+    }
+
+    fn of(characters: impl Iterator<Item = (char, usize)>) -> Text<'a> {
+        let (mut text, mut places) = (String::new(), Vec::new());
+        for (character, place) in characters {
+            text.push(character);
+            places.resize(text.len(), place);
+        }
+        Text { text: text.into(), places: Some(places) }
+    }
+
+    /// The place in the file of a place in the text.
+    fn place(&self, at: usize) -> usize {
+        match &self.places {
+            Some(places) => places.get(at).or(places.last()).copied().unwrap_or(0),
+            None => at,
+        }
+    }
+
+    /// A tree of the text with its places as they are in the file.
+    pub fn placed<'t>(&self, mut tree: Tree<'t>) -> Tree<'t> {
+        for element in &mut tree.elements {
+            element.tag = self.place(element.tag.start)..self.place(element.tag.end);
+            for attribute in &mut element.attributes {
+                attribute.range =
+                    self.place(attribute.range.start)..self.place(attribute.range.end);
+            }
+        }
+        tree
+    }
+
+    /// Parses it.
+    pub fn parse(&self, names: Names) -> Result<Tree<'_>, Malformed> {
+        match parse(&self.text, names) {
+            Ok(tree) => Ok(self.placed(tree)),
+            Err(bad) => Err(Malformed { at: self.place(bad.at), why: bad.why }),
+        }
+    }
+}
+
+/// Parses text that is well-formed and has its prefixes declared.
+pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
+    if let Some((at, why)) = oddity(text) {
+        return Err(Malformed { at, why });
+    }
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error| Malformed { at: place_of(text, error.pos()), why: why(&error) })?;
+    let mut tree = Tree::default();
+    // The element of each node that has one.
+    let mut indices: Vec<usize> = Vec::new();
+    for node in document.descendants() {
+        indices.resize(node.id().get_usize() + 1, usize::MAX);
+        let Some(element) = element(node, names, text) else { continue };
+        let index = tree.elements.len();
+        indices[node.id().get_usize()] = index;
+        let above = node.parent().and_then(|parent| indices.get(parent.id().get_usize()));
+        match above.and_then(|&above| tree.elements.get_mut(above)) {
+            Some(above) => above.children.push(index),
+            None => tree.tops.push(index),
+        }
+        tree.elements.push(element);
+    }
+    // Instructions may be beside the root.
+    tree.tops.retain(|&top| tree.elements[top].name != INSTRUCTION);
+    Ok(tree)
+}
+
+/// What is not well-formed, and `roxmltree` lets through.
+fn oddity(text: &str) -> Option<(usize, &'static str)> {
+    let is_bad = |&(at, _): &(usize, &str)| {
+        let ends = |one: char| !one.is_ascii_alphanumeric();
+        let number = text[at + 2..].split(ends).next().unwrap_or_default();
+        let code = match number.strip_prefix('x') {
+            Some(digits) => u32::from_str_radix(digits, 16),
+            None => number.parse(),
+        };
+        code.is_ok_and(|code| char::from_u32(code).is_none())
+    };
+    if let Some((at, _)) = text.match_indices("&#").find(is_bad) {
+        return Some((at, "a reference is of no character"));
+    }
+    let is_empty = |&(at, mark): &(usize, &str)| {
+        let name = |one: char| one.is_alphanumeric() || "_-.".contains(one);
+        let value = text[at + mark.len()..].trim_start_matches(name);
+        value.starts_with("=\"\"") || value.starts_with("=''")
+    };
+    if let Some((at, _)) = text.match_indices("xmlns:").find(is_empty) {
+        return Some((at, "a prefix is declared as nothing"));
+    }
+    if let Some((at, _)) = text.match_indices(" :").find(|(at, _)| is_attribute(&text[at + 2..])) {
+        return Some((at + 1, "an attribute begins with `:`"));
+    }
+    let head = text.trim_start_matches('\u{feff}');
+    if head.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("<?xml"))
+        && head[5..].starts_with([' ', '\n', '\t', '\r', '?'])
+        && !is_declaration(head)
+    {
+        return Some((text.len() - head.len(), "the XML declaration is not right"));
+    }
+    None
+}
+
+/// Whether a name, `=` and a quote are next.
+fn is_attribute(text: &str) -> bool {
+    let behind = text.trim_start_matches(|one: char| one.is_alphanumeric() || "._-".contains(one));
+    behind.starts_with("=\"") || behind.starts_with("='")
+}
+
+/// Whether a text begins with a declaration that says its version, and perhaps more.
+fn is_declaration(text: &str) -> bool {
+    let inside = text.strip_prefix("<?xml").and_then(|text| text.split_once("?>"));
+    let words = inside.map_or("", |(inside, _)| inside).split(['"', '\'']).map(str::trim);
+    let words: Vec<&str> = words.collect();
+    let mut pairs =
+        words.chunks_exact(2).map(|pair| (pair[0].trim_end_matches('=').trim(), pair[1]));
+    let is_version = |version: &str| {
+        version.strip_prefix("1.").is_some_and(|minor| minor.parse::<u32>().is_ok())
+    };
+    pairs.next().is_some_and(|(name, value)| name == "version" && is_version(value))
+        && pairs.all(|(name, value)| match name {
+            "encoding" => value.starts_with(|first: char| first.is_ascii_alphabetic()),
+            "standalone" => matches!(value, "yes" | "no"),
+            _ => false,
+        })
+}
+
+/// The name of an element that is a processing instruction.
+pub(crate) const INSTRUCTION: &str = "?";
+
+fn element<'a>(node: Node<'_, 'a>, names: Names, text: &'a str) -> Option<Element<'a>> {
+    let range = node.range();
+    let written = |range: std::ops::Range<usize>| text.get(range).unwrap_or_default();
+    let name = match names {
+        _ if node.is_pi() => INSTRUCTION.into(),
+        _ if !node.is_element() => return None,
+        Names::Expanded => expanded(node.tag_name().namespace(), node.tag_name().name()),
+        Names::Written => {
+            let tag = written(range.start + 1..range.end);
+            let ends =
+                |character: char| character.is_ascii_whitespace() || "/>".contains(character);
+            tag.split(ends).next().unwrap_or_default().into()
+        }
+    };
+    let attributes = node.attributes().map(|attribute| Attribute {
+        name: match names {
+            Names::Expanded => expanded(attribute.namespace(), attribute.name()),
+            Names::Written => written(attribute.range_qname()).into(),
+        },
+        value: match attribute.value_storage() {
+            StringStorage::Borrowed(value) => Cow::Borrowed(*value),
+            StringStorage::Owned(value) => Cow::Owned(value.to_string()),
+        },
+        range: attribute.range(),
+    });
+    let attributes = attributes.collect();
+    Some(Element { name, attributes, children: Vec::new(), text: None, tag: range })
+}
+
+fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {
+    match namespace {
+        Some(namespace) => format!("{{{namespace}}}{name}").into(),
+        None => name.into(),
+    }
+}
+
+fn place_of(text: &str, pos: TextPos) -> usize {
+    let row = pos.row.saturating_sub(1) as usize;
+    let start: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
+    let line = text[start..].char_indices();
+    line.map(|(at, _)| start + at).nth(pos.col.saturating_sub(1) as usize).unwrap_or(text.len())
+}
+
+fn why(error: &Error) -> &'static str {
+    match error {
+        Error::UnknownNamespace(..) => "a prefix is not declared",
+        Error::DuplicatedNamespace(..) | Error::DuplicatedAttribute(..) => {
+            "an attribute is there twice in one element"
+        }
+        Error::UnexpectedCloseTag(..) => "an element is closed by another name",
+        Error::UnknownEntityReference(..) => "an entity is not declared",
+        Error::MalformedEntityReference(_) => "`&` does not begin an entity",
+        Error::UnexpectedDeclaration(_) => {
+            "the XML declaration is not at the beginning of the file"
+        }
+        Error::NoRootNode => "the file has no element",
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => "an element is not closed",
+        Error::NonXmlChar(..) => "the file has a character that XML does not allow",
+        Error::InvalidComment(_) => "a comment has `--` in it",
+        _ => "the file is not well-formed XML",
+    }
+}

@@ -1,0 +1,412 @@
+//! urdf-loader 0.13.1 of three.js, with its defaults: visuals, no collisions. Any text is a number to it, perhaps NaN.
+//! Names of elements may be in any case. Chromium reads a file that is not well-formed as far as the first error.
+
+mod mesh;
+
+use std::collections::{HashMap, HashSet};
+
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::file::File;
+use crate::mesh::Mesh;
+use crate::number::parse_float;
+use crate::program::About;
+use crate::strict::{Names, Text};
+use crate::tree::{Attribute, Node};
+use crate::unknown::Names as ElementNames;
+
+/// three.js.
+pub(crate) const ABOUT: About = About {
+    id: "urdf_loader",
+    name: "three.js (urdf-loader)",
+    version: "0.13.1",
+    settings: &["three"],
+    is_asked: true,
+    names: ElementNames::AnyCase,
+    never: &[
+        "collision",
+        "dynamics",
+        "damping",
+        "friction",
+        "safety_controller",
+        "calibration",
+        "acceleration",
+        "deceleration",
+        "jerk",
+        "version",
+        "quat_xyzw",
+    ],
+    read: read,
+};
+
+pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+    let text = Text::utf8(file.bytes);
+    let tree =
+        text.parse(Names::Written).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
+        return effects.refuse(0, Fault::NotRobot);
+    };
+    let mut reader = Reader { file, effects, materials: HashSet::new() };
+    reader.robot(robot)
+}
+
+fn named<'t>(node: Node<'t>, name: &str) -> impl Iterator<Item = Node<'t>> {
+    node.children().filter(move |child| child.name().eq_ignore_ascii_case(name))
+}
+
+fn name_of<'t>(node: Node<'t>) -> &'t str {
+    node.value("name").unwrap_or("null")
+}
+
+struct Reader<'r, 't> {
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+    /// The names of the robot's materials.
+    materials: HashSet<&'t str>,
+}
+
+struct Joint<'t> {
+    node: Node<'t>,
+    child: Option<&'t str>,
+    mimic: Option<Node<'t>>,
+}
+
+impl<'t> Reader<'_, 't> {
+    fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
+        for material in named(robot, "material") {
+            self.material(material, &format!("material/{}", name_of(material)))?;
+            self.materials.insert(name_of(material));
+        }
+        let children = named_as_children(robot);
+        let mut links = HashMap::new();
+        let mut root: Option<Node<'t>> = None;
+        for link in named(robot, "link") {
+            let name = name_of(link);
+            if name.contains(['"', '\n', '\r', '\u{c}']) {
+                let rule = "a name cannot have a quote or an end of a line";
+                let fault = Fault::Name { kind: "link", name: shortened(name), rule };
+                return self.effects.refuse(link, fault);
+            }
+            self.link(link, &format!("link/{name}"))?;
+            let is_root = !children.contains(name) || name.contains('\\');
+            if let Some(root) = root.filter(|_| is_root) {
+                let fault = Fault::Tree("two links have no joint above them");
+                let part = format!("link/{}", name_of(root));
+                self.effects.drop(link, part, fault.clone());
+                self.effects.read_as(link, format!("link/{name}"), fault, "one with the others");
+            }
+            root = if is_root { Some(link) } else { root };
+            if links.insert(name, link).is_some_and(|other| !other.is_like(link)) {
+                let fault = Fault::not_unique("link", name);
+                self.effects.read_as(link, format!("link/{name}"), fault, "the last");
+            }
+        }
+        let mut joints = HashMap::new();
+        let mut all = Vec::new();
+        for node in named(robot, "joint") {
+            let joint = self.joint(node, &links)?;
+            if let Some(other) = joints.insert(name_of(node), all.len())
+                && all.get(other).is_some_and(|other: &Joint| !other.node.is_like(node))
+            {
+                let fault = Fault::not_unique("joint", name_of(node));
+                self.effects.read_as(node, format!("joint/{}", name_of(node)), fault, "the last");
+            }
+            all.push(joint);
+        }
+        self.children(&all);
+        self.mimics(&all, &joints)
+    }
+
+    fn number(&mut self, value: &Attribute<'_>, part: &str, none: &str) -> f64 {
+        let number = parse_float(&value.value);
+        let is_whole = value.value.trim().parse().is_ok_and(|whole: f64| whole == number);
+        if !is_whole || !number.is_finite() {
+            let fault = Fault::not_a_number(&value.name, &value.value);
+            let makes = if number.is_nan() { none.to_owned() } else { number.to_string() };
+            self.effects.read_as(value, part, fault, makes);
+        }
+        number
+    }
+
+    fn numbers(&mut self, node: Node<'_>, names: &[&str], part: &str, none: &str) {
+        for value in names.iter().filter_map(|name| node.attribute(name)) {
+            if !value.value.is_empty() {
+                self.number(value, part, none);
+            }
+        }
+    }
+
+    /// Numbers between white space.
+    fn vector<'v>(
+        &mut self,
+        value: &Attribute<'_>,
+        pieces: impl Iterator<Item = &'v str>,
+        count: usize,
+        part: &str,
+    ) {
+        let (mut found, mut is_whole) = (0, true);
+        for piece in pieces {
+            found += 1;
+            is_whole &= piece.parse().is_ok_and(f64::is_finite);
+        }
+        if found != count || !is_whole {
+            let fault = match is_whole {
+                true => Fault::count(&value.name, count, &value.value),
+                false => Fault::not_a_number(&value.name, &value.value),
+            };
+            self.effects.read_as(value, part, fault, "what each begins with, or NaN");
+        }
+    }
+
+    fn pose(&mut self, parent: Node<'t>, part: &str) {
+        let Some(origin) = self.last(parent, "origin", part) else { return };
+        let part = format!("{part}/origin");
+        for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
+            if !value.value.is_empty() {
+                let text = value.value.trim();
+                let pieces = text.split_whitespace().chain(text.is_empty().then_some(""));
+                self.vector(value, pieces, 3, &part);
+            }
+        }
+        if let Some(unread) = origin.attribute("quat_xyzw") {
+            self.effects.drop(unread, part, Fault::NeverRead("quat_xyzw".into()));
+        }
+    }
+
+    /// Of elements that repeat, the last counts.
+    fn last(&mut self, parent: Node<'t>, name: &str, part: &str) -> Option<Node<'t>> {
+        let mut all = named(parent, name);
+        let first = all.next()?;
+        let Some(last) = all.last() else { return Some(first) };
+        let is_empty = first.attributes().is_empty() && first.children().next().is_none();
+        if !is_empty && !last.is_like(first) {
+            let fault = Fault::Repeated(name.to_owned());
+            self.effects.read_as(last, format!("{part}/{name}"), fault, "the last");
+        }
+        Some(last)
+    }
+
+    fn material(&mut self, material: Node<'t>, part: &str) -> Reading<()> {
+        for color in named(material, "color") {
+            let Some(rgba) = color.attribute("rgba") else {
+                return self.effects.refuse(color, Fault::Missing("rgba"));
+            };
+            self.vector(rgba, rgba.value.split(char::is_whitespace), 4, part);
+        }
+        for texture in named(material, "texture") {
+            match texture.attribute("filename").filter(|name| !name.value.is_empty()) {
+                None => self.effects.drop(texture, part, Fault::Empty("filename")),
+                Some(name) if matches!(self.file.mesh(&name.value), Mesh::Missing) => {
+                    let fault = Fault::Other("the file of the texture was not found");
+                    self.effects.drop(name, part, fault);
+                }
+                Some(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn link(&mut self, link: Node<'t>, part: &str) -> Reading<()> {
+        if let Some(inertial) = named(link, "inertial").next() {
+            let part = format!("{part}/inertial");
+            self.pose(inertial, &part);
+            for mass in named(inertial, "mass") {
+                self.numbers(mass, &["value"], &part, "0");
+            }
+            for inertia in named(inertial, "inertia") {
+                let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+                self.numbers(inertia, &names, &part, "0");
+            }
+        }
+        for (index, visual) in named(link, "visual").enumerate() {
+            self.visual(visual, &format!("{part}/visual/{index}"))?;
+        }
+        for (index, collision) in named(link, "collision").enumerate() {
+            let fault = Fault::NeverRead("collision".into());
+            self.effects.drop(collision, format!("{part}/collision/{index}"), fault);
+        }
+        Ok(())
+    }
+
+    fn visual(&mut self, visual: Node<'t>, part: &str) -> Reading<()> {
+        if let Some(material) = named(visual, "material").next() {
+            let name = material.value("name").unwrap_or_default();
+            let part = format!("{part}/material");
+            if name.is_empty() || !self.materials.contains(name) {
+                self.material(material, &part)?;
+                if material.children().next().is_none() {
+                    let fault = Fault::unknown("material of the robot", name);
+                    self.effects.read_as(material, part, fault, "white");
+                }
+            }
+        }
+        self.pose(visual, part);
+        if named(visual, "geometry").next().is_none() {
+            self.effects.drop(visual, part, Fault::MissingElement("geometry"));
+        }
+        for geometry in named(visual, "geometry") {
+            let Some(form) = geometry.children().next() else {
+                return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
+            };
+            self.shape(form, part);
+        }
+        Ok(())
+    }
+
+    fn shape(&mut self, form: Node<'t>, part: &str) {
+        let sizes: &[&'static str] = match &*form.name().to_ascii_lowercase() {
+            "mesh" => return self.mesh(form, part),
+            "box" => {
+                match form.attribute("size") {
+                    Some(size) => self.vector(size, size.value.split_whitespace(), 3, part),
+                    None => self.effects.read_as(form, part, Fault::Missing("size"), "0 0 0"),
+                }
+                return;
+            }
+            "sphere" => &["radius"],
+            "cylinder" => &["radius", "length"],
+            _ => return self.effects.drop(form, part, Fault::Shape(shortened(form.name()))),
+        };
+        for name in sizes {
+            match form.attribute(name) {
+                Some(size) => drop(self.number(size, part, "0")),
+                None => self.effects.read_as(form, part, Fault::Missing(name), "0"),
+            }
+        }
+    }
+
+    fn joint(&mut self, node: Node<'t>, links: &HashMap<&str, Node<'t>>) -> Reading<Joint<'t>> {
+        let part = format!("joint/{}", name_of(node));
+        let mimic = named(node, "mimic").next();
+        if let Some(mimic) = mimic {
+            self.numbers(mimic, &["multiplier", "offset"], &format!("{part}/mimic"), "NaN");
+        }
+        self.pose(node, &part);
+        let Some(parent) = self.last(node, "parent", &part) else {
+            return self.effects.refuse(node, Fault::MissingElement("parent"));
+        };
+        let link = parent.value("link").unwrap_or("null");
+        if !links.contains_key(link) {
+            return self.effects.refuse(parent, Fault::unknown("link", link));
+        }
+        let child = self.last(node, "child", &part);
+        let link = child.map(|child| child.value("link").unwrap_or("null"));
+        if link.is_none_or(|link| !links.contains_key(link)) {
+            let fault = Fault::unknown("link", link.unwrap_or_default());
+            self.effects.drop(child.unwrap_or(node), format!("{part}/child"), fault);
+        }
+        if let Some(axis) = named(node, "axis").next() {
+            let Some(xyz) = axis.attribute("xyz") else {
+                return self.effects.refuse(axis, Fault::Missing("xyz"));
+            };
+            self.axis(xyz, &format!("{part}/axis"));
+        }
+        self.limit(node, &part);
+        for unread in ["dynamics", "calibration", "safety_controller"] {
+            if let Some(found) = named(node, unread).next() {
+                let fault = Fault::NeverRead(unread.into());
+                self.effects.drop(found, format!("{part}/{unread}"), fault);
+            }
+        }
+        Ok(Joint { node, child: link, mimic })
+    }
+
+    /// An axis is split at white space, which may be before the first number too.
+    fn axis(&mut self, xyz: &Attribute<'_>, part: &str) {
+        let text = &*xyz.value;
+        let is_padded = text.is_empty() || text.starts_with(char::is_whitespace);
+        let before = is_padded.then_some("");
+        self.vector(xyz, before.into_iter().chain(text.split_whitespace()), 3, part);
+    }
+
+    fn limit(&mut self, joint: Node<'t>, part: &str) {
+        let (kind, part) = (joint.attribute("type"), format!("{part}/limit"));
+        let text = kind.map_or("", |kind| &*kind.value);
+        let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
+        if !known.contains(&text) {
+            let at = kind.map_or(joint.start(), |kind| kind.range.start);
+            let part = format!("joint/{}", name_of(joint));
+            self.effects.read_as(at, part, Fault::value("type", text), "fixed");
+        }
+        let is_limited = matches!(text, "revolute" | "prismatic");
+        let mut limits = named(joint, "limit").peekable();
+        if limits.peek().is_none() && is_limited {
+            let fault = Fault::MissingElement("limit");
+            self.effects.read_as(joint, &*part, fault, "locked at 0");
+        }
+        for limit in limits {
+            self.numbers(limit, &["lower", "upper", "effort", "velocity"], &part, "NaN");
+            for unread in ["acceleration", "deceleration", "jerk"] {
+                if let Some(unread) = limit.attribute(unread) {
+                    let fault = Fault::NeverRead(unread.name.to_string());
+                    self.effects.drop(unread, &*part, fault);
+                }
+            }
+        }
+    }
+
+    /// Of joints with one child the last has it.
+    fn children(&mut self, joints: &[Joint<'t>]) {
+        let mut last: HashMap<&str, Node<'t>> = HashMap::new();
+        for joint in joints {
+            let Some(child) = joint.child else { continue };
+            if let Some(other) =
+                last.insert(child, joint.node).filter(|one| !one.is_like(joint.node))
+            {
+                let part = format!("joint/{}/child", name_of(other));
+                let fault = Fault::Tree("a link is the child of two joints");
+                self.effects.drop(joint.node, part, fault);
+            }
+        }
+    }
+
+    fn mimics(&mut self, joints: &[Joint<'t>], by_name: &HashMap<&str, usize>) -> Reading<()> {
+        /// How often a joint was met: never, on the way, or to its end.
+        const NEW: usize = 0;
+        const DONE: usize = usize::MAX;
+        let mut driver = vec![None; joints.len()];
+        for (index, joint) in joints.iter().enumerate() {
+            let Some(mimic) =
+                joint.mimic.filter(|_| by_name.get(name_of(joint.node)) == Some(&index))
+            else {
+                continue;
+            };
+            let name = mimic.value("joint").unwrap_or("null");
+            driver[index] = by_name.get(name).copied();
+            if driver[index].is_none() {
+                return self.effects.refuse(mimic, Fault::unknown("joint", name));
+            }
+        }
+        let mut met = vec![NEW; joints.len()];
+        for start in 0..joints.len() {
+            let mut way = Vec::new();
+            let mut at = Some(start);
+            while let Some(joint) = at.filter(|&joint| met[joint] == NEW) {
+                met[joint] = start + 1;
+                way.push(joint);
+                at = driver[joint];
+            }
+            if let Some(again) = at.filter(|&joint| met[joint] == start + 1) {
+                let place = joints[again].mimic.unwrap_or(joints[again].node);
+                return self
+                    .effects
+                    .refuse(place, Fault::Other("joints mimic each other in a loop"));
+            }
+            way.into_iter().for_each(|joint| met[joint] = DONE);
+        }
+        Ok(())
+    }
+}
+
+/// What is named by a `<child>` anywhere: no such link is a root.
+fn named_as_children<'t>(robot: Node<'t>) -> HashSet<&'t str> {
+    let mut found = HashSet::new();
+    let mut open = vec![robot];
+    while let Some(node) = open.pop() {
+        if node.name().rsplit(':').next() == Some("child") {
+            found.extend(node.value("link"));
+        }
+        open.extend(node.children());
+    }
+    found
+}

@@ -1,0 +1,136 @@
+//! An XML document as a program's own parser made it, with places in the text.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// A document.
+#[derive(Default)]
+pub(crate) struct Tree<'a> {
+    pub elements: Vec<Element<'a>>,
+    /// The elements that are in no other; one in a document that is well-formed.
+    pub tops: Vec<usize>,
+    /// Where text begins that is in no element, if the parser lets it pass.
+    pub stray: Option<usize>,
+}
+
+/// An element.
+pub(crate) struct Element<'a> {
+    /// With its prefix, if the parser knows no namespaces.
+    pub name: Cow<'a, str>,
+    pub attributes: Vec<Attribute<'a>>,
+    /// Indices of the elements inside, in order.
+    pub children: Vec<usize>,
+    /// The text before the first child of another kind; none if there is an element first.
+    pub text: Option<Cow<'a, str>>,
+    /// From `<` to the end of the start tag, bytes of the file.
+    pub tag: Range<usize>,
+}
+
+/// An attribute.
+pub(crate) struct Attribute<'a> {
+    pub name: Cow<'a, str>,
+    pub value: Cow<'a, str>,
+    /// From its name to the closing quote, bytes of the file.
+    pub range: Range<usize>,
+}
+
+/// An element of a tree.
+#[derive(Clone, Copy)]
+pub(crate) struct Node<'t> {
+    tree: &'t Tree<'t>,
+    pub index: usize,
+}
+
+impl<'t> Tree<'t> {
+    /// The elements that are in no other.
+    pub fn tops(&'t self) -> impl Iterator<Item = Node<'t>> {
+        self.tops.iter().map(move |&index| Node { tree: self, index })
+    }
+}
+
+impl<'t> Node<'t> {
+    fn element(self) -> &'t Element<'t> {
+        &self.tree.elements[self.index]
+    }
+
+    pub fn name(self) -> &'t str {
+        &self.element().name
+    }
+
+    pub fn text(self) -> Option<&'t str> {
+        self.element().text.as_deref()
+    }
+
+    /// Where the element begins in the file.
+    pub fn start(self) -> usize {
+        self.element().tag.start
+    }
+
+    pub fn attributes(self) -> &'t [Attribute<'t>] {
+        &self.element().attributes
+    }
+
+    pub fn attribute(self, name: &str) -> Option<&'t Attribute<'t>> {
+        self.element().attributes.iter().find(|one| one.name == name)
+    }
+
+    pub fn value(self, name: &str) -> Option<&'t str> {
+        self.attribute(name).map(|one| &*one.value)
+    }
+
+    /// Whether it has neither attributes nor elements.
+    pub fn is_empty(self) -> bool {
+        self.attributes().is_empty() && self.element().children.is_empty()
+    }
+
+    pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
+        let tree = self.tree;
+        self.element().children.iter().map(move |&index| Node { tree, index })
+    }
+
+    pub fn named(self, name: &str) -> impl Iterator<Item = Node<'t>> + Clone {
+        self.children().filter(move |child| child.name() == name)
+    }
+
+    /// Whether another element has the same attributes and elements in it.
+    pub fn is_like(self, other: Node<'_>) -> bool {
+        let mut open = vec![(self, other)];
+        while let Some((one, other)) = open.pop() {
+            let (first, second) = (one.attributes().iter(), other.attributes().iter());
+            let (inside, beside) = (one.children(), other.children());
+            let is_same = one.name() == other.name()
+                && first.len() == second.len()
+                && first.zip(second).all(|(a, b)| a.name == b.name && a.value == b.value)
+                && one.child_count() == other.child_count();
+            if !is_same {
+                return false;
+            }
+            open.extend(inside.zip(beside));
+        }
+        true
+    }
+
+    /// Another element beside the first of a name that says something else than it does.
+    pub fn repeated(self, name: &str) -> Option<Node<'t>> {
+        let is_empty = |node: Node<'_>| node.attributes().is_empty() && node.child_count() == 0;
+        let mut all = self.named(name).filter(|node| !is_empty(*node));
+        let first = all.next()?;
+        all.find(|other| !other.is_like(first))
+    }
+
+    fn child_count(self) -> usize {
+        self.element().children.len()
+    }
+
+    pub fn child(self, name: &str) -> Option<Node<'t>> {
+        self.named(name).next()
+    }
+}
+
+/// The place of an attribute that stands twice in an element.
+pub(crate) fn repeated(attributes: &[Attribute<'_>]) -> Option<usize> {
+    let mut names: Vec<(&str, usize)> =
+        attributes.iter().map(|one| (&*one.name, one.range.start)).collect();
+    names.sort_unstable();
+    names.windows(2).find(|two| two[0].0 == two[1].0).map(|two| two[1].1)
+}

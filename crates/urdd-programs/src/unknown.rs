@@ -1,0 +1,402 @@
+//! Elements and attributes that look like those of URDF, and that programs ignore: `<Visual>`, `x:origin`, `efort="3"`,
+//! `<inertial>` below `<robot>`. What resembles nothing is an extension, and is not judged.
+
+use std::collections::HashSet;
+
+use crate::effect::Effects;
+use crate::fault::{Fault, shortened};
+use crate::program::About;
+use crate::tinyxml;
+use crate::tree::Node;
+
+/// Which names a program takes for those of elements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Names {
+    /// As they are written.
+    Exact,
+    /// In any letter case.
+    AnyCase,
+}
+
+/// An element of URDF.
+struct Known {
+    name: &'static str,
+    /// What it stands in.
+    parents: &'static [&'static str],
+    attributes: &'static [&'static str],
+}
+
+const GEOMETRY: &[&str] = &["geometry"];
+const JOINT: &[&str] = &["joint"];
+const INERTIAL: &[&str] = &["inertial"];
+const SHOWN: &[&str] = &["visual", "collision"];
+
+const KNOWN: &[Known] = &[
+    known("robot", &[], &["name", "version"]),
+    known("link", &["robot"], &["name", "type"]),
+    known("joint", &["robot"], &["name", "type"]),
+    known("material", &["robot", "visual"], &["name"]),
+    known("color", &["material"], &["rgba"]),
+    known("texture", &["material"], &["filename"]),
+    known("inertial", &["link"], &[]),
+    known("visual", &["link"], &[]),
+    known("collision", &["link"], &[]),
+    known("origin", &["inertial", "visual", "collision", "joint"], &["xyz", "rpy", "quat_xyzw"]),
+    known("mass", INERTIAL, &["value"]),
+    known("inertia", INERTIAL, &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
+    known("geometry", SHOWN, &[]),
+    known("box", GEOMETRY, &["size"]),
+    known("sphere", GEOMETRY, &["radius"]),
+    known("cylinder", GEOMETRY, &["radius", "length"]),
+    known("capsule", GEOMETRY, &["radius", "length"]),
+    known("mesh", GEOMETRY, &["filename", "scale"]),
+    known("parent", JOINT, &["link"]),
+    known("child", JOINT, &["link"]),
+    known("axis", JOINT, &["xyz"]),
+    known(
+        "limit",
+        JOINT,
+        &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
+    ),
+    known("dynamics", JOINT, &["damping", "friction"]),
+    known("mimic", JOINT, &["joint", "multiplier", "offset"]),
+    known("calibration", JOINT, &["reference_position", "rising", "falling"]),
+    known(
+        "safety_controller",
+        JOINT,
+        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
+    ),
+];
+
+/// Elements of programs and tools, with all that is in them; some stand where URDF has other elements, or look like them.
+const EXTENSIONS: &[&str] = &[
+    "transmission",
+    "gazebo",
+    "sensor",
+    "ros2_control",
+    "mujoco",
+    "bullet",
+    "contact",
+    "frame",
+    "frames",
+    "verbose",
+    "collision_checking",
+    "loop_joint",
+    "self_collision_checking",
+    "specular",
+    "plane",
+    "cdf",
+    "convex",
+    "deformable",
+    "reduced_deformable",
+    "audio_source",
+    "model",
+    "models",
+    "plugin",
+    "disable_collisions",
+    "chain",
+    "actuator",
+    "motor",
+    "user-data",
+    "concave",
+    "simulation",
+    "safety",
+    "cone",
+    "ellipsoid",
+    "type",
+];
+
+/// Prefixes of such elements.
+const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newton", "xi"];
+
+/// Names of attributes that say little of where they belong.
+const COMMON: &[&str] = &["name", "type", "value", "link", "joint", "size", "length", "scale"];
+
+/// More elements in each other than URDF ever has.
+const MAX_DEPTH: usize = 1000;
+
+const fn known(
+    name: &'static str,
+    parents: &'static [&'static str],
+    attributes: &'static [&'static str],
+) -> Known {
+    Known { name, parents, attributes }
+}
+
+/// Adds what a program ignores in a file that it loads.
+pub(crate) fn find(bytes: &[u8], reads: &About, effects: &mut Effects) {
+    let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
+    let mut finder = Finder { reads, effects };
+    let mut robots = tree.tops().filter(|top| top.name() == "robot");
+    if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
+        let place = Place { part: "robot".into(), owner: "robot".into() };
+        finder.attributes(robot, known, &place.part);
+        finder.children(robot, known, &place);
+    }
+    if let Some(second) = robots.next() {
+        finder.effects.drop(second, "robot/?", Fault::Repeated("robot".into()));
+    }
+}
+
+/// Where an element stands.
+#[derive(Clone)]
+struct Place {
+    part: String,
+    /// The link, joint or material.
+    owner: String,
+}
+
+struct Finder<'r> {
+    reads: &'r About,
+    effects: &'r mut Effects,
+}
+
+impl Finder<'_> {
+    /// What is in an element. Goes as deep as URDF does.
+    fn children(&mut self, node: Node<'_>, known: &Known, place: &Place) {
+        let (mut visuals, mut collisions) = (0, 0);
+        // What stands between links is of the one before, most likely.
+        let mut here = place.clone();
+        let kinds = node.children().filter_map(|child| of_name(child.name()));
+        let inside: HashSet<&str> = kinds.map(|kind| kind.name).collect();
+        for child in node.children() {
+            let name = self.read_as(child.name());
+            let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
+            else {
+                self.unknown((node, &inside), child, known, &here);
+                continue;
+            };
+            let count = match kind.name {
+                "visual" => &mut visuals,
+                "collision" => &mut collisions,
+                _ => &mut 0,
+            };
+            let part =
+                part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
+            *count += 1;
+            if self.reads.never.contains(&kind.name) {
+                continue;
+            }
+            let owner = if known.name == "robot" { &part } else { &place.owner };
+            let inside = Place { owner: owner.clone(), part };
+            self.attributes(child, kind, &inside.part);
+            self.children(child, kind, &inside);
+            if known.name == "robot" {
+                here = inside;
+            }
+        }
+    }
+
+    /// The name that a program takes a name for.
+    fn read_as(&self, name: &str) -> String {
+        match self.reads.names {
+            Names::Exact => name.to_owned(),
+            Names::AnyCase => name.to_lowercase(),
+        }
+    }
+
+    /// An element that does not stand in its parent.
+    fn unknown(
+        &mut self,
+        (parent, inside): (Node<'_>, &HashSet<&str>),
+        node: Node<'_>,
+        known: &Known,
+        place: &Place,
+    ) {
+        let name = node.name();
+        if is_extension(name) {
+            return;
+        }
+        if let Some(like) = meant_element(inside, name, known) {
+            self.add(node, &part_meant(node, like, known, place), name, like);
+        } else if let Some(other) = of_name(name) {
+            let is_default =
+                name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
+            if !is_default && (other.name, known.name) != ("material", "collision") {
+                self.add(node, &place.owner, name, other.name);
+            }
+        } else if let Some(like) = meant_attribute(parent, name, known) {
+            self.add(node, &place.part, name, like);
+        } else if without_prefix(name) == name {
+            self.wrapped(inside, node, known, place);
+        }
+    }
+
+    /// Elements that would be read outside of an unknown element.
+    fn wrapped(&mut self, beside: &HashSet<&str>, wrapper: Node<'_>, known: &Known, place: &Place) {
+        for inner in wrapper.children() {
+            let Some(kind) = of_name(inner.name()) else { continue };
+            let is_whole = match kind.name {
+                "link" => ["inertial", "visual", "collision"]
+                    .iter()
+                    .any(|name| inner.child(name).is_some()),
+                "joint" => inner.attribute("type").is_some() && inner.child("parent").is_some(),
+                "material" => inner.attribute("name").is_some(),
+                _ => true,
+            };
+            if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
+                self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
+            }
+        }
+    }
+
+    fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
+        let free = |one: &&str| node.attribute(one).is_none();
+        let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
+        let text = node.text().unwrap_or_default();
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let is_value = !text.trim().is_empty() && text.split_whitespace().all(is_number);
+        if is_value
+            && !missing.is_empty()
+            && !missing.iter().any(|one| self.reads.never.contains(one))
+        {
+            let fault =
+                Fault::Other("numbers are inside of the element, and not in its attributes");
+            self.effects.drop(node, format!("{part}/?"), fault);
+        }
+        for attribute in node.attributes() {
+            let name = &*attribute.name;
+            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let is_default =
+                is_zero(&attribute.value) && matches!(known.name, "origin" | "axis" | "inertia");
+            if is_other || is_default || known.attributes.contains(&name) {
+                continue;
+            }
+            let own = missing.iter().copied().find(|one| is_like(name, one));
+            // The attribute of an element beside or inside.
+            let is_near = |one: &Known| {
+                one.parents.contains(&known.name)
+                    || one.parents.iter().any(|parent| known.parents.contains(parent))
+            };
+            let other = || {
+                let mut near = KNOWN.iter().filter(|one| is_near(one));
+                near.find_map(|one| one.attributes.iter().copied().find(|one| *one == name))
+            };
+            let other = || other().filter(|name| !COMMON.contains(name));
+            let like = own.or_else(other).filter(|like| !self.reads.never.contains(like));
+            if let Some(like) = like {
+                let fault = Fault::UnknownAttribute { name: shortened(name), like };
+                self.effects.drop(attribute, format!("{part}/?"), fault);
+            }
+        }
+    }
+
+    fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
+        if !self.reads.never.contains(&like) {
+            let fault = Fault::UnknownElement { name: shortened(name), like };
+            self.effects.drop(node, format!("{part}/?"), fault);
+        }
+    }
+}
+
+/// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
+fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> String {
+    match (known.name, like) {
+        ("robot", "link" | "joint" | "material") => {
+            part_of("robot", like, node.value("name").unwrap_or_default(), 0)
+        }
+        _ => place.part.clone(),
+    }
+}
+
+/// The part that an element is about; that of its parent, if it is none itself.
+fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
+    match element {
+        "link" | "joint" => format!("{element}/{name}"),
+        "material" if parent == "robot" => format!("material/{name}"),
+        "visual" | "collision" => format!("{parent}/{element}/{count}"),
+        "origin" if !parent.starts_with("joint") => parent.to_owned(),
+        "mass" | "inertia" | "geometry" | "color" | "texture" | "parent" | "child" | "box"
+        | "sphere" | "cylinder" | "capsule" | "mesh" => parent.to_owned(),
+        _ => format!("{parent}/{element}"),
+    }
+}
+
+/// The element that is meant by a name that is not one, if it would be read.
+fn meant_element(beside: &HashSet<&str>, name: &str, known: &Known) -> Option<&'static str> {
+    let mut children = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+    let one = children.find(|one| is_like(name, one.name))?;
+    would_be_read(beside, one).then_some(one.name)
+}
+
+/// The attribute that is written as an element: `<value>3</value>`.
+fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
+    let inside = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+    let own = known.attributes.iter().copied();
+    let inside = inside.flat_map(|one| one.attributes.iter().copied());
+    let found = own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)?;
+    parent.attribute(found).is_none().then_some(found)
+}
+
+/// Whether another element of a kind is read where there may be one already.
+fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
+    let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
+    is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+}
+
+/// Whether a value is that of an origin which is not written.
+fn is_zero(value: &str) -> bool {
+    value.split_whitespace().all(|word| word.parse() == Ok(0.0))
+}
+
+fn of_name(name: &str) -> Option<&'static Known> {
+    KNOWN.iter().find(|one| one.name == name)
+}
+
+fn without_prefix(name: &str) -> &str {
+    name.rsplit_once(':').map_or(name, |(_, name)| name)
+}
+
+/// Whether the prefix of a name is that of a program.
+fn has_prefix(name: &str) -> bool {
+    name.split_once(':').is_some_and(|(prefix, _)| PREFIXES.contains(&prefix))
+}
+
+fn is_extension(name: &str) -> bool {
+    EXTENSIONS.contains(&name) || has_prefix(name)
+}
+
+/// Whether a name is another with other letter case, a prefix, or one or two typing errors.
+fn is_like(name: &str, known: &str) -> bool {
+    const LONGEST: usize = 40;
+    if name.len() > LONGEST {
+        return false;
+    }
+    let plain = without_prefix(name).to_lowercase();
+    let plain = plain.trim_matches(['_', '-', '.']);
+    let errors = match known.len() {
+        0..=3 => 0,
+        4..=5 => 1,
+        _ => 2,
+    };
+    plain == known
+        || plain.strip_suffix('s') == Some(known)
+        || is_swapped(plain, known)
+        || errors > 0 && distance(plain, known) <= errors
+}
+
+/// Whether two letters beside each other have changed places.
+fn is_swapped(name: &str, known: &str) -> bool {
+    let (name, known) = (name.as_bytes(), known.as_bytes());
+    let first = name.iter().zip(known).position(|(a, b)| a != b);
+    first.is_some_and(|at| match (&name[at..], &known[at..]) {
+        ([a, b, rest @ ..], [c, d, other @ ..]) => (a, b, rest) == (d, c, other),
+        _ => false,
+    })
+}
+
+/// How many letters are another, more or less.
+fn distance(name: &str, known: &str) -> usize {
+    let known: Vec<char> = known.chars().collect();
+    let mut row: Vec<usize> = (0..=known.len()).collect();
+    for (count, character) in name.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = count + 1;
+        for (at, other) in known.iter().enumerate() {
+            let replaced = diagonal + usize::from(character != *other);
+            diagonal = row[at + 1];
+            row[at + 1] = replaced.min(diagonal + 1).min(row[at] + 1);
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}

@@ -1,0 +1,218 @@
+//! urdfdom 6.0.0 and 4.0.1, with which all of ROS and Pinocchio read URDF. A fault in a joint refuses the file; a fault
+//! in a link loses that part of the link and all that is read after it.
+
+mod joints;
+mod links;
+mod values;
+
+use std::collections::{BTreeMap, HashSet};
+
+use crate::effect::{Effects, Reading};
+use crate::fault::Fault;
+use crate::file::File;
+use crate::program::About;
+use crate::tree::{Node, Tree};
+use crate::unknown::Names;
+use crate::{tinyxml, tinyxml1};
+
+/// ROS lyrical and rolling.
+pub(crate) const SIX: About = About {
+    id: "urdfdom6",
+    name: "ROS (urdfdom 6)",
+    version: "6.0.0",
+    settings: &["ros", "lyrical", "rolling"],
+    is_asked: true,
+    names: Names::Exact,
+    never: &[],
+    read: read_six,
+};
+
+/// ROS jazzy and kilted.
+pub(crate) const FOUR: About = About {
+    id: "urdfdom4",
+    name: "ROS jazzy and kilted (urdfdom 4)",
+    version: "4.0.1",
+    settings: &["jazzy", "kilted"],
+    is_asked: false,
+    names: Names::Exact,
+    never: &[],
+    read: read_four,
+};
+
+/// ROS noetic, humble and iron.
+pub(crate) const THREE: About = About {
+    id: "urdfdom3",
+    name: "ROS noetic, humble and iron (urdfdom 3)",
+    version: "3.0.1",
+    settings: &["humble", "noetic", "iron"],
+    is_asked: false,
+    names: Names::Exact,
+    never: &[],
+    read: read_three,
+};
+
+/// Open elements, the root among them, from which tinyxml2 refuses.
+const MAX_DEPTH: usize = 499;
+
+const NO_COLOR: &str = "the material has no colour and no texture";
+
+/// Which urdfdom.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Release {
+    /// 4.0.1: URDF 1.0.
+    Four,
+    /// 6.0.0: URDF 1.0 to 1.2.
+    Six,
+}
+
+/// What it has of a link.
+pub(crate) struct Link<'t> {
+    pub node: Node<'t>,
+    /// How many visuals and collisions it reads, and whether these are all.
+    pub kept: [(usize, bool); 2],
+}
+
+/// What it has of a joint.
+pub(crate) struct Joint<'t> {
+    pub node: Node<'t>,
+    pub kind: &'t str,
+    pub parent: &'t str,
+    pub child: &'t str,
+}
+
+/// What it has of a robot.
+pub(crate) struct Model<'t> {
+    pub robot: Node<'t>,
+    pub links: BTreeMap<&'t str, Link<'t>>,
+    /// In the order of their names.
+    pub joints: BTreeMap<&'t str, Joint<'t>>,
+}
+
+pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree = parse(file, effects)?;
+    model(&tree, Release::Six, effects).map(|_| ())
+}
+
+/// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
+pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree =
+        tinyxml1::parse(file.bytes).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    model(&tree, Release::Four, effects).map(|_| ())
+}
+
+pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree = parse(file, effects)?;
+    model(&tree, Release::Four, effects).map(|_| ())
+}
+
+/// The XML.
+pub(crate) fn parse<'a>(file: &File<'a>, effects: &mut Effects) -> Reading<Tree<'a>> {
+    tinyxml::parse(file.bytes, MAX_DEPTH).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))
+}
+
+/// The robot.
+pub(crate) fn model<'t>(
+    tree: &'t Tree<'t>,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<Model<'t>> {
+    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
+        return effects.refuse(0, Fault::NotRobot);
+    };
+    if robot.attribute("name").is_none() {
+        return effects.refuse(robot, Fault::Missing("name"));
+    }
+    let minor = match robot.attribute("version") {
+        None => 0,
+        Some(written) => match version(&written.value) {
+            Some((1, 0)) => 0,
+            Some((1, minor @ 1..=2)) if release == Release::Six => minor,
+            _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
+        },
+    };
+    let mut reader = Reader { release, minor, effects, materials: HashSet::new() };
+    reader.materials(robot)?;
+    let links = reader.links(robot)?;
+    let joints = reader.joints(robot)?;
+    let model = Model { robot, links, joints };
+    reader.tree(robot, &model)?;
+    if release == Release::Four {
+        formats(effects)?;
+    }
+    Ok(model)
+}
+
+/// Before 5.1 messages are formats of `printf`: a text in one that has `%s` or `%n` crashes.
+fn formats(effects: &mut Effects) -> Reading<()> {
+    let is_format = |text: &str| text.contains("%s") || text.contains("%n");
+    let found = effects.0.iter().find(|effect| {
+        let is_named = effect.fault == Fault::Other(NO_COLOR) && is_format(&effect.part);
+        is_named || is_format(&effect.fault.to_string())
+    });
+    match found.map(|effect| effect.at) {
+        Some(at) => {
+            let why = "the message about it takes its `%s` or `%n` for a format";
+            effects.crash(at, Fault::Other(why))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Two whole numbers with a point between them.
+fn version(text: &str) -> Option<(u32, u32)> {
+    let text = text.strip_suffix('.').filter(|text| text.contains('.')).unwrap_or(text);
+    let (major, minor) = text.split_once('.')?;
+    let part = |text: &str| {
+        let number: i64 = text.trim_start_matches(crate::number::is_space).parse().ok()?;
+        // A number of 32 bits, as it is kept.
+        (number >= 0).then_some(number as u32)
+    };
+    Some((part(major)?, part(minor)?))
+}
+
+struct Reader<'r> {
+    release: Release,
+    /// The version of URDF is 1 and this.
+    minor: u32,
+    effects: &'r mut Effects,
+    /// Materials that are known.
+    materials: HashSet<String>,
+}
+
+impl Reader<'_> {
+    fn tree(&mut self, robot: Node<'_>, model: &Model<'_>) -> Reading<()> {
+        let mut children = HashSet::new();
+        for joint in model.joints.values() {
+            let ends = [("parent", joint.parent), ("child", joint.child)];
+            for (name, link) in ends {
+                if link.is_empty() {
+                    let fault = match joint.node.child(name) {
+                        None => Fault::MissingElement(name),
+                        Some(end) if end.attribute("link").is_some() => Fault::Empty("link"),
+                        Some(_) => Fault::Missing("link"),
+                    };
+                    return self
+                        .effects
+                        .refuse(joint.node.child(name).unwrap_or(joint.node), fault);
+                }
+            }
+            for (name, link) in [ends[1], ends[0]] {
+                if !model.links.contains_key(link) {
+                    let at = joint.node.child(name).unwrap_or(joint.node);
+                    return self.effects.refuse(at, Fault::unknown("link", link));
+                }
+            }
+            children.insert(joint.child);
+        }
+        let roots = model.links.iter().filter(|(name, _)| !children.contains(*name));
+        let mut roots: Vec<usize> = roots.map(|(_, link)| link.node.start()).collect();
+        roots.sort_unstable();
+        match roots[..] {
+            [] => self.effects.refuse(robot, Fault::Tree("no link is the root")),
+            [_] => Ok(()),
+            [_, second, ..] => {
+                self.effects.refuse(second, Fault::Tree("two links have no joint above them"))
+            }
+        }
+    }
+}

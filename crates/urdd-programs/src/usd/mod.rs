@@ -1,0 +1,390 @@
+//! urdf-usd-converter 0.3.4, with which Isaac Sim and Newton import URDF. It is strict about XML, names and numbers
+//! anywhere in the file. Links that have nothing in them, at the end of fixed joints, have no joint in USD.
+
+mod parse;
+mod tree;
+
+use std::collections::HashMap;
+
+use crate::effect::{Effects, Reading};
+use crate::fault::{Fault, shortened};
+use crate::file::File;
+use crate::mesh::{Mesh, MeshFacts};
+use crate::number::python;
+use crate::program::About;
+use crate::tinyxml::Malformed;
+use crate::tree::{Attribute, Node};
+use crate::unknown::Names as ElementNames;
+
+/// Isaac Sim and Newton.
+pub(crate) const ABOUT: About = About {
+    id: "usd",
+    name: "Isaac and Newton (urdf-usd-converter)",
+    version: "0.3.4",
+    settings: &["isaac", "newton"],
+    is_asked: true,
+    names: ElementNames::Exact,
+    never: &["acceleration", "deceleration", "jerk", "version", "quat_xyzw"],
+    read: read,
+};
+
+pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+    let text = match std::str::from_utf8(file.bytes) {
+        Ok(text) => parse::without_declarations(text),
+        Err(bad) => {
+            return effects.refuse(bad.valid_up_to(), Fault::Xml("the file is not UTF-8"));
+        }
+    };
+    let tree = crate::strict::parse(&text, crate::strict::Names::Expanded)
+        .or_else(|Malformed { at, why }| effects.refuse(at, Fault::Xml(why)))?;
+    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
+        return effects.refuse(0, Fault::NotRobot);
+    };
+    parse::elements(robot, effects)?;
+    let mut reader = Reader { file, effects, materials: HashMap::new() };
+    reader.robot(robot)
+}
+
+struct Reader<'r, 't> {
+    file: &'r File<'r>,
+    effects: &'r mut Effects,
+    /// Whether the first material of each name has a colour or a texture; those of the robot have one.
+    materials: HashMap<&'t str, bool>,
+}
+
+/// What it has of a joint.
+struct Joint<'t> {
+    node: Node<'t>,
+    name: &'t str,
+    kind: &'t str,
+    parent: &'t str,
+    child: &'t str,
+}
+
+/// The last element of a name, which is the one that counts.
+fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
+    node.named(name).last()
+}
+
+impl<'t> Reader<'_, 't> {
+    fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
+        self.name(robot)?;
+        let links = self.unique(robot, "link")?;
+        let materials = self.unique(robot, "material")?;
+        let joints = self.joints(robot, &links)?;
+        for material in robot.named("material") {
+            let name = material.value("name").unwrap_or_default();
+            self.look(material, &format!("material/{name}"))?;
+        }
+        self.materials = materials.keys().map(|&name| (name, true)).collect();
+        for link in robot.named("link") {
+            self.materials_of(link)?;
+        }
+        let Some(first) = robot.child("link") else {
+            return self.effects.refuse(robot, Fault::MissingElement("link"));
+        };
+        let kept = tree::find(robot, first, &links, &joints, self.effects)?;
+        for link in kept {
+            self.link(link)?;
+        }
+        Ok(())
+    }
+
+    /// The robot's name is that of a file.
+    fn name(&mut self, robot: Node<'t>) -> Reading<()> {
+        const LONGEST: usize = 248;
+        let Some(attribute) = robot.attribute("name") else { return Ok(()) };
+        let name = &*attribute.value;
+        if name.contains('\\') {
+            let rule = "it is the name of a file, too";
+            let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
+            self.effects.drop(attribute, "robot/?", fault);
+        }
+        let has_slash = name.starts_with('/') || name.ends_with('/');
+        if name.len() > LONGEST || has_slash || name.contains(char::is_control) {
+            let rule = "it is the name of a file, too";
+            let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
+            return self.effects.refuse(attribute, fault);
+        }
+        Ok(())
+    }
+
+    /// The parts of one kind, by name.
+    fn unique(
+        &mut self,
+        robot: Node<'t>,
+        kind: &'static str,
+    ) -> Reading<HashMap<&'t str, Node<'t>>> {
+        let mut found = HashMap::new();
+        for node in robot.named(kind) {
+            let name = node.value("name").unwrap_or_default();
+            if found.insert(name, node).is_some() {
+                return self.effects.refuse(node, Fault::not_unique(kind, name));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Of elements that repeat it reads the last.
+    fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
+        for name in names {
+            if let Some(second) = node.repeated(name) {
+                let fault = Fault::Repeated((*name).to_owned());
+                self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
+            }
+        }
+    }
+
+    fn joints(
+        &mut self,
+        robot: Node<'t>,
+        links: &HashMap<&'t str, Node<'t>>,
+    ) -> Reading<Vec<Joint<'t>>> {
+        let by_name = self.unique(robot, "joint")?;
+        let mut joints = Vec::new();
+        for node in robot.named("joint") {
+            let name = node.value("name").unwrap_or_default();
+            let kind = node.value("type").unwrap_or_default();
+            let [parent, child] = ["parent", "child"].map(|end| {
+                let end = last(node, end);
+                end.map(|end| (end, end.value("link").unwrap_or_default()))
+            });
+            let (Some(parent), Some(child)) = (parent, child) else {
+                let end = if parent.is_none() { "parent" } else { "child" };
+                return self.effects.refuse(node, Fault::MissingElement(end));
+            };
+            for (end, link) in [parent, child] {
+                if !links.contains_key(link) {
+                    return self.effects.refuse(end, Fault::unknown("link", link));
+                }
+            }
+            let mimicked = last(node, "mimic").and_then(|mimic| mimic.attribute("joint"));
+            if let Some(mimicked) = mimicked.filter(|mimicked| !mimicked.value.is_empty())
+                && !by_name.contains_key(&*mimicked.value)
+            {
+                return self.effects.refuse(mimicked, Fault::unknown("joint", &mimicked.value));
+            }
+            self.joint(node, kind, &format!("joint/{name}"));
+            joints.push(Joint { node, name, kind, parent: parent.1, child: child.1 });
+        }
+        Ok(joints)
+    }
+
+    /// What is read otherwise of a joint.
+    fn joint(&mut self, node: Node<'t>, kind: &str, part: &str) {
+        let names = [
+            "origin",
+            "parent",
+            "child",
+            "axis",
+            "limit",
+            "dynamics",
+            "calibration",
+            "safety_controller",
+            "mimic",
+        ];
+        self.repeated(node, &names, part);
+        self.pose(node, part);
+        let part = format!("{part}/limit");
+        match last(node, "limit") {
+            None if matches!(kind, "revolute" | "prismatic") => {
+                let fault = Fault::MissingElement("limit");
+                self.effects.read_as(node, part, fault, "locked at 0");
+            }
+            Some(limit) if kind == "planar" => {
+                let fault = Fault::Other("a planar joint has no limit in USD");
+                self.effects.drop(limit, part, fault);
+            }
+            Some(limit) => {
+                for name in ["acceleration", "deceleration", "jerk"] {
+                    if let Some(unread) = limit.attribute(name) {
+                        let fault = Fault::NeverRead(name.to_owned());
+                        self.effects.drop(unread, &*part, fault);
+                    }
+                }
+            }
+            None => {}
+        }
+    }
+
+    fn pose(&mut self, parent: Node<'t>, part: &str) {
+        let origin = last(parent, "origin");
+        if let Some(unread) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
+            let fault = Fault::NeverRead("quat_xyzw".into());
+            self.effects.drop(unread, format!("{part}/origin"), fault);
+        }
+    }
+
+    /// The materials of a link's visuals: the first of a name is that of all.
+    fn materials_of(&mut self, link: Node<'t>) -> Reading<()> {
+        let name = link.value("name").unwrap_or_default();
+        for (index, visual) in link.named("visual").enumerate() {
+            let Some(material) = last(visual, "material") else { continue };
+            let part = format!("link/{name}/visual/{index}/material");
+            let name = material.value("name").unwrap_or_default();
+            let has_look = ["color", "texture"].iter().any(|look| material.child(look).is_some());
+            let is_known = !name.is_empty() && self.materials.contains_key(name);
+            if !is_known {
+                self.look(material, &part)?;
+                self.materials.insert(name, has_look);
+            }
+            if !self.materials.get(name).copied().unwrap_or(has_look) {
+                let fault = Fault::unknown("material", name);
+                self.effects.read_as(material, part, fault, "black and transparent");
+            }
+        }
+        Ok(())
+    }
+
+    /// The colour and texture of a material.
+    fn look(&mut self, material: Node<'t>, part: &str) -> Reading<()> {
+        if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
+            let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);
+            if !opacity.is_nan() && !(0.0..=1.0).contains(&opacity) {
+                let fault = Fault::range("rgba", &rgba.value, "opacity is from 0 to 1");
+                return self.effects.refuse(rgba, fault);
+            }
+        }
+        let texture = last(material, "texture").and_then(|texture| texture.attribute("filename"));
+        let Some(texture) = texture.filter(|name| !name.value.is_empty()) else { return Ok(()) };
+        let name = &*texture.value;
+        if let Some(color) = last(material, "color") {
+            self.effects.drop(
+                color,
+                part,
+                Fault::Other("the texture is in the place of the colour"),
+            );
+        }
+        if is_elsewhere(name) || matches!(name, "." | "..") || name.ends_with('/') {
+            let fault = Fault::Other("the name of the texture is not that of a file");
+            return self.effects.refuse(texture, fault);
+        }
+        if matches!(self.file.mesh(name), Mesh::Missing) {
+            let fault = Fault::Other("the file of the texture was not found");
+            self.effects.drop(texture, part, fault);
+        }
+        Ok(())
+    }
+
+    fn link(&mut self, link: Node<'t>) -> Reading<()> {
+        let part = format!("link/{}", link.value("name").unwrap_or_default());
+        self.repeated(link, &["inertial"], &part);
+        if let Some(inertial) = last(link, "inertial") {
+            self.inertial(inertial, &format!("{part}/inertial"))?;
+        }
+        for kind in ["visual", "collision"] {
+            for (index, shape) in link.named(kind).enumerate() {
+                let part = format!("{part}/{kind}/{index}");
+                self.repeated(shape, &["origin", "geometry", "material"], &part);
+                self.pose(shape, &part);
+                self.shape(shape, &part)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn inertial(&mut self, inertial: Node<'t>, part: &str) -> Reading<()> {
+        self.repeated(inertial, &["origin", "mass", "inertia"], part);
+        self.pose(inertial, part);
+        let has = |name| inertial.child(name).is_some();
+        if !["origin", "mass", "inertia"].into_iter().any(has) {
+            self.effects.drop(inertial, part, Fault::Other("`<inertial>` is empty"));
+        }
+        // The principal axes of what is not finite are not found, but for some tensors that are not turned.
+        let Some(inertia) = last(inertial, "inertia") else { return Ok(()) };
+        let names: &[&str] = match has("origin") {
+            true => &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
+            false => &["ixz"],
+        };
+        for value in names.iter().filter_map(|name| inertia.attribute(name)) {
+            if python(&value.value).is_some_and(|number| !number.is_finite()) {
+                let fault = Fault::range(&value.name, &value.value, "must be finite");
+                return self.effects.refuse(value, fault);
+            }
+        }
+        Ok(())
+    }
+
+    fn shape(&mut self, shape: Node<'t>, part: &str) -> Reading<()> {
+        let Some(geometry) = last(shape, "geometry") else {
+            self.effects.drop(shape, part, Fault::MissingElement("geometry"));
+            return Ok(());
+        };
+        let shapes = ["box", "sphere", "cylinder", "mesh"];
+        let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
+        else {
+            if let Some(form) = geometry.children().next() {
+                self.effects.drop(form, part, Fault::Shape(shortened(form.name())));
+            }
+            return Ok(());
+        };
+        let needed: &[&'static str] = match form.name() {
+            "sphere" => &["radius"],
+            "cylinder" => &["radius", "length"],
+            "mesh" => {
+                self.mesh(form, part);
+                return Ok(());
+            }
+            _ => &[],
+        };
+        for name in needed {
+            if form.attribute(name).is_none() {
+                return self.effects.refuse(form, Fault::Missing(name));
+            }
+        }
+        if form.name() == "box" && form.attribute("size").is_none() {
+            self.effects.read_as(form, part, Fault::Missing("size"), "0 0 0");
+        }
+        Ok(())
+    }
+
+    fn mesh(&mut self, mesh: Node<'t>, part: &str) {
+        let Some(name) = mesh.attribute("filename").filter(|name| !name.value.is_empty()) else {
+            return self.effects.drop(mesh, part, Fault::Missing("filename"));
+        };
+        if let Some(why) = self.missing_mesh(name) {
+            self.effects.drop(name, part, Fault::Mesh(why));
+        }
+    }
+
+    fn missing_mesh(&self, name: &Attribute<'_>) -> Option<&'static str> {
+        let ending = name.value.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+        match self.file.mesh(&name.value) {
+            _ if is_elsewhere(&name.value) => Some("the name of the mesh is not that of a file"),
+            _ if !matches!(&*ending, "stl" | "obj" | "dae") => {
+                Some("the mesh is in a format that the program cannot read")
+            }
+            Mesh::Found(facts) => {
+                let has_faces = match &*ending {
+                    "stl" => is_stl(&facts),
+                    "obj" => facts.obj.as_ref().is_some_and(|obj| obj.faces > 0),
+                    _ => facts.collada.is_some(),
+                };
+                (!has_faces).then_some("the program finds nothing in the mesh")
+            }
+            Mesh::Missing => Some("the file of the mesh was not found"),
+            _ => None,
+        }
+    }
+}
+
+/// Whether it reads an STL file: one without two corners that are one point is none to it.
+fn is_stl(facts: &MeshFacts) -> bool {
+    const MOST: usize = 100_000_000;
+    let Some(stl) = &facts.stl else { return false };
+    match (stl.binary, stl.written) {
+        (Some(_), _) => stl.shares_corners,
+        _ if facts.head.starts_with(b"solid") => stl.corners > 3,
+        (None, Some(count)) => (1..=MOST).contains(&count) && facts.size >= 84 + 50,
+        (None, None) => false,
+    }
+}
+
+/// Whether a name is of no file: `http://...`, or a package without a file in it.
+fn is_elsewhere(name: &str) -> bool {
+    match name.split_once("://") {
+        Some(("package", path)) => path.split('/').filter(|part| !part.is_empty()).count() < 2,
+        Some(("file", _)) | None => false,
+        Some(_) => true,
+    }
+}
