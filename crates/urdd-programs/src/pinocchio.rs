@@ -23,7 +23,7 @@ pub(crate) const ABOUT: About = About {
     is_asked: true,
     names: Names::Exact,
     never: &["mimic", "safety_controller", "calibration", "acceleration", "deceleration", "jerk"],
-    read: read,
+    read,
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {

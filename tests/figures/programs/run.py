@@ -144,7 +144,8 @@ def fill(cases: list[Case], program: Program, answers: Answers, show: bool) -> N
                 meant[case.base_file] = facts.meant(case.base_file.read_bytes())
             found = differ.differences(base.facts, meant[case.base_file], row.means, kinds, got.facts)
             # The place of the files is not the program's.
-            found = [fact.replace(f"{case.file.parent}/", "") for fact in found]
+            folder = str(case.file.parent)
+            found = [fact.replace(f"{folder}/", "").replace(folder, ".") for fact in found]
             row.differences[program.letter] = found
             otherwise += bool(found)
         if show:

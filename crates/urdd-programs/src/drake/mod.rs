@@ -33,7 +33,7 @@ pub(crate) const ABOUT: About = About {
         "version",
         "quat_xyzw",
     ],
-    read: read,
+    read,
 };
 
 /// Open elements, the root among them, from which tinyxml2 refuses.

@@ -49,7 +49,7 @@ pub(crate) const ABOUT: About = About {
         "iyz",
         "izz",
     ],
-    read: read,
+    read,
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {

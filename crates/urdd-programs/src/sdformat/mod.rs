@@ -38,7 +38,7 @@ pub(crate) const ABOUT: About = About {
         "texture",
         "quat_xyzw",
     ],
-    read: read,
+    read,
 };
 
 /// Open elements from which tinyxml2 refuses.

@@ -36,7 +36,7 @@ pub(crate) const ABOUT: About = About {
         "version",
         "quat_xyzw",
     ],
-    read: read,
+    read,
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {

@@ -25,7 +25,7 @@ pub(crate) const ABOUT: About = About {
     is_asked: true,
     names: ElementNames::Exact,
     never: &["acceleration", "deceleration", "jerk", "version", "quat_xyzw"],
-    read: read,
+    read,
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {

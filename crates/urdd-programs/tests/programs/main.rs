@@ -77,7 +77,7 @@ fn readers_do_what_their_programs_do() {
 #[test]
 fn programs_have_names() {
     for program in Program::ALL {
-        for name in [program.id(), &program.setting()] {
+        for name in [program.id(), program.setting()] {
             assert_eq!(Program::of_name(name), Some(program), "{name}");
         }
     }
