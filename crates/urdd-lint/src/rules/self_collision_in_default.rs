@@ -1,3 +1,5 @@
+use std::cell::LazyCell;
+
 use nalgebra::Isometry3;
 
 use super::prelude::*;
@@ -40,7 +42,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 continue;
             };
             let corners: Vec<[f64; 3]> = hull.corners.into_iter().map(Into::into).collect();
-            items.extend(ConvexShape::of_points(&corners).ok().map(|shape| (link, bounds, shape)));
+            // Made where a pair asks for it.
+            let shape = LazyCell::new(move || ConvexShape::of_points(&corners).ok());
+            items.push((link, bounds, shape));
         }
     }
     if items.len() > MANY {
@@ -63,6 +67,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             {
                 continue;
             }
+            let (Some(first), Some(second)) = (&**first, &**second) else {
+                continue;
+            };
             let overlap = penetration(&PlacedPair::new(first, second, &Isometry3::identity()));
             let depth = overlap.map_or(0.0, |overlap| overlap.depth);
             if depth > LEAST {
