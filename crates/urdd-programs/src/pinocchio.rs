@@ -3,15 +3,14 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
-use crate::program::About;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
 use crate::urdfdom::{self, Joint, Link, Model, Release};
 
 /// Pinocchio.

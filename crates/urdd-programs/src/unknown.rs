@@ -3,20 +3,11 @@
 
 use std::collections::HashSet;
 
+use crate::about::{About, Names};
 use crate::effect::Effects;
 use crate::fault::{Fault, shortened};
-use crate::program::About;
 use crate::tinyxml;
 use crate::tree::Node;
-
-/// Which names a program takes for those of elements.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Names {
-    /// As they are written.
-    Exact,
-    /// In any letter case.
-    AnyCase,
-}
 
 /// An element of URDF.
 struct Known {

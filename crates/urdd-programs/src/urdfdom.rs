@@ -7,12 +7,11 @@ mod values;
 
 use std::collections::{BTreeMap, HashSet};
 
+use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
-use crate::program::About;
 use crate::tree::{Node, Tree};
-use crate::unknown::Names;
 use crate::{tinyxml, tinyxml1};
 
 /// ROS lyrical and rolling.

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::inertia::Pose;
-use super::{Reader, Release};
+use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::tree::Node;

@@ -1,7 +1,7 @@
 //! Links: inertials, visuals and collisions.
 
 use super::inertia::{Body, LEAST_EIGENVALUE, Matrix, Pose, eigenvalues};
-use super::{LEAST, Reader, Release};
+use super::reader::{LEAST, Reader, Release};
 use crate::effect::Reading;
 use crate::fault::{Fault, shortened};
 use crate::tree::Node;

@@ -1,7 +1,7 @@
 //! Meshes of collisions: binary STL and OBJ.
 
 use super::link::Solid;
-use super::{Reader, Release};
+use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::mesh::{Mesh, MeshFacts};

@@ -5,21 +5,21 @@ mod inertia;
 mod joint;
 mod link;
 mod mesh;
+mod reader;
 mod settings;
 mod value;
 
 use std::collections::{HashMap, HashSet};
 
+use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::program::About;
 use crate::tinyxml;
 use crate::tree::Node;
-use crate::unknown::Names;
 use inertia::{Body, Pose};
 use joint::Joint;
-use settings::Settings;
+use reader::{LEAST, Reader, Release, Settings};
 
 /// MuJoCo 4.
 pub(crate) const FOUR: About = About {
@@ -70,37 +70,6 @@ const NEVER_READ: &[&str] = &[
 
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;
-/// The least mass, and the least moment of inertia, of a link that moves.
-const LEAST: f64 = 1e-15;
-
-/// Which MuJoCo.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Release {
-    /// 3.3.7.
-    Three,
-    /// 4.0.0.
-    Four,
-}
-
-impl Release {
-    /// What counts as nothing off the diagonal of a tensor.
-    fn epsilon(self) -> f64 {
-        match self {
-            Release::Three => 1e-12,
-            Release::Four => 0.0,
-        }
-    }
-}
-
-struct Reader<'r> {
-    release: Release,
-    file: &'r File<'r>,
-    effects: &'r mut Effects,
-    settings: Settings,
-    /// The names of collisions.
-    geoms: HashSet<String>,
-}
-
 /// A link in the tree.
 struct Link<'t> {
     node: Node<'t>,

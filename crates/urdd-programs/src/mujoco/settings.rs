@@ -1,42 +1,10 @@
 //! `<mujoco>` in a URDF.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::number::{is_space, strtod, whole};
 use crate::tree::Node;
-
-/// What `<compiler>` says.
-pub struct Settings {
-    /// Visuals are geoms too.
-    pub has_visuals: bool,
-    /// Only the last part of a mesh's file name counts; none if nothing is said.
-    pub strips_paths: Option<bool>,
-    /// The folder of meshes.
-    pub mesh_folder: String,
-    /// Tensors that no body can have are mended.
-    pub balances: bool,
-    /// Links that are fixed together are one.
-    pub fuses: bool,
-    /// Inertias come from collisions, whatever inertials say.
-    pub ignores_inertials: bool,
-    /// The least mass and the least moment.
-    pub least: [f64; 2],
-}
-
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
-            has_visuals: false,
-            strips_paths: None,
-            mesh_folder: String::new(),
-            balances: false,
-            fuses: true,
-            ignores_inertials: false,
-            least: [0.0; 2],
-        }
-    }
-}
 
 impl Reader<'_> {
     pub fn settings(&mut self, robot: Node<'_>) -> Reading<()> {

@@ -1,6 +1,6 @@
 //! Attributes and children, as MuJoCo asks for them.
 
-use super::{Reader, Release};
+use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::number::{is_space, strtod, whole};

@@ -7,14 +7,13 @@ mod shapes;
 
 use std::collections::HashMap;
 
+use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{is_space, strtod};
-use crate::program::About;
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
 
 /// Elements nested in each other, from which tinyxml2 as it is built there refuses.
 const MAX_DEPTH: usize = 99;

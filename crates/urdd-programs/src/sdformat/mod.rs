@@ -5,19 +5,18 @@ mod gazebo;
 mod inertia;
 mod names;
 mod tree;
+mod values;
 mod xml;
 
 use self::gazebo::{Extensions, stod};
-use self::inertia::{Inertia, Pose, Vector};
 use self::tree::{Body, Joint, Tree};
+use self::values::{number, pieces, vector};
+use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
-use crate::number::{istream, whole};
-use crate::program::About;
 use crate::tinyxml;
-use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
+use crate::tree::Node;
 use crate::urdfdom::{self, Model, Release};
 
 /// Gazebo.
@@ -249,43 +248,4 @@ fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) -> Re
         }
     }
     Ok(())
-}
-
-/// The inertia that urdfdom has of a link; without mass if it is faulty.
-fn inertia_of(link: Node<'_>) -> Option<Inertia> {
-    let inertial = link.child("inertial")?;
-    let of = |element: &str, name: &str| number(inertial.child(element)?.value(name)?);
-    let mut found = Inertia::default();
-    let (Some(pose), Some(mass)) = (pose(inertial), of("mass", "value")) else {
-        return Some(found);
-    };
-    (found.pose, found.mass) = (pose, mass);
-    let all = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|name| of("inertia", name));
-    if let [Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)] = all {
-        found.moments = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    }
-    Some(found)
-}
-
-/// The pose of an element, if it has no fault.
-fn pose(parent: Node<'_>) -> Option<Pose> {
-    let Some(origin) = parent.child("origin") else { return Some(Pose::default()) };
-    let read = |value: Option<&Attribute<'_>>| match value {
-        Some(value) => vector(&value.value),
-        None => Some(Vector::default()),
-    };
-    Some(Pose { xyz: read(origin.attribute("xyz"))?, rpy: read(origin.attribute("rpy"))? })
-}
-
-fn number(text: &str) -> Option<f64> {
-    whole(istream(text))
-}
-
-fn vector(text: &str) -> Option<Vector> {
-    let numbers: Option<Vec<f64>> = pieces(text).map(number).collect();
-    numbers?.try_into().ok()
-}
-
-fn pieces(text: &str) -> impl Iterator<Item = &str> {
-    text.split(' ').filter(|piece| !piece.is_empty())
 }

@@ -54,7 +54,7 @@ impl<'t> Tree<'t> {
                 name,
                 node: link.node,
                 kept: link.kept.map(|(count, _)| count),
-                inertia: super::inertia_of(link.node),
+                inertia: super::values::inertia_of(link.node),
                 joint: None,
                 owner: tree.bodies.len(),
                 is_made: false,
@@ -70,7 +70,7 @@ impl<'t> Tree<'t> {
                 node: joint.node,
                 kind: joint.kind,
                 parent,
-                origin: super::pose(joint.node).unwrap_or_default(),
+                origin: super::values::pose(joint.node).unwrap_or_default(),
                 is_merged: joint.kind == "fixed" && !kept_joints.contains(name),
             });
         }

@@ -5,15 +5,14 @@ mod mesh;
 
 use std::collections::{HashMap, HashSet};
 
+use crate::about::{About, Names as ElementNames};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::mesh::Mesh;
 use crate::number::parse_float;
-use crate::program::About;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
-use crate::unknown::Names as ElementNames;
 
 /// three.js.
 pub(crate) const ABOUT: About = About {

@@ -1,20 +1,22 @@
 //! urdf-usd-converter 0.3.4, with which Isaac Sim and Newton import URDF. It is strict about XML, names and numbers
 //! anywhere in the file. Links that have nothing in them, at the end of fixed joints, have no joint in USD.
 
+mod joint;
 mod parse;
 mod tree;
 
 use std::collections::HashMap;
 
+use joint::{Joint, last};
+
+use crate::about::{About, Names as ElementNames};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
-use crate::program::About;
 use crate::tinyxml::Malformed;
 use crate::tree::{Attribute, Node};
-use crate::unknown::Names as ElementNames;
 
 /// Isaac Sim and Newton.
 pub(crate) const ABOUT: About = About {
@@ -50,20 +52,6 @@ struct Reader<'r, 't> {
     effects: &'r mut Effects,
     /// Whether the first material of each name has a colour or a texture; those of the robot have one.
     materials: HashMap<&'t str, bool>,
-}
-
-/// What it has of a joint.
-struct Joint<'t> {
-    node: Node<'t>,
-    name: &'t str,
-    kind: &'t str,
-    parent: &'t str,
-    child: &'t str,
-}
-
-/// The last element of a name, which is the one that counts.
-fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
-    node.named(name).last()
 }
 
 impl<'t> Reader<'_, 't> {

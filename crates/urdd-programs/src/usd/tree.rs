@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::{Joint, last};
+use super::joint::{Joint, last};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::number::python;

@@ -136,7 +136,7 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
         let base = unchanged[&*row.base];
         let is_text = std::str::from_utf8(&row.bytes).is_ok() && !row.id.contains("surrogate");
         if verdict == '+' && is_text && base.verdicts.get(&letter) == Some(&'+') {
-            judge((row, base), letter, &claims(&effects), &known, &mut score);
+            judge((row, base), (program, letter), &claims(&effects), &known, &mut score);
         }
     }
     score
@@ -145,7 +145,7 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
 /// The losses and claims of a change that the program loads.
 fn judge(
     (row, base): (&table::Row, &table::Row),
-    letter: char,
+    (program, letter): (Program, char),
     claims: &BTreeSet<Claim>,
     known: &BTreeSet<String>,
     score: &mut Score,
@@ -156,7 +156,9 @@ fn judge(
     let (mut lost, mut otherwise) = (BTreeSet::new(), BTreeSet::new());
     for fact in row.differences.get(&letter).into_iter().flatten() {
         let Some(part) = parts::of_fact(fact) else { continue };
-        if fact.starts_with('-') && is_written(&part) && !gone.contains(&part) {
+        // USD's schema has no axis of a planar joint: the driver shows none.
+        let is_shown = program != Program::Isaac || !part.ends_with("/axis");
+        if fact.starts_with('-') && is_shown && is_written(&part) && !gone.contains(&part) {
             lost.insert(part.clone());
         }
         otherwise.insert(part);
