@@ -1,7 +1,7 @@
 //! What a program does because of something in a file.
 
 use crate::fault::Fault;
-use crate::tree::{Attribute, Node};
+use crate::tree::{Attribute, Node, Parsed, Tree};
 
 /// What becomes of a part of a robot in a program, or of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -83,6 +83,19 @@ impl Effects {
 
 /// What a program refuses to be without.
 impl Effects {
+    /// What a parser made of the file.
+    pub(crate) fn parsed<T>(&mut self, parsed: Parsed<T>) -> Reading<T> {
+        parsed.or_else(|bad| self.refuse(bad.at, Fault::Xml(bad.why)))
+    }
+
+    /// The first `<robot>` that is in no other element.
+    pub(crate) fn robot<'t>(&mut self, tree: &'t Tree<'t>) -> Reading<Node<'t>> {
+        match tree.tops().find(|top| top.name() == "robot") {
+            Some(robot) => Ok(robot),
+            None => self.refuse(0, Fault::NotRobot),
+        }
+    }
+
     pub(crate) fn needed<'t>(
         &mut self,
         node: Node<'t>,

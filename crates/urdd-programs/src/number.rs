@@ -10,9 +10,7 @@ pub(crate) fn is_space(character: char) -> bool {
 
 /// `strtod`: white space, a sign, then a decimal or hexadecimal number, `inf` or `nan`. None if nothing is read.
 pub(crate) fn strtod(text: &str) -> Read<'_> {
-    let text = text.trim_start_matches(is_space);
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    let (sign, unsigned) = signed(text.trim_start_matches(is_space));
     let (number, rest) =
         hexadecimal(unsigned).or_else(|| word(unsigned)).or_else(|| decimal(unsigned))?;
     Some((sign * number, rest))
@@ -21,9 +19,7 @@ pub(crate) fn strtod(text: &str) -> Read<'_> {
 /// `istream >> double` of libstdc++: white space, a sign and a decimal number. None also if the number is too large, or
 /// ends with `e`.
 pub(crate) fn istream(text: &str) -> Read<'_> {
-    let text = text.trim_start_matches(is_space);
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    let (sign, unsigned) = signed(text.trim_start_matches(is_space));
     let (number, rest) = decimal(unsigned).filter(|(number, _)| number.is_finite())?;
     let read = &unsigned[..unsigned.len() - rest.len()];
     let is_cut = rest.starts_with(['e', 'E']) && !read.contains(['e', 'E']);
@@ -33,6 +29,17 @@ pub(crate) fn istream(text: &str) -> Read<'_> {
 /// Whether a text is a number and nothing else, by one of the functions above.
 pub(crate) fn whole(read: Read<'_>) -> Option<f64> {
     read.filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
+}
+
+/// What is between spaces, and no other white space.
+pub(crate) fn pieces(text: &str) -> impl Iterator<Item = &str> {
+    text.split(' ').filter(|piece| !piece.is_empty())
+}
+
+/// The sign of a number, and what follows it.
+fn signed(text: &str) -> (f64, &str) {
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    (sign, text.strip_prefix(['+', '-']).unwrap_or(text))
 }
 
 /// Digits with an optional point and exponent.
@@ -135,9 +142,7 @@ pub(crate) fn parse_float(text: &str) -> f64 {
     let is_space = |character: char| {
         character == '\u{feff}' || (character.is_whitespace() && character != '\u{85}')
     };
-    let text = text.trim_start_matches(is_space);
-    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    let (sign, unsigned) = signed(text.trim_start_matches(is_space));
     match decimal(unsigned) {
         Some((number, _)) => sign * number,
         None if unsigned.starts_with("Infinity") => sign * f64::INFINITY,

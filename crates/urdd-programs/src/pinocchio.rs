@@ -30,9 +30,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let model = urdfdom::model(&tree, Release::Six, effects)?;
     let mut reader = Reader { file, effects };
     let is_reached = reader.model(&model)?;
-    if let Err(bad) = rapidxml::check(file.bytes) {
-        return effects.refuse(bad.at, Fault::Xml(bad.why));
-    }
+    effects.parsed(rapidxml::check(file.bytes))?;
     if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
         return effects.refuse(link, Fault::Missing("name"));
     }

@@ -1,7 +1,7 @@
 //! XML as rapidxml in Boost 1.90 reads it: Pinocchio, for geometry. Only whether it refuses a file, and where: the elements
 //! are those that tinyxml2 has found before.
 
-use crate::tinyxml::{Malformed, Parsed};
+use crate::tree::{Malformed, Parsed};
 
 /// Refuses what rapidxml does.
 pub(crate) fn check(bytes: &[u8]) -> Parsed<()> {

@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 use roxmltree::{Document, Error, Node, ParsingOptions, StringStorage, TextPos};
 
-use crate::tinyxml::Malformed;
-use crate::tree::{Attribute, Element, Tree};
+use crate::tree::{Attribute, Element, Malformed, Parsed, Tree};
 
 /// How a parser names elements and attributes that have a prefix.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -72,7 +71,7 @@ impl<'a> Text<'a> {
     }
 
     /// Parses it.
-    pub fn parse(&self, names: Names) -> Result<Tree<'_>, Malformed> {
+    pub fn parse(&self, names: Names) -> Parsed<Tree<'_>> {
         match parse(&self.text, names) {
             Ok(tree) => Ok(self.placed(tree)),
             Err(bad) => Err(Malformed { at: self.place(bad.at), why: bad.why }),
@@ -81,7 +80,7 @@ impl<'a> Text<'a> {
 }
 
 /// Parses text that is well-formed and has its prefixes declared.
-pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
+pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
     if let Some((at, why)) = oddity(text) {
         return Err(Malformed { at, why });
     }

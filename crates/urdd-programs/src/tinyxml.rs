@@ -3,15 +3,11 @@
 
 use std::borrow::Cow;
 
-use crate::tree::{Attribute, Element, Tree, repeated};
+use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
-/// Why a document is refused.
-pub(crate) struct Malformed {
-    pub at: usize,
-    pub why: &'static str,
-}
-
-pub(crate) type Parsed<T> = Result<T, Malformed>;
+/// Elements that are open at once, from which tinyxml2 refuses, and from which its releases up to 9 do.
+pub(crate) const MAX_DEPTH: usize = 499;
+pub(crate) const OLD_MAX_DEPTH: usize = 99;
 
 /// Parses a file. An element that is open and `max_depth` elements deep is refused.
 pub(crate) fn parse(bytes: &[u8], max_depth: usize) -> Parsed<Tree<'_>> {

@@ -4,8 +4,7 @@
 use std::borrow::Cow;
 
 use crate::number::is_space;
-use crate::tinyxml::{Malformed, Parsed};
-use crate::tree::{Attribute, Element, Tree, repeated};
+use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
 /// Parses a file.
 pub(crate) fn parse(bytes: &[u8]) -> Parsed<Tree<'_>> {

@@ -3,6 +3,14 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+/// Why a document is refused.
+pub(crate) struct Malformed {
+    pub at: usize,
+    pub why: &'static str,
+}
+
+pub(crate) type Parsed<T> = Result<T, Malformed>;
+
 /// A document.
 #[derive(Default)]
 pub(crate) struct Tree<'a> {
@@ -80,7 +88,7 @@ impl<'t> Node<'t> {
 
     /// Whether it has neither attributes nor elements.
     pub fn is_empty(self) -> bool {
-        self.attributes().is_empty() && self.element().children.is_empty()
+        self.attributes().is_empty() && self.child_count() == 0
     }
 
     pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
@@ -112,8 +120,7 @@ impl<'t> Node<'t> {
 
     /// Another element beside the first of a name that says something else than it does.
     pub fn repeated(self, name: &str) -> Option<Node<'t>> {
-        let is_empty = |node: Node<'_>| node.attributes().is_empty() && node.child_count() == 0;
-        let mut all = self.named(name).filter(|node| !is_empty(*node));
+        let mut all = self.named(name).filter(|node| !node.is_empty());
         let first = all.next()?;
         all.find(|other| !other.is_like(first))
     }

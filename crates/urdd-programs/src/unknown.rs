@@ -363,7 +363,7 @@ fn is_like(name: &str, known: &str) -> bool {
     plain == known
         || plain.strip_suffix('s') == Some(known)
         || is_swapped(plain, known)
-        || errors > 0 && distance(plain, known) <= errors
+        || errors > 0 && strsim::levenshtein(plain, known) <= errors
 }
 
 /// Whether two letters beside each other have changed places.
@@ -374,20 +374,4 @@ fn is_swapped(name: &str, known: &str) -> bool {
         ([a, b, rest @ ..], [c, d, other @ ..]) => (a, b, rest) == (d, c, other),
         _ => false,
     })
-}
-
-/// How many letters are another, more or less.
-fn distance(name: &str, known: &str) -> usize {
-    let known: Vec<char> = known.chars().collect();
-    let mut row: Vec<usize> = (0..=known.len()).collect();
-    for (count, character) in name.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = count + 1;
-        for (at, other) in known.iter().enumerate() {
-            let replaced = diagonal + usize::from(character != *other);
-            diagonal = row[at + 1];
-            row[at + 1] = replaced.min(diagonal + 1).min(row[at] + 1);
-        }
-    }
-    row.last().copied().unwrap_or_default()
 }

@@ -50,9 +50,6 @@ pub(crate) const THREE: About = About {
     read: read_three,
 };
 
-/// Open elements, the root among them, from which tinyxml2 refuses.
-const MAX_DEPTH: usize = 499;
-
 const NO_COLOR: &str = "the material has no colour and no texture";
 
 /// Which urdfdom.
@@ -94,8 +91,7 @@ pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
 
 /// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
 pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree =
-        tinyxml1::parse(file.bytes).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let tree = effects.parsed(tinyxml1::parse(file.bytes))?;
     model(&tree, Release::Four, effects).map(|_| ())
 }
 
@@ -106,7 +102,7 @@ pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
 
 /// The XML.
 pub(crate) fn parse<'a>(file: &File<'a>, effects: &mut Effects) -> Reading<Tree<'a>> {
-    tinyxml::parse(file.bytes, MAX_DEPTH).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))
+    effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))
 }
 
 /// The robot.
@@ -115,9 +111,7 @@ pub(crate) fn model<'t>(
     release: Release,
     effects: &mut Effects,
 ) -> Reading<Model<'t>> {
-    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
-        return effects.refuse(0, Fault::NotRobot);
-    };
+    let robot = effects.robot(tree)?;
     if robot.attribute("name").is_none() {
         return effects.refuse(robot, Fault::Missing("name"));
     }

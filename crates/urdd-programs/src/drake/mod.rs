@@ -35,18 +35,12 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-/// Open elements, the root among them, from which tinyxml2 refuses.
-const MAX_DEPTH: usize = 499;
-
 /// The link that is Drake's own.
 const WORLD: &str = "world";
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
-        .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
-    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
-        return effects.refuse(0, Fault::NotRobot);
-    };
+    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
+    let robot = effects.robot(&tree)?;
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.named(robot, "robot")?;
     for material in robot.named("material") {

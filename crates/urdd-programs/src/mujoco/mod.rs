@@ -68,8 +68,6 @@ const NEVER_READ: &[&str] = &[
     "mesh",
 ];
 
-/// Open elements, the root among them, from which tinyxml2 refuses.
-const MAX_DEPTH: usize = 499;
 /// A link in the tree.
 struct Link<'t> {
     node: Node<'t>,
@@ -89,8 +87,7 @@ pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
 }
 
 fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
-    let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
-        .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
     let root = tree.tops().next();
     let is_mjcf = |root: &Node<'_>| root.name().eq_ignore_ascii_case("mujoco");
     if root.as_ref().is_some_and(|root| is_mjcf(root) && root.child("link").is_none()) {

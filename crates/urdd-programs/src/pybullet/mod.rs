@@ -11,12 +11,10 @@ use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::number::{is_space, strtod};
+use crate::number::{self, is_space, strtod};
 use crate::tinyxml;
-use crate::tree::{Attribute, Node};
+use crate::tree::{Attribute, Malformed, Node};
 
-/// Elements nested in each other, from which tinyxml2 as it is built there refuses.
-const MAX_DEPTH: usize = 99;
 /// Names up to this long do no harm. All are copied into 1,024 bytes, and the process ends soon above.
 const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("link", 2100)];
 /// A robot of more links, its root aside, can be asked for nothing.
@@ -61,18 +59,19 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
 }
 
 fn read_lines(file: &File, bytes: &[u8], effects: &mut Effects) -> Reading<()> {
-    let tree = match tinyxml::parse(bytes, MAX_DEPTH) {
-        Ok(tree) => tree,
-        Err(bad) if tinyxml::parse(file.bytes, MAX_DEPTH).is_ok() => {
-            let why = "a line has more than 8,191 bytes, after which the program breaks it";
-            return effects.refuse(bad.at, Fault::Xml(why));
-        }
-        Err(bad) => return effects.refuse(bad.at, Fault::Xml(bad.why)),
-    };
-    match tree.tops().find(|top| top.name() == "robot") {
-        Some(robot) => Reader { file, effects, materials: HashMap::new() }.robot(robot),
-        None => effects.refuse(0, Fault::NotRobot),
-    }
+    let parsed =
+        tinyxml::parse(bytes, tinyxml::OLD_MAX_DEPTH).map_err(|bad| {
+            match tinyxml::parse(file.bytes, tinyxml::OLD_MAX_DEPTH) {
+                Ok(_) => Malformed {
+                    why: "a line has more than 8,191 bytes, after which the program breaks it",
+                    ..bad
+                },
+                Err(_) => bad,
+            }
+        });
+    let tree = effects.parsed(parsed)?;
+    let robot = effects.robot(&tree)?;
+    Reader { file, effects, materials: HashMap::new() }.robot(robot)
 }
 
 struct Reader<'r> {
@@ -253,7 +252,7 @@ fn rgba<'t>(material: Node<'t>) -> &'t str {
 
 /// Pieces between spaces alone.
 fn pieces(text: &str) -> Vec<&str> {
-    text.split(' ').filter(|piece| !piece.is_empty()).collect()
+    number::pieces(text).collect()
 }
 
 /// `atof`: the number that a text begins with, or 0.

@@ -10,11 +10,12 @@ mod xml;
 
 use self::gazebo::{Extensions, stod};
 use self::tree::{Body, Joint, Tree};
-use self::values::{number, pieces, vector};
+use self::values::{number, vector};
 use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
+use crate::number::pieces;
 use crate::tinyxml;
 use crate::tree::Node;
 use crate::urdfdom::{self, Model, Release};
@@ -40,12 +41,8 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-/// Open elements from which tinyxml2 refuses.
-const MAX_DEPTH: usize = 99;
-
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
-        .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::OLD_MAX_DEPTH))?;
     if let Some(sdf) = tree.tops().find(|top| top.name() == "sdf") {
         return effects.refuse(sdf, Fault::Other("the file has `<sdf>`, and is read as SDF alone"));
     }

@@ -1,7 +1,7 @@
 //! Values as urdfdom has them.
 
 use super::inertia::{Inertia, Pose, Vector};
-use crate::number::{istream, whole};
+use crate::number::{istream, pieces, whole};
 use crate::tree::{Attribute, Node};
 
 /// The inertia that urdfdom has of a link; without mass if it is faulty.
@@ -37,8 +37,4 @@ pub(super) fn number(text: &str) -> Option<f64> {
 pub(super) fn vector(text: &str) -> Option<Vector> {
     let numbers: Option<Vec<f64>> = pieces(text).map(number).collect();
     numbers?.try_into().ok()
-}
-
-pub(super) fn pieces(text: &str) -> impl Iterator<Item = &str> {
-    text.split(' ').filter(|piece| !piece.is_empty())
 }

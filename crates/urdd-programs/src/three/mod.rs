@@ -40,11 +40,8 @@ pub(crate) const ABOUT: About = About {
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = Text::utf8(file.bytes);
-    let tree =
-        text.parse(Names::Written).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
-    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
-        return effects.refuse(0, Fault::NotRobot);
-    };
+    let tree = effects.parsed(text.parse(Names::Written))?;
+    let robot = effects.robot(&tree)?;
     let mut reader = Reader { file, effects, materials: HashSet::new() };
     reader.robot(robot)
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{Part, needed, needed_element, number, pieces, vector};
+use super::values::{Part, needed, needed_element, number, vector};
 use super::{Link, NO_COLOR, Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
-use crate::number::{istream, whole};
+use crate::number::{istream, pieces, whole};
 use crate::tree::{Attribute, Node};
 
 impl Reader<'_> {

@@ -2,7 +2,7 @@
 
 use crate::effect::At;
 use crate::fault::Fault;
-use crate::number::{istream, whole};
+use crate::number::{istream, pieces, whole};
 use crate::tree::{Attribute, Node};
 
 /// A part that may be faulty: where, and why.
@@ -41,8 +41,4 @@ pub(super) fn vector(value: &Attribute<'_>, count: usize) -> Part<Vec<f64>> {
         }
         Some(numbers) => Ok(numbers),
     }
-}
-
-pub(super) fn pieces(text: &str) -> impl Iterator<Item = &str> {
-    text.split(' ').filter(|piece| !piece.is_empty())
 }

@@ -15,7 +15,6 @@ use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
-use crate::tinyxml::Malformed;
 use crate::tree::{Attribute, Node};
 
 /// Isaac Sim and Newton.
@@ -37,11 +36,8 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
             return effects.refuse(bad.valid_up_to(), Fault::Xml("the file is not UTF-8"));
         }
     };
-    let tree = crate::strict::parse(&text, crate::strict::Names::Expanded)
-        .or_else(|Malformed { at, why }| effects.refuse(at, Fault::Xml(why)))?;
-    let Some(robot) = tree.tops().find(|top| top.name() == "robot") else {
-        return effects.refuse(0, Fault::NotRobot);
-    };
+    let tree = effects.parsed(crate::strict::parse(&text, crate::strict::Names::Expanded))?;
+    let robot = effects.robot(&tree)?;
     parse::elements(robot, effects)?;
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.robot(robot)
