@@ -153,11 +153,13 @@ fn judge(
     let (written, unchanged) = (parts::written(&row.bytes), parts::written(&base.bytes));
     let is_written = |part: &str| parts::is_written(part, &written, &unchanged);
     let gone: BTreeSet<String> = row.gone.iter().filter_map(|fact| parts::of_fact(fact)).collect();
+    let text = String::from_utf8_lossy(&row.bytes);
+    let is_planar = text.contains("\"planar\"");
     let (mut lost, mut otherwise) = (BTreeSet::new(), BTreeSet::new());
     for fact in row.differences.get(&letter).into_iter().flatten() {
         let Some(part) = parts::of_fact(fact) else { continue };
-        // USD's schema has no axis of a planar joint: the driver shows none.
-        let is_shown = program != Program::Isaac || !part.ends_with("/axis");
+        // The driver of the converter shows the axes of joints that turn or slide alone.
+        let is_shown = program != Program::Isaac || !is_planar || !part.ends_with("/axis");
         if fact.starts_with('-') && is_shown && is_written(&part) && !gone.contains(&part) {
             lost.insert(part.clone());
         }
@@ -169,7 +171,6 @@ fn judge(
         let claimed: Vec<&String> = claims.iter().map(|claim| &claim.part).collect();
         score.unnamed.push(format!("{}: {missing:?}, claimed {claimed:?}", row.id));
     }
-    let text = String::from_utf8_lossy(&row.bytes);
     let is_judged = |claim: &&Claim| {
         let material = claim.part.strip_prefix("material/");
         let is_used = material.is_none_or(|name| text.matches(&format!("\"{name}\"")).count() > 1);
