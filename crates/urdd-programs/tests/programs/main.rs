@@ -76,6 +76,38 @@ fn readers_do_what_their_programs_do() {
     assert!(failed.is_empty(), "{failed:?}: URDD_PROGRAM=NAME lists each with --nocapture");
 }
 
+/// Damaged files: a few bytes are replaced, removed or repeated.
+#[test]
+fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
+    let trials: u64 = std::env::var("URDD_TRIALS").map_or(1, |text| text.parse().unwrap());
+    let (_, rows) = table::read(&table::folder().join("table.txt"));
+    let mut state = 0_u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        ((mixed ^ (mixed >> 27)) >> 11) as usize % below
+    };
+    for _ in 0..200 * trials {
+        let mut bytes = rows[random(rows.len())].bytes.clone();
+        for _ in 0..=random(4) {
+            let at = random(bytes.len() + 1);
+            let end = (at + random(9)).min(bytes.len());
+            let others = [&b"<"[..], b">", b"\"", b"&#", b"/>", b"\0", b"\xff", b" ", b""];
+            let put = match random(2) {
+                0 => bytes[at..end].repeat(2),
+                _ => others[random(others.len())].to_vec(),
+            };
+            bytes.splice(at..end, put);
+        }
+        for program in Program::ALL {
+            for effect in read(program, &bytes).0 {
+                let text = String::from_utf8_lossy(&bytes);
+                assert!(effect.at <= bytes.len(), "{}: {effect:?} of {text}", program.id());
+            }
+        }
+    }
+}
+
 #[test]
 fn programs_have_names() {
     for program in Program::ALL {
