@@ -54,6 +54,11 @@ pub struct LintArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["baseline", "fix", "diff"])]
     write_baseline: Option<PathBuf>,
 
+    /// The programs that the URDFs are for, such as `ros,mujoco`: what these refuse is an error, what they read otherwise a
+    /// warning, and what only others do an information. `urdd explain LNT060` says more; in urdd.toml it is `for`.
+    #[arg(long = "for", value_name = "PROGRAMS", value_delimiter = ',')]
+    programs: Vec<String>,
+
     #[command(flatten)]
     report: ReportArguments,
 
@@ -79,6 +84,7 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
         source: arguments.packages.settings()?,
         baseline: baseline.map(Baseline::read).transpose()?,
         without_meshes: false,
+        programs: urdd_lint::named_programs(&arguments.programs)?,
     };
     settings.report.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);

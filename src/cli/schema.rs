@@ -100,7 +100,8 @@ fn table() -> String {
     let mut rows = vec![["id", "profile", "class", "folder"].map(str::to_owned)];
     rows.extend(Subject::all().map(|subject| {
         let (profile, class, folder) = match subject {
-            Subject::Report
+            Subject::FirstReport
+            | Subject::Report
             | Subject::DiffReport
             | Subject::FirstDiffReport
             | Subject::ProducerResult

@@ -59,5 +59,6 @@ pub fn blank(kind: Kind, path: &str) -> Urdd {
         not_checked: Vec::new(),
         geometry_not_verified: Vec::new(),
         model_not_verified: None,
+        programs: Vec::new(),
     }
 }

@@ -17,6 +17,7 @@ pub mod fold;
 mod memory;
 pub mod part;
 pub mod places;
+pub mod programs;
 pub mod report;
 pub mod run;
 pub mod scope;

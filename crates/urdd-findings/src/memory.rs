@@ -7,6 +7,8 @@ use urdd_format::report::Place;
 const PLACE: usize = 320;
 const FIX: usize = 56;
 const EDIT: usize = 64;
+/// And of a program that does something because of it.
+const PROGRAM: usize = 40;
 
 /// Approximate memory of a place, in bytes.
 pub fn bytes(place: &Place) -> usize {
@@ -25,5 +27,6 @@ pub fn bytes(place: &Place) -> usize {
         FIX + fix.message.len() + edits.sum::<usize>()
     });
     let related = place.related.iter().map(bytes);
-    PLACE + texts.sum::<usize>() + fixes.sum::<usize>() + related.sum::<usize>()
+    let programs = PROGRAM * place.programs.len();
+    PLACE + programs + texts.sum::<usize>() + fixes.sum::<usize>() + related.sum::<usize>()
 }

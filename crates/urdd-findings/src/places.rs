@@ -28,7 +28,7 @@ pub fn retain(
 }
 
 /// A finding for each value that `key` has at its places, and the number of its places that are not listed.
-pub(crate) fn parted<K: PartialEq>(
+pub fn parted<K: PartialEq>(
     mut finding: Finding,
     mut key: impl FnMut(&Place) -> K,
 ) -> (Vec<(K, Finding)>, usize) {

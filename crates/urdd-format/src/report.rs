@@ -5,7 +5,7 @@ use super::registry::PROGRAM_VERSION;
 use super::types::{module, types};
 
 /// Version of the report's own format.
-pub const REPORT_VERSION: &str = "1.0.0";
+pub const REPORT_VERSION: &str = "1.1.0";
 
 module! {
     /// What a run of `urdd validate` found.
@@ -76,6 +76,64 @@ types! {
         /// Why the rates of `self_collision_model_module` were not verified; null where they were, and where there is no
         /// such module.
         pub model_not_verified: Option<ModelNotVerified>,
+        /// What programs do with a URDF, by their readers; empty where none was asked.
+        pub programs: Vec<ProgramResult>,
+    }
+
+    /// What a program does with a URDF.
+    pub struct ProgramResult {
+        /// The program, as `--for` and `Does` name it: `mujoco`, `urdfdom6`.
+        pub program: String,
+        /// Its name for people.
+        pub name: String,
+        /// Its name whatever its version.
+        pub family: String,
+        /// The version that its reader was held to.
+        pub version: String,
+        /// Whether the settings name it.
+        pub is_chosen: bool,
+        /// The worst that it does; null where it reads all as it is written.
+        pub does: Option<Deed>,
+        /// All that it does otherwise than the file says, in order of place.
+        pub effects: Vec<ProgramEffect>,
+        /// How many effects are not listed here, because there are too many.
+        pub effects_cut: Count,
+    }
+
+    /// What a program does with a part of a URDF, or with the whole.
+    pub enum Deed {
+        /// It reads the part otherwise than the file says.
+        Reads = "reads",
+        /// It leaves the part out.
+        Drops = "drops",
+        /// It refuses the file.
+        Refuses = "refuses",
+        /// It crashes.
+        Crashes = "crashes",
+    }
+
+    /// Something that a program does otherwise than the file says.
+    pub struct ProgramEffect {
+        /// What it does.
+        pub does: Deed,
+        /// Line in the file, from 1; null where it is no text.
+        pub line: Option<Count>,
+        /// Column in the line, in characters, from 1.
+        pub column: Option<Count>,
+        /// What is lost or read otherwise, such as `joint/elbow/limit`; null for the whole file.
+        pub part: Option<String>,
+        /// Why.
+        pub reason: String,
+        /// What the program makes of the part, where it reads it otherwise.
+        pub makes: Option<String>,
+    }
+
+    /// What a program does because of a finding.
+    pub struct Does {
+        /// The program.
+        pub program: String,
+        /// What it does.
+        pub does: Deed,
     }
 
     /// What was examined.
@@ -261,6 +319,8 @@ types! {
         pub places: Vec<Place>,
         /// How many of the counted places are not listed here, because there are too many.
         pub places_cut: Count,
+        /// The programs that refuse the file, or read it otherwise than it says, because of it.
+        pub programs: Vec<Does>,
     }
 
     /// A place of a finding.
@@ -291,6 +351,8 @@ types! {
         pub related: Vec<Place>,
         /// Changes that mend it, each by itself, the best first.
         pub fixes: Vec<Fix>,
+        /// The programs that refuse the file, or read it otherwise than it says, because of what is at this place.
+        pub programs: Vec<Does>,
     }
 
     /// The place in a .xacro file that a part of a URDF was made from.

@@ -23,6 +23,8 @@ pub enum Subject {
     Module(&'static ModuleSpec),
     /// Output of `urdd validate --format json`.
     Report,
+    /// The same in its first version, without programs.
+    FirstReport,
     /// Output of `urdd diff --format json`.
     DiffReport,
     /// The same in its first version, without named configurations.
@@ -104,6 +106,7 @@ impl Subject {
     /// reports, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
         std::iter::once(Subject::RootMetadata).chain(modules().iter().map(Subject::Module)).chain([
+            Subject::FirstReport,
             Subject::Report,
             Subject::FirstDiffReport,
             Subject::DiffReport,
@@ -131,7 +134,7 @@ impl Subject {
     pub fn name(self) -> &'static str {
         match self {
             Subject::RootMetadata => "root_metadata",
-            Subject::Report => "report",
+            Subject::Report | Subject::FirstReport => "report",
             Subject::DiffReport | Subject::FirstDiffReport => "diff_report",
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult => "validator_result",
@@ -142,7 +145,7 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata | Subject::FirstDiffReport => "1.0.0",
+            Subject::RootMetadata | Subject::FirstReport | Subject::FirstDiffReport => "1.0.0",
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
             Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
@@ -162,16 +165,13 @@ impl Subject {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
             Subject::Report => schemars::schema_for!(Report),
             Subject::DiffReport => schemars::schema_for!(DiffReport),
+            Subject::FirstReport => without(
+                schemars::schema_for!(Report),
+                "programs",
+                &["ProgramResult", "ProgramEffect", "Does", "Deed"],
+            ),
             Subject::FirstDiffReport => {
-                let mut schema = schemars::schema_for!(DiffReport);
-                let later = "configurations";
-                if let Some(Value::Object(properties)) = schema.get_mut("properties") {
-                    properties.shift_remove(later);
-                }
-                if let Some(Value::Array(required)) = schema.get_mut("required") {
-                    required.retain(|key| key != later);
-                }
-                schema
+                without(schemars::schema_for!(DiffReport), "configurations", &[])
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
@@ -199,6 +199,28 @@ impl Subject {
     pub fn text(self, variant: Variant) -> String {
         // `{:#}` writes indented JSON; unlike `to_string_pretty`, it cannot fail.
         format!("{:#}\n", self.schema(variant))
+    }
+}
+
+/// The schema before a key and these types were added.
+fn without(mut schema: Schema, key: &str, types: &[&str]) -> Schema {
+    let mut definitions = schema.get_mut("$defs");
+    let definitions = definitions.as_mut().and_then(|all| all.as_object_mut());
+    if let Some(all) = definitions {
+        all.retain(|name, _| !types.contains(&name.as_str()));
+        all.values_mut().filter_map(Value::as_object_mut).for_each(|object| forget(object, key));
+    }
+    forget(schema.ensure_object(), key);
+    schema
+}
+
+/// Removes a key from the schema of an object.
+fn forget(object: &mut Map<String, Value>, key: &str) {
+    if let Some(Value::Object(properties)) = object.get_mut("properties") {
+        properties.shift_remove(key);
+    }
+    if let Some(Value::Array(required)) = object.get_mut("required") {
+        required.retain(|one| one != key);
     }
 }
 

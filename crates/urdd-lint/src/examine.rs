@@ -5,6 +5,7 @@ use std::path::Path;
 
 use roxmltree::Document;
 
+use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
@@ -17,31 +18,36 @@ use urdd_findings::finding::{Finding, Findings};
 use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::report::{Place, StaleIgnore};
+use urdd_format::report::{Place, ProgramResult, StaleIgnore};
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
 /// The family of this crate's rules.
 const FAMILY: &str = "LNT";
+/// The rules that say what other rules do not see of what programs do.
+const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];
 
 /// A text as the rules see it.
 #[derive(Clone, Copy)]
 struct Job<'a> {
     text: &'a str,
+    /// The file's, which may be in another encoding.
+    bytes: &'a [u8],
     name: &'a str,
     folder: &'a Path,
     settings: &'a LintSettings,
 }
 
-/// The result, and the comments that allow what was not found. `name` is the file's in the report; relative mesh names
+/// The result, and the comments that allow what was not found. `bytes` are those of the file; `name` is the file's in the report; relative mesh names
 /// refer to `folder`.
 pub fn examined(
     text: &str,
+    bytes: &[u8],
     name: &str,
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
-    let job = Job { text, name, folder, settings };
+    let job = Job { text, bytes, name, folder, settings };
     let mut examined = examine_urdf(text, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
     let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
@@ -55,6 +61,7 @@ pub fn examined(
         let skipped = rules_to_run(settings)
             .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
+        examined.report.programs = job.ask_of_no_xml(&mut examined.checks);
         return (examined, Vec::new());
     };
     let of_mended = match &mended {
@@ -63,8 +70,18 @@ pub fn examined(
     };
     let source = job.source(&examined.checks);
     let subject = job.subject(&document, &source);
-    job.run(&subject, &mut examined.checks);
     let is_mended = matches!(mended, Cow::Owned(_));
+    if is_mended {
+        examined.report.programs = job.ask_of_no_xml(&mut examined.checks);
+        job.run(&subject, &mut examined.checks, |_| Vec::new());
+    } else {
+        job.run(&subject, &mut examined.checks, |checks| {
+            let Some(asked) = job.ask() else { return Vec::new() };
+            let left = attach(&subject, &asked, checks);
+            examined.report.programs = asked.results;
+            left
+        });
+    }
     let is_of_mended = |check: &&mut Check| {
         let code = check.rule.code;
         code.family() == FAMILY || of_mended.contains(&code)
@@ -102,8 +119,27 @@ impl<'a> Job<'a> {
         subject.without_meshes(self.settings.without_meshes)
     }
 
-    /// Runs the rules of the family LNT after those of the validator.
-    fn run(self, subject: &Subject, checks: &mut Vec<Check>) {
+    /// Asks the programs; not about files beyond the limits of XML.
+    fn ask(self) -> Option<Asked> {
+        urdd_xml::check_limits(self.text, urdd_xml::Kind::Robot).ok()?;
+        Some(Asked::about(self.bytes, self.text, self.folder, self.settings))
+    }
+
+    /// As [`Self::ask`], of a file that is not well-formed.
+    fn ask_of_no_xml(self, checks: &mut [Check]) -> Vec<ProgramResult> {
+        let Some(asked) = self.ask() else { return Vec::new() };
+        attach_all(&asked, checks);
+        asked.results
+    }
+
+    /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
+    /// when the other rules have run.
+    fn run(
+        self,
+        subject: &Subject,
+        checks: &mut Vec<Check>,
+        programs: impl FnOnce(&mut Vec<Check>) -> Vec<Left>,
+    ) {
         let is_macro = subject.macros().is_some();
         if is_macro {
             // LNT051 says it all: what others find is about the text of macros.
@@ -112,27 +148,41 @@ impl<'a> Job<'a> {
                 *check = Check::skipped(check.rule, NOT_EXPANDED);
             }
         }
-        for rule in rules_to_run(self.settings) {
-            if self.settings.report.cancellation.is_cancelled() {
-                break;
+        let is_of_programs = |rule: &&LintRule| OF_PROGRAMS.contains(&rule.description.code);
+        let (last, first): (Vec<&LintRule>, Vec<_>) =
+            rules_to_run(self.settings).partition(is_of_programs);
+        let run = |rules: Vec<&'static LintRule>, checks: &mut Vec<Check>| {
+            for rule in rules {
+                if self.settings.report.cancellation.is_cancelled() {
+                    break;
+                }
+                let description = &rule.description;
+                checks.push(match is_macro && description.code != Code::LNT051 {
+                    true => Check::skipped(description, NOT_EXPANDED),
+                    false => Check::caught(description, &mut Findings::default(), |findings| {
+                        (rule.check)(subject, findings)
+                    }),
+                });
             }
-            let description = &rule.description;
-            checks.push(match is_macro && description.code != Code::LNT051 {
-                true => Check::skipped(description, NOT_EXPANDED),
-                false => Check::caught(description, &mut Findings::default(), |findings| {
-                    (rule.check)(subject, findings)
-                }),
-            });
+        };
+        run(first, checks);
+        if !is_macro {
+            subject.set_programs(programs(checks));
         }
+        run(last, checks);
+        checks.sort_by_key(|check| check.rule.code);
     }
 
     /// What all rules find in another text; `None` if it is no XML.
     fn again(self, text: &str) -> Option<Vec<Check>> {
-        let job = Job { text, ..self };
+        let job = Job { text, bytes: text.as_bytes(), ..self };
         let document = urdd_xml::parse(text, urdd_xml::Kind::Robot).ok()?;
         let mut checks = examine_urdf(text, self.name).checks;
         let source = job.source(&checks);
-        job.run(&job.subject(&document, &source), &mut checks);
+        let subject = job.subject(&document, &source);
+        job.run(&subject, &mut checks, |checks| {
+            job.ask().map_or_else(Vec::new, |asked| attach(&subject, &asked, checks))
+        });
         Some(checks)
     }
 }

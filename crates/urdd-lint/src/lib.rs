@@ -21,6 +21,7 @@ mod named_file;
 mod offset;
 pub mod pose;
 mod primitives;
+mod programs;
 mod rule;
 pub mod rules;
 mod settings;
@@ -35,6 +36,7 @@ pub mod vocabulary;
 pub mod written;
 
 pub use fix::{ChangedError, Mended, mend};
+pub use programs::{UnknownProgram, named_programs};
 pub use rule::LintRule;
 pub use settings::LintSettings;
 pub use target::LeftAlone;
@@ -183,7 +185,7 @@ fn of_source(
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let name = stems(path).1;
-    let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
+    let (mut examined, unused) = examined(&read.text, read.bytes(), &name, &read.folder, settings);
     let mut checks = examined.checks.iter();
     if read.is_expanded && checks.any(|check| !check.findings.is_empty()) {
         let mut files = included(path, &settings.source, &settings.report.cancellation);
@@ -196,5 +198,5 @@ fn of_source(
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
-    examined(text, name, folder, settings).0
+    examined(text, text.as_bytes(), name, folder, settings).0
 }

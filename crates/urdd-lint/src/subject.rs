@@ -12,10 +12,11 @@ use super::bodies::Bodies;
 use super::elements::{child, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
+use super::programs::Left;
 use super::skip::{WITHOUT_MESHES, refused};
 use super::unknown::{Unknown, unknown};
 use super::vocabulary::hint;
-use urdd_directory::position::LineIndex;
+use urdd_directory::position::{LineIndex, Position};
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_findings::code::Code;
 use urdd_findings::finding::{Finding, Findings};
@@ -48,6 +49,8 @@ pub struct Subject<'a> {
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
     without_meshes: bool,
+    elements: OnceLock<Vec<Node<'a, 'a>>>,
+    programs: OnceLock<Vec<Left>>,
 }
 
 impl<'a> Subject<'a> {
@@ -84,6 +87,8 @@ impl<'a> Subject<'a> {
             robot: OnceLock::new(),
             geometry: OnceLock::new(),
             unknown: OnceLock::new(),
+            elements: OnceLock::new(),
+            programs: OnceLock::new(),
         }
     }
 
@@ -255,6 +260,30 @@ impl<'a> Subject<'a> {
         self.unknown.get_or_init(|| unknown(self.root)).clone()
     }
 
+    /// Sets the faults that only programs name.
+    pub fn set_programs(&self, left: Vec<Left>) {
+        // It is set once.
+        let _ = self.programs.set(left);
+    }
+
+    /// The faults that only programs name. Empty before the other rules ran.
+    pub fn programs(&self) -> &[Left] {
+        self.programs.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// The element whose start tag holds an offset, or is the last before it.
+    pub fn element(&self, offset: usize) -> Option<Node<'a, 'a>> {
+        let all = || self.root.document().descendants().filter(Node::is_element).collect();
+        let elements: &Vec<Node> = self.elements.get_or_init(all);
+        let after = elements.partition_point(|node| node.range().start <= offset);
+        elements.get(after.checked_sub(1)?).copied()
+    }
+
+    /// The line and column of an offset.
+    pub fn position(&self, offset: usize) -> Position {
+        self.lines.position(offset)
+    }
+
     /// The first element that only xacro understands.
     pub fn macros(&self) -> Option<Node<'a, 'a>> {
         let is_macro = |node: &Node| {
@@ -308,6 +337,14 @@ impl<'a> Subject<'a> {
         self.placed(node, start, message)
     }
 
+    /// A finding about what is at an offset.
+    pub fn at_offset(&self, offset: usize, message: impl Into<String>) -> Finding {
+        match self.element(offset) {
+            Some(node) => self.placed(node, offset, message),
+            None => Finding::in_file(self.file, message).position(Some(self.position(offset))),
+        }
+    }
+
     /// Findings at the same kind of element are one with a count.
     fn placed(&self, node: Node<'a, 'a>, offset: usize, message: impl Into<String>) -> Finding {
         let mut finding = Finding::at(self.file, pointer(node), message)
@@ -349,7 +386,7 @@ fn pointer(node: Node) -> String {
 }
 
 /// The link or joint that an element belongs to.
-fn subject(node: Node) -> Option<String> {
+pub fn subject(node: Node) -> Option<String> {
     let part = part(node)?;
     let name = part.attribute("name")?;
     Some(format!("{} `{name}`", part.tag_name().name()))

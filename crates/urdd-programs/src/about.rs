@@ -9,6 +9,8 @@ pub(crate) struct About {
     pub id: &'static str,
     /// As people know it.
     pub name: &'static str,
+    /// Its name whatever its version.
+    pub family: &'static str,
     /// The version that the reader is held to.
     pub version: &'static str,
     /// Names of settings for it besides `id`, the best first.

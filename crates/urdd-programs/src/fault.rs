@@ -35,14 +35,24 @@ pub enum Fault {
     Shape(String),
     /// An element or attribute that the program never reads.
     NeverRead(String),
+    /// What the program does with every such part, or because of another fault: nothing is wrong there.
+    Way(&'static str),
     /// An element that URDF does not have in its place, and the one that it looks like.
     UnknownElement { name: String, like: &'static str },
     /// An attribute that its element does not have, and the one that it looks like.
     UnknownAttribute { name: String, like: &'static str },
     /// The joints and links make no tree.
     Tree(&'static str),
-    /// A mesh file: "its file was not found".
+    /// A mass or an inertia that no body can have, or that is not there.
+    Inertia(&'static str),
+    /// The limits of a joint against each other, or against its type.
+    Limits(&'static str),
+    /// There is no file of this name: of a `mesh` or a `texture`.
+    NotFound(&'static str),
+    /// A mesh file that is not as it should be.
     Mesh(&'static str),
+    /// A mesh in a format, or under a name, that other programs take: no fault of the robot.
+    ForOthers(&'static str),
     /// The version of URDF on `<robot>`.
     Version(String),
     /// A name that the program cannot have.
@@ -50,6 +60,10 @@ pub enum Fault {
     /// Anything else, as a sentence without its end.
     Other(&'static str),
 }
+
+/// A mesh in a format that a program does not know.
+pub(crate) const FORMAT: Fault =
+    Fault::ForOthers("the mesh is in a format that the program cannot read");
 
 impl Fault {
     pub(crate) fn not_a_number(attribute: &str, text: &str) -> Fault {
@@ -76,6 +90,32 @@ impl Fault {
         Fault::Unknown { kind, name: shortened(name) }
     }
 
+    /// A link below a joint has the name of the world.
+    pub(crate) fn world() -> Fault {
+        Fault::Name { kind: "link", name: "world".into(), rule: "this is the world itself" }
+    }
+
+    /// Whether something is wrong with the robot: not what a program does with every robot, and no mesh that it cannot take.
+    pub fn is_of_robot(&self) -> bool {
+        !matches!(self, Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_))
+    }
+
+    /// Whether another fault at the same element is the same one, said otherwise.
+    pub fn is_alike(&self, other: &Fault) -> bool {
+        let name = |fault: &Fault| match fault {
+            Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
+                Some((*name).to_owned())
+            }
+            Fault::Repeated(name) | Fault::Shape(name) => Some(name.clone()),
+            Fault::NotUnique { kind, .. } | Fault::Unknown { kind, .. } => Some((*kind).to_owned()),
+            _ => None,
+        };
+        let is_plain = !matches!(self, Fault::Other(_));
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+            && name(self) == name(other)
+            && (is_plain || self == other)
+    }
+
     /// What to do about it.
     pub fn advice(&self) -> &'static str {
         match self {
@@ -92,12 +132,19 @@ impl Fault {
             Fault::Unknown { .. } => "mend the name, or add what it names",
             Fault::Value { .. } => "write one of those that URDF defines",
             Fault::Shape(_) => "use box, cylinder, sphere or mesh",
-            Fault::NeverRead(_) => "do not rely on it there",
+            Fault::NeverRead(_) | Fault::Way(_) => "do not rely on it there",
             Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
                 "correct the name, or move it to its place"
             }
             Fault::Tree(_) => "give each link but one a joint of which it is the child",
-            Fault::Mesh(_) => "export the mesh in another format, or mend its file",
+            Fault::Inertia(_) => {
+                "write the mass and the inertia of the body, about its centre of mass"
+            }
+            Fault::Limits(_) => "write limits that the joint has",
+            Fault::NotFound(_) => "mend its name, or put the file there",
+            Fault::Mesh(_) | Fault::ForOthers(_) => {
+                "export the mesh in another format, or mend its file"
+            }
             Fault::Version(_) => "write `1.0`, or remove it",
             Fault::Name { .. } => "rename it",
             Fault::Other(_) => "mend it",
@@ -108,9 +155,15 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Fault::Xml(what) | Fault::Tree(what) | Fault::Mesh(what) | Fault::Other(what) => {
-                f.write_str(what)
-            }
+            Fault::Xml(what)
+            | Fault::Inertia(what)
+            | Fault::Limits(what)
+            | Fault::Tree(what)
+            | Fault::Mesh(what)
+            | Fault::ForOthers(what)
+            | Fault::Way(what)
+            | Fault::Other(what) => f.write_str(what),
+            Fault::NotFound(kind) => write!(f, "the file of the {kind} was not found"),
             Fault::NotRobot => f.write_str("the root is not `<robot>`"),
             Fault::Missing(attribute) => write!(f, "`{attribute}` is missing"),
             Fault::MissingElement(element) => write!(f, "`<{element}>` is missing"),

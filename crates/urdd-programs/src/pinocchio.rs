@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::about::{About, Names};
 use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
+use crate::fault::{FORMAT, Fault};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
@@ -17,6 +17,7 @@ use crate::urdfdom::{self, Joint, Link, Model, Release};
 pub(crate) const ABOUT: About = About {
     id: "pinocchio",
     name: "Pinocchio",
+    family: "Pinocchio",
     version: "4.1.0",
     settings: &[],
     is_asked: true,
@@ -189,7 +190,7 @@ impl Reader<'_> {
         let (kept, is_all) = link.kept[usize::from(kind == "collision")];
         if !is_all {
             for (index, shape) in link.node.named(kind).take(kept).enumerate() {
-                let fault = Fault::Other("another one of the link is faulty");
+                let fault = Fault::Way("another one of the link is faulty");
                 self.effects.drop(shape, format!("link/{name}/{kind}/{index}"), fault);
             }
             return Ok(());
@@ -210,7 +211,7 @@ impl Reader<'_> {
                 self.scheme(image)?;
                 if !image.value.is_empty() && matches!(self.file.mesh(&image.value), Mesh::Missing)
                 {
-                    let fault = Fault::Mesh("the file of the texture was not found");
+                    let fault = Fault::NotFound("texture");
                     self.effects.drop(
                         image,
                         format!("link/{link_name}/visual/{index}/material"),
@@ -232,7 +233,7 @@ impl Reader<'_> {
         match file.value.split_once("://") {
             Some((scheme, _)) if !matches!(scheme, "package" | "model" | "file") => {
                 let why = "the scheme of its name is none of package, model and file";
-                self.effects.refuse(file, Fault::Mesh(why))
+                self.effects.refuse(file, Fault::ForOthers(why))
             }
             _ => Ok(()),
         }
@@ -244,13 +245,16 @@ impl Reader<'_> {
         if filename.value.is_empty() {
             return self.effects.refuse(filename, Fault::Empty("filename"));
         }
-        let why = match self.file.mesh(&filename.value) {
+        let fault = match self.file.mesh(&filename.value) {
             Mesh::Unknown => return Ok(()),
-            Mesh::Missing => "the file of the mesh was not found",
-            Mesh::Found(facts) if !is_read(&filename.value, &facts) => "the mesh cannot be read",
+            Mesh::Missing => Fault::NotFound("mesh"),
+            Mesh::Found(facts) if !is_read(&filename.value, &facts) => match facts.content() {
+                None if facts.is_of_no_format() => FORMAT,
+                _ => Fault::Mesh("the mesh cannot be read"),
+            },
             Mesh::Found(_) => return Ok(()),
         };
-        self.effects.refuse(filename, Fault::Mesh(why))
+        self.effects.refuse(filename, fault)
     }
 
     /// Pinocchio's own `<collision_checking>`: entries are looked through until one names the shape.

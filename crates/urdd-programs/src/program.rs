@@ -72,9 +72,11 @@ impl Program {
         Program::ALL.into_iter().find(is_one)
     }
 
-    /// The name of settings for it.
-    pub fn setting(self) -> &'static str {
-        self.about().settings.first().copied().unwrap_or(self.id())
+    /// The names of settings for it, the best first.
+    pub fn settings(self) -> impl Iterator<Item = &'static str> {
+        let about = self.about();
+        let own = Some(about.id).filter(|_| about.settings.is_empty());
+        about.settings.iter().copied().chain(own)
     }
 
     /// Whether it is asked if nobody says which programs matter.
@@ -90,6 +92,11 @@ impl Program {
     /// As people know it.
     pub fn name(self) -> &'static str {
         self.about().name
+    }
+
+    /// Its name whatever its version: `ROS`.
+    pub fn family(self) -> &'static str {
+        self.about().family
     }
 
     /// The version that its reader is held to.

@@ -18,6 +18,7 @@ use crate::{tinyxml, tinyxml1};
 pub(crate) const SIX: About = About {
     id: "urdfdom6",
     name: "ROS (urdfdom 6)",
+    family: "ROS",
     version: "6.0.0",
     settings: &["ros", "lyrical", "rolling"],
     is_asked: true,
@@ -29,10 +30,11 @@ pub(crate) const SIX: About = About {
 /// ROS jazzy and kilted.
 pub(crate) const FOUR: About = About {
     id: "urdfdom4",
-    name: "ROS jazzy and kilted (urdfdom 4)",
+    name: "ROS jazzy (urdfdom 4)",
+    family: "ROS",
     version: "4.0.1",
     settings: &["jazzy", "kilted"],
-    is_asked: false,
+    is_asked: true,
     names: Names::Exact,
     never: &[],
     read: read_four,
@@ -41,10 +43,11 @@ pub(crate) const FOUR: About = About {
 /// ROS noetic, humble and iron.
 pub(crate) const THREE: About = About {
     id: "urdfdom3",
-    name: "ROS noetic, humble and iron (urdfdom 3)",
+    name: "ROS humble (urdfdom 3)",
+    family: "ROS",
     version: "3.0.1",
     settings: &["humble", "noetic", "iron"],
-    is_asked: false,
+    is_asked: true,
     names: Names::Exact,
     never: &[],
     read: read_three,

@@ -75,6 +75,15 @@ pub struct SourceText {
     pub is_expanded: bool,
     /// The folder that relative names refer to, with symbolic links resolved.
     pub folder: PathBuf,
+    /// The bytes of the file, where they are not those of the text: another encoding, or a byte order mark.
+    pub original: Option<Vec<u8>>,
+}
+
+impl SourceText {
+    /// The bytes that other programs read.
+    pub fn bytes(&self) -> &[u8] {
+        self.original.as_deref().unwrap_or(self.text.as_bytes())
+    }
 }
 
 /// Reads the text of a URDF, or expands a xacro file to one.
@@ -87,7 +96,13 @@ pub fn read_source(
     cancellation: &Cancellation,
 ) -> Result<SourceText, SourceError> {
     let read = read(path, settings, cancellation, &mut Vec::new())?;
-    Ok(SourceText { text: read.text, is_expanded: read.is_expanded, folder: read.folder })
+    let is_same = read.is_expanded || read.bytes == read.text.as_bytes();
+    Ok(SourceText {
+        original: (!is_same).then_some(read.bytes),
+        text: read.text,
+        is_expanded: read.is_expanded,
+        folder: read.folder,
+    })
 }
 
 /// A description before it is repaired.

@@ -7,7 +7,7 @@ use super::limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_PREFIXES};
 use super::markup::{self, MarkupKind};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
-pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
+pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     let mut prefixes: HashSet<&[u8]> = HashSet::new();
     let (mut levels, mut elements) = (0_usize, 0_usize);
     let mut at = 0;

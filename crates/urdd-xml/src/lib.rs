@@ -18,6 +18,7 @@ mod strict;
 pub mod vocabulary;
 mod words;
 
+pub use count::check as check_limits;
 pub use declaration::wrong_version;
 pub use error::XmlError;
 pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};

@@ -152,6 +152,7 @@ fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {
         count: Count::saturating(found.count),
         places_cut: Count::saturating(found.count.saturating_sub(places.len())),
         places,
+        programs: here.programs,
     }
 }
 

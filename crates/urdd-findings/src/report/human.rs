@@ -13,10 +13,11 @@ use urdd_format::registry::ModuleKind;
 use super::fill::by_reason;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural, unit};
-use super::{summary, unverified};
+use super::{programs, summary, unverified};
 use crate::skip::SkipReason;
 use urdd_format::report::{
-    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict, WrittenAt,
+    CheckStatus, Deed, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
+    WrittenAt,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -86,6 +87,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     }
     if !brief {
         write_skipped(urdd, style, out)?;
+        write_programs(urdd, style, out)?;
         let is_read = urdd.verdict != Verdict::Unreadable;
         if style.suggests_lint && urdd.kind == Kind::Urdf && is_read {
             let hint =
@@ -273,6 +275,21 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         writeln!(out, "  {label} {rules} about modules that are not here")?;
     }
     Ok(())
+}
+
+/// What programs do with a URDF.
+fn write_programs(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
+    let lines = programs::describe(urdd);
+    let paint = |(does, text): &(Option<Deed>, String)| {
+        let color = match does {
+            Some(Deed::Refuses | Deed::Crashes) => RED,
+            Some(Deed::Drops | Deed::Reads) => YELLOW,
+            None => GREEN,
+        };
+        style.paint(color, safe(text))
+    };
+    let lines: Vec<String> = lines.iter().map(paint).collect();
+    if lines.is_empty() { Ok(()) } else { writeln!(out, "  {}", lines.join(" · ")) }
 }
 
 fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {

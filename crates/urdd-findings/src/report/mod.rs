@@ -7,6 +7,7 @@ pub mod github;
 pub mod human;
 pub mod junit;
 pub mod place;
+mod programs;
 pub mod sarif;
 pub mod style;
 #[doc(hidden)]

@@ -3,7 +3,7 @@ use super::prelude::*;
 declare_lint! {
     /// The effort or velocity of a joint's limit is negative, or one of them is 0.
     ///
-    /// Pinocchio refuses the whole robot if one of them is negative, on joints that follow another one too: an error. With
+    /// Pinocchio refuses the whole robot if one of them is negative, on joints that follow another one too. With
     /// effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
     /// parameterization fails. MuJoCo takes 0 as "no limit".
     ///
@@ -23,16 +23,15 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let may_be_0 = is_still || child(joint, "mimic").is_some();
         for (name, other) in [("velocity", "effort"), ("effort", "velocity")] {
             let other = number(limit, other);
-            let is_negative = number(limit, name).is_some_and(|value| value < 0.0);
             let wrong = match number(limit, name) {
-                Some(_) if is_negative => "is negative, and Pinocchio refuses the robot",
+                Some(value) if value < 0.0 => "is negative",
                 Some(0.0) if !may_be_0 && other.is_some_and(|other| other != 0.0) => {
                     "is 0: programs that keep to it do not move the joint"
                 }
                 _ => continue,
             };
             let message = format!("`{name}` {wrong}; write what the motor can do");
-            error_if(is_negative, urdf.at_attribute(limit, name, message)).report(findings);
+            urdf.at_attribute(limit, name, message).report(findings);
         }
     }
     Some(())

@@ -29,10 +29,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
         }
         if !missing.is_empty() {
-            let message = format!(
-                "`<inertial>` has no {}: MuJoCo refuses the file, and ROS drops the inertial; write it",
-                missing.join(", no ")
-            );
+            let message = format!("`<inertial>` has no {}; write it", missing.join(", no "));
             urdf.at(inertial, message).report(findings);
         }
     }

@@ -14,8 +14,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for joint in &urdf.joints {
         let Some(limit) = child(*joint, "limit") else {
             if matches!(joint.attribute("type"), Some("revolute" | "prismatic")) {
-                let message = "the joint has no `<limit>`, and ROS (urdfdom) refuses the whole file; write it, with effort and \
-                    velocity";
+                let message = "the joint has no `<limit>`; write it, with effort and velocity";
                 urdf.at(*joint, message).report(findings);
             }
             continue;
@@ -23,10 +22,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let mut missing = vec!["effort", "velocity"];
         missing.retain(|name| !limit.has_attribute(*name));
         if !missing.is_empty() {
-            let message = format!(
-                "`<limit>` has no {}, and ROS (urdfdom) refuses the whole file; write both",
-                missing.join(" and no ")
-            );
+            let message = format!("`<limit>` has no {}; write both", missing.join(" and no "));
             urdf.at(limit, message).report(findings);
         }
     }

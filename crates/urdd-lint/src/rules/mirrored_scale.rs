@@ -5,7 +5,7 @@ declare_lint! {
     ///
     /// A mirrored mesh has its faces inside out, and Gazebo's collisions fail with it. MuJoCo 4 and trimesh turn the faces.
     /// Two negative factors are a rotation, and no finding. With a factor of 0 on a
-    /// collision mesh, MuJoCo refuses the robot: an error.
+    /// collision mesh, MuJoCo refuses the robot.
     ///
     /// Export a mirrored mesh, and write positive factors.
     LNT023 "mirrored-scale", Warning, Collisions, since "1.1.0"
@@ -25,8 +25,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let finding = urdf.at_attribute(node, "scale", message);
-        error_if(is_flat && is_collision, finding).report(findings);
+        urdf.at_attribute(node, "scale", message).report(findings);
     }
     Some(())
 }

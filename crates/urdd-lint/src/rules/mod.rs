@@ -30,9 +30,11 @@ mod misplaced;
 mod misspelt;
 mod moving_link_without_inertial;
 mod name_refused;
+mod not_read_as_written;
 mod odd_density;
 mod package_not_found;
 mod prelude;
+mod refused_by_programs;
 mod root_link_with_inertial;
 mod ros2_control_unknown_joint;
 mod same_default_inertia;
@@ -57,8 +59,8 @@ rules! {
     inertia_beyond_geometry, inertia_far_below_geometry, inertial_incomplete, letter_case,
     limit_incomplete, limits_look_like_degrees, material_not_defined, mesh_in_millimetres,
     mesh_names_clash, mesh_not_found, mesh_not_readable, mirrored_scale, misplaced, misspelt,
-    moving_link_without_inertial, name_refused, odd_density, package_not_found,
-    root_link_with_inertial, ros2_control_unknown_joint, same_default_inertia,
+    moving_link_without_inertial, name_refused, not_read_as_written, odd_density, package_not_found,
+    refused_by_programs, root_link_with_inertial, ros2_control_unknown_joint, same_default_inertia,
     self_collision_in_default, size_not_positive, srdf_unknown_name, stl_refused,
     texture_missing, transmission_unknown_joint, unknown_element_or_attribute,
     visual_and_collision_apart, visual_without_collision, xacro_not_expanded,

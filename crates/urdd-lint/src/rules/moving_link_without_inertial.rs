@@ -5,7 +5,7 @@ use urdd_format::urdf::JointType;
 declare_lint! {
     /// A joint moves links of which none has a mass.
     ///
-    /// MuJoCo fills collision shapes with 1000 kg/m³, and refuses the robot where the links have none: an error. PyBullet
+    /// MuJoCo fills collision shapes with 1000 kg/m³, and refuses the robot where the links have none. PyBullet
     /// gives such a link 1 kg, Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
     ///
     /// Write an `<inertial>`, or make the joint `fixed`.
@@ -18,18 +18,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     // SRC003 tells of a moving link that says 0.
     let says_zero = |link: usize| mass(&robot.links[link]) == Some(0.0);
     let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
-    // Of a body without mass, MuJoCo reads collision shapes alone.
-    let is_refused = |top: usize| {
-        let collides = |link: usize| !robot.links[link].collision.is_empty();
-        bodies.tree.parent_joint[top].is_some_and(|joint| moves(&joint))
-            && !bodies.members(top).any(collides)
-    };
     if !(0..robot.links.len()).any(has_mass) {
         let is_told = bodies.tops().any(says_zero);
         if !is_told && (0..robot.joints.len()).any(|joint| moves(&joint)) {
-            let message = "no link has a mass: simulators invent masses, or refuse the robot; write an `<inertial>` for each";
-            let finding = urdf.at(urdf.root, message);
-            error_if(bodies.tops().any(is_refused), finding).report(findings);
+            let message = "no link has a mass; write an `<inertial>` for each";
+            urdf.at(urdf.root, message).report(findings);
         }
         return Some(());
     }
@@ -39,11 +32,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         if !bodies.members(top).any(has_mass) && !says_zero(top) {
             let message = format!(
-                "joint `{}` moves this link, and it has no mass: simulators invent one, or refuse the robot; write an \
-                `<inertial>`",
+                "joint `{}` moves this link, and it has no mass; write an `<inertial>`",
                 robot.joints[joint].name
             );
-            error_if(is_refused(top), urdf.at(urdf.links[top], message)).report(findings);
+            urdf.at(urdf.links[top], message).report(findings);
         }
     }
     Some(())

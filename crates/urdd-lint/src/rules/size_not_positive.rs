@@ -27,8 +27,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 };
                 if least <= 0.0 {
                     let message = format!(
-                        "the {name} has a size of {least}, and MuJoCo refuses the robot; write the size in metres, or remove the \
-                        collision"
+                        "the {name} has a size of {least}; write the size in metres, or remove the collision"
                     );
                     urdf.at(shape, message).report(findings);
                 }

@@ -3,7 +3,7 @@ use super::prelude::*;
 declare_lint! {
     /// An STL is text, or is cut off.
     ///
-    /// MuJoCo refuses the robot if it is a collision mesh: an error. PyBullet loads the link without its collision shape, and says so in its log alone.
+    /// MuJoCo refuses the robot if it is a collision mesh. PyBullet loads the link without its collision shape, and says so in its log alone.
     /// Pinocchio and yourdfpy read text.
     ///
     /// Export the mesh as binary STL.
@@ -15,14 +15,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Ok(facts) = mesh.facts else { continue };
         let is_cut = facts.notes.iter().any(|note| note.code == NoteCode::CutOff);
         let message = match facts.format {
-            Format::StlAscii => "the STL is text, which MuJoCo refuses; export it as binary STL",
-            Format::StlBinary if is_cut => {
-                "the STL is cut off, and MuJoCo refuses it; export it again"
-            }
+            Format::StlAscii => "the STL is text; export it as binary STL",
+            Format::StlBinary if is_cut => "the STL is cut off; export it again",
             _ => continue,
         };
-        let is_refused = mesh.kind == GeometryKind::Collision;
-        error_if(is_refused, urdf.at_attribute(node, "filename", message)).report(findings);
+        urdf.at_attribute(node, "filename", message).report(findings);
     }
     Some(())
 }

@@ -42,13 +42,13 @@ fn the_cause_names_what_follows_and_is_as_severe() {
     let finding = found(&with(&[MISSPELT]), &LintSettings::default()).remove(0);
     assert_eq!(finding.severity, Severity::Error);
     assert_eq!(finding.default_severity, Severity::Warning);
-    assert_eq!(finding.line.map(|line| line.get()), Some(17));
+    assert_eq!(finding.line.map(|line| line.get()), Some(5));
     let [effect] = &finding.places[0].related[..] else {
         panic!("{finding:#?}");
     };
     let message = effect.message.as_deref().unwrap_or_default();
     assert!(message.starts_with("LNT008 "), "{message}");
-    assert_eq!(effect.line.map(|line| line.get()), Some(14));
+    assert_eq!(effect.line.map(|line| line.get()), Some(3));
     for (change, severity) in [
         (("<limit ", "<limits "), Severity::Error),
         (("<axis ", "<axsi "), Severity::Warning),
@@ -75,7 +75,7 @@ fn each_misspelling_speaks_for_itself() {
         effects.push((line, code.unwrap_or_default().to_owned()));
     }
     effects.sort();
-    let expected = [(10, "LNT016"), (11, "LNT017"), (17, "LNT008")];
+    let expected = [(5, "LNT008"), (14, "LNT016"), (15, "LNT017")];
     assert_eq!(effects, expected.map(|(line, code)| (line, code.to_owned())));
 }
 

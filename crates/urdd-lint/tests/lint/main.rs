@@ -72,7 +72,7 @@ fn what_the_validator_says_is_not_said_again() {
     let link = "<link name=\"upper\">\n";
     let zero = "<inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>";
     let massless = format!("{link}{zero}");
-    assert_eq!(changed("LNT006/invalid_all.urdf", link, &massless), ["SRC003"]);
+    assert_eq!(changed("LNT006/invalid.urdf", link, &massless), ["SRC003"]);
     let limits = "lower=\"-2\" upper=\"2\"";
     let crossed = "lower=\"1\" upper=\"-1\"";
     assert_eq!(changed("LNT013/invalid.urdf", limits, crossed), ["SRC001"]);

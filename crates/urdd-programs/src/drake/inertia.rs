@@ -24,11 +24,11 @@ impl Reader<'_> {
         let fault = if mass < 0.0 {
             Fault::Other("the mass is negative")
         } else if !can_be(tensor) {
-            Fault::Other(
+            Fault::Inertia(
                 "no body has this inertia: two moments are less than the third, or one is negative",
             )
         } else if mass == 0.0 && tensor != [0.0; 6] {
-            Fault::Other("the mass is 0 or missing, and the inertia is not 0")
+            Fault::Inertia("the mass is 0 or missing, and the inertia is not 0")
         } else {
             if written.is_none() {
                 self.effects.read_as(inertial, part, Fault::MissingElement("mass"), "no mass");

@@ -49,7 +49,7 @@ impl Reader<'_> {
             self.transmission(node, &mut model, &mut actuators)?;
         }
         if let Some(closing) = robot.child("loop_joint") {
-            return self.effects.refuse(closing, Fault::Other("`<loop_joint>` is not supported"));
+            return self.effects.refuse(closing, Fault::Way("`<loop_joint>` is not supported"));
         }
         for frame in robot.named("frame") {
             self.frame(frame, &mut model)?;
@@ -58,7 +58,7 @@ impl Reader<'_> {
             let idle = model.joints.get(name).filter(|joint| !joint.is_driven);
             let limit = idle.and_then(|joint| joint.node.child("limit"));
             if let Some(effort) = limit.and_then(|limit| limit.attribute("effort")) {
-                let fault = Fault::Other("`effort` is read only for a joint with a transmission");
+                let fault = Fault::Way("`effort` is read only for a joint with a transmission");
                 self.effects.read_as(effort, format!("joint/{name}/limit"), fault, "no motor");
             }
         }
@@ -101,8 +101,7 @@ impl Reader<'_> {
             return Ok(());
         }
         if child.value == WORLD {
-            let fault = Fault::Other("the child of the joint is the world of the program");
-            self.effects.read_as(child, &*part, fault, "a joint of the world");
+            self.effects.read_as(child, &*part, Fault::world(), "a joint of the world");
         }
         for unread in ["safety_controller", "calibration"] {
             if let Some(found) = node.child(unread) {
@@ -187,13 +186,13 @@ impl Reader<'_> {
                     return self.negative(damping);
                 }
                 if let Some(limit) = limit {
-                    let fault = Fault::Other("limits of planar joints are not read");
+                    let fault = Fault::Way("limits of planar joints are not read");
                     self.effects.drop(limit, limit_part, fault);
                 }
             }
             "fixed" => {
                 if let Some(dynamics) = dynamics {
-                    let fault = Fault::Other("a fixed joint has no dynamics");
+                    let fault = Fault::Way("a fixed joint has no dynamics");
                     self.effects.drop(dynamics, dynamics_part, fault);
                 }
             }
@@ -211,7 +210,7 @@ impl Reader<'_> {
         if let (Some(lower), Some(upper)) = (lower, upper)
             && lower > upper
         {
-            return self.effects.refuse(limit, Fault::Other("`lower` is above `upper`"));
+            return self.effects.refuse(limit, Fault::Limits("`lower` is above `upper`"));
         }
         for (name, value) in [("lower", lower), ("upper", upper)] {
             if value.is_none() && kind != "continuous" {
@@ -219,7 +218,7 @@ impl Reader<'_> {
             }
         }
         if kind == "continuous" && (lower.is_some() || upper.is_some()) {
-            let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
+            let fault = Fault::Limits("a continuous joint is limited by `lower` and `upper`");
             self.effects.read_as(limit, part, fault, "a limited joint");
         }
         Ok(effort)
@@ -290,7 +289,7 @@ impl Reader<'_> {
             None => &*self.effects.needed(node, "type")?.value,
         };
         if !kind.contains("SimpleTransmission") {
-            self.effects.drop(node, part, Fault::Other("only a SimpleTransmission is read"));
+            self.effects.drop(node, part, Fault::Way("only a SimpleTransmission is read"));
             return Ok(());
         }
         let actuator = self.effects.needed_element(node, "actuator")?;
@@ -301,7 +300,7 @@ impl Reader<'_> {
             return self.effects.refuse(of, Fault::unknown("joint", &of.value));
         };
         if joint.freedoms == 0 {
-            self.effects.drop(of, part, Fault::Other("a fixed joint has a transmission"));
+            self.effects.drop(of, part, Fault::Way("a fixed joint has a transmission"));
             return Ok(());
         }
         if joint.effort < 0.0 {
@@ -310,12 +309,12 @@ impl Reader<'_> {
             return self.effects.refuse(place, fault);
         }
         if joint.effort == 0.0 {
-            let fault = Fault::Other("a transmission of a joint with `effort` 0 is not read");
+            let fault = Fault::Way("a transmission of a joint with `effort` 0 is not read");
             self.effects.drop(of, format!("joint/{}/limit", of.value), fault);
             return Ok(());
         }
         if joint.freedoms > 1 {
-            let fault = Fault::Other("a joint with several degrees of freedom has a transmission");
+            let fault = Fault::Way("a joint with several degrees of freedom has a transmission");
             return self.effects.refuse(of, fault);
         }
         if !actuators.insert(&actuator_name.value) {

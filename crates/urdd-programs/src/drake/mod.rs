@@ -19,6 +19,7 @@ use crate::tree::{Attribute, Node};
 pub(crate) const ABOUT: About = About {
     id: "drake",
     name: "Drake",
+    family: "Drake",
     version: "1.51.1",
     settings: &[],
     is_asked: true,
@@ -94,7 +95,7 @@ impl Reader<'_> {
             let part = format!("link/{name}");
             let inertial = self.first(link, "inertial", &format!("{part}/inertial"));
             if name == WORLD {
-                let fault = Fault::Other("a link `world` is the world of the program");
+                let fault = Fault::Way("a link `world` is the world of the program");
                 self.effects.read_as(link, &*part, fault, "the world");
                 if let Some(inertial) = inertial {
                     let fault = Fault::NeverRead("inertial".into());
@@ -143,7 +144,7 @@ impl Reader<'_> {
         let ignored = node.attribute("drake_ignore").filter(|ignored| ignored.value == "true");
         if let Some(ignored) = ignored {
             let part = format!("{}/{}", node.name(), node.value("name").unwrap_or_default());
-            self.effects.drop(ignored, part, Fault::Other("`drake_ignore` is `true`"));
+            self.effects.drop(ignored, part, Fault::Way("`drake_ignore` is `true`"));
         }
         ignored.is_some()
     }
@@ -160,7 +161,7 @@ impl Reader<'_> {
         let texture = node.child("texture").and_then(|texture| texture.attribute("filename"));
         let texture = texture.filter(|filename| !filename.value.is_empty());
         if let Some(filename) = texture {
-            self.found(filename, "the file of the texture was not found")?;
+            self.found(filename, "texture")?;
         }
         let mut color = None;
         if let Some(of) = node.child("color") {

@@ -71,7 +71,7 @@ impl Reader<'_> {
 
     fn mesh(&mut self, mesh: Node<'_>, part: &str, is_collision: bool) -> Reading<()> {
         let filename = self.effects.needed(mesh, "filename")?;
-        let facts = self.found(filename, "the file of the mesh was not found")?;
+        let facts = self.found(filename, "mesh")?;
         if let Some(scale) = mesh.attribute("scale") {
             // One number stands for all three.
             let count = if scale.value.contains(' ') { 3 } else { 1 };
@@ -101,7 +101,10 @@ impl Reader<'_> {
                 _ => return Ok(()),
             },
             "vtk" | "gltf" => return Ok(()),
-            _ => "a collision can only have a mesh in OBJ, glTF (.gltf) or VTK",
+            _ => {
+                let why = "a collision can only have a mesh in OBJ, glTF (.gltf) or VTK";
+                return self.effects.refuse(filename, Fault::ForOthers(why));
+            }
         };
         self.effects.refuse(filename, Fault::Mesh(why))
     }
@@ -110,7 +113,7 @@ impl Reader<'_> {
     pub(super) fn found(
         &mut self,
         filename: &Attribute<'_>,
-        missing: &'static str,
+        kind: &'static str,
     ) -> Reading<Option<Arc<MeshFacts>>> {
         let name = &*filename.value;
         let mesh = match uri(name) {
@@ -123,7 +126,7 @@ impl Reader<'_> {
         match mesh {
             Mesh::Unknown => Ok(None),
             Mesh::Found(facts) => Ok(Some(facts)),
-            Mesh::Missing => self.effects.refuse(filename, Fault::Mesh(missing)),
+            Mesh::Missing => self.effects.refuse(filename, Fault::NotFound(kind)),
         }
     }
 }

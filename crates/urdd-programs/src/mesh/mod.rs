@@ -105,6 +105,11 @@ impl MeshFacts {
         }
     }
 
+    /// Whether neither its ending nor its content is that of STL, OBJ or COLLADA.
+    pub fn is_of_no_format(&self) -> bool {
+        self.stl.is_none() && self.obj.is_none() && self.collada.is_none()
+    }
+
     /// Whether it is as long as a binary STL file of its number of triangles.
     pub fn is_binary_stl(&self) -> bool {
         let count = stl::written_count(&self.head).and_then(|count| count.checked_mul(50));

@@ -69,7 +69,7 @@ impl Reader<'_> {
         }
         self.limit(&joint, &part)?;
         if joint.kind == "planar" {
-            let fault = Fault::Other("a planar joint becomes three joints");
+            let fault = Fault::Way("a planar joint becomes three joints");
             let makes = format!("{name}_TX, {name}_TY and {name}_RZ");
             self.effects.read_as(kind, &*part, fault, makes);
         }
@@ -115,17 +115,17 @@ impl Reader<'_> {
         match joint.kind {
             "spherical" if has_range && range[0] != Some(0.0) => {
                 let why = "the lower limit of a spherical joint is not 0";
-                return self.effects.refuse(limit, Fault::Other(why));
+                return self.effects.refuse(limit, Fault::Limits(why));
             }
             "continuous" if has_range => {
-                let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
+                let fault = Fault::Limits("a continuous joint is limited by `lower` and `upper`");
                 self.effects.read_as(limit, &*part, fault, "limited");
             }
             _ if is_limited && !has_range => {
                 let fault = match range {
                     [None, _] => Fault::Missing("lower"),
                     [_, None] => Fault::Missing("upper"),
-                    _ => Fault::Other("`lower` is not below `upper`"),
+                    _ => Fault::Limits("`lower` is not below `upper`"),
                 };
                 self.effects.read_as(limit, &*part, fault, "no limit");
             }

@@ -81,7 +81,7 @@ impl Reader<'_> {
             [*value] = self.needed_numbers(node, name)?;
         }
         if kilograms < 0.0 || kilograms.is_nan() {
-            let fault = Fault::Other("a mass that is not above 0 is 0");
+            let fault = Fault::Inertia("a mass that is not above 0 is 0");
             self.effects.read_as(mass, &*part, fault, "0");
         }
         let kilograms = if kilograms < 0.0 { 0.0 } else { kilograms };
@@ -102,7 +102,7 @@ impl Reader<'_> {
         }
         if six.iter().any(|value| !value.is_finite()) {
             let is_infinite = [ixx, iyy, izz].contains(&f64::INFINITY) && !ixx.is_nan();
-            let fault = Fault::Other("a number of it is not finite");
+            let fault = Fault::Inertia("a number of it is not finite");
             self.effects.read_as(node, format!("link/{name}/inertial"), fault, "0");
             return Ok(if is_infinite { [f64::NAN; 3] } else { [0.0; 3] });
         }
@@ -112,7 +112,7 @@ impl Reader<'_> {
         );
         let is_bound = self.release == Release::Four && self.settings.least[1] > 0.0;
         if moments[2] < LEAST_EIGENVALUE && !is_bound {
-            let fault = Fault::Other("the inertia has an eigenvalue that is not above 0");
+            let fault = Fault::Inertia("the inertia has an eigenvalue that is not above 0");
             return self.effects.refuse(node, fault);
         }
         if moments[2] + moments[1] < moments[0] && name != "world" {
@@ -120,7 +120,7 @@ impl Reader<'_> {
                 return Ok([moments.iter().sum::<f64>() / 3.0; 3]);
             }
             let why = "a moment of inertia is above the sum of the other two";
-            return self.effects.refuse(node, Fault::Other(why));
+            return self.effects.refuse(node, Fault::Inertia(why));
         }
         Ok(moments)
     }
@@ -128,7 +128,7 @@ impl Reader<'_> {
     /// A link without an inertial.
     fn body_of(&mut self, link: Node<'_>, name: &str, solids: &[(Solid, Pose)]) -> Reading<Body> {
         if !solids.is_empty() && name != "world" {
-            let fault = Fault::MissingElement("inertial");
+            let fault = Fault::Way("the link has no `<inertial>`");
             let part = format!("link/{name}/inertial");
             self.effects.read_as(link, part, fault, "the collisions filled with water");
         }

@@ -3,7 +3,7 @@
 use super::link::Solid;
 use super::reader::{Reader, Release};
 use crate::effect::Reading;
-use crate::fault::Fault;
+use crate::fault::{FORMAT, Fault};
 use crate::mesh::{Mesh, MeshFacts};
 use crate::tree::{Attribute, Node};
 
@@ -27,18 +27,14 @@ impl Reader<'_> {
         let strips = self.settings.strips_paths.unwrap_or(self.release == Release::Three);
         if name.contains("://") && !strips {
             let why = "MuJoCo takes `scheme://` as a folder; write a path from the URDF's folder";
-            return self.effects.refuse(filename, Fault::Mesh(why));
+            return self.effects.refuse(filename, Fault::ForOthers(why));
         }
         if !self.has_known_ending(name) {
-            let why = "the mesh is in a format that the program cannot read";
-            return self.effects.refuse(filename, Fault::Mesh(why));
+            return self.effects.refuse(filename, FORMAT);
         }
         let facts = match self.found(filename, part, strips) {
             Mesh::Unknown => return Ok(Solid::cuboid(1e-3, [0.1; 3])),
-            Mesh::Missing => {
-                let fault = Fault::Mesh("the file of the mesh was not found");
-                return self.effects.refuse(filename, fault);
-            }
+            Mesh::Missing => return self.effects.refuse(filename, Fault::NotFound("mesh")),
             Mesh::Found(facts) => facts,
         };
         let volume = facts.measures.volume * scale.iter().product::<f64>().abs();
@@ -86,7 +82,7 @@ impl Reader<'_> {
         };
         if !matches!(there, Mesh::Missing) {
             let why = "the mesh is looked for beside the URDF, and its folders do not count";
-            self.effects.read_as(filename, part, Fault::Mesh(why), last(name));
+            self.effects.read_as(filename, part, Fault::ForOthers(why), last(name));
         }
         there
     }

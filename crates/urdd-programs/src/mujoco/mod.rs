@@ -25,6 +25,7 @@ use reader::{LEAST, Reader, Release, Settings};
 pub(crate) const FOUR: About = About {
     id: "mujoco",
     name: "MuJoCo 4",
+    family: "MuJoCo",
     version: "4.0.0",
     settings: &[],
     is_asked: true,
@@ -37,6 +38,7 @@ pub(crate) const FOUR: About = About {
 pub(crate) const THREE: About = About {
     id: "mujoco33",
     name: "MuJoCo 3.3",
+    family: "MuJoCo",
     version: "3.3.7",
     settings: &["mujoco3.3"],
     is_asked: false,
@@ -211,7 +213,7 @@ impl Reader<'_> {
                 continue;
             };
             if link.name == "world" {
-                return self.effects.refuse(joint.node, Fault::Tree("a joint moves the world"));
+                return self.effects.refuse(joint.node, Fault::world());
             }
             if joint.kind == "floating" && !on_static {
                 let fault = Fault::Tree("a floating joint is below a joint that moves");
@@ -221,7 +223,7 @@ impl Reader<'_> {
             let inertial = link.node.child("inertial").unwrap_or(link.node);
             let sum = self.fused(index, inertial, links, bodies, joints)?;
             if link::is_light(&sum) {
-                let fault = Fault::Other("a link that a joint moves has no mass, or no inertia");
+                let fault = Fault::Inertia("a link that a joint moves has no mass, or no inertia");
                 return self.effects.refuse(inertial, fault);
             }
         }
@@ -231,15 +233,15 @@ impl Reader<'_> {
     /// A link that no joint moves.
     fn unmoved(&mut self, link: &Link<'_>, is_static: bool) {
         if link.name == "world" {
-            let fault = Fault::Other("`world` is MuJoCo's own world");
+            let fault = Fault::Way("`world` is MuJoCo's own world");
             self.effects.read_as(link.node, "link/world", fault, "the world");
         } else if let Some(inertial) = link.node.child("inertial").filter(|_| is_static) {
-            let fault = Fault::Other("a link that no joint moves is a part of the world");
+            let fault = Fault::Way("a link that no joint moves is a part of the world");
             self.effects.drop(inertial, format!("link/{}/inertial", link.name), fault);
         }
         if let Some((_, joint)) = link.above.filter(|_| self.settings.fuses) {
             let part = format!("joint/{}", joint.value("name").unwrap_or_default());
-            let fault = Fault::Other("links that are fixed to each other become one body");
+            let fault = Fault::Way("links that are fixed to each other become one body");
             self.effects.read_as(joint, part, fault, "one body");
         }
     }
@@ -274,7 +276,7 @@ impl Reader<'_> {
                     sum = sum.with(&bodies[child].placed(&at), self.release.epsilon());
                     if sum.moments[2] < inertia::LEAST_EIGENVALUE {
                         let why = "masses that are fixed together have no inertia about a line";
-                        return self.effects.refuse(inertial, Fault::Other(why));
+                        return self.effects.refuse(inertial, Fault::Inertia(why));
                     }
                 }
             }

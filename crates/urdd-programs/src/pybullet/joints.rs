@@ -105,7 +105,7 @@ impl Reader<'_> {
             return self.effects.refuse(xyz, Fault::count("xyz", 3, &xyz.value));
         }
         if kind == "spherical" {
-            self.effects.drop(axis, part, Fault::Other("a spherical joint has no axis"));
+            self.effects.drop(axis, part, Fault::Way("a spherical joint has no axis"));
             return Ok(());
         }
         self.vector(xyz, part);
@@ -133,7 +133,7 @@ impl Reader<'_> {
         };
         if needs_limit && end(values[0], 0.0) > end(values[1], -1.0) {
             let fault = match values[1] {
-                Some(_) => Fault::Other("`lower` is above `upper`"),
+                Some(_) => Fault::Limits("`lower` is above `upper`"),
                 None => Fault::Missing("upper"),
             };
             self.effects.read_as(limit, part, fault, "no limit");

@@ -24,6 +24,7 @@ const MOST_LINKS: usize = 127;
 pub(crate) const ABOUT: About = About {
     id: "pybullet",
     name: "PyBullet",
+    family: "PyBullet",
     version: "3.2.7",
     settings: &[],
     is_asked: true,
@@ -161,7 +162,7 @@ impl Reader<'_> {
                 return self.effects.crash(link, fault);
             }
             None => {
-                let fault = Fault::MissingElement("inertial");
+                let fault = Fault::Way("the link has no `<inertial>`");
                 self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
             }
         }

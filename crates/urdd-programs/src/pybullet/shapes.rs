@@ -2,7 +2,7 @@
 
 use super::{Reader, atof, is_defined, pieces, rgba};
 use crate::effect::Reading;
-use crate::fault::{Fault, shortened};
+use crate::fault::{FORMAT, Fault, shortened};
 use crate::mesh::{Mesh, MeshFacts};
 use crate::tree::{Attribute, Node};
 
@@ -66,18 +66,19 @@ impl Reader<'_> {
         let end = name.len().checked_sub(4).and_then(|at| name.get(at..)).unwrap_or("");
         let end = end.to_ascii_lowercase();
         if name.len() <= 4 || ![".dae", ".stl", ".obj", ".cdf", ".vtk"].contains(&&*end) {
-            let fault = Fault::Mesh("the mesh is in a format that the program cannot read");
-            return self.effects.refuse(filename, fault);
+            return self.effects.refuse(filename, FORMAT);
         }
-        let why = match self.found(name) {
+        let fault = match self.found(name) {
             Mesh::Unknown => return Ok(()),
             Mesh::Missing if matches!(self.file.mesh(name), Mesh::Found(_)) => {
-                "its package is in no folder above the file, and only there the program looks"
+                let why =
+                    "its package is in no folder above the file, and only there the program looks";
+                Fault::ForOthers(why)
             }
-            Mesh::Missing => "the file of the mesh was not found",
+            Mesh::Missing => Fault::NotFound("mesh"),
             Mesh::Found(facts) => return self.content(filename, &end, &facts, part),
         };
-        self.effects.refuse(filename, Fault::Mesh(why))
+        self.effects.refuse(filename, fault)
     }
 
     /// A mesh by its path, without scheme, in the folder of the file and in those above.
@@ -116,7 +117,11 @@ impl Reader<'_> {
             }
             (".dae", .., Some(collada)) if collada.triangles > 0 => return Ok(()),
             (".dae", ..) => "the mesh is no COLLADA file with triangles",
-            _ => "the format is not for meshes of links",
+            _ => {
+                let fault = Fault::ForOthers("the format is not for meshes of links");
+                self.effects.drop(filename, part, fault);
+                return Ok(());
+            }
         };
         self.effects.drop(filename, part, Fault::Mesh(why));
         Ok(())

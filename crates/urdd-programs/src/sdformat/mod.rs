@@ -24,6 +24,7 @@ use crate::urdfdom::{self, Model, Release};
 pub(crate) const ABOUT: About = About {
     id: "sdformat",
     name: "Gazebo (libsdformat 12)",
+    family: "Gazebo",
     version: "12.3.0",
     settings: &["gazebo"],
     is_asked: true,
@@ -149,7 +150,7 @@ fn made(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
     if body.inertia.is_some_and(|inertia| !inertia.is_valid()) {
         let place = body.node.child("inertial").unwrap_or(body.node);
         let inertia = place.child("inertia").unwrap_or(place);
-        return effects.refuse(inertia, Fault::Other("no body can have this inertia"));
+        return effects.refuse(inertia, Fault::Inertia("no body can have this inertia"));
     }
     Ok(())
 }
@@ -160,7 +161,7 @@ fn centre(body: &Body<'_>, without_mass: Option<usize>, effects: &mut Effects) -
     match without_mass {
         Some(at) if !center.into_iter().all(f64::is_finite) => {
             let fault =
-                Fault::Other("fixed joints join links of mass 0, which have no centre of mass");
+                Fault::Inertia("fixed joints join links of mass 0, which have no centre of mass");
             effects.refuse(at, fault)
         }
         _ => Ok(()),
@@ -179,7 +180,7 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
         let value = |name| limit.attribute(name).and_then(|one| number(&one.value));
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         if is_limited && value("lower").unwrap_or(0.0) > value("upper").unwrap_or(0.0) {
-            let fault = Fault::Other("`lower` is above `upper`");
+            let fault = Fault::Limits("`lower` is above `upper`");
             effects.read_as(limit, &*part, fault, "one in the place of the other");
         }
         for one in ["effort", "velocity"].into_iter().filter_map(|name| limit.attribute(name)) {

@@ -194,7 +194,7 @@ impl<'t> Tree<'t> {
             let parent = &self.bodies[joint.parent];
             if parent.name != "world" && !self.bodies[parent.owner].is_made {
                 let at = joint.node.child("parent").unwrap_or(joint.node);
-                return effects.refuse(at, Fault::Tree("the link above is left out"));
+                return effects.refuse(at, Fault::Way("the link above is left out"));
             }
         }
         Ok(())
@@ -208,7 +208,7 @@ impl<'t> Tree<'t> {
             let body = &self.bodies[index];
             is_reached[index] = true;
             if index == root && body.name == "world" {
-                let fault = Fault::Other("the link `world` is the world, and not part of a robot");
+                let fault = Fault::Way("the link `world` is the world, and not part of a robot");
                 effects.drop(body.node, "link/world", fault);
                 continue;
             }
@@ -217,7 +217,7 @@ impl<'t> Tree<'t> {
             if self.merged_into(index).is_some() {
                 self.tell_merged(index, effects);
             } else if above {
-                let fault = Fault::Tree("a link above it has no mass, and is left out");
+                let fault = Fault::Way("a link above it has no mass, and is left out");
                 self.drop_link(index, &fault, effects);
             } else if is_gone[index] {
                 self.drop_link(index, &without_mass(body.node), effects);
@@ -233,14 +233,15 @@ impl<'t> Tree<'t> {
         let body = &self.bodies[index];
         effects.drop(body.node, format!("link/{}", body.name), fault.clone());
         if let Some(joint) = &body.joint {
-            effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
+            let fault = Fault::Way("the link below is left out");
+            effects.drop(joint.node, format!("joint/{}", joint.name), fault);
         }
     }
 
     fn tell_merged(&self, index: usize, effects: &mut Effects) {
         let body = &self.bodies[index];
         let Some(joint) = &body.joint else { return };
-        let fault = Fault::Other("a fixed joint is left out, and joins two links to one");
+        let fault = Fault::Way("a fixed joint is left out, and joins two links to one");
         effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
         let owner = shortened(self.bodies[body.owner].name);
         let makes = format!("a part of `{owner}`");
@@ -252,6 +253,6 @@ impl<'t> Tree<'t> {
 fn without_mass(link: Node<'_>) -> Fault {
     match link.child("inertial") {
         None => Fault::MissingElement("inertial"),
-        Some(_) => Fault::Other("a link without mass is left out, with all below"),
+        Some(_) => Fault::Inertia("a link without mass is left out, with all below"),
     }
 }

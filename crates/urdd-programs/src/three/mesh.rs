@@ -1,7 +1,7 @@
 //! The meshes that it shows.
 
 use super::Reader;
-use crate::fault::Fault;
+use crate::fault::{FORMAT, Fault};
 use crate::mesh::{Mesh, MeshFacts};
 use crate::tree::Node;
 
@@ -16,18 +16,18 @@ impl<'t> Reader<'_, 't> {
         let packaged = name.value.starts_with("package://");
         let ending = name.value.rsplit('.').next().unwrap_or_default();
         let ending = ending.to_ascii_lowercase();
-        let why = match self.file.mesh(&as_path(&name.value)) {
-            _ if !matches!(&*ending, "stl" | "dae") => {
-                "the mesh is in a format that the program cannot read"
-            }
+        let fault = match self.file.mesh(&as_path(&name.value)) {
+            _ if !matches!(&*ending, "stl" | "dae") => FORMAT,
             _ if !packaged && (name.value.contains("://") || name.value.starts_with('/')) => {
-                "only `package://` names a file that is not beside the URDF"
+                Fault::ForOthers("only `package://` names a file that is not beside the URDF")
             }
-            Mesh::Missing => "the file of the mesh was not found",
-            Mesh::Found(facts) if !is_mesh(&facts, &ending) => "the program cannot read the mesh",
+            Mesh::Missing => Fault::NotFound("mesh"),
+            Mesh::Found(facts) if !is_mesh(&facts, &ending) => {
+                Fault::Mesh("the program cannot read the mesh")
+            }
             _ => return,
         };
-        self.effects.drop(name, part, Fault::Mesh(why));
+        self.effects.drop(name, part, fault);
     }
 }
 

@@ -18,6 +18,7 @@ use crate::tree::{Attribute, Node};
 pub(crate) const ABOUT: About = About {
     id: "urdf_loader",
     name: "three.js (urdf-loader)",
+    family: "three.js",
     version: "0.13.1",
     settings: &["three"],
     is_asked: true,
@@ -193,7 +194,7 @@ impl<'t> Reader<'_, 't> {
             match texture.attribute("filename").filter(|name| !name.value.is_empty()) {
                 None => self.effects.drop(texture, part, Fault::Empty("filename")),
                 Some(name) if matches!(self.file.mesh(&name.value), Mesh::Missing) => {
-                    let fault = Fault::Other("the file of the texture was not found");
+                    let fault = Fault::NotFound("texture");
                     self.effects.drop(name, part, fault);
                 }
                 Some(_) => {}

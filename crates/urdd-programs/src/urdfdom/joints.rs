@@ -93,7 +93,7 @@ impl Reader<'_> {
         if let [Some(lower), Some(upper)] = ends
             && lower > upper
         {
-            return Err((limit.start(), Fault::Other("`lower` is above `upper`")));
+            return Err((limit.start(), Fault::Limits("`lower` is above `upper`")));
         }
         for value in
             ["effort", "velocity"].iter().chain(&FURTHER).filter_map(|name| limit.attribute(name))

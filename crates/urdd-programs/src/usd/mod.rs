@@ -11,7 +11,7 @@ use joint::{Joint, last};
 
 use crate::about::{About, Names as ElementNames};
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::{FORMAT, Fault, shortened};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
@@ -21,6 +21,7 @@ use crate::tree::{Attribute, Node};
 pub(crate) const ABOUT: About = About {
     id: "usd",
     name: "Isaac and Newton (urdf-usd-converter)",
+    family: "Isaac and Newton",
     version: "0.3.4",
     settings: &["isaac", "newton"],
     is_asked: true,
@@ -176,7 +177,7 @@ impl<'t> Reader<'_, 't> {
                 self.effects.read_as(node, part, fault, "locked at 0");
             }
             Some(limit) if kind == "planar" => {
-                let fault = Fault::Other("a planar joint has no limit in USD");
+                let fault = Fault::Way("a planar joint has no limit in USD");
                 self.effects.drop(limit, part, fault);
             }
             Some(limit) => {
@@ -244,7 +245,7 @@ impl<'t> Reader<'_, 't> {
             return self.effects.refuse(texture, fault);
         }
         if matches!(self.file.mesh(name), Mesh::Missing) {
-            let fault = Fault::Other("the file of the texture was not found");
+            let fault = Fault::NotFound("texture");
             self.effects.drop(texture, part, fault);
         }
         Ok(())
@@ -326,27 +327,27 @@ impl<'t> Reader<'_, 't> {
         let Some(name) = mesh.attribute("filename").filter(|name| !name.value.is_empty()) else {
             return self.effects.drop(mesh, part, Fault::Missing("filename"));
         };
-        if let Some(why) = self.missing_mesh(name) {
-            self.effects.drop(name, part, Fault::Mesh(why));
+        if let Some(fault) = self.missing_mesh(name) {
+            self.effects.drop(name, part, fault);
         }
     }
 
-    fn missing_mesh(&self, name: &Attribute<'_>) -> Option<&'static str> {
+    fn missing_mesh(&self, name: &Attribute<'_>) -> Option<Fault> {
         let ending = name.value.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         match self.file.mesh(&name.value) {
-            _ if is_elsewhere(&name.value) => Some("the name of the mesh is not that of a file"),
-            _ if !matches!(&*ending, "stl" | "obj" | "dae") => {
-                Some("the mesh is in a format that the program cannot read")
+            _ if is_elsewhere(&name.value) => {
+                Some(Fault::ForOthers("the name of the mesh is not that of a file"))
             }
+            _ if !matches!(&*ending, "stl" | "obj" | "dae") => Some(FORMAT),
             Mesh::Found(facts) => {
                 let has_faces = match &*ending {
                     "stl" => is_stl(&facts),
                     "obj" => facts.obj.as_ref().is_some_and(|obj| obj.faces > 0),
                     _ => facts.collada.is_some(),
                 };
-                (!has_faces).then_some("the program finds nothing in the mesh")
+                (!has_faces).then_some(Fault::Mesh("the program finds nothing in the mesh"))
             }
-            Mesh::Missing => Some("the file of the mesh was not found"),
+            Mesh::Missing => Some(Fault::NotFound("mesh")),
             _ => None,
         }
     }

@@ -113,7 +113,7 @@ impl<'t> Tree<'t, '_> {
         if !is_empty || !is_fixed {
             self.bodies.insert(name);
         } else if let Some(inertial) = last(link, "inertial") {
-            let fault = Fault::Other("the link has no mass, no shape, and a fixed joint above it");
+            let fault = Fault::Way("the link has no mass, no shape, and a fixed joint above it");
             effects.drop(inertial, format!("{part}/inertial"), fault);
         }
         if !has_no_inertia(link) || !has_shape(link) {
@@ -132,7 +132,7 @@ impl<'t> Tree<'t, '_> {
         if let Some(joint) = fixed.find(is_inertia) {
             self.merged.insert(joint.child);
             let fault =
-                Fault::Other("its inertia goes to the link above, and all below it is lost");
+                Fault::Inertia("its inertia goes to the link above, and all below it is lost");
             let at = self.links.get(joint.child).copied().unwrap_or(joint.node);
             effects.drop(at, format!("link/{}", joint.child), fault.clone());
             effects.read_as(at, format!("{part}/inertial"), fault, "that of the link below");
@@ -149,20 +149,20 @@ impl<'t> Tree<'t, '_> {
             let part = format!("joint/{}", joint.name);
             if !is_written(joint) {
                 let fault = match joint.kind {
-                    "floating" => Fault::Other("a floating joint is written as none"),
-                    _ => Fault::Other("the link below the joint is not a body"),
+                    "floating" => Fault::Way("a floating joint is written as none"),
+                    _ => Fault::Way("the link below the joint is not a body"),
                 };
                 effects.drop(joint.node, part, fault);
                 continue;
             }
             if !self.bodies.contains(joint.parent) {
-                let fault = Fault::Other("the link above the joint is not a body");
+                let fault = Fault::Way("the link above the joint is not a body");
                 effects.read_as(joint.node, format!("{part}/parent"), fault, "the next body above");
             }
             let Some(mimic) = last(joint.node, "mimic") else { continue };
             let name = mimic.value("joint").unwrap_or_default();
             if !written.contains(name) {
-                let fault = Fault::Other("the joint that it follows is not written");
+                let fault = Fault::Way("the joint that it follows is not written");
                 effects.drop(mimic, format!("{part}/mimic"), fault);
             }
         }

@@ -1,0 +1,129 @@
+//! What programs do with a URDF, as a line: `ROS refuses it (LNT060 at 28:5) · MuJoCo loads it without 1 collision · …`.
+
+use std::collections::BTreeMap;
+
+use urdd_format::report::{Deed, ProgramEffect, ProgramResult, Urdd};
+
+use super::words::plural;
+use crate::programs::{listed, names};
+
+/// What each program does, those of the settings and the worst first; programs that do the same once.
+pub(super) fn describe(urdd: &Urdd) -> Vec<(Option<Deed>, String)> {
+    let mut groups: Vec<(bool, Option<Deed>, Outcome)> = Vec::new();
+    for program in &urdd.programs {
+        let outcome = outcome(urdd, program);
+        let group = (program.is_chosen, program.does, outcome);
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    groups.sort_by_key(|(is_chosen, does, _)| (!is_chosen, std::cmp::Reverse(*does)));
+    let describe = |(is_chosen, does, outcome): &(bool, Option<Deed>, Outcome)| {
+        let is_one = |program: &ProgramResult| {
+            program.is_chosen == *is_chosen && self::outcome(urdd, program) == *outcome
+        };
+        let names = names(&urdd.programs, is_one);
+        let are_many = names.len() > 1 || names.iter().any(|name| name.contains(" and "));
+        (*does, format!("{} {}", listed(&names), outcome.words(are_many)))
+    };
+    groups.iter().map(describe).collect()
+}
+
+/// What becomes of a file in a program.
+#[derive(PartialEq)]
+enum Outcome {
+    /// There is no robot: how, and where it is said why.
+    Refused(&'static str, String),
+    /// There is one, without so much of each kind, and with so many values otherwise.
+    Loaded(BTreeMap<String, usize>, usize),
+}
+
+fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
+    match program.does {
+        Some(Deed::Refuses) => Outcome::Refused("refuse", why(urdd, program)),
+        Some(Deed::Crashes) => Outcome::Refused("crash", why(urdd, program)),
+        _ => loaded(program),
+    }
+}
+
+/// The finding of it; where there is none, what the program says.
+fn why(urdd: &Urdd, program: &ProgramResult) -> String {
+    let places = urdd
+        .findings
+        .iter()
+        .flat_map(|finding| finding.places.iter().map(move |place| (finding.code.as_str(), place)));
+    let mut of_program = places.filter(|(_, place)| {
+        place
+            .programs
+            .iter()
+            .any(|one| one.program == program.program && Some(one.does) == program.does)
+    });
+    if let Some((code, place)) = of_program.next() {
+        let at = place.line.zip(place.column);
+        return at.map_or_else(
+            || code.to_owned(),
+            |(line, column)| format!("{code} at {line}:{column}"),
+        );
+    }
+    let effect = program.effects.iter().find(|effect| Some(effect.does) == program.does);
+    effect.map_or_else(String::new, |effect| match effect.line.zip(effect.column) {
+        Some((line, column)) => format!("{} at {line}:{column}", effect.reason),
+        None => effect.reason.clone(),
+    })
+}
+
+fn loaded(program: &ProgramResult) -> Outcome {
+    let mut lost: BTreeMap<String, usize> = BTreeMap::new();
+    let mut others = 0;
+    for effect in &program.effects {
+        match (effect.does, kind(effect)) {
+            (Deed::Drops, Some(kind)) => *lost.entry(kind.to_owned()).or_default() += 1,
+            _ => others += 1,
+        }
+    }
+    Outcome::Loaded(lost, others)
+}
+
+/// What kind of part is lost: `collision` of `link/arm/collision/0`.
+fn kind(effect: &ProgramEffect) -> Option<&str> {
+    let mut parts = effect.part.as_deref()?.split('/').rev();
+    let last = parts.next()?;
+    let above = parts.next();
+    let is_numbered = matches!(above, Some("visual" | "collision" | "link" | "joint" | "material"));
+    let kind = if is_numbered { above? } else { last };
+    (kind != "?").then_some(kind)
+}
+
+impl Outcome {
+    fn words(&self, are_many: bool) -> String {
+        let s = if are_many { "" } else { "s" };
+        match self {
+            Outcome::Refused(verb, why) => {
+                let (verb, object) = match (*verb, are_many) {
+                    ("crash", false) => ("crashes", "on it"),
+                    ("crash", true) => ("crash", "on it"),
+                    (_, false) => ("refuses", "it"),
+                    _ => ("refuse", "it"),
+                };
+                format!("{verb} {object} ({why})")
+            }
+            Outcome::Loaded(lost, others) => {
+                let lost: Vec<String> = lost
+                    .iter()
+                    .map(|(kind, count)| plural(*count, &kind.replace('_', " ")))
+                    .collect();
+                let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
+                let without = if lost.is_empty() {
+                    String::new()
+                } else {
+                    format!(" without {}", listed(&lost))
+                };
+                let otherwise = match others {
+                    0 => String::new(),
+                    _ => format!(", {} read otherwise", plural(*others, "value")),
+                };
+                format!("load{s} it{without}{otherwise}")
+            }
+        }
+    }
+}

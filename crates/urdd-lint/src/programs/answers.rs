@@ -1,0 +1,82 @@
+//! Asks the readers.
+
+use std::path::Path;
+
+use urdd_directory::position::LineIndex;
+use urdd_format::index::Count;
+use urdd_format::report::{Deed, ProgramEffect, ProgramResult};
+use urdd_programs::{Effects, File, Program};
+
+use super::meshes::MeshFiles;
+use super::places::Encoding;
+use crate::settings::LintSettings;
+
+/// Maximum number of effects of a program in a report; the rest are counted.
+const KEPT: usize = 1_000;
+
+/// What a program does with a file.
+pub struct Answer {
+    pub program: Program,
+    /// Whether the settings name it.
+    pub is_chosen: bool,
+    pub effects: Effects,
+}
+
+/// Asks the programs that the settings name, and those that are always asked. Relative names refer to `folder`.
+pub fn ask(bytes: &[u8], folder: &Path, settings: &LintSettings) -> Vec<Answer> {
+    let meshes = MeshFiles::new(folder, settings);
+    let file = File { bytes, meshes: &|name| meshes.mesh(name) };
+    let chosen = &settings.programs;
+    let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
+    let all = chosen.iter().copied().chain(others);
+    let mut answers = Vec::new();
+    for program in all {
+        if settings.report.cancellation.is_cancelled() {
+            break;
+        }
+        let is_chosen = chosen.contains(&program);
+        answers.push(Answer { program, is_chosen, effects: program.read(&file) });
+    }
+    answers
+}
+
+/// The answers as reports have them.
+pub fn results(answers: &[Answer], encoding: &Encoding, text: &str) -> Vec<ProgramResult> {
+    let lines = LineIndex::new(text);
+    let effect = |effect: &urdd_programs::Effect| {
+        let at = encoding.in_text(effect.at).map(|at| lines.position(at));
+        ProgramEffect {
+            does: deed(effect.deed),
+            line: at.map(|at| Count(at.line)),
+            column: at.map(|at| Count(at.column)),
+            part: Some(effect.part.clone()).filter(|part| !part.is_empty()),
+            reason: effect.fault.to_string(),
+            makes: effect.makes.clone(),
+        }
+    };
+    let result = |answer: &Answer| {
+        let mut all: Vec<_> = answer.effects.0.iter().collect();
+        all.sort_by_key(|effect| (effect.at, effect.deed));
+        ProgramResult {
+            program: answer.program.id().to_owned(),
+            name: answer.program.name().to_owned(),
+            family: answer.program.family().to_owned(),
+            version: answer.program.version().to_owned(),
+            is_chosen: answer.is_chosen,
+            does: answer.effects.worst().map(deed),
+            effects_cut: Count::saturating(all.len().saturating_sub(KEPT)),
+            effects: all.into_iter().take(KEPT).map(effect).collect(),
+        }
+    };
+    answers.iter().map(result).collect()
+}
+
+/// A deed as reports have it.
+pub fn deed(deed: urdd_programs::Deed) -> Deed {
+    match deed {
+        urdd_programs::Deed::Reads => Deed::Reads,
+        urdd_programs::Deed::Drops => Deed::Drops,
+        urdd_programs::Deed::Refuses => Deed::Refuses,
+        urdd_programs::Deed::Crashes => Deed::Crashes,
+    }
+}

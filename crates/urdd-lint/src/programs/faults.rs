@@ -1,0 +1,79 @@
+//! What programs say, by the fault that they say it of.
+
+use std::collections::BTreeMap;
+
+use urdd_programs::{Deed, Fault, Program};
+
+use super::answers::Answer;
+
+/// A fault, by all programs that do something because of it.
+#[derive(Debug, Clone)]
+pub struct Faulty {
+    /// Where it is: the first byte of the element or attribute in the file.
+    pub at: usize,
+    /// What is wrong, as the program has it that does the worst.
+    pub fault: Fault,
+    /// What programs do.
+    pub said: Vec<Said>,
+}
+
+/// What a program does because of a fault.
+#[derive(Debug, Clone)]
+pub struct Said {
+    pub program: Program,
+    /// Whether the settings name it.
+    pub is_chosen: bool,
+    pub deed: Deed,
+    /// What is lost or read otherwise; empty for the whole file.
+    pub part: String,
+    /// What it makes of the part.
+    pub makes: Option<String>,
+}
+
+/// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
+/// is one fault.
+pub fn faults(answers: &[Answer], bytes: &[u8]) -> Vec<Faulty> {
+    let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
+    for answer in answers {
+        for effect in answer.effects.0.iter().filter(|effect| effect.fault.is_of_robot()) {
+            let said = Said {
+                program: answer.program,
+                is_chosen: answer.is_chosen,
+                deed: effect.deed,
+                part: effect.part.clone(),
+                makes: effect.makes.clone(),
+            };
+            let is_attribute = bytes.get(effect.at).is_some_and(|byte| *byte != b'<');
+            let here = by_place.entry(effect.at).or_default();
+            let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&effect.fault);
+            let fault = effect.fault.clone();
+            let new = Faulty { at: effect.at, fault, said: vec![said] };
+            match here.iter_mut().find(is_same) {
+                Some(known) => known.add(new),
+                None => here.push(new),
+            }
+        }
+    }
+    by_place.into_values().flatten().collect()
+}
+
+impl Faulty {
+    /// The worst that a program does because of it.
+    fn worst(&self) -> Option<Deed> {
+        self.said.iter().map(|said| said.deed).max()
+    }
+
+    /// Adds what programs do because of the same fault. Of each program, the worst counts.
+    pub fn add(&mut self, other: Faulty) {
+        if self.worst() < other.worst() {
+            (self.at, self.fault) = (other.at, other.fault);
+        }
+        for said in other.said {
+            match self.said.iter_mut().find(|known| known.program == said.program) {
+                Some(known) if known.deed < said.deed => *known = said,
+                Some(_) => {}
+                None => self.said.push(said),
+            }
+        }
+    }
+}

@@ -1,0 +1,30 @@
+use super::prelude::*;
+
+declare_lint! {
+    /// A program refuses the whole robot.
+    ///
+    /// For each program there is a reader, a model of how that program reads a URDF, which is held to the program on
+    /// thousands of changed files (`docs/lint.md` has the versions). The finding names the programs that have no robot
+    /// because of this fault, and what the others do with it. Where another rule finds the same fault, that rule's
+    /// finding names the programs instead.
+    ///
+    /// It is an error if ROS refuses the robot, or two of the other programs do; else a warning. Where `--for` or
+    /// `for` in `urdd.toml` names programs, it is an error if one of these refuses the robot, and an information if only
+    /// others do.
+    LNT060 "refused-by-programs", Warning, Format, since "1.3.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    report(urdf, true, findings);
+    Some(())
+}
+
+/// Reports the faults for which a program refuses the robot, or the others.
+pub(super) fn report(urdf: &Subject, is_refused: bool, findings: &mut Findings) {
+    for fault in urdf.programs().iter().filter(|fault| fault.is_refused == is_refused) {
+        let mut finding = urdf.at_offset(fault.offset, &fault.message);
+        finding.severity = Some(fault.severity);
+        finding.place.programs.clone_from(&fault.programs);
+        finding.report(findings);
+    }
+}
