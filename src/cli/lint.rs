@@ -12,6 +12,7 @@ use super::reporting::ReportArguments;
 use super::signals::{self, Signals};
 use super::xacro::{self, XacroArguments};
 use urdd_findings::baseline::Baseline;
+use urdd_findings::settings::parse_program;
 use urdd_lint::{LeftAlone, LintSettings, Mended};
 use urdd_validate::Run;
 
@@ -56,7 +57,7 @@ pub struct LintArguments {
 
     /// The programs that the URDFs are for, such as `ros,mujoco`: what these refuse is an error, what they read otherwise a
     /// warning, and what only others do an information. `urdd explain LNT060` says more; in urdd.toml it is `for`.
-    #[arg(long = "for", value_name = "PROGRAMS", value_delimiter = ',')]
+    #[arg(long = "for", value_name = "PROGRAMS", value_delimiter = ',', value_parser = parse_program)]
     programs: Vec<String>,
 
     #[command(flatten)]
@@ -84,8 +85,10 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
         source: arguments.packages.settings()?,
         baseline: baseline.map(Baseline::read).transpose()?,
         without_meshes: false,
-        programs: urdd_lint::named_programs(&arguments.programs)?,
     };
+    if !arguments.programs.is_empty() {
+        settings.report.programs.clone_from(&arguments.programs);
+    }
     settings.report.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);

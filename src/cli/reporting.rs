@@ -30,7 +30,7 @@ pub(super) struct ReportArguments {
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 
-    /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit),
+    /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit), .md (a summary),
     /// otherwise JSON. May be repeated.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
@@ -74,7 +74,7 @@ pub(super) struct ReportArguments {
 enum Format {
     /// Text for people.
     Human,
-    /// JSON; its schema is `urdd schema show report@1.0.0`.
+    /// JSON; its schema is `urdd schema show report@1.1.0`.
     Json,
     /// SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
     Sarif,
@@ -82,6 +82,8 @@ enum Format {
     Github,
     /// JUnit XML, for tools that show test results: a suite for each URDD, a case for each rule.
     Junit,
+    /// A summary as Markdown, for the page of a run of GitHub Actions.
+    Markdown,
 }
 
 impl Format {
@@ -92,6 +94,8 @@ impl Format {
             Format::Sarif
         } else if name.ends_with(".xml") {
             Format::Junit
+        } else if name.ends_with(".md") {
+            Format::Markdown
         } else {
             Format::Json
         }
@@ -164,6 +168,7 @@ impl ReportArguments {
                     text = report::junit(run, &places, fail_on)?;
                 }
                 Format::Github => report::github(report, &places, &mut text)?,
+                Format::Markdown => report::markdown(report, &mut text)?,
                 Format::Human => human::write(report, style, &mut text)?,
             }
             Ok(text)

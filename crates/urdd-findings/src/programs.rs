@@ -2,6 +2,27 @@
 
 use urdd_format::report::ProgramResult;
 
+/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom.
+pub const NAMES: &[&str] = &[
+    "ros",
+    "lyrical",
+    "rolling",
+    "jazzy",
+    "kilted",
+    "humble",
+    "noetic",
+    "iron",
+    "gazebo",
+    "mujoco",
+    "mujoco3.3",
+    "pinocchio",
+    "drake",
+    "pybullet",
+    "isaac",
+    "newton",
+    "three",
+];
+
 /// The names of some of the programs that were asked, in their order: of a family once, where all of it is among them.
 pub fn names<'a>(all: &'a [ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();

@@ -11,6 +11,7 @@ use super::cause::fold;
 use super::check::Outcome;
 use super::code::Code;
 use super::examined::Examined;
+use super::programs::NAMES;
 use super::selection::Selection;
 use super::skip::SkipReason;
 use urdd_directory::cancellation::Cancellation;
@@ -35,6 +36,8 @@ pub struct Settings {
     pub excludes: Vec<Exclude>,
     /// The rules to report.
     pub selection: Selection,
+    /// The programs that a URDF is for, by names of [`NAMES`]; where there are none, all count.
+    pub programs: Vec<String>,
     /// Cancellation: checked before each rule.
     pub cancellation: Cancellation,
 }
@@ -94,6 +97,9 @@ pub enum SettingsError {
     /// Not a conformance class.
     #[error("`{0}` is not a conformance class; write \"core\", \"geometry\" or \"shapes\"")]
     UnknownClass(String),
+    /// Not a program.
+    #[error("there is no program `{0}`; write some of {all}", all = NAMES.join(", "))]
+    UnknownProgram(String),
     /// An invalid pattern.
     #[error("the pattern `{pattern}` cannot be read: {reason}")]
     Pattern {
@@ -115,6 +121,8 @@ struct File {
     severity: BTreeMap<Spanned<String>, Spanned<String>>,
     ignore: Vec<FileIgnore>,
     exclude: Vec<Spanned<String>>,
+    #[serde(rename = "for")]
+    programs: Vec<Spanned<String>>,
     baseline: Option<String>,
 }
 
@@ -176,6 +184,9 @@ impl File {
         }
         for pattern in &self.exclude {
             settings.excludes.push(parsed(pattern, Exclude::new)?);
+        }
+        for name in &self.programs {
+            settings.programs.push(parsed(name, parse_program)?);
         }
         Ok(settings)
     }
@@ -280,6 +291,16 @@ pub fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
         .into_iter()
         .find(|severity| severity.as_str() == text)
         .ok_or_else(|| SettingsError::UnknownSeverity(text.to_owned()))
+}
+
+/// A program by one of its names, in upper or lower case.
+///
+/// # Errors
+/// If there is no such program.
+pub fn parse_program(text: &str) -> Result<String, SettingsError> {
+    let name = text.trim().to_lowercase();
+    let unknown = || SettingsError::UnknownProgram(text.to_owned());
+    NAMES.contains(&name.as_str()).then_some(name).ok_or_else(unknown)
 }
 
 /// A conformance class by its name, in upper or lower case.

@@ -70,6 +70,29 @@ pub fn shell(word: &str) -> String {
     }
 }
 
+/// Maximum length of a code span, bytes.
+const MAX_SPAN_BYTES: usize = 2_000;
+
+/// A code span of Markdown: its fence is longer than any run of backticks in the text. Longer text is cut.
+pub fn code_span(text: &str) -> String {
+    // A runner of GitHub Actions takes what follows for a command, anywhere in a line.
+    let text = line(text).replace("##[", "#\\u0023[");
+    let mut starts = text.char_indices().map(|(at, _)| at);
+    let end = starts.find(|at| *at > MAX_SPAN_BYTES);
+    let (text, rest) = text.split_at(end.unwrap_or(text.len()));
+    let more = if rest.is_empty() { "" } else { " …" };
+    if text.is_empty() {
+        return "(empty)".to_owned();
+    }
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest + 1);
+    let pad = match text.starts_with('`') || text.ends_with('`') || text.trim().is_empty() {
+        true => " ",
+        false => "",
+    };
+    format!("{fence}{pad}{text}{pad}{fence}{more}")
+}
+
 fn escape(c: char, out: &mut String) {
     match c {
         '\n' => out.push_str("\\n"),

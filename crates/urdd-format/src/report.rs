@@ -92,7 +92,7 @@ types! {
         pub version: String,
         /// Whether the settings name it.
         pub is_chosen: bool,
-        /// The worst that it does; null where it reads all as it is written.
+        /// The worst that it does; null where it reads all as it is written, but for what is usual.
         pub does: Option<Deed>,
         /// All that it does otherwise than the file says, in order of place.
         pub effects: Vec<ProgramEffect>,
@@ -126,6 +126,8 @@ types! {
         pub reason: String,
         /// What the program makes of the part, where it reads it otherwise.
         pub makes: Option<String>,
+        /// Whether the program does so with every robot, or because of another fault: nothing is wrong there.
+        pub is_usual: bool,
     }
 
     /// What a program does because of a finding.

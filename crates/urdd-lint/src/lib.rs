@@ -36,7 +36,6 @@ pub mod vocabulary;
 pub mod written;
 
 pub use fix::{ChangedError, Mended, mend};
-pub use programs::{UnknownProgram, named_programs};
 pub use rule::LintRule;
 pub use settings::LintSettings;
 pub use target::LeftAlone;

@@ -5,7 +5,6 @@ use std::path::Path;
 use urdd_findings::baseline::Baseline;
 use urdd_findings::examined::Examined;
 use urdd_findings::settings::Settings;
-use urdd_programs::Program;
 
 /// How URDFs are linted.
 #[derive(Debug, Clone, Default)]
@@ -18,8 +17,6 @@ pub struct LintSettings {
     pub baseline: Option<Baseline>,
     /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
     pub without_meshes: bool,
-    /// The programs that matter; if there are none, what ROS or two others refuse is an error.
-    pub programs: Vec<Program>,
 }
 
 impl LintSettings {

@@ -95,9 +95,14 @@ impl Fault {
         Fault::Name { kind: "link", name: "world".into(), rule: "this is the world itself" }
     }
 
-    /// Whether something is wrong with the robot: not what a program does with every robot, and no mesh that it cannot take.
+    /// Whether the program does so with every robot.
+    pub fn is_usual(&self) -> bool {
+        matches!(self, Fault::NeverRead(_) | Fault::Way(_))
+    }
+
+    /// Whether something is wrong with the robot: not what is usual, and no mesh that other programs take.
     pub fn is_of_robot(&self) -> bool {
-        !matches!(self, Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_))
+        !self.is_usual() && !matches!(self, Fault::ForOthers(_))
     }
 
     /// Whether another fault at the same element is the same one, said otherwise.

@@ -6,6 +6,7 @@ mod fill;
 pub mod github;
 pub mod human;
 pub mod junit;
+pub mod markdown;
 pub mod place;
 mod programs;
 pub mod sarif;
@@ -22,6 +23,7 @@ use urdd_format::escape;
 pub(crate) use fill::fill;
 pub use github::github;
 pub use junit::junit;
+pub use markdown::markdown;
 pub use sarif::sarif;
 
 /// A report, or other output, as JSON, indented, with a newline at its end.

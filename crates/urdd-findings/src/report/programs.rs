@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use urdd_format::report::{Deed, ProgramEffect, ProgramResult, Urdd};
+use urdd_format::report::{Deed, Does, ProgramEffect, ProgramResult, Report, Urdd};
 
 use super::words::plural;
 use crate::programs::{listed, names};
@@ -29,35 +29,72 @@ pub(super) fn describe(urdd: &Urdd) -> Vec<(Option<Deed>, String)> {
     groups.iter().map(describe).collect()
 }
 
+/// What a program does with a URDF, in a few words behind a mark; empty where it was not asked, or only does what is usual.
+pub(super) fn cell(urdd: &Urdd, program: &str) -> (&'static str, String) {
+    let Some(program) = urdd.programs.iter().find(|one| one.program == program) else {
+        return ("", String::new());
+    };
+    match (program.does, outcome(urdd, program)) {
+        (None, _) => ("loads", String::new()),
+        (_, Outcome::Refused(deed, why)) if deed == Deed::Crashes => ("**crashes**", why),
+        (_, Outcome::Refused(_, why)) => ("**refuses**", why),
+        (_, outcome) => (
+            "loads",
+            outcome
+                .words(true)
+                .replacen("load it", "", 1)
+                .trim_start_matches([',', ' '])
+                .to_owned(),
+        ),
+    }
+}
+
+/// How many of many URDFs each program loads, reads otherwise and refuses.
+pub(super) fn counts(report: &Report) -> Vec<(&str, [usize; 3])> {
+    let mut counts: Vec<(&str, [usize; 3])> = Vec::new();
+    for program in report.urdds.iter().flat_map(|urdd| &urdd.programs) {
+        let which = match program.does {
+            None => 0,
+            Some(Deed::Reads | Deed::Drops) => 1,
+            Some(Deed::Refuses | Deed::Crashes) => 2,
+        };
+        match counts.iter_mut().find(|(name, _)| *name == program.name) {
+            Some((_, counts)) => counts[which] += 1,
+            None => {
+                let mut first = [0; 3];
+                first[which] = 1;
+                counts.push((&program.name, first));
+            }
+        }
+    }
+    counts
+}
+
 /// What becomes of a file in a program.
 #[derive(PartialEq)]
 enum Outcome {
     /// There is no robot: how, and where it is said why.
-    Refused(&'static str, String),
+    Refused(Deed, String),
     /// There is one, without so much of each kind, and with so many values otherwise.
     Loaded(BTreeMap<String, usize>, usize),
 }
 
 fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
     match program.does {
-        Some(Deed::Refuses) => Outcome::Refused("refuse", why(urdd, program)),
-        Some(Deed::Crashes) => Outcome::Refused("crash", why(urdd, program)),
+        Some(deed @ (Deed::Refuses | Deed::Crashes)) => Outcome::Refused(deed, why(urdd, program)),
         _ => loaded(program),
     }
 }
 
 /// The finding of it; where there is none, what the program says.
 fn why(urdd: &Urdd, program: &ProgramResult) -> String {
-    let places = urdd
-        .findings
-        .iter()
-        .flat_map(|finding| finding.places.iter().map(move |place| (finding.code.as_str(), place)));
-    let mut of_program = places.filter(|(_, place)| {
-        place
-            .programs
-            .iter()
-            .any(|one| one.program == program.program && Some(one.does) == program.does)
+    // What follows from a finding is among its related places.
+    let places = urdd.findings.iter().flat_map(|finding| {
+        let all = finding.places.iter().flat_map(|place| [place].into_iter().chain(&place.related));
+        all.map(move |place| (finding.code.as_str(), place))
     });
+    let is_why = |does: &Does| does.program == program.program && Some(does.does) == program.does;
+    let mut of_program = places.filter(|(_, place)| place.programs.iter().any(is_why));
     if let Some((code, place)) = of_program.next() {
         let at = place.line.zip(place.column);
         return at.map_or_else(
@@ -78,6 +115,7 @@ fn loaded(program: &ProgramResult) -> Outcome {
     for effect in &program.effects {
         match (effect.does, kind(effect)) {
             (Deed::Drops, Some(kind)) => *lost.entry(kind.to_owned()).or_default() += 1,
+            _ if effect.is_usual => {}
             _ => others += 1,
         }
     }
@@ -98,15 +136,11 @@ impl Outcome {
     fn words(&self, are_many: bool) -> String {
         let s = if are_many { "" } else { "s" };
         match self {
-            Outcome::Refused(verb, why) => {
-                let (verb, object) = match (*verb, are_many) {
-                    ("crash", false) => ("crashes", "on it"),
-                    ("crash", true) => ("crash", "on it"),
-                    (_, false) => ("refuses", "it"),
-                    _ => ("refuse", "it"),
-                };
-                format!("{verb} {object} ({why})")
+            Outcome::Refused(Deed::Crashes, why) => {
+                let es = if are_many { "" } else { "es" };
+                format!("crash{es} on it ({why})")
             }
+            Outcome::Refused(_, why) => format!("refuse{s} it ({why})"),
             Outcome::Loaded(lost, others) => {
                 let lost: Vec<String> = lost
                     .iter()

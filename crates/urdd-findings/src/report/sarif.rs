@@ -180,6 +180,9 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             "consequence": finding.consequence.as_str(),
             "placesCut": cut,
         });
+        if !finding.programs.is_empty() {
+            result["properties"]["programs"] = json!(finding.programs);
+        }
         result["occurrenceCount"] = json!(finding.count.get());
         let kind = kind(finding, place);
         let nth = alike.entry(kind.clone()).or_insert(0);

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use super::causes::{Cause, causes};
+use super::programs;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::{self, not_verified};
 use super::words::{plural, unit};
@@ -62,11 +63,29 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
         write_some(&lesser, LESSER, style, out, |cause, out| write_cause(cause, unit, style, out))?;
     }
     write_not_checked(report, style, out)?;
+    write_programs(report, style, out)?;
     if !style.full {
         let hint = format!("In full: one {unit}, or --full; every place: --format json.");
         writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
+}
+
+/// How many URDFs each program loads.
+fn write_programs(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let counts = programs::counts(report);
+    if counts.is_empty() {
+        return Ok(());
+    }
+    let words = ["load", "otherwise than written", "refused"];
+    writeln!(out, "{}", style.paint(BOLD, "What programs do"))?;
+    let widest = counts.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    for (name, counts) in counts {
+        let some = counts.into_iter().zip(words).filter(|(count, _)| *count > 0);
+        let some: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();
+        writeln!(out, "  {name:widest$}  {}", some.join(", "))?;
+    }
+    writeln!(out)
 }
 
 /// Writes items, without `--full` no more than `most` and the number of others, and an empty line.

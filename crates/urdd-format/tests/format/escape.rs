@@ -1,6 +1,6 @@
 //! Text from files, printed.
 
-use urdd_format::escape::{json, line, lines, quoted};
+use urdd_format::escape::{code_span, json, line, lines, quoted};
 
 #[test]
 fn what_can_be_seen_stays() {
@@ -41,4 +41,19 @@ fn json_says_the_same_with_escapes() {
     let safe = json(&text);
     assert_eq!(safe, "\"\\u001b\\u009b\\u202e\\udb40\\udc41🤖é\"");
     assert_eq!(serde_json::from_str::<String>(&safe).unwrap(), value);
+}
+
+#[test]
+fn a_code_span_holds_any_name() {
+    for (name, span) in [
+        ("tool0", "`tool0`"),
+        ("a`b", "``a`b``"),
+        ("``", "``` `` ```"),
+        ("<img src=x>", "`<img src=x>`"),
+        ("a\nb", "`a\\nb`"),
+        ("", "(empty)"),
+    ] {
+        assert_eq!(code_span(name), span);
+    }
+    assert!(code_span(&"x".repeat(100_000)).len() < 2_100);
 }

@@ -26,7 +26,12 @@ pub struct Answer {
 pub fn ask(bytes: &[u8], folder: &Path, settings: &LintSettings) -> Vec<Answer> {
     let meshes = MeshFiles::new(folder, settings);
     let file = File { bytes, meshes: &|name| meshes.mesh(name) };
-    let chosen = &settings.programs;
+    let mut chosen: Vec<Program> = Vec::new();
+    for program in settings.report.programs.iter().filter_map(|name| Program::of_name(name)) {
+        if !chosen.contains(&program) {
+            chosen.push(program);
+        }
+    }
     let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
     let all = chosen.iter().copied().chain(others);
     let mut answers = Vec::new();
@@ -52,18 +57,20 @@ pub fn results(answers: &[Answer], encoding: &Encoding, text: &str) -> Vec<Progr
             part: Some(effect.part.clone()).filter(|part| !part.is_empty()),
             reason: effect.fault.to_string(),
             makes: effect.makes.clone(),
+            is_usual: effect.fault.is_usual(),
         }
     };
     let result = |answer: &Answer| {
         let mut all: Vec<_> = answer.effects.0.iter().collect();
         all.sort_by_key(|effect| (effect.at, effect.deed));
+        let not_usual = answer.effects.0.iter().filter(|effect| !effect.fault.is_usual());
         ProgramResult {
             program: answer.program.id().to_owned(),
             name: answer.program.name().to_owned(),
             family: answer.program.family().to_owned(),
             version: answer.program.version().to_owned(),
             is_chosen: answer.is_chosen,
-            does: answer.effects.worst().map(deed),
+            does: not_usual.map(|effect| effect.deed).max().map(deed),
             effects_cut: Count::saturating(all.len().saturating_sub(KEPT)),
             effects: all.into_iter().take(KEPT).map(effect).collect(),
         }

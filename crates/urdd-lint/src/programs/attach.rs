@@ -128,24 +128,32 @@ fn of_one_body(subject: &Subject, asked: &Asked) -> Vec<Faulty> {
 }
 
 /// The findings of rules, by where they are.
+#[derive(Default)]
 struct Index {
     by_position: HashMap<Position, Vec<usize>>,
+    /// The first of each rule in a link or joint.
     by_subject: HashMap<String, Vec<usize>>,
+    /// The first of each rule.
+    firsts: Vec<usize>,
     all: Vec<Known>,
 }
 
 impl Index {
     fn new(checks: &[Check]) -> Self {
-        let mut index =
-            Index { by_position: HashMap::new(), by_subject: HashMap::new(), all: Vec::new() };
+        let mut index = Index::default();
         for check in checks {
             for finding in &check.findings {
                 for (place, message) in finding.said() {
                     let Some(at) = at(place) else { continue };
                     let here = index.all.len();
                     index.by_position.entry(at).or_default().push(here);
-                    if let Some(subject) = &place.subject {
-                        index.by_subject.entry(subject.clone()).or_default().push(here);
+                    let own = place.subject.as_ref();
+                    let part = own.map(|part| index.by_subject.entry(part.clone()).or_default());
+                    for firsts in part.into_iter().chain([&mut index.firsts]) {
+                        let is_new = |first: &usize| index.all[*first].code != check.rule.code;
+                        if firsts.iter().all(is_new) {
+                            firsts.push(here);
+                        }
                     }
                     index.all.push(Known {
                         code: check.rule.code,
@@ -159,42 +167,41 @@ impl Index {
         index
     }
 
-    /// The finding that sees a fault: the one that is nearest.
+    /// The finding that sees a fault: the one that is nearest; of those, one of lint.
     fn of(&self, subject: &Subject, node: Node, offset: usize, faulty: &Faulty) -> Option<&Known> {
-        let here = |position: Position| {
-            self.by_position.get(&position).into_iter().flatten().map(|index| &self.all[*index])
+        let sees = |known: &Known, reach| sees(known.code, &faulty.fault) >= Some(reach);
+        let best = |indices: Vec<usize>, reach| {
+            let all = indices.into_iter().map(|index| &self.all[index]);
+            let seen: Vec<&Known> = all.filter(|known| sees(known, reach)).collect();
+            let of_lint = seen.iter().find(|known| known.code.family() == "LNT");
+            of_lint.or(seen.first()).copied()
         };
-        let is_near = |known: &&Known| sees(known.code, &faulty.fault).is_some();
-        let exact = here(subject.position(offset)).find(is_near);
-        // One attribute is no reason for what is wrong with another.
-        let in_element = || {
-            let start = node.range().start;
+        let here = |offset: usize| {
+            let known = self.by_position.get(&subject.position(offset));
+            known.map(Vec::as_slice).unwrap_or_default().iter().copied()
+        };
+        let starts = |node: Node| {
             let attributes = node.attributes().map(|one| one.range().start);
-            let attributes = attributes.filter(|_| offset == start);
-            let starts = std::iter::once(start).chain(attributes);
-            starts.flat_map(|start| here(subject.position(start))).find(is_near)
+            std::iter::once(node.range().start).chain(attributes).collect::<Vec<_>>()
         };
+        let start = node.range().start;
+        // One attribute is no reason for what is wrong with another.
+        let element = if offset == start { starts(node) } else { vec![start] };
         let beside = || {
-            let above = node.parent_element()?;
+            // What is beside a link is another one.
+            let above = node.parent_element().filter(|above| above.parent_element().is_some())?;
             let all = std::iter::once(above).chain(above.children()).filter(Node::is_element);
-            let starts = all.flat_map(|one| {
-                let attributes = one.attributes().map(|one| one.range().start);
-                std::iter::once(one.range().start).chain(attributes)
-            });
-            let is_beside = |known: &&Known| sees(known.code, &faulty.fault) >= Some(Reach::Beside);
-            starts.flat_map(|start| here(subject.position(start))).find(is_beside)
+            best(all.flat_map(starts).flat_map(here).collect(), Reach::Beside)
         };
         let in_part = || {
             let part = crate::subject::subject(node)?;
-            let all = self.by_subject.get(&part)?.iter().map(|index| &self.all[*index]);
-            let is_of_part = |known: &&Known| sees(known.code, &faulty.fault) >= Some(Reach::Part);
-            all.into_iter().find(is_of_part)
+            best(self.by_subject.get(&part)?.clone(), Reach::Part)
         };
-        let in_file = || {
-            let is_of_file = |known: &&Known| sees(known.code, &faulty.fault) == Some(Reach::File);
-            self.all.iter().find(is_of_file)
-        };
-        exact.or_else(in_element).or_else(beside).or_else(in_part).or_else(in_file)
+        best(here(offset).collect(), Reach::Element)
+            .or_else(|| best(element.into_iter().flat_map(here).collect(), Reach::Element))
+            .or_else(beside)
+            .or_else(in_part)
+            .or_else(|| best(self.firsts.clone(), Reach::File))
     }
 }
 
@@ -208,18 +215,24 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
     for finding in std::mem::take(&mut check.findings) {
         let own = finding.severity.unwrap_or(check.severity);
         let (groups, mut cut) = parted(finding, |place| {
-            let said = &of(place)?.said;
-            Some((severity(said, asked.has_chosen).max(own), doings(said, &asked.results)))
+            let worst = of(place).map(|one| severity(&one.said, asked.has_chosen));
+            worst.filter(|worst| *worst > own)
         });
-        for (said, mut group) in groups {
+        for (worst, mut group) in groups {
             group.count += std::mem::take(&mut cut);
-            if let Some((worst, words)) = said {
-                group.severity = Some(worst).filter(|worst| *worst > own).or(group.severity);
-                group.message = format!("{} ({words})", group.message);
-                for place in group.places_mut() {
-                    place.message = place.message.take().map(|said| format!("{said} ({words})"));
-                    place.programs = of(place).map_or_else(Vec::new, |one| does(&one.said));
-                }
+            group.severity = worst.or(group.severity);
+            let message = std::mem::take(&mut group.message);
+            for place in group.places_mut() {
+                let Some(faulty) = of(place) else { continue };
+                let said = place.message.as_ref().unwrap_or(&message);
+                place.message = Some(format!("{said} ({})", doings(&faulty.said, &asked.results)));
+                place.programs = does(&faulty.said);
+            }
+            group.message = group.place.message.take().unwrap_or(message.clone());
+            let others = group.more.iter_mut().filter(|_| group.message != message);
+            for place in others {
+                place.message.get_or_insert_with(|| message.clone());
+                place.message.take_if(|said| *said == group.message);
             }
             check.findings.push(group);
         }

@@ -4,7 +4,6 @@ mod answers;
 mod attach;
 mod faults;
 mod meshes;
-mod named;
 mod places;
 mod seen;
 mod severity;
@@ -16,7 +15,6 @@ use urdd_format::report::ProgramResult;
 
 pub use attach::{Left, attach, attach_all};
 use faults::Faulty;
-pub use named::{UnknownProgram, named_programs};
 
 use crate::settings::LintSettings;
 
@@ -39,7 +37,7 @@ impl Asked {
         Asked {
             results: answers::results(&answers, &encoding, text),
             faults: faults::faults(&answers, bytes),
-            has_chosen: !settings.programs.is_empty(),
+            has_chosen: !settings.report.programs.is_empty(),
             encoding,
         }
     }

@@ -25,6 +25,8 @@ pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
             matches!(code, Code::URD004 | Code::URD005 | Code::URD006).then_some(File)
         }
         Fault::Inertia(_) if code == Code::URD011 => Some(Beside),
+        // No link has a mass.
+        Fault::Inertia(_) if code == Code::LNT006 => Some(File),
         Fault::Inertia(_) => of_inertia(code).then_some(Part),
         Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
             of_missing(code, name)
@@ -50,7 +52,7 @@ pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
         }
         Fault::Limits(_) => matches!(code, Code::SRC001 | Code::LNT014).then_some(Element),
         Fault::NotFound(_) => of_files(code).then_some(Element),
-        Fault::Mesh(_) => of_meshes(code).then_some(Element),
+        Fault::Mesh(_) => of_meshes(code).then_some(Beside),
         Fault::Name { .. } => (code == Code::LNT015).then_some(File),
         Fault::Version(_) => (code == Code::URD011).then_some(Element),
         Fault::Other(_) if matches!(code, Code::URD009 | Code::URD010) => Some(Part),
@@ -68,6 +70,8 @@ fn of_inertia(code: Code) -> bool {
 
 fn of_missing(code: Code, name: &str) -> Option<Reach> {
     match (code, name) {
+        // The root, in Gazebo, where no link has a mass.
+        (Code::LNT006, "inertial") => Some(Reach::File),
         (Code::LNT006 | Code::LNT008, "inertial" | "mass" | "inertia" | "value") => {
             Some(Reach::Part)
         }

@@ -9,6 +9,7 @@ mod cases;
 mod consequences;
 mod fix;
 mod hull;
+mod programs;
 mod rules_inertia_beyond_geometry;
 mod severities;
 mod skips;
@@ -72,13 +73,15 @@ fn what_the_validator_says_is_not_said_again() {
     let link = "<link name=\"upper\">\n";
     let zero = "<inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>";
     let massless = format!("{link}{zero}");
-    assert_eq!(changed("LNT006/invalid.urdf", link, &massless), ["SRC003"]);
+    // That no other link has a mass is another fault.
+    assert_eq!(changed("LNT006/invalid_all.urdf", link, &massless), ["SRC003", "LNT060"]);
     let limits = "lower=\"-2\" upper=\"2\"";
     let crossed = "lower=\"1\" upper=\"-1\"";
     assert_eq!(changed("LNT013/invalid.urdf", limits, crossed), ["SRC001"]);
-    // A tensor that no body has: that it is also larger than the link's shapes allow follows.
+    // A tensor that no body has: that it is also larger than the link's shapes allow follows. What two programs refuse is an
+    // error, and has SRC004 in it.
     let izz = "izz=\"0.002\"";
-    assert_eq!(changed("LNT001/invalid.urdf", izz, "izz=\"-0.002\""), ["SRC004"]);
+    assert_eq!(changed("LNT001/invalid.urdf", izz, "izz=\"-0.002\""), ["LNT060"]);
     // A pose that cannot be read: nothing is said about where shapes are.
     let pose = "<origin xyz=";
     assert_eq!(changed("LNT050/invalid.urdf", pose, "<origin rpy=\"0 0 0 0\" xyz="), ["URD011"]);

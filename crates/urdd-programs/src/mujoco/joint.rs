@@ -146,7 +146,7 @@ impl Reader<'_> {
         if matches!(joint.kind, "floating" | "spherical") {
             self.effects.drop(value, part, Fault::NeverRead("effort".to_owned()));
         } else if effort == 0.0 || effort.is_nan() {
-            let fault = Fault::range("effort", &value.value, "it limits nothing");
+            let fault = Fault::Way("an `effort` of 0 limits nothing");
             self.effects.read_as(value, part, fault, "no limit");
         } else if effort < 0.0 {
             let fault = Fault::range("effort", &value.value, "its sign does not count");
