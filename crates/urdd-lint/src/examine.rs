@@ -18,7 +18,7 @@ use urdd_findings::finding::{Finding, Findings};
 use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::report::{Place, ProgramResult, StaleIgnore};
+use urdd_format::report::{Place, StaleIgnore};
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
@@ -61,7 +61,10 @@ pub fn examined(
         let skipped = rules_to_run(settings)
             .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
-        examined.report.programs = job.ask_of_no_xml(&mut examined.checks);
+        if let Some(asked) = job.ask() {
+            attach_all(&asked, Code::URD011, &mut examined.checks);
+            examined.report.programs = asked.results;
+        }
         return (examined, Vec::new());
     };
     let of_mended = match &mended {
@@ -71,17 +74,19 @@ pub fn examined(
     let source = job.source(&examined.checks);
     let subject = job.subject(&document, &source);
     let is_mended = matches!(mended, Cow::Owned(_));
-    if is_mended {
-        examined.report.programs = job.ask_of_no_xml(&mut examined.checks);
-        job.run(&subject, &mut examined.checks, |_| Vec::new());
-    } else {
-        job.run(&subject, &mut examined.checks, |checks| {
-            let Some(asked) = job.ask() else { return Vec::new() };
-            let left = attach(&subject, &asked, checks);
-            examined.report.programs = asked.results;
-            left
-        });
-    }
+    let as_it_is = match is_mended {
+        true => Some(Code::URD011),
+        false => subject.macros().map(|_| Code::LNT051),
+    };
+    job.run(&subject, &mut examined.checks, |checks| {
+        let Some(asked) = job.ask() else { return Vec::new() };
+        let left = match as_it_is {
+            Some(code) => attach_all(&asked, code, checks),
+            None => attach(&subject, &asked, checks),
+        };
+        examined.report.programs = asked.results;
+        left
+    });
     let is_of_mended = |check: &&mut Check| {
         let code = check.rule.code;
         code.family() == FAMILY || of_mended.contains(&code)
@@ -125,13 +130,6 @@ impl<'a> Job<'a> {
         Some(Asked::about(self.bytes, self.text, self.folder, self.settings))
     }
 
-    /// As [`Self::ask`], of a file that is not well-formed.
-    fn ask_of_no_xml(self, checks: &mut [Check]) -> Vec<ProgramResult> {
-        let Some(asked) = self.ask() else { return Vec::new() };
-        attach_all(&asked, checks);
-        asked.results
-    }
-
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
     /// when the other rules have run.
     fn run(
@@ -166,9 +164,7 @@ impl<'a> Job<'a> {
             }
         };
         run(first, checks);
-        if !is_macro {
-            subject.set_programs(programs(checks));
-        }
+        subject.set_programs(programs(checks));
         run(last, checks);
         checks.sort_by_key(|check| check.rule.code);
     }

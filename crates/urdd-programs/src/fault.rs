@@ -31,6 +31,8 @@ pub enum Fault {
     Unknown { kind: &'static str, name: String },
     /// A value that is none of those that are allowed.
     Value { attribute: String, text: String },
+    /// A type of joints that URDF has, and the program does not, or not here.
+    Type(&'static str),
     /// A shape that the program does not know.
     Shape(String),
     /// An element or attribute that the program never reads.
@@ -79,6 +81,12 @@ impl Fault {
     }
 
     pub(crate) fn value(attribute: &str, text: &str) -> Fault {
+        const TYPES: [&str; 7] =
+            ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+        let of_urdf = TYPES.into_iter().find(|one| attribute == "type" && *one == text);
+        if let Some(known) = of_urdf {
+            return Fault::Type(known);
+        }
         Fault::Value { attribute: attribute.to_owned(), text: shortened(text) }
     }
 
@@ -136,6 +144,7 @@ impl Fault {
             Fault::NotUnique { .. } => "rename one of them, or remove it",
             Fault::Unknown { .. } => "mend the name, or add what it names",
             Fault::Value { .. } => "write one of those that URDF defines",
+            Fault::Type(_) => "use joints that the program has",
             Fault::Shape(_) => "use box, cylinder, sphere or mesh",
             Fault::NeverRead(_) | Fault::Way(_) => "do not rely on it there",
             Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
@@ -187,6 +196,7 @@ impl fmt::Display for Fault {
             Fault::NotUnique { kind, name } => write!(f, "another {kind} is called `{name}`"),
             Fault::Unknown { kind, name } => write!(f, "no {kind} is called `{name}`"),
             Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
+            Fault::Type(kind) => write!(f, "a {kind} joint is not for every program"),
             Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
             Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
             Fault::UnknownElement { name, like } if name == like => {

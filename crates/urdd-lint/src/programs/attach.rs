@@ -91,18 +91,18 @@ pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Lef
     left
 }
 
-/// Gives all that programs do to the finding that a file is no XML: what they say of it beyond that is not known before it
-/// is mended.
-pub fn attach_all(asked: &Asked, checks: &mut [Check]) {
-    let mut faults = asked.faults.iter().cloned();
-    let (Some(mut first), code) = (faults.next(), Code::URD011) else { return };
-    faults.for_each(|other| first.add(other));
+/// Gives all that programs do to the finding that a file is no XML, or not expanded: what they say of it beyond that is not
+/// known before it is mended.
+pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) -> Vec<Left> {
     let check = checks.iter_mut().find(|check| check.rule.code == code);
-    if let Some(check) = check
-        && let Some(at) = check.findings.first().and_then(|finding| at(&finding.place))
-    {
-        give(check, &Given::from([((code, at), first)]), asked);
+    let mut faults = asked.faults.iter().cloned();
+    if let (Some(check), Some(mut first)) = (check, faults.next()) {
+        faults.for_each(|other| first.add(other));
+        let place = check.findings.first().and_then(|finding| at(&finding.place));
+        let given = place.map(|at| ((code, at), first));
+        give(check, &given.into_iter().collect(), asked);
     }
+    Vec::new()
 }
 
 /// The faults, with those of the mass and inertia of a link as one.
@@ -190,8 +190,14 @@ impl Index {
         let beside = || {
             // What is beside a link is another one.
             let above = node.parent_element().filter(|above| above.parent_element().is_some())?;
-            let all = std::iter::once(above).chain(above.children()).filter(Node::is_element);
-            best(all.flat_map(starts).flat_map(here).collect(), Reach::Beside)
+            // A link and a joint hold parts of several kinds.
+            let is_one = !matches!(node.tag_name().name(), "link" | "joint");
+            let inside = node.descendants().filter(|_| is_one);
+            let all = std::iter::once(above).chain(above.children()).chain(inside);
+            best(
+                all.filter(Node::is_element).flat_map(starts).flat_map(here).collect(),
+                Reach::Beside,
+            )
         };
         let in_part = || {
             let part = crate::subject::subject(node)?;

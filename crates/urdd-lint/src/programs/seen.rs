@@ -35,6 +35,7 @@ pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
         Fault::NotANumber { .. } | Fault::Count { .. } => (code == Code::URD011).then_some(Element),
         Fault::Value { .. } => matches!(code, Code::URD011 | Code::URD012).then_some(Element),
         Fault::Range { .. } => of_range(code).then_some(Element),
+        Fault::Type(_) => (code == Code::URD012).then_some(Beside),
         Fault::Repeated(_) => {
             matches!(code, Code::SRC008 | Code::LNT008 | Code::URD011).then_some(Beside)
         }

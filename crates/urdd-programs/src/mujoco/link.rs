@@ -165,11 +165,10 @@ impl Reader<'_> {
             }
         }
         let Some(shape) = found else {
-            let fault = match geometry.children().next() {
-                Some(other) => Fault::Shape(shortened(other.name())),
-                None => Fault::Other("`<geometry>` has no shape"),
+            return match geometry.children().next() {
+                Some(other) => self.effects.refuse(other, Fault::Shape(shortened(other.name()))),
+                None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
             };
-            return self.effects.refuse(geometry, fault);
         };
         let solid = match shape.name() {
             "box" => {
