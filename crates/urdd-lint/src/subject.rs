@@ -279,6 +279,11 @@ impl<'a> Subject<'a> {
         elements.get(after.checked_sub(1)?).copied()
     }
 
+    /// Whether a file is there under a name, as meshes are found.
+    pub fn has_file(&self, name: &str) -> bool {
+        self.source.as_ref().is_ok_and(|source| source.find(name).is_ok())
+    }
+
     /// The line and column of an offset.
     pub fn position(&self, offset: usize) -> Position {
         self.lines.position(offset)

@@ -11,13 +11,14 @@ use urdd_findings::check::Check;
 use urdd_findings::code::Code;
 use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
-use urdd_format::report::{Does, Place, Severity};
+use urdd_format::report::{Does, Fix, Place, Severity};
 
 use super::Asked;
 use urdd_programs::Fault;
 
 use super::answers::deed;
 use super::faults::{Faulty, Said};
+use super::fixes::fix;
 use super::seen::{Reach, sees};
 use super::severity::{is_refused, severity};
 use super::words::{doings, message};
@@ -31,12 +32,13 @@ pub struct Left {
     pub message: String,
     pub severity: Severity,
     pub programs: Vec<Does>,
+    pub fix: Option<Fix>,
     /// Whether a program has no robot because of it.
     pub is_refused: bool,
 }
 
 /// What programs do because of the faults at the places of rules' findings.
-type Given = HashMap<(Code, Position), Faulty>;
+type Given = HashMap<(Code, Position), (Faulty, Option<Fix>)>;
 
 /// A finding of another rule.
 struct Known {
@@ -70,8 +72,11 @@ pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Lef
                 });
             }
             Some(known) => {
+                let fix = || fix(subject, offset, &faulty.fault);
                 let here = given.entry((known.code, known.at));
-                here.and_modify(|one| one.add(faulty.clone())).or_insert_with(|| faulty.clone());
+                let here = here.and_modify(|(one, _)| one.add(faulty.clone()));
+                let (_, known) = here.or_insert_with(|| (faulty.clone(), None));
+                *known = known.take().or_else(fix);
                 continue;
             }
             None => {}
@@ -81,6 +86,7 @@ pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Lef
             message: message(faulty, &asked.results),
             severity,
             programs: does(&faulty.said),
+            fix: fix(subject, offset, &faulty.fault),
             is_refused: faulty.said.iter().any(is_refused),
         });
     }
@@ -99,7 +105,7 @@ pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) -> Vec<Left> 
     if let (Some(check), Some(mut first)) = (check, faults.next()) {
         faults.for_each(|other| first.add(other));
         let place = check.findings.first().and_then(|finding| at(&finding.place));
-        let given = place.map(|at| ((code, at), first));
+        let given = place.map(|at| ((code, at), (first, None)));
         give(check, &given.into_iter().collect(), asked);
     }
     Vec::new()
@@ -221,7 +227,7 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
     for finding in std::mem::take(&mut check.findings) {
         let own = finding.severity.unwrap_or(check.severity);
         let (groups, mut cut) = parted(finding, |place| {
-            let worst = of(place).map(|one| severity(&one.said, asked.has_chosen));
+            let worst = of(place).map(|(one, _)| severity(&one.said, asked.has_chosen));
             worst.filter(|worst| *worst > own)
         });
         for (worst, mut group) in groups {
@@ -229,10 +235,12 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
             group.severity = worst.or(group.severity);
             let message = std::mem::take(&mut group.message);
             for place in group.places_mut() {
-                let Some(faulty) = of(place) else { continue };
+                let Some((faulty, fix)) = of(place) else { continue };
                 let said = place.message.as_ref().unwrap_or(&message);
                 place.message = Some(format!("{said} ({})", doings(&faulty.said, &asked.results)));
                 place.programs = does(&faulty.said);
+                // The best is first.
+                place.fixes.splice(0..0, fix.clone());
             }
             group.message = group.place.message.take().unwrap_or(message.clone());
             let others = group.more.iter_mut().filter(|_| group.message != message);

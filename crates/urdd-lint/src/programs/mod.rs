@@ -3,6 +3,7 @@
 mod answers;
 mod attach;
 mod faults;
+mod fixes;
 mod meshes;
 mod places;
 mod seen;

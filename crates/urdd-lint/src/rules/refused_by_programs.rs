@@ -25,6 +25,6 @@ pub(super) fn report(urdf: &Subject, is_refused: bool, findings: &mut Findings) 
         let mut finding = urdf.at_offset(fault.offset, &fault.message);
         finding.severity = Some(fault.severity);
         finding.place.programs.clone_from(&fault.programs);
-        finding.report(findings);
+        finding.fix(fault.fix.clone()).report(findings);
     }
 }

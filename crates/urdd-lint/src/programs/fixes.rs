@@ -1,0 +1,135 @@
+//! Fixes of what programs refuse or lose, where there is one right answer.
+
+use std::ops::Range;
+
+use roxmltree::Node;
+
+use urdd_format::report::Fix;
+use urdd_programs::Fault;
+use urdd_xml::element::{children, name};
+
+use crate::subject::Subject;
+
+/// Attributes of several numbers, and how many.
+const VECTORS: [(&str, usize); 6] =
+    [("xyz", 3), ("rpy", 3), ("size", 3), ("scale", 3), ("rgba", 4), ("quat_xyzw", 4)];
+/// What URDF has since version 1.1.
+const SINCE_1_1: [&str; 5] = ["capsule", "quat_xyzw", "acceleration", "deceleration", "jerk"];
+
+/// Maximum number of elements that one is compared with.
+const MOST_BESIDE: usize = 1_000;
+
+/// The fix of a fault, if it has one right answer.
+pub fn fix(subject: &Subject, offset: usize, fault: &Fault) -> Option<Fix> {
+    let node = subject.element(offset)?;
+    match fault {
+        _ if is_empty_dynamics(node) => {
+            Some(subject.fix("remove the empty `<dynamics>`", whole(subject, node), String::new()))
+        }
+        Fault::NotANumber { attribute, .. } | Fault::Count { attribute, .. } => {
+            spaced(subject, node, attribute)
+        }
+        Fault::Value { attribute, .. } => in_lower_case(subject, node, attribute),
+        Fault::Version(_) => version(subject, node),
+        Fault::Repeated(_) | Fault::NotUnique { kind: "material", .. } => equal(subject, node),
+        Fault::NotFound(_) => trimmed(subject, node),
+        _ => None,
+    }
+}
+
+fn is_empty_dynamics(node: Node) -> bool {
+    name(node) == "dynamics" && node.attributes().len() == 0 && children(node).next().is_none()
+}
+
+/// Numbers with single spaces between them: others separate them by tabs, line ends or commas, or have white space around.
+fn spaced<'a>(subject: &Subject<'a>, node: Node<'a, 'a>, attribute: &str) -> Option<Fix> {
+    let value = node.attribute(attribute)?;
+    let count = VECTORS.iter().find(|(name, _)| *name == attribute).map_or(1, |(_, count)| *count);
+    let is_between = |c: char| c.is_whitespace() || count > 1 && matches!(c, ',' | ';');
+    let words: Vec<&str> = value.split(is_between).filter(|word| !word.is_empty()).collect();
+    let is_plain = |word: &&str| {
+        let is_digit = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
+        word.bytes().all(is_digit) && word.parse().is_ok_and(f64::is_finite)
+    };
+    let mended = words.join(" ");
+    if words.len() != count || !words.iter().all(is_plain) || mended == value {
+        return None;
+    }
+    let range = subject.value(node, attribute)?;
+    Some(subject.fix(format!("write `{mended}`"), range, mended))
+}
+
+/// A word of URDF that was written with other letters.
+fn in_lower_case<'a>(subject: &Subject<'a>, node: Node<'a, 'a>, attribute: &str) -> Option<Fix> {
+    let value = node.attribute(attribute)?;
+    let lower = value.trim().to_lowercase();
+    let kinds = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
+    if attribute != "type" || lower == value || !kinds.contains(&lower.as_str()) {
+        return None;
+    }
+    let range = subject.value(node, attribute)?;
+    Some(subject.fix(format!("write `{lower}`"), range, lower))
+}
+
+/// `1.0`, where the robot has nothing that came later.
+fn version<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
+    let is_newer = |node: Node| {
+        let has = |name: &&str| node.has_attribute(*name);
+        SINCE_1_1.contains(&name(node)) || SINCE_1_1.iter().any(has)
+    };
+    let mut elements = subject.root.descendants().filter(Node::is_element);
+    if elements.any(is_newer) {
+        return None;
+    }
+    let range = subject.value(node, "version")?;
+    Some(subject.fix("write `1.0`", range, "1.0".to_owned()))
+}
+
+/// Removes an element that says again what one of the same name beside it does.
+fn equal<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
+    let own = node.attribute("name");
+    let is_other = |other: &Node| name(*other) == name(node) && other.attribute("name") == own;
+    let before = node.prev_siblings().skip(1).filter(Node::is_element).take(MOST_BESIDE);
+    before.filter(is_other).last().filter(|first| is_equal(*first, node))?;
+    let message = format!("remove the second `<{}>`, which says the same", name(node));
+    Some(subject.fix(message, whole(subject, node), String::new()))
+}
+
+fn is_equal(one: Node, other: Node) -> bool {
+    let has = |attribute: roxmltree::Attribute| {
+        other.attribute(attribute.name()) == Some(attribute.value())
+    };
+    let text = |node: Node| node.text().unwrap_or_default().trim().to_owned();
+    name(one) == name(other)
+        && one.attributes().len() == other.attributes().len()
+        && one.attributes().all(has)
+        && text(one) == text(other)
+        && children(one).count() == children(other).count()
+        && children(one).zip(children(other)).all(|((_, one), (_, other))| is_equal(one, other))
+}
+
+/// The name of a file without white space around it, if there is such a file.
+fn trimmed<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
+    let value = node.attribute("filename")?;
+    let mended = value.trim();
+    if mended == value || mended.is_empty() || !subject.has_file(mended) {
+        return None;
+    }
+    let range = subject.value(node, "filename")?;
+    Some(subject.fix(format!("write `{mended}`"), range, mended.to_owned()))
+}
+
+/// An element with the white space before it, if nothing else is on its lines.
+fn whole<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Range<usize> {
+    let range = node.range();
+    let before = subject.text[..range.start].trim_end_matches([' ', '\t']);
+    let after = subject.text[range.end..].trim_start_matches([' ', '\t']);
+    let is_alone = before.ends_with('\n') && after.starts_with(['\n', '\r']);
+    match is_alone {
+        true => {
+            let line = before.strip_suffix("\r\n").or(before.strip_suffix('\n'));
+            line.map_or(range.start, str::len)..range.end
+        }
+        false => range,
+    }
+}
