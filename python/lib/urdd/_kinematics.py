@@ -212,7 +212,7 @@ class RobotKinematics(RobotDescription):
             gravity: the acceleration due to gravity, in the root link's frame, m/s².
 
         Raises:
-            ConfigurationError: for a wrong shape, a number that is not finite, a payload below 0, or one without a link.
+            ConfigurationError: for a wrong shape, a number that is not finite, a payload below 0 or without a link.
             UnknownNameError: for an unknown link.
         """
         carried = None
