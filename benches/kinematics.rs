@@ -6,7 +6,8 @@
 //! starting points. It prints how many `Robot::inverse_kinematics` reaches, and the time; and the time with a posture.
 //!
 //! With `--json` it measures nothing: for each URDD and each of 20 configurations, it prints one line with the values,
-//! and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in column-major order.
+//! the gravity torques, and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in
+//! column-major order.
 //! `tests/figures/kinematics_pinocchio.py` compares these with Pinocchio.
 
 // A test may stop anywhere.
@@ -15,7 +16,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use urdd_robot::{InverseSettings, Robot, Target};
+use urdd_robot::{GravitySettings, InverseSettings, Robot, Target};
 
 const CONFIGURATIONS: u64 = 10_000;
 const TARGETS: u64 = 1000;
@@ -50,7 +51,9 @@ fn print(path: &std::path::Path) {
             serde_json::json!({"link": name, "pose": pose, "jacobian": jacobian})
         };
         let links: Vec<_> = links.iter().enumerate().map(of_link).collect();
-        println!("{}", serde_json::json!({"values": q, "links": links}));
+        let torques = robot.gravity_torques(&q, &GravitySettings::default()).expect("torques");
+        let line = serde_json::json!({"values": q, "links": links, "gravity_torques": torques});
+        println!("{line}");
     }
 }
 

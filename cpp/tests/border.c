@@ -49,6 +49,7 @@ static void nulls(void) {
         urdd_robot_effort_limits(NULL, NULL, many),
         urdd_robot_link_masses(NULL, NULL, many),
         urdd_robot_centre_of_mass(NULL, NULL, many, many, NULL),
+        urdd_robot_gravity_torques(NULL, NULL, many, many, NULL, 1.0, many, NULL, NULL, many),
         urdd_robot_num_named_configurations(NULL, NULL),
         urdd_robot_configuration_name(NULL, many, NULL),
         urdd_robot_named_configuration(NULL, NULL, NULL, many),

@@ -70,6 +70,19 @@ void kinematics(const urdd::Robot &robot) {
     }
     const urdd::Point centre = robot.centre_of_mass(q);
     CHECK((moment / mass - Eigen::Vector3d(centre[0], centre[1], centre[2])).norm() < 1e-12);
+    Eigen::VectorXd torques = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(q.size()));
+    for (std::size_t link = 0; link < poses.size(); ++link) {
+        const std::array<double, 4> own = robot.link_masses()[link];
+        torques += 9.81 * own[0] * urdd::jacobian(robot, q, link, {own[1], own[2], own[3]}).row(2).transpose();
+    }
+    const std::vector<double> held = robot.gravity_torques(q);
+    CHECK((torques - Eigen::Map<const Eigen::VectorXd>(held.data(), torques.size())).norm() < 1e-12);
+    // A payload in weightlessness does nothing.
+    const urdd::Payload payload{3.0, poses.size() - 1, {0.1, 0.2, 0.3}};
+    CHECK(robot.gravity_torques(q, payload, {0, 0, 0}) == std::vector<double>(q.size(), 0.0));
+    torques += 9.81 * 3.0 * urdd::jacobian(robot, q, payload.link, payload.point).row(2).transpose();
+    const std::vector<double> loaded = robot.gravity_torques_batch({q.data(), 1, q.size()}, payload);
+    CHECK((torques - Eigen::Map<const Eigen::VectorXd>(loaded.data(), torques.size())).norm() < 1e-12);
 
     const Eigen::VectorXd eigen = Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
     CHECK(robot.link_poses(eigen) == poses);

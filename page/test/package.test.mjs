@@ -65,6 +65,8 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       if (robot.limits.velocity.length !== q.length || robot.linkMasses.length !== link + 1) throw new Error("limits");
       const middle: readonly number[] | null = robot.centreOfMass(q);
       if (middle?.length !== 3) throw new Error("a centre of mass");
+      const torques: number[] = robot.gravityTorques(q, { payload: { link, mass: 1 }, gravity: [0, 0, -9.81] });
+      if (torques.length !== q.length) throw new Error("torques");
       const missed: number | undefined = model?.evaluation.num_missed;
       const least: number | undefined = clearances?.min_clearance?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);

@@ -13,7 +13,10 @@ use numpy::{
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
-use urdd_robot::{InverseSettings, Queries, RobotError, ShapeKind, Target, Verdict, fill};
+use urdd_robot::{
+    GravitySettings, InverseSettings, Payload, Queries, RobotError, ShapeKind, Target, Verdict,
+    fill,
+};
 
 use crate::arrays::{Batch, answers, copy, shaped};
 use crate::collision_model::CollisionModel;
@@ -339,6 +342,25 @@ impl Robot {
             [link.mass, x, y, z]
         });
         shaped(py, rows.collect(), [masses.len(), 4])
+    }
+
+    /// (count, dofs). A payload is a link, a mass and a point of the link.
+    fn gravity_torques<'py>(
+        &self,
+        py: Python<'py>,
+        configurations: PyReadonlyArray2<'py, f64>,
+        gravity: [f64; 3],
+        payload: Option<(usize, f64, [f64; 3])>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let dofs = self.names(py, |robot| robot.dof_names())?.len();
+        let batch = Batch::new(&configurations)?;
+        let payload = payload.map(|(link, mass, point)| Payload { link, mass, point });
+        let settings = GravitySettings { gravity, payload };
+        answers(py, [batch.count, dofs], FEW, batch.is_one(), |on, out| {
+            each(on, out, dofs, |(): &mut (), k, out| {
+                self.robot.gravity_torques_into(batch.row(k), &settings, out)
+            })
+        })
     }
 
     /// The DOFs that move one of two links against the other.

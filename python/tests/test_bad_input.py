@@ -45,6 +45,21 @@ def test_no_configurations(q: Any, words: str, arm: urdd.Robot) -> None:
         arm.jacobian(q, "torch")
 
 
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"payload": 1.0}, "a payload needs a link"),
+        ({"payload": -1.0, "link": "torch"}, "not below 0 kg"),
+        ({"payload": float("nan"), "link": "torch"}, "mass is finite"),
+        ({"payload": 1.0, "link": "torch", "point": [0, 0]}, "a point must be 3 finite numbers"),
+        ({"gravity": [0, 0, float("inf")]}, "gravity must be 3 finite numbers"),
+    ],
+)
+def test_nothing_to_hold(settings: Any, words: str, arm: urdd.Robot) -> None:
+    with pytest.raises(urdd.ConfigurationError, match=words):
+        arm.gravity_torques(arm.zero, **settings)
+
+
 def test_huge_values_are_finite(arm: urdd.Robot) -> None:
     q = np.full((2, arm.num_dofs), 1.7e308)
     np.testing.assert_array_equal(arm.clamp(q), np.stack([arm.upper, arm.upper]))

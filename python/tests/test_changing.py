@@ -27,6 +27,7 @@ QUESTIONS: dict[str, Callable[[urdd.Robot], Any]] = {
     "limits": lambda robot: (robot.velocity_limits, robot.effort_limits),
     "masses": lambda robot: robot.link_masses,
     "centre_of_mass": lambda robot: robot.centre_of_mass(Q),
+    "gravity_torques": lambda robot: robot.gravity_torques(Q),
     "metadata": lambda robot: robot.metadata,
     "urdf_text": lambda robot: robot.urdf_text,
     "urdf": lambda robot: robot.modules.urdf,

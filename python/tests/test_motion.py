@@ -169,6 +169,14 @@ def test_limits_masses_and_groups(arm: urdd.Robot, tmp_path: Path) -> None:
     np.testing.assert_allclose(arm.centre_of_mass(q), expected, atol=1e-14)
     assert arm.centre_of_mass(q[0]).shape == (3,)
 
+    # By the Jacobian of each centre of mass.
+    held = sum(9.81 * masses[k] * arm.jacobian(q, k, centres[k])[:, 2] for k in range(arm.num_links))
+    np.testing.assert_allclose(arm.gravity_torques(q), held, atol=1e-12)
+    assert arm.gravity_torques(q[0]).shape == (arm.num_dofs,)
+    payload = 9.81 * 2.0 * arm.jacobian(q, "torch", [0.1, 0, -0.2])[:, 2]
+    loaded = arm.gravity_torques(q, payload=2.0, link="torch", point=[0.1, 0, -0.2], gravity=[0, 0, 9.81])
+    np.testing.assert_allclose(loaded, -(held + payload), atol=1e-12)
+
     pose = arm.link_pose(q, "torch", relative_to="wrist")
     for k in range(5):
         base, tip = arm.link_pose(q[k], "wrist"), arm.link_pose(q[k], "torch")

@@ -1,4 +1,4 @@
-"""Holds poses and Jacobians of all links to Pinocchio's, to 1e-9.
+"""Holds poses and Jacobians of all links, and gravity torques, to Pinocchio's, to 1e-9.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pin example-robot-data
     cargo build --release && cargo bench --bench kinematics --no-run     # prints the path of the bench
@@ -35,10 +35,13 @@ def main() -> None:
 def compare(robot: Robot, answers) -> None:
     model, data = robot.model, robot.model.createData()
     columns = of_dofs(robot)
-    worst = {"position": 0.0, "rotation": 0.0, "Jacobian": 0.0}
+    worst = {"position": 0.0, "rotation": 0.0, "Jacobian": 0.0, "gravity": 0.0}
     assert answers
     for answer in answers:
         q = robot.configuration(answer["values"])
+        expected = pinocchio.computeGeneralizedGravity(model, data, q) @ columns
+        off = numpy.abs(answer["gravity_torques"] - expected).max(initial=0.0)
+        worst["gravity"] = max(worst["gravity"], off / numpy.abs(expected).max(initial=1.0))
         pinocchio.computeJointJacobians(model, data, q)
         pinocchio.updateFramePlacements(model, data)
         for link in answer["links"]:

@@ -255,32 +255,45 @@ def pinocchio_evaluator(robot, model, frames):
     data = model.createData()
 
     def evaluate(values):
-        q = pin.neutral(model)
-        for joint in robot.joints:
-            if joint.type == "fixed":
-                continue
-            index = model.getJointId(joint.name)
-            at, size = model.joints[index].idx_q, model.joints[index].nq
-            given = values[joint.name]
-            if joint.type == "planar":
-                given = [given[0], given[1], math.cos(given[2]), math.sin(given[2])]
-            elif joint.type in ("floating", "spherical"):
-                given = [*given[:-3], *pin.Quaternion(pin.exp3(np.array(given[-3:]))).coeffs()]
-            elif size == 2:
-                given = [math.cos(given[0]), math.sin(given[0])]
-            assert len(given) == size
-            q[at:at + size] = given
-        pin.framesForwardKinematics(model, data, q)
+        pin.framesForwardKinematics(model, data, pinocchio_configuration(robot, model, values))
         return {link: data.oMf[frame].homogeneous.copy() for link, frame in frames.items()}
 
     return evaluate
 
 
+def pinocchio_configuration(robot, model, values):
+    q = pin.neutral(model)
+    for joint in robot.joints:
+        if joint.type == "fixed":
+            continue
+        index = model.getJointId(joint.name)
+        at, size = model.joints[index].idx_q, model.joints[index].nq
+        given = values[joint.name]
+        if joint.type == "planar":
+            given = [given[0], given[1], math.cos(given[2]), math.sin(given[2])]
+        elif joint.type in ("floating", "spherical"):
+            given = [*given[:-3], *pin.Quaternion(pin.exp3(np.array(given[-3:]))).coeffs()]
+        elif size == 2:
+            given = [math.cos(given[0]), math.sin(given[0])]
+        assert len(given) == size
+        q[at:at + size] = given
+    return q
+
+
 def pinocchio_by_api(robot):
     """Pinocchio's joint models, put together here: for the joints that its reader of URDF does not do."""
-    model = pin.Model()
-    at = {robot.root: (0, pin.SE3.Identity())}  # the joint that carries a link, and the link's place on it
+    model, at = pinocchio_model(robot)
     frames = {}
+    for number, link in enumerate(robot.links):
+        parent, place = at[link]
+        frames[link] = model.addFrame(pin.Frame(f"link {number}", parent, place, pin.FrameType.OP_FRAME))
+    return pinocchio_evaluator(robot, model, frames)
+
+
+def pinocchio_model(robot):
+    """A model without masses, and for each link the joint that carries it and the link's place on it."""
+    model = pin.Model()
+    at = {robot.root: (0, pin.SE3.Identity())}
     for joint in robot.topological:
         parent, place = at[joint.parent]
         place = place * pin.SE3(pin.rpy.rpyToMatrix(*joint.rpy), joint.xyz)
@@ -301,10 +314,7 @@ def pinocchio_by_api(robot):
             "floating": pin.JointModelFreeFlyer,
         }[joint.type]()
         at[joint.child] = model.addJoint(parent, kind, place * basis, joint.name), basis.inverse()
-    for number, link in enumerate(robot.links):
-        parent, place = at[link]
-        frames[link] = model.addFrame(pin.Frame(f"link {number}", parent, place, pin.FrameType.OP_FRAME))
-    return pinocchio_evaluator(robot, model, frames)
+    return model, at
 
 
 def mujoco_from_urdf(robot):

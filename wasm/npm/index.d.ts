@@ -193,6 +193,16 @@ export class Robot {
   readonly linkMasses: { mass: number; centre: Vector }[];
   /** The centre of mass in the root link's frame, metres; null for a robot without masses. */
   centreOfMass(q: Iterable<number>): Vector | null;
+  /**
+   * The torque (N m) or force (N) of each DOF that holds the robot still against gravity: what the motors must give,
+   * positive where the DOF must push toward larger values. `gravity` is in the root link's frame, m/s², by default
+   * (0, 0, -9.81). A payload is a link's index, a mass in kg, and its place in the link's frame, metres, by default the
+   * origin.
+   */
+  gravityTorques(
+    q: Iterable<number>,
+    settings?: { gravity?: Vector; payload?: { link: number; mass: number; point?: Vector } },
+  ): number[];
   /** The learned self-collision model and its measured error rates; null if the URDD has none. */
   readonly collisionModel: CollisionModel | null;
   /**

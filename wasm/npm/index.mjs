@@ -144,6 +144,10 @@ export class Robot {
     return this.#ask({ ask: "centre_of_mass", q: [...q] });
   }
 
+  gravityTorques(q, { gravity, payload } = {}) {
+    return this.#ask({ ask: "gravity_torques", q: [...q], gravity, payload });
+  }
+
   get collisionModel() {
     return this.#ask({ ask: "collision_model" });
   }

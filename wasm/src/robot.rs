@@ -5,8 +5,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::{
-    CollisionModel, LinkMass, LinkShape, PairDistance, Proximity, Queries, Robot, RobotError,
-    ShapeKind, Solid, World,
+    CollisionModel, GravitySettings, LinkMass, LinkShape, PairDistance, Payload, Proximity,
+    Queries, Robot, RobotError, ShapeKind, Solid, World,
 };
 
 use crate::about::about;
@@ -127,6 +127,8 @@ enum Question {
     LinkMasses,
     /// The centre of mass in the root link's frame, m; null for a robot without masses.
     CentreOfMass { q: Vec<f64> },
+    /// The torque or force of each DOF that holds the robot still, N m or N.
+    GravityTorques { q: Vec<f64>, gravity: Option<[f64; 3]>, payload: Option<Carried> },
     /// `nearest`, each with its statistics; `in_collision`, `pairs` (the number checked) and `of` (their total number).
     Proximity {
         q: Vec<f64>,
@@ -158,6 +160,15 @@ enum Question {
     },
     /// The document of `kinematics_samples_module`.
     Samples,
+}
+
+/// A mass that a link carries.
+#[derive(Deserialize)]
+struct Carried {
+    link: usize,
+    mass: f64,
+    #[serde(default)]
+    point: [f64; 3],
 }
 
 fn one() -> u64 {
@@ -234,6 +245,14 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
         Question::CentreOfMass { q } => {
             let found = handle.robot.centre_of_mass(&q);
             found.map(|centre| json!(centre)).map_err(said)
+        }
+        Question::GravityTorques { q, gravity, payload } => {
+            let mut settings = GravitySettings::default();
+            settings.gravity = gravity.unwrap_or(settings.gravity);
+            let carried = |Carried { link, mass, point }| Payload { link, mass, point };
+            settings.payload = payload.map(carried);
+            let found = handle.robot.gravity_torques(&q, &settings);
+            found.map(|torques| json!(torques)).map_err(said)
         }
         Question::Proximity { q, kind, k } => {
             let shapes = proximity(handle, kind)?;

@@ -306,6 +306,25 @@ function compareLimits(urdd, handle, target) {
     });
     near(value, moments.reduce((sum, moment) => sum + moment, 0) / total, 1e-9);
   });
+  // The slope of the potential energy, with a payload that weighs as much as the robot.
+  const payload = { link: masses.length - 1, mass: total, point: [0.1, -0.2, 0.3] };
+  const held = urdd.ask(handle, { ask: "gravity_torques", q });
+  const loaded = urdd.ask(handle, { ask: "gravity_torques", q, gravity: [0, 0, -1], payload });
+  const height = (dof, by) => {
+    const at = q.map((value, k) => (k === dof ? value + by : value));
+    const { position: p, quaternion_wxyz: [w, x, y, z] } = urdd.ask(handle, { ask: "link_poses", q: at }).at(-1);
+    const [a, b, c] = payload.point;
+    const tip = p[2] + 2 * (x * z - w * y) * a + 2 * (y * z + w * x) * b + (1 - 2 * (x * x + y * y)) * c;
+    return [urdd.ask(handle, { ask: "centre_of_mass", q: at })?.[2] ?? 0, tip];
+  };
+  assert.equal(held.length, q.length);
+  held.forEach((torque, dof) => {
+    const [low, high] = [height(dof, -1e-4), height(dof, 1e-4)];
+    const [own, carried] = [0, 1].map((k) => total * (high[k] - low[k]) / 2e-4);
+    near(torque, 9.81 * own, 1e-5);
+    near(loaded[dof], own + carried, 1e-5);
+  });
+  assert.throws(() => urdd.ask(handle, { ask: "gravity_torques", q, payload: { link: 0, mass: -1 } }), /not below 0 kg/);
 }
 
 /** What the learned model says is what its own test vectors say; one that is cut short is told of. */

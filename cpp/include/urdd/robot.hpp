@@ -9,6 +9,13 @@
 
 namespace urdd {
 
+/// A mass that a link carries: kg, and its centre in the link's frame. A mass of 0 is no payload.
+struct Payload {
+    double mass = 0;
+    std::size_t link = 0;
+    Point point = {0, 0, 0};
+};
+
 /// A robot, as its URDD describes it.
 class Robot {
 public:
@@ -102,6 +109,24 @@ public:
         Point found{};
         detail::check(urdd_robot_centre_of_mass(handle_.get(), q.data(), 1, q.size(), found.data()));
         return found;
+    }
+    /// The torque (N m) or force (N) of each DOF that holds the robot still against gravity: what the motors must give,
+    /// positive where the DOF must push toward larger values. `gravity` is in the root link's frame, m/s^2.
+    std::vector<double> gravity_torques(Argument<const double> q, const Payload &payload = {},
+                                        const Point &gravity = {0, 0, -9.81}) const {
+        return gravity_torques_batch({q.data(), 1, q.size()}, payload, gravity);
+    }
+    /// The same in each configuration, one after another: rows x dofs.
+    std::vector<double> gravity_torques_batch(Rows q, const Payload &payload = {},
+                                              const Point &gravity = {0, 0, -9.81}) const {
+        std::vector<double> found(q.rows * q.columns);
+        gravity_torques(q, payload, gravity, found);
+        return found;
+    }
+    /// As above, into `out`: rows x dofs.
+    void gravity_torques(Rows q, const Payload &payload, const Point &gravity, Argument<double> out) const {
+        detail::check(urdd_robot_gravity_torques(handle_.get(), q.data, q.rows, q.columns, gravity.data(), payload.mass,
+                                                 payload.link, payload.point.data(), out.data(), out.size()));
     }
     /// The names of the configurations that a person named.
     std::vector<std::string> configuration_names() const {

@@ -470,6 +470,28 @@ enum urdd_status urdd_robot_centre_of_mass(const struct urdd_robot *handle,
                                            size_t dofs,
                                            double *centres);
 
+// Writes the torque (N m) or force (N) of each DOF that holds the robot still against gravity, for each configuration. It
+// is what the motors must give, positive where the DOF must push toward larger values. A mimic joint counts for the DOF
+// that it follows; of a rotation vector, the values are derivatives with respect to its components.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `gravity` is 3 values in the root link's frame, m/s^2; null
+// is (0, 0, -9.81). `payload` is a mass in kg that `link` carries at `point`, 3 values in the link's frame in metres; null
+// is the origin of its frame. With a payload of 0, neither `link` nor `point` is read. `torques` has room for `length`
+// values: rows x dofs. One row is computed on this thread, without an allocation.
+//
+// Errors: `VALUE` for a payload below 0, and for numbers that are not finite; `OUT_OF_RANGE` for the link;
+// `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
+enum urdd_status urdd_robot_gravity_torques(const struct urdd_robot *handle,
+                                            const double *configurations,
+                                            size_t rows,
+                                            size_t dofs,
+                                            const double *gravity,
+                                            double payload,
+                                            size_t link,
+                                            const double *point,
+                                            double *torques,
+                                            size_t length);
+
 // Writes the number of configurations that a person named; 0 without named_configurations_module.
 //
 // Errors: `UNUSABLE`: named_configurations_module.

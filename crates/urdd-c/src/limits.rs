@@ -1,10 +1,10 @@
-//! Limits of DOFs, and masses.
+//! Limits of DOFs, masses, and what gravity does to them.
 
-use urdd_robot::RobotError;
+use urdd_robot::{GravitySettings, Payload, RobotError};
 
 use crate::failure::{Status, run};
 use crate::handle::at;
-use crate::memory::put_all;
+use crate::memory::{put_all, triple};
 use crate::robot::Robot;
 
 unsafe fn limits(
@@ -83,6 +83,50 @@ pub unsafe extern "C" fn urdd_robot_centre_of_mass(
             let centre = robot.robot.centre_of_mass(q)?;
             out.copy_from_slice(&centre.unwrap_or([f64::NAN; 3]));
             Ok(())
+        })
+    })
+}
+
+/// Writes the torque (N m) or force (N) of each DOF that holds the robot still against gravity, for each configuration. It
+/// is what the motors must give, positive where the DOF must push toward larger values. A mimic joint counts for the DOF
+/// that it follows; of a rotation vector, the values are derivatives with respect to its components.
+///
+/// `configurations` has `rows` rows of `dofs` values, rad or m. `gravity` is 3 values in the root link's frame, m/s^2; null
+/// is (0, 0, -9.81). `payload` is a mass in kg that `link` carries at `point`, 3 values in the link's frame in metres; null
+/// is the origin of its frame. With a payload of 0, neither `link` nor `point` is read. `torques` has room for `length`
+/// values: rows x dofs. One row is computed on this thread, without an allocation.
+///
+/// Errors: `VALUE` for a payload below 0, and for numbers that are not finite; `OUT_OF_RANGE` for the link;
+/// `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_gravity_torques(
+    handle: *const Robot,
+    configurations: *const f64,
+    rows: usize,
+    dofs: usize,
+    gravity: *const f64,
+    payload: f64,
+    link: usize,
+    point: *const f64,
+    torques: *mut f64,
+    length: usize,
+) -> Status {
+    run(|| unsafe {
+        let robot = at(handle)?;
+        let q = robot.rows("configurations", configurations, (rows, dofs))?;
+        let mut settings = GravitySettings::default();
+        if !gravity.is_null() {
+            settings.gravity = triple("gravity", gravity)?;
+        }
+        if payload != 0.0 {
+            let point = match point.is_null() {
+                true => [0.0; 3],
+                false => triple("point", point)?,
+            };
+            settings.payload = Some(Payload { link, mass: payload, point });
+        }
+        q.answer(("torques", torques, length), dofs, |q, out| {
+            robot.robot.gravity_torques_into(q, &settings, out)
         })
     })
 }

@@ -24,7 +24,7 @@ pub fn at_default(robot: &Robot, tree: &Tree) -> Vec<Isometry3<f64>> {
 }
 
 fn motion(robot: &Robot, joint: &Joint) -> Isometry3<f64> {
-    let position = position(robot, joint, 0);
+    let position = default_position(robot, joint);
     let axis = unit(joint.axis).unwrap_or_else(Vector3::zeros);
     match joint.joint_type {
         JointType::Prismatic => Translation3::from(axis * position).into(),
@@ -33,6 +33,11 @@ fn motion(robot: &Robot, joint: &Joint) -> Isometry3<f64> {
         }
         _ => Isometry3::identity(),
     }
+}
+
+/// The position of a joint of one degree of freedom in the default configuration, rad or m.
+pub fn default_position(robot: &Robot, joint: &Joint) -> f64 {
+    position(robot, joint, 0)
 }
 
 fn position(robot: &Robot, joint: &Joint, followed: usize) -> f64 {

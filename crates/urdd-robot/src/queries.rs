@@ -162,7 +162,7 @@ pub trait Queries: Checked + Sized {
     ) -> Result<(), RobotError> {
         with_workspace(|workspace| {
             least(self, configuration, k, workspace)?;
-            let Workspace { placed, least, derivative } = workspace;
+            let Workspace { placed, least, derivative, .. } = workspace;
             closest(self, placed, least.best(), |pair, distance, points| {
                 let gradient = toward(&points, distance).map(|toward| {
                     let links = self.links(pair);

@@ -7,6 +7,7 @@ use std::collections::BinaryHeap;
 use arrayvec::ArrayVec;
 use nalgebra::Isometry3;
 use urdd_geometry::convex::across::AT_ONCE;
+use urdd_kinematics::Load;
 
 /// Memory for queries on one configuration. It fits every robot and world.
 #[derive(Debug, Default)]
@@ -14,6 +15,8 @@ pub(crate) struct Workspace {
     pub placed: Placed,
     pub least: Least,
     pub derivative: Derivative,
+    /// What each link carries.
+    pub loads: Vec<Load>,
 }
 
 thread_local! {

@@ -189,6 +189,40 @@ class RobotKinematics(RobotDescription):
 
         return batched(q, self.dof_names, centre)
 
+    def gravity_torques(
+        self,
+        q: ArrayLike,
+        *,
+        payload: float = 0.0,
+        link: str | int | None = None,
+        point: ArrayLike = (0.0, 0.0, 0.0),
+        gravity: ArrayLike = (0.0, 0.0, -9.81),
+    ) -> Floats:
+        """(..., dofs): the torque (N m) or force (N) of each DOF that holds the robot still against gravity.
+
+        It is what the motors must give, as Pinocchio's ``computeGeneralizedGravity``: positive where the DOF must push
+        toward larger values. A mimic joint counts for the DOF that it follows, times its multiplier. The values of a
+        rotation vector (floating and spherical joints) are derivatives with respect to its components.
+
+        Args:
+            q: a configuration, or many.
+            payload: a mass that ``link`` carries, kg.
+            link: the link that carries the payload.
+            point: the centre of mass of the payload, in the link's frame, metres.
+            gravity: the acceleration due to gravity, in the root link's frame, m/s².
+
+        Raises:
+            ConfigurationError: for a wrong shape, a number that is not finite, a payload below 0 or without a link.
+            UnknownNameError: for an unknown link.
+        """
+        carried = None
+        if link is not None:
+            carried = (self.link(link), float(payload), three(point, "a point"))
+        elif payload != 0.0:
+            raise ConfigurationError("a payload needs a link that carries it")
+        down = three(gravity, "gravity")
+        return batched(q, self.dof_names, lambda rows: self._core.gravity_torques(rows, down, carried))
+
     def jacobian(self, q: ArrayLike, link: str | int, point: ArrayLike | None = None) -> Floats:
         """(..., 6, dofs): the geometric Jacobian of a link.
 

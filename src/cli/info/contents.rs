@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::parts::{self, PartInfo};
+use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
@@ -38,6 +39,9 @@ pub struct Info {
     /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
     pub modules: Vec<ModuleInfo>,
+    /// What holds the robot still against gravity, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub statics: Option<Statics>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -170,6 +174,7 @@ impl Info {
                     }
                 })
                 .collect(),
+            statics: None,
         })
     }
 }
@@ -261,5 +266,5 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             module.bytes.div_ceil(1000)
         )?;
     }
-    Ok(())
+    info.statics.as_ref().map_or(Ok(()), |statics| statics.write(out))
 }

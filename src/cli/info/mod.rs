@@ -2,7 +2,9 @@
 
 mod contents;
 mod parts;
+mod statics;
 
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -10,6 +12,7 @@ use clap::{Args, ValueEnum};
 
 use super::output::{self, Failure, one_line};
 use contents::Info;
+use statics::{Statics, StaticsArguments};
 use urdd_directory::discover::{Found, discover};
 use urdd_format::escape;
 use urdd_validate::report;
@@ -24,6 +27,9 @@ pub struct InfoArguments {
     /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
+
+    #[command(flatten)]
+    statics: StaticsArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -44,7 +50,11 @@ fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
     for path in &arguments.paths {
         for Found { path, name, closed } in discover(path).map_err(one_line)? {
             let info = closed.map_or_else(|| Info::read(&path, &name), Err);
-            infos.push(info.map_err(|error| format!("{}: {error}", escape::line(&name)))?);
+            let about = |error: &dyn Display| format!("{}: {error}", escape::line(&name));
+            let mut info = info.map_err(|error| about(&error))?;
+            let statics = Statics::of(&path, &arguments.statics);
+            info.statics = statics.map_err(|error| about(&error))?;
+            infos.push(info);
         }
     }
     if arguments.format == Format::Json {

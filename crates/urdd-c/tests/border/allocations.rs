@@ -80,6 +80,8 @@ fn a_control_loop_does_not_allocate() {
             let (at, mut touches, mut d) = (q.as_ptr(), false, 0.0);
             ok(urdd_robot_link_poses(robot, at, 1, 6, poses.as_mut_ptr(), 144));
             ok(urdd_robot_jacobians(robot, at, 1, 6, 8, null(), jacobian.as_mut_ptr(), 36));
+            let torques = jacobian.as_mut_ptr();
+            ok(urdd_robot_gravity_torques(robot, at, 1, 6, null(), 1.0, 8, null(), torques, 6));
             ok(urdd_proximity_in_collision(made, at, 1, 6, &mut touches));
             ok(urdd_proximity_self_distance(made, at, 1, 6, &mut d));
             ok(urdd_proximity_distances(made, at, 1, 6, distances.as_mut_ptr(), pairs));

@@ -114,6 +114,12 @@ fn asked(robot: *const Robot, question: usize) -> Option<Answer> {
             }
             18..24 => distances(robot, KINDS[question - 18]),
             24..30 => skipped(robot, KINDS[question - 24]),
+            30 => {
+                let none = std::ptr::null();
+                let (q, out) = (Q.as_ptr(), values.as_mut_ptr());
+                let status = urdd_robot_gravity_torques(robot, q, 1, 6, none, 0.0, 0, none, out, 6);
+                numbers(status, &values)
+            }
             _ => return None,
         }
     })

@@ -2,7 +2,7 @@
 
 use std::ptr::{null, null_mut};
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{DVector, Point3, Vector3};
 use urdd_c::Verdict::{Limits, OutOfReach, Reached, Refused, Unknown};
 use urdd_c::*;
 use urdd_robot::{Queries, ShapeKind};
@@ -14,13 +14,36 @@ fn limits_and_masses_are_those_of_the_urdf() {
     let (handle, robot) = (open(), arm());
     let (mut velocity, mut effort, mut masses) = ([0.0; 6], [0.0; 6], [0.0; 36]);
     let q = samples(4);
-    let mut centres = [0.0; 12];
+    let (mut centres, mut torques, mut loaded) = ([0.0; 12], [0.0; 24], [0.0; 24]);
+    let (torch, point, up) = (robot.link("torch").unwrap(), [0.1, 0.0, -0.2], [0.0, 0.0, 9.81]);
     // SAFETY: as the header says.
     unsafe {
         ok(urdd_robot_velocity_limits(handle, velocity.as_mut_ptr(), 6));
         ok(urdd_robot_effort_limits(handle, effort.as_mut_ptr(), 6));
         ok(urdd_robot_link_masses(handle, masses.as_mut_ptr(), 36));
         ok(urdd_robot_centre_of_mass(handle, q.as_ptr(), 4, 6, centres.as_mut_ptr()));
+        let hold = |gravity, payload, link, point, out: &mut [f64]| {
+            let (out, length) = (out.as_mut_ptr(), out.len());
+            urdd_robot_gravity_torques(
+                handle,
+                q.as_ptr(),
+                4,
+                6,
+                gravity,
+                payload,
+                link,
+                point,
+                out,
+                length,
+            )
+        };
+        ok(hold(null(), 0.0, usize::MAX, null(), &mut torques));
+        ok(hold(up.as_ptr(), 2.0, torch, point.as_ptr(), &mut loaded));
+        let none = &mut [0.0; 24];
+        assert_eq!(hold(null(), 0.0, 0, null(), &mut none[..23]), Status::Length);
+        assert_eq!(hold(null(), -1.0, torch, null(), none), Status::Value);
+        assert_eq!(hold([f64::NAN; 3].as_ptr(), 0.0, 0, null(), none), Status::Value);
+        assert_eq!(hold(null(), 1.0, 9, null(), none), Status::OutOfRange);
         assert_eq!(urdd_robot_effort_limits(handle, effort.as_mut_ptr(), 5), Status::Length);
         assert_eq!(urdd_robot_link_masses(handle, masses.as_mut_ptr(), 35), Status::Length);
         ok(urdd_robot_free(handle));
@@ -40,6 +63,21 @@ fn limits_and_masses_are_those_of_the_urdf() {
             .map(|(pose, [mass, x, y, z])| (pose * Point3::new(*x, *y, *z)).coords * *mass);
         let expected = moments.sum::<Vector3<f64>>() / kilograms.iter().sum::<f64>();
         assert!((expected - Vector3::from_row_slice(centre)).norm() < 1e-12);
+    }
+    // By the Jacobian of each centre of mass.
+    for (k, q) in q.chunks(6).enumerate() {
+        let row = |link, at: &[f64]| {
+            let at = [at[0], at[1], at[2]];
+            robot.jacobian_at(q, link, at).unwrap().row(2).transpose()
+        };
+        let bodies = masses.iter().enumerate();
+        let sum = bodies.fold(DVector::zeros(6), |sum, (link, [mass, at @ ..])| {
+            sum + 9.81 * *mass * row(link, at)
+        });
+        let found = |all: &[f64]| DVector::from_row_slice(&all[6 * k..6 * k + 6]);
+        assert!((found(&torques) - &sum).norm() < 1e-12);
+        let lifted = -sum - 9.81 * 2.0 * row(torch, &point);
+        assert!((found(&loaded) - lifted).norm() < 1e-12);
     }
 }
 

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Matrix4;
+use nalgebra::{Matrix4, Point3, Vector3};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use urdd_format::dof::ResolvedMimic;
 use urdd_format::index::DofIdx;
 use urdd_format::urdf::JointType;
-use urdd_kinematics::ForwardKinematics;
 use urdd_kinematics::rotation::rotation_distance;
+use urdd_kinematics::{ForwardKinematics, Load};
 
 use crate::naive_kinematics::link_pose;
 use testkit::core_modules::{Joint, core_modules, dof_count, first_dofs};
@@ -131,6 +131,39 @@ proptest! {
                 prop_assert!(rotation_distance(&a.rotation, &b.rotation) < 1e-13);
                 prop_assert!((a.translation.vector - b.translation.vector).norm() < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn gravity_torques_are_the_slope_of_the_energy(
+        (joints, q) in robot(),
+        bodies in prop::collection::vec((0.0..5.0_f64, prop::array::uniform3(-1.0..1.0_f64)), 9),
+        gravity in prop::array::uniform3(-10.0..10.0_f64),
+    ) {
+        let kinematics = kinematics(&joints);
+        let gravity = Vector3::from(gravity);
+        let energy = |q: &[f64]| -> f64 {
+            let of = |(link, (mass, centre)): (usize, &(f64, [f64; 3]))| {
+                let at = link_pose(&joints, q, link).transform_point(&Point3::from(*centre));
+                -mass * gravity.dot(&at.coords)
+            };
+            bodies.iter().take(joints.len() + 1).enumerate().map(of).sum()
+        };
+        let poses = kinematics.link_poses(&q).unwrap();
+        let loads = bodies.iter().zip(&poses);
+        let loads = loads.map(|((mass, centre), pose)| Load::new(*mass, (*centre).into(), pose));
+        let (mut loads, mut found) = (loads.collect::<Vec<_>>(), vec![f64::NAN; q.len()]);
+        kinematics.gravity_torques_into(&q, &poses, &gravity, &mut loads, &mut found);
+        for dof in 0..q.len() {
+            let at = |by: f64| {
+                let mut moved = q.clone();
+                moved[dof] += by;
+                energy(&moved)
+            };
+            // Differences of the fourth order.
+            let h = 1e-3;
+            let slope = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+            prop_assert!((found[dof] - slope).abs() < 1e-6, "{}: {} {}", dof, found[dof], slope);
         }
     }
 

@@ -11,6 +11,7 @@ mod collada_unit;
 mod collada_up_axis;
 mod color_out_of_range;
 mod continuous_with_limits;
+mod effort_too_small;
 mod gazebo_reference_unknown;
 mod heavy_collision_mesh;
 #[doc(hidden)]
@@ -55,7 +56,7 @@ use crate::rule::rules;
 rules! {
     absolute_path, absurd_velocity_or_effort, angle_looks_like_degrees, axis_missing,
     axis_not_unit, backslash_in_path, center_of_mass_outside, collada_unit, collada_up_axis,
-    color_out_of_range, continuous_with_limits, gazebo_reference_unknown, heavy_collision_mesh,
+    color_out_of_range, continuous_with_limits, effort_too_small, gazebo_reference_unknown, heavy_collision_mesh,
     inertia_beyond_geometry, inertia_far_below_geometry, inertial_incomplete, letter_case,
     limit_incomplete, limits_look_like_degrees, material_not_defined, mesh_in_millimetres,
     mesh_names_clash, mesh_not_found, mesh_not_readable, mirrored_scale, misplaced, misspelt,

@@ -54,6 +54,7 @@ static QUESTIONS: LazyLock<Vec<Question>> = LazyLock::new(|| {
         "effort_limits": |robot| robot.effort_limits()?,
         "link_masses": |robot| robot.link_masses()?,
         "centre_of_mass": |robot| robot.centre_of_mass(&Q)?,
+        "gravity_torques": |robot| robot.gravity_torques(&Q, &Default::default())?,
         "description": |robot| robot.description()?,
         "source": |robot| robot.source()?,
         "visuals": |robot| robot.visuals()?,

@@ -6,6 +6,7 @@
 mod cancelled;
 mod carrying;
 mod changing;
+mod gravity;
 mod inverse;
 mod motion;
 mod nearness;
