@@ -9,6 +9,7 @@ mod cases;
 mod consequences;
 mod fix;
 mod hull;
+mod messages;
 mod rules_inertia_beyond_geometry;
 mod severities;
 mod skips;

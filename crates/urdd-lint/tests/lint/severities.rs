@@ -47,6 +47,7 @@ fn what_a_program_refuses_whole_is_an_error() {
         ("LNT013/invalid_negative.urdf", "", "", Error),
         ("LNT015/invalid.urdf", "", "", Warning),
         ("LNT015/invalid_world.urdf", "", "", Error),
+        ("LNT015/invalid_carried_world.urdf", "", "", Warning),
         ("LNT017/invalid.urdf", "", "", Error),
         ("LNT023/invalid.urdf", "", "", Warning),
         ("LNT023/invalid.urdf", "1 -1 1", "1 0 1", Error),
