@@ -13,6 +13,7 @@ mod messages;
 mod rules_inertia_beyond_geometry;
 mod severities;
 mod skips;
+mod srdf;
 mod vocabulary;
 mod written;
 

@@ -55,6 +55,8 @@ fn what_a_program_refuses_whole_is_an_error() {
         ("LNT024/invalid.urdf", "heavy.obj", HUGE, Error),
         ("LNT034/invalid.urdf", "", "", Error),
         ("LNT034/invalid.urdf", "collision>", "visual>", Warning),
+        ("LNT063/invalid_robot.urdf", "", "", Warning),
+        ("LNT063/invalid_xml.urdf", "", "", Error),
     ] {
         assert_eq!(severity(case, old, new), expected, "{case}, {new}");
     }
