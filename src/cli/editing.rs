@@ -62,6 +62,22 @@ pub fn edited(
     Err(about(urdd)("another program keeps writing into this folder; nothing was written").into())
 }
 
+/// Refuses an SRDF of which nothing can be imported; `wrong` says why.
+///
+/// # Errors
+/// All that is wrong.
+pub fn some_read(read: usize, wrong: &[String]) -> Result<(), String> {
+    match read == 0 && !wrong.is_empty() {
+        true => Err(format!("nothing in it can be imported: {}", wrong.join("; "))),
+        false => Ok(()),
+    }
+}
+
+/// A line for each part of an SRDF that an import leaves out.
+pub fn left_out(wrong: &[String]) -> String {
+    wrong.iter().map(|wrong| format!("  left out: {wrong}\n")).collect()
+}
+
 /// The files that the edits depend on.
 fn state(urdd: &Path, kind: ModuleKind) -> Result<Vec<Vec<u8>>, ReadError> {
     let root = Root::open_folder(urdd)?;

@@ -47,6 +47,7 @@ struct Totals {
     unchanged: usize,
     meshes: usize,
     meshes_not_found: usize,
+    not_a_mesh: usize,
 }
 
 /// Progress on a terminal: one bar for the batch, one for each robot in progress.
@@ -87,7 +88,7 @@ impl Printer {
             }})),
             Format::Human => {
                 let robots = output::counted(total, "robot");
-                let meshes = not_found(totals.meshes_not_found, totals.meshes);
+                let meshes = not_found(totals.meshes_not_found, totals.not_a_mesh, totals.meshes);
                 format!(
                     "{robots}: {generated} generated, {unchanged} unchanged, {failed} failed{meshes}\n"
                 )
@@ -165,6 +166,7 @@ impl Observer for Printer {
             totals.unchanged += usize::from(!made.changed);
             totals.meshes += made.meshes.named;
             totals.meshes_not_found += made.meshes.not_found;
+            totals.not_a_mesh += made.meshes.not_a_mesh;
         }
         match (self.format, outcome) {
             (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
@@ -225,13 +227,15 @@ fn line(value: &Value) -> String {
     escape::json(&value.to_string()).into_owned() + "\n"
 }
 
-/// The part of a summary about missing meshes.
-fn not_found(count: usize, named: usize) -> String {
-    match count {
+/// The part of a summary about missing meshes. `not_a_mesh` of those `not_found` are there.
+fn not_found(not_found: usize, not_a_mesh: usize, named: usize) -> String {
+    let part = |count: usize, one: &str, more: &str| match count {
         0 => String::new(),
-        1 => format!("; 1 of {named} meshes was not found"),
-        _ => format!("; {count} of {named} meshes were not found"),
-    }
+        1 => format!("; 1 of {named} meshes {one}"),
+        _ => format!("; {count} of {named} meshes {more}"),
+    };
+    let missing = part(not_found - not_a_mesh, "was not found", "were not found");
+    missing + &part(not_a_mesh, "is empty or not a mesh", "are empty or not meshes")
 }
 
 fn summary(job: &Job, made: &Generated) -> String {
@@ -249,7 +253,7 @@ fn summary(job: &Job, made: &Generated) -> String {
     } else if kept > 0 {
         text += &format!(", {kept} of them kept");
     }
-    text += &not_found(made.meshes.not_found, made.meshes.named);
+    text += &not_found(made.meshes.not_found, made.meshes.not_a_mesh, made.meshes.named);
     if made.meshes.not_usable > 0 {
         let (count, named) = (made.meshes.not_usable, made.meshes.named);
         text += &format!("; {count} of {named} meshes cannot be used");

@@ -50,8 +50,11 @@ enum ConfigurationsCommand {
         positions: Vec<String>,
     },
     /// Import the group states of an SRDF as named configurations of a URDD.
-    #[command(after_help = "States of several groups with one name become one configuration.\n\n\
-        Exit status: 0 imported; 2 nothing was written.")]
+    #[command(
+        after_help = "States of several groups with one name become one configuration. Positions of joints that the URDD \
+        does not have, and what is wrong otherwise, are named and left out.\n\n\
+        Exit status: 0 imported; 2 nothing was written."
+    )]
     Import {
         /// The SRDF.
         #[arg(value_name = "FILE.srdf")]
@@ -138,12 +141,15 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
     let text = inputs::srdf(srdf)?;
     editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
         let imported = import_states(robot, &text, force).map_err(about(srdf))?;
+        let read = imported.changed + imported.already + imported.out_of_bounds.len();
+        editing::some_read(read + imported.left_out, &imported.wrong).map_err(about(srdf))?;
         let mut told = format!(
             "{}: {} imported; {} of the SRDF unchanged\n",
             shown(urdd),
             output::counted(imported.changed, "configuration"),
             imported.already
         );
+        told += &editing::left_out(&imported.wrong);
         if imported.left_out > 0 {
             let positions = output::counted(imported.left_out, "position");
             told += &format!(

@@ -22,8 +22,9 @@ pub struct SkipsArguments {
 enum SkipsCommand {
     /// Import the pairs of links in an SRDF as edits of a URDD.
     #[command(
-        after_help = "Pairs that the URDD skips but the SRDF does not disable stay skipped. Existing edits stay; if the SRDF contradicts \
-        one, nothing is written unless --force is given.\n\n\
+        after_help = "Pairs that the URDD skips but the SRDF does not disable stay skipped. Lines without a link, or with one that the URDD \
+        does not have, are named and left out. Existing edits stay; if the SRDF contradicts one, nothing is written unless --force is \
+        given.\n\n\
         Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
@@ -51,6 +52,8 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
     let text = inputs::srdf(srdf)?;
     editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
         let imported = import_srdf(robot, &text, force).map_err(about(srdf))?;
+        editing::some_read(imported.added + imported.already, &imported.wrong)
+            .map_err(about(srdf))?;
         if imported.added == 0 {
             return Ok(Edited::unchanged(told(&shown(urdd), &imported, false)));
         }
@@ -67,6 +70,7 @@ fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
         output::counted(imported.added, "edit"),
         output::counted(imported.already, "pair")
     );
+    told += &editing::left_out(&imported.wrong);
     if imported.unlisted > 0 {
         told += &format!(
             "  {} skipped that the SRDF does not disable\n",

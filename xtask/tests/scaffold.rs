@@ -208,14 +208,15 @@ fn what_does_not_fit_writes_nothing() {
     let folder = source();
     let root = folder.path();
     let before = text(root, "crates/urdd-findings/src/code.rs");
-    let next = next(root, "SRC");
+    let [next, of_lint] = ["SRC", "LNT"].map(|family| next(root, family));
+    let free = format!("next free code of the family is {of_lint}");
     for (arguments, words) in [
         (&["SRC999", "a-name"][..], "next free code"),
         (&["ABC001", "a-name"], "no family ABC"),
         (&["LNT999", "a-name"], "next free code"),
-        (&["LNT054", "a-name"], "next free code of the family is LNT063"),
-        (&["LNT063", "a-name", "--clause", "6.1"], "not for rules of lint"),
-        (&["LNT063", "misspelt"], "is there already"),
+        (&["LNT054", "a-name"], &free),
+        (&[&of_lint, "a-name", "--clause", "6.1"], "not for rules of lint"),
+        (&[&of_lint, "misspelt"], "is there already"),
         (&["ABC002", "a-name", "--family", "abc"], "is ABC001"),
         (&["ABC001", "a-name", "--family", "a b"], "is not a name"),
         (&["ABC001", "a-name", "--family", "source"], "is there already"),
@@ -240,15 +241,17 @@ fn what_does_not_fit_writes_nothing() {
 fn a_rule_of_lint_has_its_files() {
     let folder = source();
     let root = folder.path();
-    let output = new_rule(root, &["LNT063", "fault-of-links"]);
+    let code = next(root, "LNT");
+    let output = new_rule(root, &[&code, "fault-of-links"]);
     assert!(output.status.success(), "{output:?}");
     let rule = text(root, "crates/urdd-lint/src/rules/fault_of_links.rs");
-    assert!(rule.contains("LNT063 \"fault-of-links\", Warning, WrongMotion"), "{rule}");
+    let declared = format!("{code} \"fault-of-links\", Warning, WrongMotion");
+    assert!(rule.contains(&declared), "{rule}");
     let list = text(root, "crates/urdd-lint/src/rules/mod.rs");
     assert!(list.contains("mod fault_of_links;\n") && list.contains(" fault_of_links,"), "{list}");
-    assert!(text(root, "crates/urdd-findings/src/code.rs").contains("LNT062 LNT063"));
+    assert!(text(root, "crates/urdd-findings/src/code.rs").contains(&format!(" {code}\n")));
     for case in ["invalid", "near_miss"] {
-        let case = text(root, &format!("crates/urdd-lint/tests/cases/LNT063/{case}.urdf"));
+        let case = text(root, &format!("crates/urdd-lint/tests/cases/{code}/{case}.urdf"));
         assert!(case.starts_with("<robot name="));
     }
 }

@@ -1,11 +1,13 @@
 //! SRDFs that are read, and what is wrong with one.
 
+use std::collections::HashMap;
 use std::fmt::Display;
 
 use roxmltree::{Document, Node};
 use thiserror::Error;
 
 use super::error::ExportError;
+use urdd_directory::position::LineIndex;
 use urdd_robot::RobotError;
 use urdd_xml::Kind;
 
@@ -99,13 +101,56 @@ impl<'t> Srdf<'t> {
         let line = self.0.text_pos_at(node.range().start).row;
         SrdfError::Element { line, reason: reason.to_string() }
     }
+}
 
-    /// An attribute of an element, which must have it.
-    pub fn attribute<'a>(&self, node: Node<'a, '_>, key: &str) -> Result<&'a str, SrdfError> {
-        node.attribute(key).filter(|value| !value.is_empty()).ok_or_else(|| {
+/// The elements of an SRDF that an import leaves out, as MoveIt does.
+pub(super) struct LeftOut<'a> {
+    lines: LineIndex<'a>,
+    /// What is wrong, the first line of it, and the number of elements.
+    found: Vec<(String, u32, usize)>,
+    places: HashMap<(&'static str, String), usize>,
+}
+
+impl<'a> LeftOut<'a> {
+    pub fn new(srdf: &'a Srdf<'a>) -> Self {
+        let lines = LineIndex::new(srdf.0.input_text());
+        LeftOut { lines, found: Vec::new(), places: HashMap::new() }
+    }
+
+    /// Leaves out an element. What is wrong is said once for each `kind` and `name`.
+    pub fn add<R: Display>(
+        &mut self,
+        node: Node,
+        (kind, name): (&'static str, &str),
+        reason: impl FnOnce() -> R,
+    ) {
+        match self.places.get(&(kind, name.to_owned())) {
+            Some(place) => self.found[*place].2 += 1,
+            None => {
+                let line = self.lines.position(node.range().start).line;
+                self.places.insert((kind, name.to_owned()), self.found.len());
+                self.found.push((reason().to_string(), line, 1));
+            }
+        }
+    }
+
+    /// An attribute of an element; without it, the element is left out.
+    pub fn attribute<'n>(&mut self, node: Node<'n, '_>, key: &'static str) -> Option<&'n str> {
+        let value = node.attribute(key).map(str::trim).filter(|value| !value.is_empty());
+        if value.is_none() {
             let element = node.tag_name().name();
-            self.wrong(node, format!("`<{element}>` has no `{key}`"))
-        })
+            self.add(node, (key, element), || format!("`<{element}>` has no `{key}`"));
+        }
+        value
+    }
+
+    /// What was left out, in the order of the file, each with its line.
+    pub fn in_words(self) -> Vec<String> {
+        let words = self.found.into_iter().map(|(reason, line, count)| match count {
+            1 => format!("line {line}: {reason}"),
+            _ => format!("line {line} and {} more: {reason}", count - 1),
+        });
+        words.collect()
     }
 }
 

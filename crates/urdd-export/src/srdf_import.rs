@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use roxmltree::Node;
 
+use super::error::unknown;
 use super::pairs::{ascending, last_edits};
-use super::srdf_document::{Srdf, SrdfError};
+use super::srdf_document::{LeftOut, Srdf, SrdfError};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
@@ -20,28 +21,35 @@ pub struct ImportedSkips {
     pub already: usize,
     /// Number of pairs that the URDD skips and the SRDF does not list: they stay skipped.
     pub unlisted: usize,
+    /// The elements of the SRDF that were left out, as MoveIt does: each with its line and what is wrong.
+    pub wrong: Vec<String>,
 }
 
 /// Reads an SRDF: `<disable_collisions>`, `<disable_default_collisions>` and `<enable_collisions>`, in the order in
-/// which MoveIt applies them. Existing edits remain. If one contradicts the SRDF, `force` lets the SRDF override it.
+/// which MoveIt applies them. Existing edits remain. If one contradicts the SRDF, `force` lets the SRDF override it. Elements
+/// without a link, or with one that the robot does not have, are left out.
 ///
 /// # Errors
-/// If the text is not an SRDF of the robot, names a link that the robot does not have, or contradicts an edit without
-/// `force`.
+/// If the text is not an SRDF of the robot, or contradicts an edit without `force`.
 pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, SrdfError> {
     let srdf = Srdf::of(text, &robot.description()?.name)?;
     let links = robot.link_names()?;
     let by_name: HashMap<&str, usize> = links.iter().map(String::as_str).zip(0..).collect();
-    let link = |node: Node, attribute: &str| {
-        let name = srdf.attribute(node, attribute)?;
+    let mut wrong = LeftOut::new(&srdf);
+    let mut link = |node: Node, attribute: &'static str| {
+        let name = wrong.attribute(node, attribute)?;
         let known = by_name.get(name).copied();
-        known.map_or_else(|| robot.link(name).map_err(|error| srdf.wrong(node, error)), Ok)
+        if known.is_none() {
+            let all = links.iter().map(String::as_str);
+            wrong.add(node, ("link", name), || unknown("link", name, all));
+        }
+        known
     };
     // Pairs of links, lower index first: whether they are skipped, and why.
     let mut wanted: BTreeMap<[usize; 2], (bool, String)> = BTreeMap::new();
     let mut defaults = BTreeSet::new();
     for node in srdf.elements("disable_default_collisions") {
-        defaults.insert(link(node, "link")?);
+        defaults.extend(link(node, "link"));
     }
     for of in defaults {
         for other in (0..links.len()).filter(|other| *other != of) {
@@ -50,20 +58,28 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     }
     for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
         for node in srdf.elements(name) {
-            let of = [link(node, "link1")?, link(node, "link2")?];
+            let (Some(a), Some(b)) = (link(node, "link1"), link(node, "link2")) else {
+                continue;
+            };
             let reason = match node.attribute("reason") {
                 Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
                 _ => "SRDF".to_owned(),
             };
-            if of[0] != of[1] {
-                wanted.insert(ascending(of[0], of[1]), (skip, reason));
+            if a != b {
+                wanted.insert(ascending(a, b), (skip, reason));
             }
         }
     }
     let now = skipped_now(robot)?;
     let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
     let last = last_edits(&there, links);
-    let mut imported = ImportedSkips { edits: there.clone(), added: 0, already: 0, unlisted: 0 };
+    let mut imported = ImportedSkips {
+        edits: there.clone(),
+        added: 0,
+        already: 0,
+        unlisted: 0,
+        wrong: wrong.in_words(),
+    };
     for (pair, (skip, reason)) in &wanted {
         // A link without shapes needs no edit.
         let Some(all_are) = now.get(pair) else {

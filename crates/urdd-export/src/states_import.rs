@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::error::unknown;
-use super::srdf_document::{Srdf, SrdfError, elements};
+use super::srdf_document::{LeftOut, Srdf, SrdfError, elements};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::{Robot, RobotError};
 
@@ -20,53 +20,64 @@ pub struct ImportedStates {
     pub left_out: usize,
     /// States that were left out, each with a joint that is out of its bounds there.
     pub out_of_bounds: Vec<[String; 2]>,
+    /// The elements of the SRDF that were left out, as MoveIt does: each with its line and what is wrong.
+    pub wrong: Vec<String>,
 }
 
-/// Reads the `<group_state>`s of an SRDF. States of several groups with one name are one configuration.
+/// Reads the `<group_state>`s of an SRDF. States of several groups with one name are one configuration. What is wrong in a
+/// state, such as a joint that the robot does not have, is left out; the rest of the state is read.
 ///
 /// # Errors
-/// If the text is not an SRDF of the robot, a state is wrong, or the URDD has another configuration of the name without
-/// `force`.
+/// If the text is not an SRDF of the robot, or the URDD has another configuration of the name without `force`.
 pub fn import_states(robot: &Robot, text: &str, force: bool) -> Result<ImportedStates, SrdfError> {
     let srdf = Srdf::of(text, &robot.description()?.name)?;
     let dofs: HashMap<&str, usize> =
         robot.dof_names()?.iter().map(String::as_str).zip(0..).collect();
     let joints: HashSet<&str> = robot.joint_names()?.iter().map(String::as_str).collect();
-    let mut left_out = 0;
+    let (mut left_out, mut wrong) = (0, LeftOut::new(&srdf));
     // In the order of their names in the file; positions by DOF.
     let mut states: Vec<(String, BTreeMap<usize, DofPosition>)> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for node in srdf.elements("group_state") {
-        let name = srdf.attribute(node, "name")?;
+        let Some(name) = wrong.attribute(node, "name") else {
+            continue;
+        };
         let place = *places.entry(name.to_owned()).or_insert(states.len());
         if place == states.len() {
             states.push((name.to_owned(), BTreeMap::new()));
         }
         let state = &mut states[place].1;
         for node in elements(node, "joint") {
-            let joint = srdf.attribute(node, "name")?;
-            let value = srdf.attribute(node, "value")?;
+            let (Some(joint), Some(value)) =
+                (wrong.attribute(node, "name"), wrong.attribute(node, "value"))
+            else {
+                continue;
+            };
             if !joints.contains(joint) {
                 let names = robot.joint_names()?.iter().map(String::as_str);
-                return Err(srdf.wrong(node, unknown("joint", joint, names)));
+                wrong.add(node, ("joint", joint), || unknown("joint", joint, names));
+                continue;
             }
             let Some(dof) = dofs.get(joint) else {
                 left_out += 1;
                 continue;
             };
-            let number = value.trim().parse::<f64>().ok().filter(|value| value.is_finite());
-            let position = number.ok_or_else(|| {
-                let value = value.escape_debug();
-                srdf.wrong(node, format!("`{value}` is not a position, rad or m"))
-            })?;
+            let Some(position) = value.parse::<f64>().ok().filter(|value| value.is_finite()) else {
+                let value = value.escape_debug().to_string();
+                let reason = || format!("`{value}` is not a position, rad or m");
+                wrong.add(node, ("position", &value), reason);
+                continue;
+            };
             let position = DofPosition { position, dof_name: joint.to_owned() };
-            let before = state.insert(*dof, position.clone());
-            if before.is_some_and(|before| before != position) {
+            if state.get(dof).is_some_and(|before| *before != position) {
                 let [name, joint] = [name, joint].map(str::escape_debug);
-                let reason =
-                    format!("another state `{name}` sets the joint `{joint}` to another position");
-                return Err(srdf.wrong(node, reason));
+                let both = format!("{name} {joint}");
+                wrong.add(node, ("twice", &both), || {
+                    format!("another state `{name}` sets the joint `{joint}` to another position")
+                });
+                continue;
             }
+            state.insert(*dof, position);
         }
     }
     states.retain(|(_, positions)| !positions.is_empty());
@@ -83,6 +94,7 @@ pub fn import_states(robot: &Robot, text: &str, force: bool) -> Result<ImportedS
         already: 0,
         left_out,
         out_of_bounds: Vec::new(),
+        wrong: wrong.in_words(),
     };
     let known: HashMap<&str, usize> =
         existing.iter().map(|named| named.name.as_str()).zip(0..).collect();

@@ -21,14 +21,16 @@ const AT_THE_SAME_PLACE: [(Code, Code); 2] =
 
 /// A rule whose findings follow from those of another about the same link or joint: an inertia, a centre of mass or
 /// limits that are written mend both.
-const OF_ONE_PART: [(Code, Code); 7] = [
+const OF_ONE_PART: [(Code, Code); 9] = [
     (Code::LNT001, Code::SRC004),
     (Code::LNT001, Code::SRC005),
     (Code::LNT001, Code::LNT002),
+    (Code::LNT002, Code::LNT064),
     (Code::LNT005, Code::SRC004),
     (Code::LNT005, Code::SRC005),
     (Code::SRC003, Code::LNT008),
     (Code::SRC006, Code::LNT017),
+    (Code::LNT021, Code::LNT064),
 ];
 
 struct Misspelling {

@@ -168,6 +168,7 @@ fn not_verified(source: &SourceMeshes, files: &HashMap<PathBuf, ReadMesh>) -> Ve
             (is_unread && !is_read_here(file)).then_some(Why::OtherFormat)
         }
         Err(missing) if missing.outside.is_some() => Some(Why::Outside),
+        Err(missing) if missing.is_in_near_package() => None,
         Err(missing) => missing.no_package.as_ref().map(|_| Why::NoPackage),
     };
     let meshes = source.meshes.iter();

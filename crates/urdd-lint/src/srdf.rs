@@ -1,4 +1,4 @@
-//! The SRDFs of a URDF: beside it, and in folders called `srdf` there and one level up. File and robot have its names.
+//! The SRDFs of a URDF: where they are looked for, and which of them are of its robot.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -7,34 +7,64 @@ use roxmltree::{Document, Node};
 
 use super::subject::Subject;
 use urdd_directory::regular;
+use urdd_xml::XmlError;
 
 /// Maximum size of an SRDF, bytes.
 const MAX_BYTES: u64 = 16 << 20;
+/// Maximum number of SRDFs that are read to find those of a robot.
+const MAX_FILES: usize = 100;
+/// How far up from the URDF's folder MoveIt's packages are looked for.
+const LEVELS: usize = 3;
+/// Folders of SRDFs, in a package.
+const FOLDERS: [&str; 2] = ["config", "srdf"];
+/// What the name of MoveIt's package of a robot has.
+const MOVEIT: &str = "moveit_config";
 
-/// Calls `of` with each SRDF and its name as seen from the URDF's folder.
-pub fn each(urdf: &Subject, mut of: impl FnMut(&str, &Document)) {
-    for file in files(urdf) {
-        let bytes = regular::read(&file, MAX_BYTES).ok();
-        let text = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
-        let Some(text) = text else { continue };
-        let Ok(document) = urdd_xml::parse(&text, urdd_xml::Kind::Robot) else {
-            continue;
-        };
-        if document.root_element().attribute("name") == urdf.root.attribute("name") {
-            let inside = file.strip_prefix(urdf.folder);
-            let shown = inside.map_or_else(
-                |_| format!("../srdf/{}", file.file_name().unwrap_or_default().to_string_lossy()),
-                |inside| inside.to_string_lossy().replace('\\', "/"),
-            );
-            of(&shown, &document);
-        }
+/// An SRDF of the robot.
+pub struct Srdf {
+    /// Its path as seen from the URDF's folder.
+    pub shown: String,
+    pub text: String,
+}
+
+impl Srdf {
+    /// Its XML, or why it is none.
+    pub fn parse(&self) -> Result<Document<'_>, XmlError> {
+        urdd_xml::parse(&self.text, urdd_xml::Kind::Robot)
     }
+}
+
+/// A file that may be an SRDF of the robot.
+struct Candidate {
+    path: PathBuf,
+    srdf: Srdf,
+    /// Whether it is in the URDF's own package, not in one of MoveIt's beside it.
+    is_own: bool,
+    has_stem: bool,
+}
+
+/// The SRDFs of the robot: each whose file has the URDF's name; or else the only one whose robot has the robot's name, or the
+/// only one there is, if most of the names in it are the URDF's and no other URDF beside this one has its file's name.
+pub fn of_robot(urdf: &Subject) -> Vec<Srdf> {
+    let all = candidates(urdf);
+    let has_stem = all.iter().any(|one| one.has_stem);
+    let is_only = all.len() == 1;
+    let mut found = all;
+    found.retain(|one| match has_stem {
+        true => one.has_stem && is_of(urdf, one, true),
+        false => !is_of_another_urdf(urdf, &one.path) && is_of(urdf, one, is_only && one.is_own),
+    });
+    if !has_stem && found.len() > 1 {
+        return Vec::new();
+    }
+    found.into_iter().map(|one| one.srdf).collect()
 }
 
 /// The pairs of links, each in order, of which an SRDF says that their collisions are not checked.
 pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
     let mut pairs = BTreeSet::new();
-    each(urdf, |_, document| {
+    for srdf in of_robot(urdf) {
+        let Ok(document) = srdf.parse() else { continue };
         let disabled = document
             .descendants()
             .filter(|node: &Node| node.tag_name().name() == "disable_collisions");
@@ -42,22 +72,96 @@ pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
             let (a, b) = (node.attribute("link1")?, node.attribute("link2")?);
             Some((a.min(b).to_owned(), a.max(b).to_owned()))
         }));
-    });
+    }
     pairs
 }
 
-fn files(urdf: &Subject) -> Vec<PathBuf> {
-    let stem = Path::new(urdf.file).file_stem().unwrap_or_default().to_string_lossy();
-    let above = urdf.folder.parent().map(|above| above.join("srdf"));
-    let folders = [Some(urdf.folder.to_owned()), Some(urdf.folder.join("srdf")), above];
-    let mut files = Vec::new();
-    for folder in folders.into_iter().flatten() {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        files.extend(entries.map(|entry| entry.path()).filter(|path| {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy();
-            name.eq_ignore_ascii_case(&stem) && path.extension().is_some_and(|end| end == "srdf")
-        }));
+/// Whether what an SRDF says fits the robot. `is_near` if where it is speaks for it; then the robot's name need not be its own.
+fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
+    let name = urdf.root.attribute("name").unwrap_or_default();
+    let Ok(document) = one.srdf.parse() else {
+        return is_near || one.srdf.text.contains(&format!("\"{name}\""));
+    };
+    let root = document.root_element();
+    let has_name = root.attribute("name").is_some_and(|found| found.trim() == name);
+    if has_name && one.has_stem {
+        return true;
     }
-    files.sort();
-    files
+    let known: BTreeSet<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
+    let named = root.descendants().flat_map(|node| {
+        let attributes = ["link1", "link2", "base_link", "tip_link", "parent_link", "child_link"];
+        let is_part = matches!(node.tag_name().name(), "link" | "joint" | "passive_joint");
+        let name = node.attribute("name").filter(|_| is_part);
+        attributes.into_iter().filter_map(move |attribute| node.attribute(attribute)).chain(name)
+    });
+    let named: BTreeSet<&str> = named.map(str::trim).collect();
+    let fits = 2 * named.intersection(&known).count() >= named.len();
+    fits && (has_name || is_near)
+}
+
+/// Whether a URDF beside this one has an SRDF's name.
+fn is_of_another_urdf(urdf: &Subject, srdf: &Path) -> bool {
+    let stem = stem(srdf);
+    names(urdf.folder).iter().any(|name| {
+        let is_urdf = [".urdf", ".xacro"].iter().any(|ending| name.ends_with(ending));
+        is_urdf && self::stem(Path::new(name)) == stem
+    })
+}
+
+/// A file's name without its endings, in small letters.
+fn stem(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let name = name.strip_suffix(".xacro").unwrap_or(&name);
+    let ends = [".urdf", ".srdf"].iter().find_map(|ending| name.strip_suffix(ending));
+    ends.unwrap_or(name).to_owned()
+}
+
+fn candidates(urdf: &Subject) -> Vec<Candidate> {
+    let wanted = stem(Path::new(urdf.file));
+    let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
+    for (folder, shown, is_own) in folders(urdf.folder) {
+        for name in names(&folder).into_iter().filter(|name| name.ends_with(".srdf")) {
+            let path = folder.join(&name);
+            let has_stem = stem(&path) == wanted;
+            let Ok(file) = path.canonicalize() else { continue };
+            if found.len() == MAX_FILES || !seen.insert(file) {
+                continue;
+            }
+            let Ok(bytes) = regular::read(&path, MAX_BYTES) else { continue };
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            let srdf = Srdf { shown: format!("{shown}{name}"), text };
+            found.push(Candidate { path, srdf, is_own, has_stem });
+        }
+    }
+    found
+}
+
+/// The folders that SRDFs are looked for in, each as seen from the URDF's, and whether it is of its own package.
+fn folders(urdf: &Path) -> Vec<(PathBuf, String, bool)> {
+    let mut folders = vec![(urdf.to_owned(), String::new(), true)];
+    for up in ["", "../"] {
+        let below = FOLDERS.map(|name| format!("{up}{name}/"));
+        folders.extend(below.map(|shown| (urdf.join(&shown), shown, true)));
+    }
+    let mut up = String::new();
+    for _ in 0..LEVELS {
+        let packages = names(&urdf.join(&up));
+        for package in packages.iter().filter(|name| name.contains(MOVEIT)) {
+            let below = FOLDERS.map(|name| format!("{up}{package}/{name}/"));
+            folders.extend(below.map(|shown| (urdf.join(&shown), shown, false)));
+        }
+        up.push_str("../");
+    }
+    folders
+}
+
+/// The names in a folder, in order.
+fn names(folder: &Path) -> Vec<String> {
+    // The folder of a plain file name.
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
 }

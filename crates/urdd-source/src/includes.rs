@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::files::Files;
+use crate::package_index::PackageIndex;
 use crate::settings::Settings;
-use crate::xacro::{PackageIndex, run};
+use crate::xacro::run;
 use urdd_directory::cancellation::Cancellation;
 
 /// Maximum number of folders, and of files, that are listed.
@@ -30,10 +31,9 @@ fn has_macros(file: &Path) -> bool {
 }
 
 fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
-    let given = PackageIndex::new(&settings.packages).ok()?;
+    let given = PackageIndex::new(&settings.packages, file).ok()?;
     let text = run(&["--deps"], file, "", &settings.xacro, &given, cancellation).ok()?;
-    let files = text.split_whitespace().map(|file| given.lasting(PathBuf::from(file)));
-    let files: Vec<PathBuf> = files.collect();
+    let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
     // A name with a blank is listed as two.
     files.iter().all(|file| file.is_file()).then_some(files)
 }

@@ -4,6 +4,7 @@
 //! [`load`] reads one, [`SourceMeshes`] also finds and reads its meshes, [`robots`] finds descriptions below folders. Files
 //! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
 
+mod around;
 mod cycles;
 mod decode;
 mod error;
@@ -16,6 +17,7 @@ mod meshes;
 mod named;
 pub mod note;
 pub mod origin;
+mod package_index;
 mod packages;
 pub mod process;
 mod repair;
@@ -29,6 +31,7 @@ mod tests;
 pub mod urdf;
 mod xacro;
 
+pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use error::SourceError;
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::around::NearPackage;
 use super::error::SourceError;
 use super::inspect::inspect;
 use super::load::{self, Source};
@@ -58,6 +59,15 @@ pub struct MissingMesh {
     pub outside: Option<PathBuf>,
     /// The package, if there is none of this name.
     pub no_package: Option<String>,
+    /// The package of a near name that is there instead.
+    pub near_package: Option<Box<NearPackage>>,
+}
+
+impl MissingMesh {
+    /// Whether a package of a near name has the file.
+    pub fn is_in_near_package(&self) -> bool {
+        self.near_package.as_ref().is_some_and(|near| near.has_file)
+    }
 }
 
 impl From<NotFound> for MissingMesh {
@@ -73,6 +83,7 @@ impl From<NotFound> for MissingMesh {
             other_case: why.other_case,
             outside: why.outside,
             no_package: why.no_package,
+            near_package: why.near_package,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
 
+use super::around::{NearPackage, is_plain, near};
 use super::files::Files;
 use super::packages::Packages;
 use super::roots::{Place, Roots};
@@ -40,6 +41,8 @@ pub struct NotFound {
     pub other_case: Option<Box<OtherCase>>,
     /// The package, if there is none of this name.
     pub no_package: Option<String>,
+    /// The package of a near name that is there instead.
+    pub near_package: Option<Box<NearPackage>>,
 }
 
 /// A file whose path differs from a name in the case of letters alone.
@@ -173,7 +176,7 @@ impl Search<'_> {
         packages: &Packages,
         is_model: bool,
     ) -> Option<FoundMesh> {
-        if !is_package_name(package) {
+        if !is_plain(package) {
             let words = format!("`{package}` cannot be the name of a package");
             self.not_found.hint.get_or_insert(words);
             return None;
@@ -196,8 +199,19 @@ impl Search<'_> {
             }
             folders.push(folder);
         }
+        let around = self.roots.around(urdf_folder);
+        let beside = around.iter().find(|one| one.has_manifest && one.name == package);
+        if let Some(folder) = beside.map(|one| &one.folder).filter(|one| !folders.contains(one)) {
+            let found = self.try_file(folder, rest, Some((package, folder)));
+            if found.is_some() {
+                return found;
+            }
+            folders.push(folder.clone());
+        }
+        let mut near_package = None;
         if folders.is_empty() {
             self.not_found.no_package.get_or_insert(package.to_owned());
+            near_package = near(around, package, rest, files);
         }
         let option = format!("--package {}=FOLDER", escape::shell(package));
         let hint = match folders.is_empty() {
@@ -209,7 +223,11 @@ impl Search<'_> {
                 format!("if the package is elsewhere, give its folder: {option}")
             }
         };
+        let hint = near_package.as_ref().map_or(hint, |near| near.in_words(package));
         self.not_found.hint.get_or_insert(hint);
+        if let Some(near) = near_package {
+            self.not_found.near_package.get_or_insert(Box::new(near));
+        }
         None
     }
 
@@ -247,12 +265,6 @@ impl Search<'_> {
         }
         None
     }
-}
-
-/// Whether a word can be a package name: a single normal path component, not `..`.
-fn is_package_name(word: &str) -> bool {
-    let mut parts = Path::new(word).components();
-    matches!(parts.next(), Some(Component::Normal(_))) && parts.next().is_none()
 }
 
 /// The file in a folder whose path differs from a name only in case.

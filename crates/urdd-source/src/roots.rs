@@ -4,7 +4,9 @@
 //! this machine. Files are therefore read only from the robot's own folders, and from those that the user allows.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
+use super::around::{Around, around};
 use super::files::Files;
 use super::packages::package_name;
 use super::settings::Settings;
@@ -22,6 +24,7 @@ pub struct Roots {
     given: Vec<(String, PathBuf)>,
     /// Other folders allowed by the user.
     allowed: Vec<PathBuf>,
+    around: OnceLock<Vec<Around>>,
 }
 
 /// The folder from which a file is read.
@@ -53,7 +56,13 @@ impl Roots {
             given: given.collect(),
             allowed: allowed.filter_map(|path| files.canonicalize(path).ok()).collect(),
             files: files.clone(),
+            around: OnceLock::new(),
         }
+    }
+
+    /// The packages around the URDF's folder.
+    pub fn around(&self, urdf_folder: &Path) -> &[Around] {
+        self.around.get_or_init(|| around(urdf_folder, &self.files))
     }
 
     /// Where the files are.

@@ -3,23 +3,22 @@
 //! A xacro file is a program: it may contain any expression and include any file. It therefore runs only if the user
 //! asks for it, by the file extension or by a flag, and with a time limit.
 
-use std::ffi::OsString;
-use std::io::{self, ErrorKind, Read};
-use std::path::{Path, PathBuf};
+use std::io::{ErrorKind, Read};
+use std::path::Path;
 use std::process::{Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-use tempfile::TempDir;
-
 use crate::error::SourceError;
 use crate::files::MAX_SOURCE_BYTES;
+use crate::package_index::PackageIndex;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
+use urdd_format::escape;
 
 /// Maximum number of bytes to read from its standard error.
 const MAX_WORDS: u64 = 1 << 20;
@@ -62,7 +61,7 @@ pub(super) fn expand(
     packages: &Packages,
     cancellation: &Cancellation,
 ) -> Result<String, SourceError> {
-    let given = PackageIndex::new(packages).map_err(|error| {
+    let given = PackageIndex::new(packages, path).map_err(|error| {
         let (file, reason) = (shown.to_owned(), error.to_string());
         SourceError::Xacro { file, reason }
     })?;
@@ -118,9 +117,28 @@ pub(super) fn run(
     if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
         let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
         let words = last_lines(&words.unwrap_or_default());
-        return Err(failed(words.unwrap_or_else(|| status.to_string())));
+        return Err(failed(
+            words.map_or_else(|| status.to_string(), |words| with_advice(given.lasting(&words))),
+        ));
     }
-    String::from_utf8(written).map_err(|_| failed("its output is not UTF-8".to_owned()))
+    let text = String::from_utf8(written);
+    let text = text.map_err(|_| failed("its output is not UTF-8".to_owned()))?;
+    Ok(given.lasting(&text))
+}
+
+/// What xacro says; of a package that ament does not find, what to do.
+fn with_advice(words: String) -> String {
+    let name = words.split_once("package '").and_then(|(_, rest)| rest.split_once('\''));
+    match name.filter(|(_, rest)| rest.trim_start().starts_with("not found")) {
+        Some((name, _)) => {
+            let place = words.split_once("; ").map_or("", |(_, place)| place);
+            format!(
+                "the package `{name}` is not around the file, nor on AMENT_PREFIX_PATH; say where it is: --package {}=FOLDER; {place}",
+                escape::shell(name)
+            )
+        }
+        None => words,
+    }
 }
 
 /// Reads a stream in a separate thread, so that the program never blocks on a full pipe.
@@ -147,66 +165,4 @@ fn last_lines(words: &[u8]) -> Option<String> {
     let start = last.chars().count().saturating_sub(MOST_CHARACTERS);
     let last: String = last.chars().skip(start).collect();
     (!last.is_empty()).then_some(last)
-}
-
-/// The packages named by the user, in a layout that ROS searches: `$(find NAME)` finds these first.
-pub(super) struct PackageIndex {
-    prefix: Option<TempDir>,
-}
-
-impl PackageIndex {
-    pub(super) fn new(packages: &Packages) -> io::Result<Self> {
-        let mut given = packages.given().peekable();
-        if given.peek().is_none() {
-            return Ok(PackageIndex { prefix: None });
-        }
-        let prefix = TempDir::new()?;
-        let index = prefix.path().join("share/ament_index/resource_index/packages");
-        std::fs::create_dir_all(&index)?;
-        for (name, folder) in given {
-            std::fs::write(index.join(name), "")?;
-            let folder = folder.canonicalize()?;
-            link(&folder, &prefix.path().join("share").join(name))?;
-        }
-        let prefix = Some(prefix);
-        Ok(PackageIndex { prefix })
-    }
-
-    /// Puts them before those from the environment.
-    pub(super) fn tell(&self, command: &mut Command) {
-        let Some(prefix) = &self.prefix else {
-            return;
-        };
-        for (name, folder) in [
-            ("AMENT_PREFIX_PATH", prefix.path().to_owned()),
-            ("ROS_PACKAGE_PATH", prefix.path().join("share")),
-        ] {
-            command.env(name, before(folder, std::env::var_os(name)));
-        }
-    }
-
-    /// A path that outlives this layout.
-    pub(super) fn lasting(&self, path: PathBuf) -> PathBuf {
-        match &self.prefix {
-            Some(prefix) if path.starts_with(prefix.path()) => path.canonicalize().unwrap_or(path),
-            _ => path,
-        }
-    }
-}
-
-fn before(folder: PathBuf, paths: Option<OsString>) -> OsString {
-    let paths = paths.unwrap_or_default();
-    let paths = std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty());
-    let all = std::iter::once(folder.clone()).chain(paths);
-    std::env::join_paths(all).unwrap_or_else(|_| folder.into_os_string())
-}
-
-#[cfg(unix)]
-fn link(folder: &Path, at: &Path) -> io::Result<()> {
-    std::os::unix::fs::symlink(folder, at)
-}
-
-#[cfg(not(unix))]
-fn link(folder: &Path, at: &Path) -> io::Result<()> {
-    std::os::windows::fs::symlink_dir(folder, at)
 }

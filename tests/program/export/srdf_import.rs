@@ -76,6 +76,26 @@ fn pairs_become_edits_and_nothing_is_lost() {
     assert_eq!(edits, 3);
 }
 
+#[test]
+fn lines_that_cannot_be_read_are_named_and_the_others_are_imported() {
+    let (folder, urdd) = made_of(&line());
+    let import = |text: &str| {
+        std::fs::write(folder.path().join("x.srdf"), text).expect("a file");
+        crate::program::urdd(&["skips", "import", "x.srdf", "robot"], folder.path())
+    };
+    let bad =
+        "<disable_collisions link1=\"l1\"/>\n<disable_collisions link1=\"l1\" link2=\"arm\"/>";
+    let (status, told, _) = import(&srdf(&format!("{bad}{}", pair(0, 2))));
+    assert_eq!(status, 0);
+    let left_out = "robot: 1 edit added; 0 pairs of the SRDF unchanged\n  left out: line 2: `<disable_collisions>` has no \
+        `link2`\n  left out: line 3: there is no link `arm`\n";
+    assert!(told.starts_with(left_out), "{told}");
+    assert_eq!(skipped(&urdd), [(0, 1), (0, 2), (1, 2), (2, 3), (3, 4)]);
+    let (status, _, said) = import(&srdf(bad));
+    assert_eq!(status, 2);
+    assert!(said.contains("`link2`; line 3: there is no link `arm`"), "{said}");
+}
+
 /// Two concurrent imports: neither loses the changes of the other.
 #[test]
 fn an_import_waits_for_others_and_sees_what_they_wrote() {

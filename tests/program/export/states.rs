@@ -51,3 +51,22 @@ fn states_of_groups_are_configurations() {
         Ok(&[0.5, -0.5][..])
     );
 }
+
+#[test]
+fn what_is_wrong_in_states_is_named_and_the_rest_is_imported() {
+    let (folder, path) = made_of(FOLLOWER);
+    let folder = folder.path();
+    let name = path.file_name().expect("a name").to_str().expect("a name");
+    let wrong = state("away", "x", &[("jj", "0.5")]);
+    let import = |states: &str| {
+        let srdf = format!("<robot name=\"r\">\n{states}</robot>");
+        std::fs::write(folder.join("r.srdf"), srdf).expect("written");
+        urdd(&["configurations", "import", "r.srdf", name], folder)
+    };
+    let (status, told, _) = import(&format!("{wrong}\n{}", state("home", "x", &[("j", "0.5")])));
+    assert_eq!(status, 0);
+    let expected = "1 configuration imported; 0 of the SRDF unchanged\n  left out: line 2: there is no joint `jj`; did you mean `j`?\n";
+    assert_eq!(told, format!("{name}: {expected}"));
+    let (status, _, said) = import(&wrong);
+    assert!(status == 2 && said.contains("nothing in it can be imported: line 2: "), "{said}");
+}

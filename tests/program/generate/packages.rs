@@ -109,6 +109,42 @@ fn what_is_not_found_says_where_it_was_looked_for() {
     }
 }
 
+/// A package is called as its `package.xml` says, whatever its folder is called. Without one, its folder has to have its name.
+#[test]
+fn a_package_beside_the_robots_is_found_by_its_manifest_and_one_of_a_near_name_is_named() {
+    let folder = workspace();
+    for (file, text) in [
+        ("ws/tools-ros2/package.xml", "<package><name>tools</name></package>"),
+        ("ws/tools-ros2/meshes/a.stl", ""),
+        ("ws/arm-parts/meshes/a.stl", ""),
+        ("ws/Hand/package.xml", "<package><name>Hand</name></package>"),
+    ] {
+        let path = folder.path().join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let mesh = || ascii_stl(&path.display().to_string(), "0 1 0");
+        fs::write(&path, if text.is_empty() { mesh() } else { text.to_owned() }).unwrap();
+    }
+    let there = found(folder.path(), "package://tools/meshes/a.stl");
+    assert_eq!(there.as_deref(), Ok("ws/tools-ros2/meshes/a.stl"));
+    for (filename, words) in [
+        (
+            "package://arm_parts/meshes/a.stl",
+            "there is the folder `arm-parts`, which has this file; write `arm-parts`, rename the folder to `arm_parts`",
+        ),
+        (
+            "package://hand/a.stl",
+            "there is the package `Hand`; write `Hand`, or say --package hand=",
+        ),
+        // The robot is in `own`.
+        ("package://owm/meshes/own.stl", "there is the package `own`, which has this file"),
+        ("package://owm/meshes/none.stl", "there is no package `owm` at or above"),
+        ("package://own2/meshes/own.stl", "there is no package `own2` at or above"),
+    ] {
+        let said = found(folder.path(), filename).unwrap_err();
+        assert!(said.contains(words), "{filename}: {said}");
+    }
+}
+
 #[test]
 fn a_package_that_is_given_is_looked_for_nowhere_else() {
     let folder = workspace();

@@ -42,7 +42,7 @@ fn a_summary_counts_meshes_that_were_not_found() {
     let folder = workshop(ROBOT);
     let (status, summary, _) = run(folder.path(), &["r.urdf"]);
     assert_eq!(status, Some(0));
-    let end = "; 2 of 4 meshes were not found; 1 of 4 meshes cannot be used\n";
+    let end = "; 1 of 4 meshes was not found; 1 of 4 meshes is empty or not a mesh; 1 of 4 meshes cannot be used\n";
     assert!(summary.ends_with(end), "{summary}");
     let (_, lines, _) = run(folder.path(), &["r.urdf", "--format", "json"]);
     let line: Value = serde_json::from_str(&lines).unwrap();

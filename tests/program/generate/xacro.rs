@@ -117,6 +117,49 @@ echo \"<robot name='$*'><link name='a'/></robot>\"";
     assert_eq!(metadata["robot_name"], "prefix:=left  n:=2");
 }
 
+/// `$(find NAME)`, with ROS and without: ament looks into the folders of AMENT_PREFIX_PATH for a file of the package's name in
+/// `share/ament_index/resource_index/packages`, and says `share/NAME`.
+#[test]
+fn it_finds_the_packages_around_the_file() {
+    let folder = testkit::temporary::folder();
+    for (name, text) in [
+        ("ws/arm/package.xml", "<package><name>my_arm</name></package>"),
+        ("ws/arm/urdf/v1/arm.xacro", EXPANDED),
+        ("ws/hand-ros/package.xml", "<package><name>hand</name></package>"),
+        ("ws/plain/meshes/a.stl", ""),
+        ("ws/bad/package.xml", "<package><name>../../x</name></package>"),
+    ] {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    let find = "find() {
+  IFS=:; for p in $AMENT_PREFIX_PATH; do [ -f $p/share/ament_index/resource_index/packages/$1 ] && echo $p/share/$1 && return; done
+  echo \"error: package '$1' not found, searching: [$AMENT_PREFIX_PATH]; when processing file: x\" >&2; exit 2
+}";
+    // ROS 1 would search folders without a package.xml to their ends.
+    let script = format!(
+        "{find}
+arm=$(find my_arm) && hand=$(find hand) && above=$(find ws) || exit 4
+[ -f ${{PYTHONPATH##*:}}/ament_index_python/packages.py ] && [ -f $arm/package.xml ] || exit 5
+case \"$ROS_PACKAGE_PATH\" in *named*) exit 6;; esac
+(find plain) 2> /dev/null && exit 7
+echo \"<robot name='$arm/a $above/b file://$hand/c'><link name='a'/></robot>\""
+    );
+    let (status, said) = run(folder.path(), "ws/arm/urdf/v1/arm.xacro", Some(&script));
+    assert_eq!(status, Some(0), "{said}");
+    let metadata = read_json(&folder.path().join("out/urdd.json"));
+    let ws = folder.path().canonicalize().unwrap().join("ws").display().to_string();
+    assert_eq!(metadata["robot_name"], format!("{ws}/arm/a {ws}/b package://hand/c"));
+
+    let script = format!("{find}\nfind nobody");
+    let (status, said) = run(folder.path(), "ws/arm/urdf/v1/arm.xacro", Some(&script));
+    assert_eq!(status, Some(1));
+    let advice = "the package `nobody` is not around the file, nor on AMENT_PREFIX_PATH; say where it is: --package \
+        nobody=FOLDER; when processing file: x";
+    assert!(said.contains(advice), "{said}");
+}
+
 #[test]
 fn it_may_not_take_for_ever_nor_write_without_end() {
     let folder = testkit::temporary::folder();

@@ -35,13 +35,44 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
     let fault = |text: &str| import_srdf(&robot, text, false).expect_err("a fault");
     assert!(matches!(fault("<robot name=\"other\"/>"), SrdfError::OtherRobot { .. }));
     assert!(matches!(fault("no"), SrdfError::Xml { .. }));
-    let error = fault(&srdf("<disable_collisions link1=\"l1\"/>"));
-    assert_eq!(error.to_string(), "line 2: `<disable_collisions>` has no `link2`");
-    let error = fault(&srdf("<disable_collisions link1=\"l1\" link2=\"l11\"/>"));
-    assert!(
-        error.to_string().starts_with("line 2: ") && error.to_string().contains("`l11`"),
-        "{error}"
+}
+
+/// MoveIt (srdfdom) says so in its log, and goes on with the next element.
+#[test]
+fn what_names_no_link_is_named_and_the_rest_is_imported() {
+    let (_folder, urdd) = made_of(&line());
+    let robot = Robot::open(&urdd).expect("a robot");
+    let lines = [
+        "<disable_collisions link1=\"l1\"/>".to_owned(),
+        pair(0, 2),
+        "<enable_collisions link1=\"l1\" link2=\"l11\"/>".to_owned(),
+        "<disable_default_collisions link=\"\"/>".to_owned(),
+        "<disable_collisions link1=\"l11\" link2=\"none\"/>".to_owned(),
+        "<disable_collisions link1=\" l0 \" link2=\"l3\"/>".to_owned(),
+    ];
+    let imported = import_srdf(&robot, &srdf(&lines.join("\n")), false).expect("edits");
+    assert_eq!((imported.added, imported.already), (2, 0));
+    assert_eq!(
+        imported.wrong,
+        [
+            "line 5: `<disable_default_collisions>` has no `link`",
+            "line 4 and 1 more: there is no link `l11`; did you mean `l1`?",
+            "line 2: `<disable_collisions>` has no `link2`",
+            "line 6: there is no link `none`",
+        ]
     );
+}
+
+/// Each name on a line of its own: their number, and the search for a near one, took quadratic time.
+#[test]
+fn very_many_unknown_names_take_a_moment() {
+    let (_folder, urdd) = made_of(&line());
+    let robot = Robot::open(&urdd).expect("a robot");
+    let pairs: String = (0..200_000).map(|i| pair(i + 10, 4)).collect();
+    let start = std::time::Instant::now();
+    let imported = import_srdf(&robot, &srdf(&pairs), false).expect("edits");
+    assert_eq!((imported.added, imported.wrong.len()), (0, 200_000));
+    assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
 /// The maximum number of pairs, on one line: counting lines and searching links and edits took quadratic time.

@@ -7,7 +7,7 @@ use testkit::robots::made_of;
 use testkit::urdfs::{FOLLOWER, state};
 
 #[test]
-fn wrong_states_are_refused_with_their_line() {
+fn what_is_wrong_is_named_with_its_line_and_the_rest_is_imported() {
     let (_folder, path) = made_of(FOLLOWER);
     let robot = Robot::open(path).expect("a robot");
     let cases = [
@@ -23,11 +23,12 @@ fn wrong_states_are_refused_with_their_line() {
         ),
     ];
     for (inner, expected) in cases {
-        let text = format!("<robot name=\"r\">\n{inner}</robot>");
-        match import_states(&robot, &text, false) {
-            Err(SrdfError::Element { line: 2, reason }) => assert_eq!(reason, expected),
-            other => panic!("{inner}: {other:?}"),
-        }
+        let good = state("good", "g", &[("k", "0.25")]);
+        let text = format!("<robot name=\"r\">\n{inner}\n{good}</robot>");
+        let imported = import_states(&robot, &text, false).expect("states");
+        assert_eq!(imported.wrong, [format!("line 2: {expected}")], "{inner}");
+        let last = imported.configurations.last().expect("a configuration");
+        assert_eq!((last.name.as_str(), last.positions[0].position), ("good", 0.25));
     }
     let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
     assert!(matches!(other, SrdfError::OtherRobot { .. }), "{other}");

@@ -37,6 +37,8 @@ pub struct MeshCount {
     pub named: usize,
     /// Names for which no file was found, or whose file is not a mesh.
     pub not_found: usize,
+    /// Of these, the names whose file is there, but is empty or not a mesh.
+    pub not_a_mesh: usize,
     /// Names whose file is stored but not usable.
     pub not_usable: usize,
 }
@@ -94,7 +96,10 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
         };
         let inside = &inspected[&found.file];
         match (&inside.bytes, &inside.scene) {
-            (None, _) => count.not_found += 1,
+            (None, _) => {
+                count.not_found += 1;
+                count.not_a_mesh += 1;
+            }
             (Some(_), Err(_)) => count.not_usable += 1,
             (Some(_), Ok(_)) => {}
         }

@@ -14,8 +14,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Err(reason) = mesh.facts else { continue };
         if is_read_here(mesh.file) {
-            let message =
-                format!("the mesh cannot be read: {reason}; export it again, or fetch it");
+            // Most reasons of the reader end with what to do.
+            let advice = if reason.contains("; ") { "" } else { "; export the mesh again" };
+            let message = format!("the mesh cannot be read: {reason}{advice}");
             urdf.at_attribute(node, "filename", message).report(findings);
         }
     }

@@ -33,6 +33,7 @@ mod moving_link_without_inertial;
 mod name_refused;
 mod not_read_as_written;
 mod odd_density;
+mod origin_in_millimetres;
 mod package_not_found;
 mod prelude;
 mod refused_by_programs;
@@ -41,6 +42,7 @@ mod ros2_control_unknown_joint;
 mod same_default_inertia;
 mod self_collision_in_default;
 mod size_not_positive;
+mod srdf_not_read;
 mod srdf_unknown_name;
 mod stl_refused;
 mod texture_missing;
@@ -60,9 +62,10 @@ rules! {
     inertia_beyond_geometry, inertia_far_below_geometry, inertial_incomplete, letter_case,
     limit_incomplete, limits_look_like_degrees, material_not_defined, mesh_in_millimetres,
     mesh_names_clash, mesh_not_found, mesh_not_readable, mirrored_scale, misplaced, misspelt,
-    moving_link_without_inertial, name_refused, not_read_as_written, odd_density, package_not_found,
-    refused_by_programs, root_link_with_inertial, ros2_control_unknown_joint, same_default_inertia,
-    self_collision_in_default, size_not_positive, srdf_unknown_name, stl_refused,
+    moving_link_without_inertial, name_refused, not_read_as_written, odd_density,
+    origin_in_millimetres, package_not_found, refused_by_programs, root_link_with_inertial,
+    ros2_control_unknown_joint, same_default_inertia, self_collision_in_default, size_not_positive,
+    srdf_not_read, srdf_unknown_name, stl_refused,
     texture_missing, transmission_unknown_joint, unknown_element_or_attribute,
     visual_and_collision_apart, visual_without_collision, xacro_not_expanded,
     zero_outside_limits,

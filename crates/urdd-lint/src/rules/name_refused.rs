@@ -4,7 +4,10 @@ declare_lint! {
     /// A link or joint has a name that a program refuses.
     ///
     /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
-    /// - `world` on a link that is not the root: MuJoCo refuses the robot, an error; SDFormat keeps this name for the world.
+    /// - `world` on a link that a joint moves: MuJoCo and SDFormat refuse the robot, an error. On a link that is fixed to one that
+    ///   moves, MuJoCo loads the robot, and takes the link for the world: it stands still, with all that hangs on it. On the root, or
+    ///   on a link that is fixed to the root, the name is fine.
+    /// - `world` on a joint that moves: SDFormat refuses the robot.
     /// - A slash at the beginning: tf2 refuses it as the name of a frame.
     /// - `::`, and `__` at both ends: reserved in SDFormat.
     /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's: an error.
@@ -15,14 +18,13 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let links: BTreeSet<&str> = urdf.names(&urdf.links).collect();
-    let children = urdf.joints.iter().filter_map(|joint| child(*joint, "child"));
-    let children: BTreeSet<&str> = children.filter_map(|child| child.attribute("link")).collect();
+    let world = world(urdf);
     let all = urdf.links.iter().map(|node| (node, false));
     for (node, is_joint) in all.chain(urdf.joints.iter().map(|node| (node, true))) {
         let Some(name) = node.attribute("name") else {
             continue;
         };
-        let is_reserved = name.len() > 4 && name.starts_with("__") && name.ends_with("__");
+        let is_reserved = name.len() >= 4 && name.starts_with("__") && name.ends_with("__");
         let wrong = if name.is_empty() {
             "the name is empty: urdfdom refuses the file, and PyBullet crashes"
         } else if name.starts_with('/') {
@@ -31,14 +33,54 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             "SDFormat, so Gazebo, keeps `::` and `__NAME__` for itself"
         } else if is_joint && links.contains(name) {
             "a link has the same name, and SDFormat, so Gazebo, refuses that"
-        } else if !is_joint && name == "world" && children.contains(name) {
-            "MuJoCo refuses the robot: `world` is the world itself, and this link is not the root"
+        } else if is_joint && name == WORLD && moves(*node) {
+            "SDFormat, so Gazebo, keeps the name `world` for the world, and refuses the robot"
+        } else if !is_joint && name == WORLD && world == World::Moved {
+            "MuJoCo and SDFormat, so Gazebo, refuse the robot: `world` is the world itself, and a joint moves this link"
+        } else if !is_joint && name == WORLD && world == World::Carried {
+            "MuJoCo takes the link for the world itself: it stands still, with all that hangs on it, while the robot moves"
         } else {
             continue;
         };
         let message = format!("{wrong}; choose another name");
-        let is_refused = !is_joint && (name.is_empty() || name == "world");
+        let is_refused = !is_joint && (name.is_empty() || name == WORLD && world == World::Moved);
         error_if(is_refused, urdf.at_attribute(*node, "name", message)).report(findings);
     }
     Some(())
+}
+
+const WORLD: &str = "world";
+
+/// Where the link `world` is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum World {
+    /// Nowhere, at the root, or fixed to it.
+    Still,
+    /// A joint moves it.
+    Moved,
+    /// It is fixed to a link that moves.
+    Carried,
+}
+
+fn world(urdf: &Subject) -> World {
+    let end = |joint: &Node<'_, '_>, end: &str| {
+        let link = joint.children().find(|node| node.has_tag_name(end));
+        link.and_then(|link| link.attribute("link")).unwrap_or_default().to_owned()
+    };
+    let mut link = WORLD.to_owned();
+    // A circle ends with the joints.
+    for step in 0..urdf.joints.len() {
+        let Some(joint) = urdf.joints.iter().find(|joint| end(joint, "child") == link) else {
+            break;
+        };
+        if moves(*joint) {
+            return if step == 0 { World::Moved } else { World::Carried };
+        }
+        link = end(joint, "parent");
+    }
+    World::Still
+}
+
+fn moves(joint: Node) -> bool {
+    joint.attribute("type") != Some("fixed")
 }

@@ -18,14 +18,20 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let of_meshes = meshes.into_iter().map(|(node, mesh)| (node, mesh.file.clone()));
     let of_textures = textures.into_iter().map(|texture| (texture.named.node, texture.file));
     for (node, file) in of_meshes.chain(of_textures) {
-        let Some(package) = file.err().and_then(|missing| missing.no_package) else {
+        let Some((package, near)) = file.err().and_then(|missing| {
+            // LNT029 says these.
+            let is_said = node.tag_name().name() == "mesh" && missing.is_in_near_package();
+            Some((missing.no_package.filter(|_| !is_said)?, missing.near_package))
+        }) else {
             continue;
         };
         if told.insert(package.clone()) {
-            let message = format!(
-                "there is no package `{package}` at or above the URDF; say where it is: --package {}=FOLDER",
-                escape::shell(&package)
-            );
+            let message = near.map(|near| near.in_words(&package)).unwrap_or_else(|| {
+                format!(
+                    "there is no package `{package}` at or above the URDF; say where it is: --package {}=FOLDER",
+                    escape::shell(&package)
+                )
+            });
             urdf.at_attribute(node, "filename", message).report(findings);
         }
     }

@@ -1,6 +1,7 @@
 use roxmltree::Document;
 
 use super::prelude::*;
+use crate::vocabulary::hint;
 use urdd_directory::position::LineIndex;
 
 declare_lint! {
@@ -9,13 +10,19 @@ declare_lint! {
     /// MoveIt says `Link 'X' is not known to URDF`, and goes on without the line: a pair of links is checked for collisions
     /// although it should not be, or a group has no joints.
     ///
-    /// Correct the name in the SRDF. An SRDF is looked for beside the URDF, and in folders called `srdf` there and one level up;
-    /// its file and its robot have the URDF's names.
+    /// Correct the name in the SRDF. SRDFs are looked for beside the URDF, in folders called `srdf` and `config` there and one level
+    /// up, and in those of packages called `…moveit_config` beside the robot's. Those whose files have the URDF's name are its own;
+    /// else the only one of a robot of this name, or the only one there is, if most of its names are those of the URDF.
     LNT045 "srdf-unknown-name", Warning, Format, since "1.1.0"
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    srdf::each(urdf, |file, document| compare(urdf, file, document, findings));
+    for srdf in srdf::of_robot(urdf) {
+        // LNT063 says what is no XML.
+        if let Ok(document) = srdf.parse() {
+            compare(urdf, &srdf.shown, &document, findings);
+        }
+    }
     Some(())
 }
 
@@ -29,7 +36,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
     let elements = || root.descendants().filter(Node::is_element);
     let virtual_joints = elements().filter(|node| node.tag_name().name() == "virtual_joint");
     let virtual_joints: BTreeSet<&str> =
-        virtual_joints.filter_map(|node| node.attribute("name")).collect();
+        virtual_joints.filter_map(|node| Some(node.attribute("name")?.trim())).collect();
     let lines = LineIndex::new(document.input_text());
     let mut told = BTreeSet::new();
     for node in elements() {
@@ -40,10 +47,14 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
             "joint" | "passive_joint" => (false, &["name"]),
             "end_effector" => (true, &["parent_link"]),
             "virtual_joint" => (true, &["child_link"]),
+            "disable_default_collisions" | "link_sphere_approximation" => (true, &["link"]),
+            "joint_property" => (false, &["joint_name"]),
             _ => continue,
         };
         for attribute in attributes {
-            let Some(name) = node.attribute(*attribute).filter(|name| !name.is_empty()) else {
+            let Some(name) =
+                node.attribute(*attribute).map(str::trim).filter(|name| !name.is_empty())
+            else {
                 continue;
             };
             let known = if is_link { &links } else { &joints };
@@ -56,8 +67,10 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
                 continue;
             }
             let kind = if is_link { "link" } else { "joint" };
-            let message =
-                format!("the URDF has no {kind} `{name}`; correct the name, or remove the line");
+            let hint = hint(name, &known.iter().copied().collect::<Vec<_>>());
+            let message = format!(
+                "the URDF has no {kind} `{name}`{hint}; correct the name, or remove the line"
+            );
             let offset =
                 node.attribute_node(*attribute).map_or(node.range().start, |one| one.range().start);
             Finding::in_file(file, message).position(Some(lines.position(offset))).report(findings);

@@ -9,10 +9,12 @@ mod cases;
 mod consequences;
 mod fix;
 mod hull;
+mod messages;
 mod programs;
 mod rules_inertia_beyond_geometry;
 mod severities;
 mod skips;
+mod srdf;
 mod vocabulary;
 mod written;
 

@@ -47,6 +47,7 @@ fn what_programs_refuse_whole_is_an_error() {
         ("LNT013/invalid_negative.urdf", "", "", Error),
         ("LNT015/invalid.urdf", "", "", Warning),
         ("LNT015/invalid_world.urdf", "", "", Error),
+        ("LNT015/invalid_carried_world.urdf", "", "", Warning),
         ("LNT017/invalid.urdf", "", "", Error),
         ("LNT023/invalid.urdf", "", "", Warning),
         ("LNT023/invalid.urdf", "1 -1 1", "1 0 1", Error),
@@ -54,6 +55,8 @@ fn what_programs_refuse_whole_is_an_error() {
         ("LNT024/invalid.urdf", "heavy.obj", HUGE, Warning),
         ("LNT034/invalid.urdf", "", "", Warning),
         ("LNT034/invalid.urdf", "collision>", "visual>", Warning),
+        ("LNT063/invalid_robot.urdf", "", "", Warning),
+        ("LNT063/invalid_xml.urdf", "", "", Error),
     ] {
         assert_eq!(severity(case, old, new), expected, "{case}, {new}");
     }

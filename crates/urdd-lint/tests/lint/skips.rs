@@ -58,6 +58,15 @@ fn the_rule_that_refused_the_file_is_named() {
     assert_eq!(no_xml, "URD011 found a fault");
 }
 
+/// LNT029 says why, and counts: then nothing is left to say of the link.
+#[test]
+fn a_mesh_of_a_package_of_a_near_name_is_a_finding_alone() {
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/LNT029/invalid_near_package.urdf");
+    let report = linted(case.as_ref(), &LintSettings::default()).report.urdds.remove(0);
+    let codes: Vec<&str> = report.findings.iter().map(|finding| finding.code.as_str()).collect();
+    assert_eq!((codes, report.geometry_not_verified), (vec!["LNT029"], Vec::new()));
+}
+
 #[test]
 fn links_whose_meshes_were_not_read_are_named() {
     let case = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/LNT029/near_miss.urdf");

@@ -1,0 +1,192 @@
+use roxmltree::Document;
+
+use super::prelude::*;
+use crate::vocabulary::{hint, near};
+use urdd_directory::position::{LineIndex, Position};
+
+declare_lint! {
+    /// MoveIt does not read the robot's SRDF, or a part of it.
+    ///
+    /// srdfdom 2.0, MoveIt's reader, says so in its log at most, and goes on without the part: links that should not be checked for
+    /// collisions are, a group or a named pose is missing.
+    ///
+    /// - The file is not well-formed XML, or is not a `<robot>`: an error, because MoveIt and Pinocchio refuse it whole.
+    /// - It is of a robot of another name. MoveIt reports an error, and reads it.
+    /// - An element is misspelt, or where none of its name is read.
+    /// - An attribute that the element needs is missing. Pinocchio refuses an SRDF with a pair of one link.
+    /// - A group of this name is not there; the type of a virtual joint is unknown; a position is not a number.
+    ///
+    /// Before: `<disable_colisions link1="base" lnik2="arm"/>`. After: `<disable_collisions link1="base" link2="arm"/>`.
+    ///
+    /// LNT045 has names of links and joints, and says where SRDFs are looked for.
+    LNT063 "srdf-not-read", Warning, Format, since "1.3.0"
+}
+
+/// An element of an SRDF, where it is, the attributes it needs, and what may be in it.
+type Known = (&'static str, &'static [&'static str], &'static [&'static str]);
+
+const ROBOT: Known = (
+    "robot",
+    &[],
+    &[
+        "disable_collisions",
+        "disable_default_collisions",
+        "enable_collisions",
+        "end_effector",
+        "group",
+        "group_state",
+        "joint_property",
+        "link_sphere_approximation",
+        "passive_joint",
+        "virtual_joint",
+    ],
+);
+const ELEMENTS: [Known; 10] = [
+    ("disable_collisions", &["link1", "link2"], &[]),
+    ("disable_default_collisions", &["link"], &[]),
+    ("enable_collisions", &["link1", "link2"], &[]),
+    ("end_effector", &["name", "group", "parent_link"], &[]),
+    ("group", &["name"], &["chain", "group", "joint", "link"]),
+    ("group_state", &["name", "group"], &["joint"]),
+    ("joint_property", &["joint_name", "property_name", "value"], &[]),
+    ("link_sphere_approximation", &["link"], &["sphere"]),
+    ("passive_joint", &["name"], &[]),
+    ("virtual_joint", &["name", "child_link", "parent_frame", "type"], &[]),
+];
+/// Those in one that is not the robot, by what they are in.
+const INNER: [(&str, Known); 6] = [
+    ("group", ("chain", &["base_link", "tip_link"], &[])),
+    ("group", ("group", &["name"], &[])),
+    ("group", ("joint", &["name"], &[])),
+    ("group", ("link", &["name"], &[])),
+    ("group_state", ("joint", &["name", "value"], &[])),
+    ("link_sphere_approximation", ("sphere", &["center", "radius"], &[])),
+];
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for srdf in srdf::of_robot(urdf) {
+        let of_file = |message: String, at| {
+            let finding = Finding::in_file(&srdf.shown, message).position(Some(at));
+            error_if(true, finding)
+        };
+        let document = match srdf.parse() {
+            Ok(document) => document,
+            Err(error) => {
+                let (at, why) = (error.pos(), error.words(&srdf.text));
+                let message = format!("the SRDF is not well-formed XML: {why}");
+                of_file(message, Position { line: at.row, column: at.col }).report(findings);
+                continue;
+            }
+        };
+        let root = document.root_element();
+        let mut reader = Reader::new(&srdf.shown, &document, findings);
+        if root.tag_name().name() != "robot" {
+            let message = "MoveIt refuses the SRDF: its outermost element is not `<robot>`";
+            let at = reader.lines.position(root.range().start);
+            of_file(message.to_owned(), at).report(reader.findings);
+            continue;
+        }
+        let (found, name) = (root.attribute("name"), urdf.root.attribute("name"));
+        if found.map(str::trim) != name {
+            let message = format!(
+                "the SRDF is of robot `{}`, the URDF of `{}`, and MoveIt reports an error; write the URDF's name",
+                found.unwrap_or_default(),
+                name.unwrap_or_default()
+            );
+            reader.say(root, "name", message);
+        }
+        reader.inside(root, ROBOT);
+    }
+    Some(())
+}
+
+/// Reads an SRDF as MoveIt does.
+struct Reader<'d, 'f> {
+    file: &'d str,
+    lines: LineIndex<'d>,
+    groups: Vec<&'d str>,
+    findings: &'f mut Findings,
+}
+
+impl<'d, 'f> Reader<'d, 'f> {
+    fn new(file: &'d str, document: &'d Document<'d>, findings: &'f mut Findings) -> Self {
+        let groups = children(document.root_element()).filter(|(name, _)| *name == "group");
+        let groups = groups.filter_map(|(_, group)| group.attribute("name"));
+        Reader {
+            file,
+            lines: LineIndex::new(document.input_text()),
+            groups: groups.map(str::trim).collect(),
+            findings,
+        }
+    }
+
+    fn say(&mut self, node: Node<'d, 'd>, attribute: &str, message: impl Into<String>) {
+        let one = node.attribute_node(attribute);
+        let offset = one.map_or(node.range().start, |one| one.range().start);
+        let at = Some(self.lines.position(offset));
+        Finding::in_file(self.file, message).position(at).report(self.findings);
+    }
+
+    /// What is in an element that MoveIt reads.
+    fn inside(&mut self, node: Node<'d, 'd>, (of, _, allowed): Known) {
+        for (name, child) in children(node) {
+            let inner = INNER.iter().find(|(above, known)| *above == of && known.0 == name);
+            let top = ELEMENTS.iter().find(|known| of == ROBOT.0 && known.0 == name);
+            if let Some(known) = inner.map(|(_, known)| known).or(top) {
+                self.element(child, *known, of);
+                self.inside(child, if of == ROBOT.0 { *known } else { (known.0, &[], &[]) });
+            } else if ROBOT.2.contains(&name) {
+                let message = format!(
+                    "MoveIt ignores `<{name}>` in `<{of}>`; put it directly into `<robot>`"
+                );
+                self.say(child, "", message);
+            } else if let Some((meant, _)) = near(name, allowed) {
+                self.say(child, "", format!("MoveIt ignores `<{name}>`; write `<{meant}>`"));
+            }
+        }
+    }
+
+    fn element(&mut self, node: Node<'d, 'd>, (name, needed, _): Known, of: &str) {
+        for attribute in needed {
+            if node.attribute(*attribute).is_none_or(|value| value.trim().is_empty()) {
+                let there: Vec<&str> = node.attributes().map(|one| one.name()).collect();
+                let other = there.into_iter().filter(|one| !needed.contains(one));
+                let other = other
+                    .filter(|one| near(one, needed).is_some_and(|(near, _)| near == *attribute));
+                let other = other.map(|one| format!(", but `{one}`")).next().unwrap_or_default();
+                let message = format!(
+                    "`<{name}>` has no `{attribute}`{other}, and MoveIt leaves it out; write `{attribute}`"
+                );
+                self.say(node, "", message);
+            }
+        }
+        let groups: &[&str] = match (of, name) {
+            ("robot", "group_state") => &["group"],
+            ("robot", "end_effector") => &["group", "parent_group"],
+            ("group", "group") => &["name"],
+            _ => &[],
+        };
+        for attribute in groups {
+            let group = node.attribute(*attribute).unwrap_or_default().trim();
+            if !group.is_empty() && !self.groups.contains(&group) {
+                let lost = if of == "group" { "the group around it" } else { "this element" };
+                let hint = hint(group, &self.groups);
+                let message = format!(
+                    "no group is called `{group}`{hint}, and MoveIt leaves out {lost}; write the name of a group"
+                );
+                self.say(node, attribute, message);
+            }
+        }
+        let value = |attribute: &str| node.attribute(attribute).map(str::trim).unwrap_or_default();
+        if of == "group_state"
+            && value("value").split_whitespace().any(|one| one.parse::<f64>().is_err())
+        {
+            self.say(node, "value", "the position is not a number; write one, rad or m");
+        }
+        let types = ["fixed", "floating", "planar", ""];
+        if name == "virtual_joint" && !types.contains(&value("type").to_lowercase().as_str()) {
+            let message = "MoveIt takes a joint of this type for a fixed one; write `fixed`, `floating` or `planar`";
+            self.say(node, "type", message);
+        }
+    }
+}
