@@ -101,7 +101,11 @@ impl Reader<'_> {
             return Ok(());
         }
         if child.value == WORLD {
-            self.effects.read_as(child, &*part, Fault::world(), "a joint of the world");
+            let fault = match &*kind.value {
+                "fixed" => Fault::Way("the link `world` is the world of the program"),
+                _ => Fault::world(),
+            };
+            self.effects.read_as(child, &*part, fault, "a joint of the world");
         }
         for unread in ["safety_controller", "calibration"] {
             if let Some(found) = node.child(unread) {
