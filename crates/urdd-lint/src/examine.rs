@@ -10,7 +10,7 @@ use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
 use super::subject::Subject;
-use super::{allow, effects, rules};
+use super::{allow, effects, namespaces, rules};
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::examined::Examined;
@@ -95,6 +95,9 @@ pub fn examined(
         for place in check.findings.iter_mut().flat_map(Finding::places_mut) {
             as_reported(place, lines, is_mended);
         }
+    }
+    if is_mended {
+        namespaces::declare(text, name, &mut examined.checks);
     }
     effects::mark(&mut examined.checks);
     if !is_mended {

@@ -18,6 +18,7 @@ pub mod hull;
 #[doc(hidden)]
 pub mod inertial;
 mod named_file;
+mod namespaces;
 mod offset;
 pub mod pose;
 mod primitives;

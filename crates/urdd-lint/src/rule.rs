@@ -2,8 +2,7 @@
 
 use super::subject::Subject;
 pub use urdd_findings::description::Description;
-use urdd_findings::description::Severity;
-use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::finding::Findings;
 
 /// A rule about URDFs.
 pub struct LintRule {
@@ -13,12 +12,6 @@ pub struct LintRule {
     pub on_by_default: bool,
     /// Reports what it finds. `None`: what it judges is not there, for a reason given to [`Findings::skip`].
     pub check: fn(&Subject, &mut Findings) -> Option<()>,
-}
-
-/// The finding, as an error if a program refuses the whole robot for it, and the rule's others are less.
-pub(crate) fn error_if(is_refused: bool, mut finding: Finding) -> Finding {
-    finding.severity = is_refused.then_some(Severity::Error);
-    finding
 }
 
 /// Declares the rule of a file as `Declared::RULE`, checked by the file's function `check`. `urdd explain` prints its

@@ -46,6 +46,11 @@ fn spaced<'a>(subject: &Subject<'a>, node: Node<'a, 'a>, attribute: &str) -> Opt
     let value = node.attribute(attribute)?;
     let count = VECTORS.iter().find(|(name, _)| *name == attribute).map_or(1, |(_, count)| *count);
     let is_between = |c: char| c.is_whitespace() || count > 1 && matches!(c, ',' | ';');
+    // A comma within a number is a decimal point to some: `0 0,05`.
+    let is_decimal = |word: &str| word.trim_matches([',', ';']).contains(',');
+    if value.trim().contains(char::is_whitespace) && value.split_whitespace().any(is_decimal) {
+        return None;
+    }
     let words: Vec<&str> = value.split(is_between).filter(|word| !word.is_empty()).collect();
     let is_plain = |word: &&str| {
         let is_digit = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);

@@ -4,13 +4,13 @@ declare_lint! {
     /// A link or joint has a name that a program refuses.
     ///
     /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
-    /// - `world` on a link that a joint moves: MuJoCo and SDFormat refuse the robot, an error. On a link that is fixed to one that
+    /// - `world` on a link that a joint moves: MuJoCo and SDFormat refuse the robot. On a link that is fixed to one that
     ///   moves, MuJoCo loads the robot, and takes the link for the world: it stands still, with all that hangs on it. On the root, or
     ///   on a link that is fixed to the root, the name is fine.
     /// - `world` on a joint that moves: SDFormat refuses the robot.
     /// - A slash at the beginning: tf2 refuses it as the name of a frame.
     /// - `::`, and `__` at both ends: reserved in SDFormat.
-    /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's: an error.
+    /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's.
     ///
     /// Choose another name, and change it wherever it is used: SRDF, controllers, launch files.
     LNT015 "name-refused", Warning, Format, since "1.1.0"
@@ -26,25 +26,24 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         let is_reserved = name.len() >= 4 && name.starts_with("__") && name.ends_with("__");
         let wrong = if name.is_empty() {
-            "the name is empty: urdfdom refuses the file, and PyBullet crashes"
+            "the name is empty"
         } else if name.starts_with('/') {
             "tf2 refuses names that begin with a slash"
         } else if name.contains("::") || is_reserved {
             "SDFormat, so Gazebo, keeps `::` and `__NAME__` for itself"
         } else if is_joint && links.contains(name) {
-            "a link has the same name, and SDFormat, so Gazebo, refuses that"
+            "a link has the same name"
         } else if is_joint && name == WORLD && moves(*node) {
-            "SDFormat, so Gazebo, keeps the name `world` for the world, and refuses the robot"
+            "SDFormat, so Gazebo, keeps the name `world` for the world"
         } else if !is_joint && name == WORLD && world == World::Moved {
-            "MuJoCo and SDFormat, so Gazebo, refuse the robot: `world` is the world itself, and a joint moves this link"
+            "`world` is the world itself, and a joint moves this link"
         } else if !is_joint && name == WORLD && world == World::Carried {
             "MuJoCo takes the link for the world itself: it stands still, with all that hangs on it, while the robot moves"
         } else {
             continue;
         };
         let message = format!("{wrong}; choose another name");
-        let is_refused = !is_joint && (name.is_empty() || name == WORLD && world == World::Moved);
-        error_if(is_refused, urdf.at_attribute(*node, "name", message)).report(findings);
+        urdf.at_attribute(*node, "name", message).report(findings);
     }
     Some(())
 }

@@ -67,7 +67,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for srdf in srdf::of_robot(urdf) {
         let of_file = |message: String, at| {
             let finding = Finding::in_file(&srdf.shown, message).position(Some(at));
-            error_if(true, finding)
+            Finding { severity: Some(Severity::Error), ..finding }
         };
         let document = match srdf.parse() {
             Ok(document) => document,

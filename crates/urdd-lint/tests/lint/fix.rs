@@ -120,3 +120,73 @@ fn a_file_name_is_mended_where_that_file_is_there() {
         assert_eq!(mended(&back, &slashes), Some(arm.to_owned()), "both faults");
     }
 }
+
+/// A robot that all programs load.
+const ARM: &str = include_str!("../cases/LNT060/near_miss.urdf");
+
+/// The robot with one text in place of another.
+fn arm(old: &str, new: &str) -> String {
+    assert!(ARM.contains(old), "{old}");
+    ARM.replacen(old, new, 1)
+}
+
+#[test]
+fn what_programs_refuse_is_mended_where_there_is_one_right_answer() {
+    let steel = "  <material name=\"steel\"><color rgba=\"0.6 0.6 0.7 1\"/></material>\n";
+    let twice = format!("{steel}{steel}");
+    let effort = " effort=\"10\"";
+    let lines = " effort=\"\n  10\n\"";
+    let mass = "<mass value=\"4\"/>\n";
+    let masses = "<mass value=\"4\"/>\n      <mass value=\"4\"/>\n";
+    let controller = "    <safety_controller";
+    let dynamics = "    <dynamics/>\n    <safety_controller";
+    let link = "  <link name=\"base\">\n";
+    let prefixed = "<controller:x name=\"a\"/>\n  <link name=\"base\">\n";
+    for (old, new) in [
+        ("upper=\"2\"", "upper=\" 2 \""),
+        ("0.2 0.2 0.1", "0.2\t0.2  0.1"),
+        ("0 0 0.05", "0,0,0.05"),
+        ("0 0 0.05", "0; 0; 0.05"),
+        (effort, lines),
+        (steel, &twice),
+        (mass, masses),
+        (controller, dynamics),
+        ("\"revolute\"", "\"Revolute\""),
+        ("<robot name=\"arm\">", "<robot name=\"arm\" version=\"1.0\">"),
+    ] {
+        let changed = arm(old, new);
+        if old.starts_with("<robot") {
+            let wrong = changed.replace("\"1.0\"", "\"1\"");
+            assert_eq!(mended(&wrong, &[]), Some(changed), "{new}");
+        } else {
+            assert_eq!(mended(&changed, &[]).as_deref(), Some(ARM), "{new}");
+        }
+    }
+    let declared = mended(&arm(link, prefixed), &[]).expect("mended");
+    assert!(declared.starts_with("<robot xmlns:controller=\"http://"), "{declared}");
+    let boxes = "<geometry><box size=\"0.1 0.1 0.3\"/></geometry>";
+    let mesh = |name: &str| format!("<geometry><mesh filename=\"{name}\"/></geometry>");
+    let spaced = ARM.replace(boxes, &mesh(" box.stl "));
+    assert_eq!(mended(&spaced, &["box.stl"]), Some(ARM.replace(boxes, &mesh("box.stl"))));
+}
+
+#[test]
+fn what_has_several_answers_stays() {
+    let steel = "<material name=\"steel\"><color rgba=\"0.6 0.6 0.7 1\"/></material>";
+    let other = "<material name=\"steel\"><color rgba=\"0 0 0 1\"/></material>";
+    let capsule = "<capsule radius=\"0.1\" length=\"0.2\"/>";
+    for (old, new) in [
+        ("effort=\"10\"", "effort=\"1,0\""),
+        ("effort=\"10\"", "effort=\"10 10\""),
+        ("0 0 0.05", "0 0,05"),
+        ("0 0 0.05", "0 0 0.05m"),
+        (steel, &format!("{steel}{other}")),
+        ("<mass value=\"4\"/>", "<mass value=\"4\"/><mass value=\"5\"/>"),
+        ("\"revolute\"", "\"rotation\""),
+    ] {
+        assert_eq!(mended(&arm(old, new), &[]), None, "{new}");
+    }
+    let newer = arm("<box size=\"0.2 0.2 0.1\"/>", capsule);
+    let newer = newer.replace("<robot ", "<robot version=\"2.0\" ");
+    assert_eq!(mended(&newer, &[]), None);
+}
