@@ -13,7 +13,8 @@ use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
 use urdd_format::report::{Does, Fix, Place, Severity};
 
-use super::Asked;
+use super::asked::Asked;
+use super::left::Left;
 use urdd_programs::Fault;
 
 use super::answers::deed;
@@ -23,19 +24,6 @@ use super::seen::{Reach, sees};
 use super::severity::{is_refused, severity};
 use super::words::{doings, message};
 use crate::subject::Subject;
-
-/// A fault that no other rule finds, as LNT060 and LNT061 report it.
-#[derive(Debug, Clone)]
-pub struct Left {
-    /// Where it is in the text.
-    pub offset: usize,
-    pub message: String,
-    pub severity: Severity,
-    pub programs: Vec<Does>,
-    pub fix: Option<Fix>,
-    /// Whether a program has no robot because of it.
-    pub is_refused: bool,
-}
 
 /// What programs do because of the faults at the places of rules' findings.
 type Given = HashMap<(Code, Position), (Faulty, Option<Fix>)>;

@@ -12,12 +12,14 @@ use urdd_source::roots::Roots;
 
 use crate::settings::LintSettings;
 
-/// The mesh files around a URDF, each looked at once.
+/// The mesh files around a URDF. Each name is looked for once, and each file is read once.
 pub struct MeshFiles<'a> {
     folder: PathBuf,
     settings: &'a LintSettings,
     roots: Roots,
-    known: RefCell<HashMap<String, Mesh>>,
+    by_name: RefCell<HashMap<String, Mesh>>,
+    /// By the ending of their names, which says as what a file is read.
+    by_file: RefCell<HashMap<(PathBuf, String), Mesh>>,
 }
 
 impl<'a> MeshFiles<'a> {
@@ -25,7 +27,8 @@ impl<'a> MeshFiles<'a> {
         let folder = settings.source.files.canonicalize(folder);
         let folder = folder.unwrap_or_else(|_| PathBuf::from("."));
         let roots = Roots::new(&folder, &settings.source);
-        MeshFiles { folder, settings, roots, known: RefCell::default() }
+        let (by_name, by_file) = (RefCell::default(), RefCell::default());
+        MeshFiles { folder, settings, roots, by_name, by_file }
     }
 
     /// What is there under a name. Where packages are missing, or files are outside of those that may be read, nothing is known.
@@ -33,29 +36,50 @@ impl<'a> MeshFiles<'a> {
         if self.settings.without_meshes {
             return Mesh::Unknown;
         }
-        if let Some(known) = self.known.borrow().get(name) {
+        if let Some(known) = self.by_name.borrow().get(name) {
             return known.clone();
         }
-        let mesh = self.look(name);
-        self.known.borrow_mut().insert(name.to_owned(), mesh.clone());
+        let mesh = match name.split_once("://") {
+            // A program may fetch it.
+            Some(("http" | "https" | "ftp", _)) => Mesh::Unknown,
+            Some(_) => self.packaged(name),
+            None => self.plain(name),
+        };
+        self.by_name.borrow_mut().insert(name.to_owned(), mesh.clone());
         mesh
     }
 
-    fn look(&self, name: &str) -> Mesh {
-        // A program may fetch it.
-        if ["http://", "https://", "ftp://"].iter().any(|scheme| name.starts_with(scheme)) {
-            return Mesh::Unknown;
+    /// A path from the URDF's folder. Most of those that programs try are not there.
+    fn plain(&self, name: &str) -> Mesh {
+        let files = self.roots.files();
+        let path = self.folder.join(name);
+        match files.canonicalize(&path).ok().filter(|_| !name.is_empty() && files.is_file(&path)) {
+            Some(file) if self.roots.place(&file, None).is_some() => self.read(&file, name),
+            Some(_) => Mesh::Unknown,
+            None => Mesh::Missing,
         }
-        let found = resolve(name, &self.folder, &self.settings.source.packages, &self.roots);
-        match found {
+    }
+
+    fn packaged(&self, name: &str) -> Mesh {
+        match resolve(name, &self.folder, &self.settings.source.packages, &self.roots) {
             // Other programs take names as they are written.
             Ok(found) if found.assumed.is_some() || name.trim() != name => Mesh::Missing,
-            Ok(found) => match self.roots.files().read(&found.file, MAX_DOCUMENT_BYTES) {
-                Ok(bytes) => Mesh::Found(Arc::new(MeshFacts::of(name, &bytes))),
-                Err(_) => Mesh::Unknown,
-            },
+            Ok(found) => self.read(&found.file, name),
             Err(why) if why.no_package.is_some() || why.outside.is_some() => Mesh::Unknown,
             Err(_) => Mesh::Missing,
         }
+    }
+
+    fn read(&self, file: &Path, name: &str) -> Mesh {
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
+        let key = (file.to_owned(), ending);
+        if let Some(known) = self.by_file.borrow().get(&key) {
+            return known.clone();
+        }
+        let bytes = self.roots.files().read(file, MAX_DOCUMENT_BYTES);
+        let facts = bytes.map(|bytes| Arc::new(MeshFacts::of(name, &bytes)));
+        let mesh = facts.map_or(Mesh::Unknown, Mesh::Found);
+        self.by_file.borrow_mut().insert(key, mesh.clone());
+        mesh
     }
 }

@@ -1,0 +1,35 @@
+//! What programs do with a file.
+
+use std::path::Path;
+
+use urdd_format::report::ProgramResult;
+
+use super::answers;
+use super::faults::{Faulty, faults};
+use super::places::Encoding;
+use crate::settings::LintSettings;
+
+/// What programs do with a file.
+pub struct Asked {
+    /// What reports say.
+    pub results: Vec<ProgramResult>,
+    /// The faults that programs name, in order of place.
+    pub(super) faults: Vec<Faulty>,
+    /// Whether the settings name programs.
+    pub(super) has_chosen: bool,
+    pub(super) encoding: Encoding,
+}
+
+impl Asked {
+    /// Asks the programs about a file of which `text` is the text. Relative names refer to `folder`.
+    pub fn about(bytes: &[u8], text: &str, folder: &Path, settings: &LintSettings) -> Self {
+        let answers = answers::ask(bytes, folder, settings);
+        let encoding = Encoding::of(bytes, text);
+        Asked {
+            results: answers::results(&answers, &encoding, text),
+            faults: faults(&answers, bytes),
+            has_chosen: !settings.report.programs.is_empty(),
+            encoding,
+        }
+    }
+}
