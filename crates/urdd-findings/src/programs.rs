@@ -24,7 +24,7 @@ pub const NAMES: &[&str] = &[
 ];
 
 /// The names of some of the programs that were asked, in their order: of a family once, where all of it is among them.
-pub fn names<'a>(all: &'a [ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&'a str> {
+pub fn names(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for program in all.iter().filter(|program| some(program)) {
         let mut family = all.iter().filter(|other| other.family == program.family);

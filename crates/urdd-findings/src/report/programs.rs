@@ -36,7 +36,7 @@ pub(super) fn cell(urdd: &Urdd, program: &str) -> (&'static str, String) {
     };
     match (program.does, outcome(urdd, program)) {
         (None, _) => ("loads", String::new()),
-        (_, Outcome::Refused(deed, why)) if deed == Deed::Crashes => ("**crashes**", why),
+        (_, Outcome::Refused(Deed::Crashes, why)) => ("**crashes**", why),
         (_, Outcome::Refused(_, why)) => ("**refuses**", why),
         (_, outcome) => (
             "loads",
