@@ -83,6 +83,8 @@ class Types:
 
     def __init__(self) -> None:
         self.known: dict[str, dict[str, Any]] = {}
+        #: Lists that a minor version added to a type: reports of earlier versions lack them.
+        self.later: set[tuple[str, str]] = set()
         self.order: list[str] = []
 
     def add(self, schema: dict[str, Any]) -> str:
@@ -251,6 +253,8 @@ def reader(types: Types, name: str) -> str:
     lines = [f"    return {name}(\n"]
     for key, schema in fields(definition).items():
         value = f'v["{key}"]'
+        if (name, key) in types.later:
+            value = f'v.get("{key}", [])'
         line = f"        {attribute(key)}={types.expression(schema, value)},\n"
         if len(line) > 121:
             # As the formatter wraps it.
@@ -321,10 +325,11 @@ def report_file() -> str:
     types = Types()
     readers = ""
     names = []
-    for schema, version, command in [("report", "1.0.0", "validate"), ("diff_report", "1.1.0", "diff")]:
+    for schema, version, command in [("report", "1.1.0", "validate"), ("diff_report", "1.1.0", "diff")]:
         root = types.add(read_schema(schema, version))
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")
+    types.later = {(kind, "programs") for kind in ("Urdd", "Finding", "Place")}
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(
         title="The reports of a validation and of a comparison, as dataclasses.",

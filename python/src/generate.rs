@@ -52,9 +52,7 @@ impl Options {
         if !self.piece_tolerance.is_none_or(length) {
             return Err("piece_tolerance must be a number of metres above 0".to_owned());
         }
-        if !(self.xacro_timeout > 0.0 && self.xacro_timeout < 1e9) {
-            return Err("xacro_timeout must be a number of seconds above 0".to_owned());
-        }
+        let xacro = xacro(self.xacro, self.xacro_arguments, self.xacro_timeout)?;
         let skip = self.skip.map(|words| {
             let each = words.iter().map(|word| skipped_reason(word));
             each.collect::<Result<Vec<_>, _>>()
@@ -70,16 +68,7 @@ impl Options {
         let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
         Ok(Settings {
             selection,
-            source: SourceSettings {
-                packages,
-                allowed_folders,
-                xacro: XacroSettings {
-                    expand_urdf: self.xacro,
-                    arguments: self.xacro_arguments,
-                    time_limit: Duration::from_secs_f64(self.xacro_timeout),
-                },
-                ..SourceSettings::default()
-            },
+            source: source(packages, allowed_folders, xacro),
             preferred_geometry: match self.geometry.as_str() {
                 "visual" => GeometryKind::Visual,
                 "collision" => GeometryKind::Collision,
@@ -119,6 +108,27 @@ pub fn places(
         }
         None => Ok((packages, allowed_folders)),
     }
+}
+
+/// How xacro files are expanded, in at most so many seconds.
+pub fn xacro(
+    expand_urdf: bool,
+    arguments: Vec<String>,
+    seconds: f64,
+) -> Result<XacroSettings, String> {
+    if !(seconds > 0.0 && seconds < 1e9) {
+        return Err("xacro_timeout must be a number of seconds above 0".to_owned());
+    }
+    Ok(XacroSettings { expand_urdf, arguments, time_limit: Duration::from_secs_f64(seconds) })
+}
+
+/// How descriptions are found and read, from the disk.
+pub fn source(
+    packages: Packages,
+    allowed_folders: Vec<PathBuf>,
+    xacro: XacroSettings,
+) -> SourceSettings {
+    SourceSettings { packages, allowed_folders, xacro, ..SourceSettings::default() }
 }
 
 /// The reason with this name on the command line.

@@ -13,6 +13,7 @@ mod errors;
 mod export;
 mod generate;
 mod jobs;
+mod lint;
 mod obstacle;
 mod page;
 mod parts;
@@ -43,6 +44,8 @@ mod _urdd {
     use crate::generate::generate;
     #[pymodule_export]
     use crate::jobs::find_urdfs;
+    #[pymodule_export]
+    use crate::lint::lint;
     #[pymodule_export]
     use crate::obstacle::Obstacle;
     #[pymodule_export]

@@ -15,6 +15,7 @@ import pytest
 
 import urdd
 import urdd._diff
+import urdd._lint
 import urdd._robot
 import urdd._validate
 import urdd._world
@@ -84,6 +85,7 @@ PUBLIC = [
     "find_urdfs",
     "generate",
     "generate_text",
+    "lint",
     "load",
     "modules",
     "num_threads",
@@ -147,7 +149,9 @@ def test_every_public_name_is_documented() -> None:
 
 
 @pytest.mark.parametrize(
-    "module", [urdd, urdd._diff, urdd._robot, urdd._validate, urdd._world], ids=lambda module: module.__name__
+    "module",
+    [urdd, urdd._diff, urdd._lint, urdd._robot, urdd._validate, urdd._world],
+    ids=lambda module: module.__name__,
 )
 def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(urdds)

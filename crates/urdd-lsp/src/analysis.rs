@@ -13,6 +13,7 @@ use crate::urdd_documents;
 use crate::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_findings::check::Outcome;
+use urdd_findings::report::programs;
 use urdd_lint::skip::WITHOUT_MESHES;
 use urdd_lint::{LintSettings, lint_text};
 
@@ -31,6 +32,8 @@ pub struct Analysis {
     pub found: Vec<Found>,
     /// The rules that only [`Depth::Files`] runs; those of the last run stay until then.
     pub postponed: Postponed,
+    /// What programs do with a URDF, a line for those that do the same.
+    pub programs: Vec<String>,
 }
 
 /// The rules that were not run.
@@ -48,7 +51,7 @@ pub enum Postponed {
 impl Analysis {
     /// Findings of a run of every rule.
     pub fn of(found: Vec<Found>) -> Self {
-        Analysis { found, postponed: Postponed::None }
+        Analysis { found, ..Analysis::default() }
     }
 
     /// Examines a document. `None` if it is cancelled.
@@ -83,7 +86,8 @@ fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Ana
     }
     let mut analysis = match (&snapshot.kind, depth) {
         (Kind::Xacro, Depth::Text) => {
-            Analysis { found: xacro::of_text(snapshot), postponed: Postponed::All }
+            let found = xacro::of_text(snapshot);
+            Analysis { found, postponed: Postponed::All, ..Analysis::default() }
         }
         (Kind::Xacro, Depth::Files) => Analysis::of(xacro::of_files(snapshot, &project)),
         _ => of_urdf(snapshot, depth, &project),
@@ -102,10 +106,10 @@ fn of_urdf(snapshot: &Snapshot, depth: Depth, project: &Project) -> Analysis {
     let mut found: Vec<Found> =
         checks.clone().flat_map(|check| of_check(snapshot, check)).collect();
     found.extend(failures(snapshot, &examined));
-    if depth == Depth::Files {
-        return Analysis::of(found);
-    }
     let waiting = checks.filter(|check| check.outcome == Outcome::Skipped(WITHOUT_MESHES));
-    let codes = waiting.map(|check| check.rule.code.as_str()).collect();
-    Analysis { found, postponed: Postponed::Codes(codes) }
+    let postponed = match depth {
+        Depth::Text => Postponed::Codes(waiting.map(|check| check.rule.code.as_str()).collect()),
+        Depth::Files => Postponed::None,
+    };
+    Analysis { found, postponed, programs: programs::lines(examined) }
 }

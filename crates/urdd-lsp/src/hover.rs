@@ -1,14 +1,15 @@
-//! What is at the cursor: a link, a joint, a mesh, a value of a document.
+//! What is at the cursor: the robot, a link, a joint, a mesh, a value of a document.
 
 use lsp_types::{Hover, Position};
 use nalgebra::Isometry3;
 
 use crate::document::Snapshot;
 use crate::kind::Kind;
+use crate::markup::Place;
 use crate::mesh_hover;
 use crate::reference::{Reference, reference};
 use crate::robot::RobotModel;
-use crate::shown::{code, markdown};
+use crate::shown::{code, markdown, sentence};
 use crate::urdd_documents;
 use urdd_document::robot::Joint;
 use urdd_format::readable::number;
@@ -21,12 +22,21 @@ const MOST_CHILDREN: usize = 10;
 /// Lengths and angles below this are shown as 0: they come from rounding.
 const ZERO: f64 = 1e-9;
 
-/// What is at a position.
-pub fn hover(snapshot: &Snapshot, at: Position) -> Option<Hover> {
+/// What is at a position. `programs` says what programs do with the robot.
+pub fn hover(
+    snapshot: &Snapshot,
+    at: Position,
+    programs: impl FnOnce() -> Vec<String>,
+) -> Option<Hover> {
     if let Kind::Urdd { schema, is_yaml } = snapshot.kind {
         return urdd_documents::hover(snapshot, schema?, is_yaml, at);
     }
-    let found = reference(snapshot, snapshot.text.offset(at))?;
+    let offset = snapshot.text.offset(at);
+    let root = snapshot.markup().place(snapshot.text.as_str(), offset);
+    if let (Kind::Urdf, Place::TagName { element: 0 }) = (snapshot.kind, root) {
+        return in_programs(snapshot, &programs());
+    }
+    let found = reference(snapshot, offset)?;
     let range = Some(snapshot.text.range(found.range.clone()));
     let robot = snapshot.robot();
     let text = match found.to {
@@ -39,6 +49,16 @@ pub fn hover(snapshot: &Snapshot, at: Position) -> Option<Hover> {
         Reference::Material(_) => return None,
     };
     Some(markdown(text, range))
+}
+
+/// What programs do with the robot, at the name of its element.
+fn in_programs(snapshot: &Snapshot, lines: &[String]) -> Option<Hover> {
+    let mut text = lines.first().map(|_| "**In programs**\n".to_owned())?;
+    for line in lines {
+        text += &format!("\n- {}", sentence(line));
+    }
+    let root = snapshot.markup().elements.first()?;
+    Some(markdown(text, Some(snapshot.text.range(root.name.clone()))))
 }
 
 fn link(model: &RobotModel, name: &str) -> Option<String> {

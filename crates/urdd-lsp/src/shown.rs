@@ -12,6 +12,18 @@ pub fn markdown(value: String, range: Option<Range>) -> Hover {
     }
 }
 
+/// A sentence that may quote a file: nothing in it begins anything of Markdown.
+pub fn sentence(text: &str) -> String {
+    let mut shown = String::new();
+    for c in escape::line(text).chars() {
+        if "\\`*_[]<>&|~#".contains(c) {
+            shown.push('\\');
+        }
+        shown.push(c);
+    }
+    shown
+}
+
 /// A name as code: no name ends it, or begins something else.
 pub fn code(name: &str) -> String {
     let name = escape::line(name).replace('`', "'");

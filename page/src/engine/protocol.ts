@@ -261,7 +261,42 @@ export interface Finding {
   severity: Severity;
   message: string;
   count: number;
+  /** What programs do because of it. */
+  programs: { program: string; does: Deed }[];
   [key: string]: unknown;
+}
+
+/** What a program does with a part of a URDF, or with the whole. */
+export type Deed = "reads" | "drops" | "refuses" | "crashes";
+
+export interface ProgramResult {
+  /** `mujoco`, `urdfdom6`. */
+  program: string;
+  name: string;
+  /** Its name whatever its version. */
+  family: string;
+  /** The version that its reader was held to. */
+  version: string;
+  /** Whether the settings name it. */
+  is_chosen: boolean;
+  /** The worst that it does; null where it reads all as it is written, but for what is usual. */
+  does: Deed | null;
+  effects: ProgramEffect[];
+  effects_cut: number;
+}
+
+/** Something that a program does otherwise than the file says. */
+export interface ProgramEffect {
+  does: Deed;
+  line: number | null;
+  column: number | null;
+  /** Such as `joint/elbow/limit`; null for the whole file. */
+  part: string | null;
+  reason: string;
+  /** What the program makes of the part, where it reads it otherwise. */
+  makes: string | null;
+  /** Whether it does so with every robot, or because of another fault. */
+  is_usual: boolean;
 }
 
 export interface UrddReport {
@@ -277,6 +312,8 @@ export interface UrddReport {
   geometry_not_verified: { link: number; codes: string[]; reasons: string[] }[];
   /** Why the rates of the self-collision model were not verified; null if they were, or without a model. */
   model_not_verified: { codes: string[]; reasons: string[] } | null;
+  /** What programs do with a URDF; empty for a URDD. */
+  programs: ProgramResult[];
   modules: { name: string; path: string; version: string | null; profile: string | null }[];
 }
 

@@ -3,15 +3,10 @@
 import type { App } from "../app";
 import { message } from "../app";
 import type { Finding } from "../engine/protocol";
-import { excerpt } from "../excerpt";
-import { CONSEQUENCES, linkOf, places } from "../findings";
-import type { Place } from "../findings";
+import { CONSEQUENCES, places } from "../findings";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
-
-/** Number of places shown at first, and added by each click. */
-const SHOWN = 5;
-const MORE = 50;
+import { placeList } from "./places";
 
 export function card(app: App, finding: Finding): HTMLElement {
   const explanation = h("div", { class: "explanation" });
@@ -31,114 +26,9 @@ export function card(app: App, finding: Finding): HTMLElement {
     ),
     h("p", {}, ...prose(name(finding.message))),
     h("p", { class: "hint" }, [consequence, count(finding.count, "place")].filter(Boolean).join(" · ")),
-    placeList(app, finding),
+    placeList(app, places(finding), finding.count),
     explanation,
   );
-}
-
-function placeList(app: App, finding: Finding): HTMLElement {
-  const all = places(finding);
-  const list = h("ul", { class: "places" });
-  const more = button("", { class: "tiny" }, () => show(shown + MORE));
-  const last = h("li", {}, more);
-  let shown = 0;
-  const show = (n: number): void => {
-    for (const place of all.slice(shown, n)) last.before(placeRow(app, place));
-    shown = Math.min(n, all.length);
-    const left = all.length - shown;
-    more.hidden = left === 0;
-    more.textContent = `Show ${Math.min(left, MORE)} more of ${count(finding.count, "place")}`;
-    const cut = finding.count - all.length;
-    last.hidden = left === 0 && cut <= 0;
-    if (left === 0 && cut > 0)
-      fill(
-        last,
-        h("span", { class: "hint" }, `${count(cut, "place")} more ${cut === 1 ? "is" : "are"} not in the report`),
-      );
-  };
-  list.append(last);
-  show(SHOWN);
-  return list;
-}
-
-function placeRow(app: App, place: Place): HTMLElement {
-  const { robot } = app.store.now;
-  const link = robot ? linkOf(robot, place) : null;
-  const written = place.written_at;
-  const fix = place.fixes?.[0];
-  const where = place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null;
-  const texts = [place.subject, where, place.pointer].filter((text): text is string => Boolean(text));
-  const text = h("div", { class: "excerpt", hidden: true });
-  const label = prose(name(texts[0] ?? "the robot as a whole"));
-  const go = button(label, { class: "place", title: texts.map(name).join("\n") }, () => {
-    if (link !== null) app.select({ kind: "link", index: link });
-    if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
-  });
-  if (place.line !== null) go.setAttribute("aria-expanded", "false");
-  if (link === null && place.line === null) go.disabled = true;
-  return h(
-    "li",
-    {},
-    go,
-    place.subject && where && h("span", { class: "kind" }, ` ${name(where)}`),
-    written && h("span", { class: "kind" }, ` written at ${name(said(written))}`),
-    place.message && h("span", { class: "what" }, ...prose(name(place.message))),
-    fix &&
-      h(
-        "span",
-        { class: "what" },
-        ...prose(`Fix: ${name(fix.message)}${fix.is_safe ? "; `urdd lint --fix` does it" : ""}`),
-      ),
-    (place.expected ?? place.actual) !== null &&
-      h(
-        "dl",
-        {},
-        place.expected !== null && h("dt", {}, "expected"),
-        place.expected !== null && h("dd", {}, name(place.expected)),
-        place.actual !== null && h("dt", {}, "found"),
-        place.actual !== null && h("dd", {}, name(place.actual)),
-      ),
-    place.related.length > 0 && h("ul", { class: "places" }, ...place.related.map((other) => placeRow(app, other))),
-    text,
-  );
-}
-
-function said({ file, line, macro_name }: NonNullable<Place["written_at"]>): string {
-  return `${file}${line === null ? "" : `:${line}`}${macro_name === null ? "" : `, macro ${macro_name}`}`;
-}
-
-/** The text of a file in the report. */
-async function textOf(app: App, path: string): Promise<string> {
-  const { report } = app.store.now.report;
-  const urdd = report?.urdds[0];
-  if (urdd?.kind !== "urdf") return new TextDecoder().decode(await app.engine.ask("file", { path }));
-  if (urdd.path !== path || !report?.text) throw new Error("the page does not have this file");
-  return report.text;
-}
-
-/** Shows the lines around a place; a second click hides them. */
-async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
-  const button = into.parentElement?.querySelector(".place");
-  into.hidden = !into.hidden;
-  button?.setAttribute("aria-expanded", String(!into.hidden));
-  if (into.hidden || into.childElementCount > 0) return;
-  try {
-    const found = excerpt(await textOf(app, path), line, column);
-    if (!found) throw new Error("the file no longer has this line");
-    fill(
-      into,
-      ...found.lines.map(({ number, text, isPlace }) =>
-        h(
-          "div",
-          { class: isPlace ? "line at" : "line" },
-          h("span", { class: "number" }, String(number)),
-          h("code", {}, name(text)),
-        ),
-      ),
-    );
-  } catch (error) {
-    fill(into, h("p", { class: "hint" }, `The text cannot be shown: ${message(error)}`));
-  }
 }
 
 async function explain(app: App, code: string, into: HTMLElement): Promise<void> {

@@ -7,6 +7,7 @@ import type { State } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { card } from "./finding_card";
+import { programs } from "./programs";
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "info"];
 const GROUPS = ["severity", "module", "link"] as const;
@@ -38,7 +39,7 @@ export function findings(app: App): HTMLElement {
     h("div", { class: "actions" }, search, by),
     painting(app),
   );
-  const panel = h("div", { class: "panel" }, verdict, tools, list);
+  const panel = h("div", { class: "panel" }, verdict, programs(app), tools, list);
   const validate = button("Validate", {}, () => void app.loadReport());
 
   const render = (): void => {

@@ -10,7 +10,8 @@
 
 Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link: see :class:`Robot`.
 :func:`generate` generates a URDD from a URDF, :func:`combine` one from several robots, :func:`validate` validates one,
-:func:`export` writes it in the formats of other programs, :func:`diff` compares two. :class:`World` holds obstacles.
+:func:`export` writes it in the formats of other programs, :func:`diff` compares two. :func:`lint` finds what is wrong
+with a URDF, and what programs do with it. :class:`World` holds obstacles.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ from ._combine import Combined, CombineNote, combine
 from ._diff import diff
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
+from ._lint import lint
 from ._proximity import Proximity
 from ._robot import Robot, load
 from ._urdd import __version__, num_threads, set_num_threads
@@ -134,6 +136,7 @@ __all__ = [
     "find_urdfs",
     "generate",
     "generate_text",
+    "lint",
     "load",
     "modules",
     "num_threads",

@@ -19,6 +19,7 @@ __all__ = [
     "ExportOptions",
     "GenerateOptions",
     "InverseOptions",
+    "LintOptions",
     "MakingOptions",
     "ValidateOptions",
     "options_of",
@@ -130,6 +131,24 @@ class ValidateOptions:
 
     conformance_class: str | None
     deep: bool
+    fail_on: str | None
+    config: str | None
+    select: list[str]
+    ignore: list[str]
+    exclude: list[str]
+
+
+@dataclass(frozen=True)
+class LintOptions:
+    """The options of :func:`urdd.lint`, for the compiled part."""
+
+    for_: list[str] | None
+    packages: list[tuple[str, Path]]
+    allowed_folders: list[Path]
+    xacro: bool
+    xacro_arguments: list[str]
+    xacro_timeout: float
+    baseline: Path | None
     fail_on: str | None
     config: str | None
     select: list[str]

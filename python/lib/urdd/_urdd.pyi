@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._answers import ShapeKind
-from ._options import ExportOptions, GenerateOptions, InverseOptions, ValidateOptions
+from ._options import ExportOptions, GenerateOptions, InverseOptions, LintOptions, ValidateOptions
 
 __all__ = [
     "CollisionModel",
@@ -25,6 +25,7 @@ __all__ = [
     "find_urdfs",
     "generate",
     "joint_groups",
+    "lint",
     "main",
     "num_threads",
     "page_html",
@@ -212,6 +213,7 @@ def generate(
     options: GenerateOptions,
     progress: Callable[[str, int, int], object] | None,
 ) -> dict[str, Any]: ...
+def lint(paths: Sequence[Path], options: LintOptions) -> str: ...
 def validate(paths: Sequence[Path], options: ValidateOptions) -> str: ...
 def explain(code: str) -> tuple[str, str, str, str]: ...
 def export(

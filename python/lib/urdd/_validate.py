@@ -15,7 +15,7 @@ from .errors import OpenError, ValidationError
 if TYPE_CHECKING:
     from .report import Report
 
-__all__ = ["Rule", "check", "explain", "validate"]
+__all__ = ["Rule", "check", "explain", "settings_text", "validate"]
 
 #: Maximum number of errors in the message of a :class:`ValidationError`.
 _SHOWN = 5
@@ -23,7 +23,7 @@ _SHOWN = 5
 
 @dataclass(frozen=True)
 class Rule:
-    """A rule of the validator."""
+    """A rule of the validator, or of :func:`urdd.lint`."""
 
     code: str
     """Its code, such as ``DOF003``."""
@@ -32,7 +32,7 @@ class Rule:
     severity: str
     """Its severity: ``error``, ``warning`` or ``info``."""
     clause: str
-    """The clause of the specification."""
+    """The clause of the specification; empty for a rule of :func:`urdd.lint` alone."""
     explanation: str
     """The problem, why it matters, and what to do."""
 
@@ -71,17 +71,11 @@ def validate(
     """
     if not paths:
         raise TypeError("validate needs a path: a URDD, or a folder with URDDs")
-    text = None
-    if config is not None:
-        try:
-            text = Path(config).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise OpenError(f"{os.fspath(config)}: the settings cannot be read: {error}") from None
     options = ValidateOptions(
         conformance_class=conformance_class,
         deep=bool(deep),
         fail_on=fail_on,
-        config=text,
+        config=settings_text(config),
         select=words(select, "select"),
         ignore=words(ignore, "ignore"),
         exclude=words(exclude, "exclude"),
@@ -89,6 +83,16 @@ def validate(
     from .report import read_report
 
     return read_report(_urdd.validate([Path(path) for path in paths], options))
+
+
+def settings_text(config: str | os.PathLike[str] | None) -> str | None:
+    """The text of a settings file."""
+    if config is None:
+        return None
+    try:
+        return Path(config).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise OpenError(f"{os.fspath(config)}: the settings cannot be read: {error}") from None
 
 
 def check(path: Path) -> None:

@@ -12,9 +12,11 @@ from typing import Any, Literal, TypeAlias
 __all__ = [
     "CheckStatus",
     "Consequence",
+    "Deed",
     "DiffBox",
     "DiffReport",
     "DiffSide",
+    "Does",
     "DofDifference",
     "Finding",
     "FindingDifference",
@@ -35,6 +37,8 @@ __all__ = [
     "Place",
     "PoseDifference",
     "Presence",
+    "ProgramEffect",
+    "ProgramResult",
     "Report",
     "Severity",
     "Size",
@@ -106,6 +110,14 @@ Consequence: TypeAlias = Literal[
 - `missing-geometry`: Geometry is not there, or cannot be read.
 - `wrong-place`: Something is in another place than the robot has it.
 - `wrong-motion`: The robot moves otherwise than it says.
+"""
+
+Deed: TypeAlias = Literal["reads", "drops", "refuses", "crashes"]
+"""What a program does with a part of a URDF, or with the whole.
+- `reads`: It reads the part otherwise than the file says.
+- `drops`: It leaves the part out.
+- `refuses`: It refuses the file.
+- `crashes`: It crashes.
 """
 
 Presence: TypeAlias = Literal["added", "removed", "changed"]
@@ -181,6 +193,9 @@ class Urdd:
     model_not_verified: ModelNotVerified | None
     """Why the rates of `self_collision_model_module` were not verified; null where they were, and where there is no
     such module."""
+
+    programs: list[ProgramResult]
+    """What programs do with a URDF, by their readers; empty where none was asked."""
 
 
 @dataclass(frozen=True)
@@ -295,6 +310,9 @@ class Finding:
     places_cut: int
     """How many of the counted places are not listed here, because there are too many."""
 
+    programs: list[Does]
+    """The programs that refuse the file, or read it otherwise than it says, because of it."""
+
 
 @dataclass(frozen=True)
 class Magnitude:
@@ -347,6 +365,9 @@ class Place:
 
     fixes: list[Fix]
     """Changes that mend it, each by itself, the best first."""
+
+    programs: list[Does]
+    """The programs that refuse the file, or read it otherwise than it says, because of what is at this place."""
 
 
 @dataclass(frozen=True)
@@ -404,6 +425,17 @@ class TextEdit:
 
 
 @dataclass(frozen=True)
+class Does:
+    """What a program does because of a finding."""
+
+    program: str
+    """The program."""
+
+    does: Deed
+    """What it does."""
+
+
+@dataclass(frozen=True)
 class NotChecked:
     """What was not verified."""
 
@@ -437,6 +469,61 @@ class ModelNotVerified:
 
     reasons: list[str]
     """Why not."""
+
+
+@dataclass(frozen=True)
+class ProgramResult:
+    """What a program does with a URDF."""
+
+    program: str
+    """The program, as `--for` and `Does` name it: `mujoco`, `urdfdom6`."""
+
+    name: str
+    """Its name for people."""
+
+    family: str
+    """Its name whatever its version."""
+
+    version: str
+    """The version that its reader was held to."""
+
+    is_chosen: bool
+    """Whether the settings name it."""
+
+    does: Deed | None
+    """The worst that it does; null where it reads all as it is written, but for what is usual."""
+
+    effects: list[ProgramEffect]
+    """All that it does otherwise than the file says, in order of place."""
+
+    effects_cut: int
+    """How many effects are not listed here, because there are too many."""
+
+
+@dataclass(frozen=True)
+class ProgramEffect:
+    """Something that a program does otherwise than the file says."""
+
+    does: Deed
+    """What it does."""
+
+    line: int | None
+    """Line in the file, from 1; null where it is no text."""
+
+    column: int | None
+    """Column in the line, in characters, from 1."""
+
+    part: str | None
+    """What is lost or read otherwise, such as `joint/elbow/limit`; null for the whole file."""
+
+    reason: str
+    """Why."""
+
+    makes: str | None
+    """What the program makes of the part, where it reads it otherwise."""
+
+    is_usual: bool
+    """Whether the program does so with every robot, or because of another fault: nothing is wrong there."""
 
 
 @dataclass(frozen=True)
@@ -770,6 +857,7 @@ def _urdd(v: Any) -> Urdd:
         not_checked=[_not_checked(x) for x in v["not_checked"]],
         geometry_not_verified=[_link_not_verified(x) for x in v["geometry_not_verified"]],
         model_not_verified=None if v["model_not_verified"] is None else _model_not_verified(v["model_not_verified"]),
+        programs=[_program_result(x) for x in v.get("programs", [])],
     )
 
 
@@ -821,6 +909,7 @@ def _finding(v: Any) -> Finding:
         count=int(v["count"]),
         places=[_place(x) for x in v["places"]],
         places_cut=int(v["places_cut"]),
+        programs=[_does(x) for x in v.get("programs", [])],
     )
 
 
@@ -845,6 +934,7 @@ def _place(v: Any) -> Place:
         magnitude=None if v["magnitude"] is None else _magnitude(v["magnitude"]),
         related=[_place(x) for x in v["related"]],
         fixes=[_fix(x) for x in v["fixes"]],
+        programs=[_does(x) for x in v.get("programs", [])],
     )
 
 
@@ -876,6 +966,13 @@ def _text_edit(v: Any) -> TextEdit:
     )
 
 
+def _does(v: Any) -> Does:
+    return Does(
+        program=v["program"],
+        does=v["does"],
+    )
+
+
 def _not_checked(v: Any) -> NotChecked:
     return NotChecked(
         codes=v["codes"],
@@ -895,6 +992,31 @@ def _model_not_verified(v: Any) -> ModelNotVerified:
     return ModelNotVerified(
         codes=v["codes"],
         reasons=v["reasons"],
+    )
+
+
+def _program_result(v: Any) -> ProgramResult:
+    return ProgramResult(
+        program=v["program"],
+        name=v["name"],
+        family=v["family"],
+        version=v["version"],
+        is_chosen=v["is_chosen"],
+        does=v["does"],
+        effects=[_program_effect(x) for x in v["effects"]],
+        effects_cut=int(v["effects_cut"]),
+    )
+
+
+def _program_effect(v: Any) -> ProgramEffect:
+    return ProgramEffect(
+        does=v["does"],
+        line=None if v["line"] is None else int(v["line"]),
+        column=None if v["column"] is None else int(v["column"]),
+        part=v["part"],
+        reason=v["reason"],
+        makes=v["makes"],
+        is_usual=v["is_usual"],
     )
 
 

@@ -40,7 +40,7 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     }
 }
 
-fn urdd(examined: Examined, fail_on: Severity) -> Urdd {
+pub(super) fn urdd(examined: Examined, fail_on: Severity) -> Urdd {
     let geometry_not_verified = examined.links_not_verified();
     let model_not_verified = examined.model_not_verified();
     let Examined { report, checks } = examined;

@@ -8,7 +8,7 @@ pub mod human;
 pub mod junit;
 pub mod markdown;
 pub mod place;
-mod programs;
+pub mod programs;
 pub mod sarif;
 pub mod style;
 #[doc(hidden)]

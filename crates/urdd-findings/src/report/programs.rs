@@ -2,10 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use urdd_format::report::{Deed, Does, ProgramEffect, ProgramResult, Report, Urdd};
+use urdd_format::report::{Deed, Does, ProgramEffect, ProgramResult, Report, Severity, Urdd};
 
+use super::fill;
 use super::words::plural;
+use crate::examined::Examined;
 use crate::programs::{listed, names};
+
+/// What each program does with an examined URDF, as the report for people says it: those of the settings and the worst
+/// first, programs that do the same in one line.
+pub fn lines(examined: Examined) -> Vec<String> {
+    let urdd = fill::urdd(examined, Severity::Error);
+    describe(&urdd).into_iter().map(|(_, line)| line).collect()
+}
 
 /// What each program does, those of the settings and the worst first; programs that do the same once.
 pub(super) fn describe(urdd: &Urdd) -> Vec<(Option<Deed>, String)> {

@@ -31,6 +31,13 @@ impl Document {
         self.cancellation = Cancellation::default();
     }
 
+    /// The newest analysis of the current version: that of its files, else that of its text.
+    pub fn analysis(&self) -> Option<&Analysis> {
+        let of_files = self.of_files.as_ref();
+        let of_files = of_files.filter(|(snapshot, _)| Arc::ptr_eq(snapshot, &self.snapshot));
+        of_files.map(|(_, analysis)| analysis).or(self.of_text.as_ref())
+    }
+
     /// The findings of the current version: those about files, if they are of this version; else those of the text, and
     /// what still stands of the last ones about files.
     pub fn findings(&self) -> Vec<Found> {

@@ -35,9 +35,7 @@ impl Server {
                 self.is_shut_down = true;
                 self.send(Response::new_ok(id, Value::Null));
             }
-            "textDocument/hover" => self.answer(id, params, |snapshot, params: HoverParams| {
-                hover(snapshot, params.text_document_position_params.position)
-            }),
+            "textDocument/hover" => self.hover(id, params),
             "textDocument/definition" => {
                 self.answer(id, params, |snapshot, params: GotoDefinitionParams| {
                     definition(snapshot, params.text_document_position_params.position)
@@ -61,6 +59,16 @@ impl Server {
         }
     }
 
+    fn hover(&mut self, id: RequestId, params: Value) {
+        let document = uri_of(&params).and_then(|uri| self.documents.get(uri));
+        let known = document.and_then(Document::analysis);
+        let known = known.map(|analysis| analysis.programs.clone());
+        self.answer(id, params, move |snapshot, params: HoverParams| {
+            let programs = || known.unwrap_or_else(|| now(snapshot).programs);
+            hover(snapshot, params.text_document_position_params.position, programs)
+        });
+    }
+
     fn code_actions(&mut self, id: RequestId, params: Value) {
         let client = self.client;
         let uri = uri_of(&params).unwrap_or_default().to_owned();
@@ -68,11 +76,7 @@ impl Server {
         let known = document.filter(|one| one.of_text.is_some()).map(Document::findings);
         self.answer(id, params, move |snapshot, params: CodeActionParams| {
             // Before the findings of the newest text are there, as where an editor fixes on save.
-            let found = known.or_else(|| {
-                let analysis = Analysis::new(snapshot, Depth::Text, &Cancellation::default());
-                analysis.map(|analysis| analysis.found)
-            });
-            let found = found.unwrap_or_default();
+            let found = known.unwrap_or_else(|| now(snapshot).found);
             code_actions(snapshot, &found, &params, client.versioned_edits)
         });
     }
@@ -120,6 +124,11 @@ impl Server {
     fn refuse(&self, id: RequestId, code: ErrorCode, message: String) {
         self.send(Response::new_err(id, code as i32, message));
     }
+}
+
+/// The analysis of a text whose own is not there yet.
+fn now(snapshot: &Snapshot) -> Analysis {
+    Analysis::new(snapshot, Depth::Text, &Cancellation::default()).unwrap_or_default()
 }
 
 fn failure(message: String) -> ResponseError {

@@ -78,6 +78,63 @@ fn a_mesh_has_its_file_and_its_extent_as_scaled() {
     assert!(shown(&hover).contains("Not found: tried "), "{hover:#?}");
 }
 
+/// A robot whose safety controller lacks `k_velocity`: urdfdom refuses it, and with it ROS, Gazebo and Pinocchio; MuJoCo
+/// does not read the element, and refuses the link without mass.
+fn without_k_velocity() -> String {
+    let limit = "<limit lower=\"-1\" upper=\"1.5\" effort=\"10\" velocity=\"2\"/>";
+    ARM.replace(limit, &format!("{limit}\n    <safety_controller k_position=\"20\"/>"))
+}
+
+#[test]
+fn the_robot_has_a_line_for_what_programs_do_with_it() {
+    let (_folder, path, uri) = robot_folder();
+    let settings = path.with_file_name("urdd.toml");
+    let text = without_k_velocity();
+    let mut client = Client::new();
+    client.open(&uri, &text);
+    let found = client.with_code(1, "LNT060");
+    assert_eq!(covered(&text, &found[0]["range"]), "<safety_controller k_position=\"20\"/>");
+    let message = found[0]["message"].as_str().unwrap();
+    assert!(message.contains("ROS, Gazebo and Pinocchio refuse the robot"), "{message}");
+
+    let hover = client.at("textDocument/hover", &uri, &text, "robot name", 2);
+    assert_eq!(covered(&text, &hover["range"]), "robot");
+    let line = 1 + text[..text.find("<safety").unwrap()].matches('\n').count();
+    let said = shown(&hover);
+    let refused = format!("- ROS, Gazebo and Pinocchio refuse it (LNT060 at {line}:5)");
+    let order = |refused: &str| {
+        Some((said.find(refused)?, said.find("- Drake loads it without 1 safety controller")?))
+    };
+    assert!(order(&refused).is_some_and(|(first, second)| first < second), "{said}");
+    // Elsewhere in the start tag, nothing is said.
+    assert!(client.at("textDocument/hover", &uri, &text, "name=\"arm\"", 1).is_null());
+
+    // What the settings name comes first.
+    std::fs::write(&settings, "for = [\"mujoco\"]\n").unwrap();
+    client.change(&uri, 2, &text);
+    client.save(&uri);
+    client
+        .until(2, |found| found.iter().any(|one| one["code"] == "LNT060" && one["severity"] == 3));
+    let hover = client.at("textDocument/hover", &uri, &text, "robot name", 2);
+    let said = shown(&hover);
+    assert!(said.starts_with("**In programs**\n\n- MuJoCo "), "{said}");
+    assert!(said.contains(&refused), "{said}");
+
+    // Mended, ROS loads it; the answer does not wait for the findings.
+    let mended = text.replace("k_position", "k_velocity=\"1\" k_position");
+    client.change(&uri, 3, &mended);
+    let hover = client.at("textDocument/hover", &uri, &mended, "robot name", 2);
+    let said = shown(&hover);
+    assert!(said.contains("- MuJoCo refuses it (LNT006 at 22:3)"), "{said}");
+    assert!(said.contains("- ROS and Isaac and Newton load it\n"), "{said}");
+    // A text that is not XML is refused by all.
+    let broken = mended.replace("</robot>", "");
+    client.change(&uri, 4, &broken);
+    let hover = client.at("textDocument/hover", &uri, &broken, "robot name", 2);
+    assert!(shown(&hover).contains("ROS"), "{hover:#?}");
+    assert!(!shown(&hover).contains("load"), "{hover:#?}");
+}
+
 #[test]
 fn half_typed_text_still_answers() {
     let mut client = Client::new();

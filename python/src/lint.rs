@@ -1,0 +1,72 @@
+//! Linting.
+
+use std::path::PathBuf;
+
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use urdd_findings::baseline::Baseline;
+use urdd_findings::report;
+use urdd_findings::settings::{Settings, parse_program};
+use urdd_lint::{LintError, LintSettings};
+
+use crate::errors::raise;
+use crate::generate;
+use crate::validate::reporting;
+use crate::work;
+
+/// The options of `urdd.lint`, which checks their types.
+#[derive(FromPyObject)]
+pub struct Options {
+    for_: Option<Vec<String>>,
+    packages: Vec<(String, PathBuf)>,
+    allowed_folders: Vec<PathBuf>,
+    xacro: bool,
+    xacro_arguments: Vec<String>,
+    xacro_timeout: f64,
+    baseline: Option<PathBuf>,
+    fail_on: Option<String>,
+    config: Option<String>,
+    select: Vec<String>,
+    ignore: Vec<String>,
+    exclude: Vec<String>,
+}
+
+impl Options {
+    /// The settings, without the baseline.
+    fn settings(self) -> Result<LintSettings, String> {
+        let lists = [&self.select[..], &self.ignore, &self.exclude];
+        let mut report = reporting(self.config.as_deref(), self.fail_on, lists)?;
+        if let Some(words) = self.for_ {
+            let each = words.iter().map(|word| parse_program(word));
+            report.programs =
+                each.collect::<Result<_, _>>().map_err(|error| format!("for_: {error}"))?;
+        }
+        let (packages, allowed_folders) = generate::places(&self.packages, self.allowed_folders)?;
+        let xacro = generate::xacro(self.xacro, self.xacro_arguments, self.xacro_timeout)?;
+        let source = generate::source(packages, allowed_folders, xacro);
+        Ok(LintSettings { report, source, ..LintSettings::default() })
+    }
+}
+
+/// The report on every URDF at or below the paths, as JSON.
+#[pyfunction]
+pub fn lint(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResult<String> {
+    let baseline = options.baseline.as_deref().map(Baseline::read).transpose();
+    let baseline = baseline.map_err(|error| raise(py, "OpenError", error, &[]))?;
+    let settings = options.settings().map_err(PyValueError::new_err)?;
+    let outcome = work::run(py, move |cancellation| {
+        let report = Settings { cancellation: cancellation.clone(), ..settings.report };
+        let settings = LintSettings { report, baseline, ..settings };
+        let run = urdd_lint::lint(&paths, &settings)?;
+        Ok(report::json(&run.report))
+    })?;
+    match outcome {
+        Ok(text) => text.map_err(|error| PyRuntimeError::new_err(error.to_string())),
+        Err(LintError::Cancelled(error)) => Err(PyKeyboardInterrupt::new_err(error.to_string())),
+        Err(LintError::OnlyXacro) => {
+            let message = "there are only xacro files, which are programs: xacro=True expands those in folders";
+            Err(raise(py, "OpenError", message, &[]))
+        }
+        Err(error) => Err(raise(py, "OpenError", error, &[])),
+    }
+}
