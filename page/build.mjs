@@ -1,11 +1,11 @@
 // Bundles the page into crates/urdd-view/dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
-//     node build.mjs [URDD_WASM ROBOT_WASM [FOLDER]]
+//     node build.mjs [URDD_WASM ROBOT_WASM LINT_WASM [FOLDER]]
 //     node build.mjs --current     only says whether crates/urdd-view/dist is of these sources: exit status 0, otherwise 1
 //
-// URDD_WASM is the module that `cargo build --profile wasm -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
-// a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is crates/urdd-view/dist
-// unless it is given; `URDD_DIST=FOLDER npm test` tries what is there.
+// The modules are those that `.ci/page` makes: URDD_WASM for the page; ROBOT_WASM for a page in one file, without the
+// validator; LINT_WASM for the npm package. FOLDER is crates/urdd-view/dist unless it is given; `URDD_DIST=FOLDER npm test`
+// tries what is there.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -16,9 +16,9 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
-const dist = process.argv[4] ?? join(repository, "crates/urdd-view/dist");
-const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/wasm/urdd_wasm.wasm");
-const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/wasm/robot.wasm");
+const dist = process.argv[5] ?? join(repository, "crates/urdd-view/dist");
+const wasm = (place, name) =>
+  readFileSync(process.argv[place] ?? join(repository, `target/wasm32-unknown-unknown/wasm/${name}`));
 
 if (process.argv[2] === "--current") {
   const made = readFileSync(join(repository, "crates/urdd-view/dist/stamp"), "utf8").trim();
@@ -46,8 +46,9 @@ const files = {
   "app.js": await bundle("src/main.ts", "iife"),
   "worker.js": await bundle("src/engine/worker.ts", "iife"),
   "style.css": await bundle("src/style.css"),
-  "urdd.wasm": readFileSync(wasm),
-  "robot.wasm": readFileSync(robot),
+  "urdd.wasm": wasm(2, "urdd.wasm"),
+  "robot.wasm": wasm(3, "robot.wasm"),
+  "lint.wasm": wasm(4, "lint.wasm"),
 };
 
 rmSync(dist, { recursive: true, force: true });
@@ -79,7 +80,7 @@ function stamp() {
   ];
   const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
   // What the module is not made of.
-  const without = /^crates\/(urdd-(c|conformance|diff|export|generate|lint|lsp|view)|[^/]+\/tests)\//;
+  const without = /^crates\/(urdd-(c|conformance|diff|export|generate|lsp|view)|[^/]+\/tests)\//;
   const hash = createHash("sha256");
   for (const name of names.filter((name) => !without.test(name)).sort(byBytes)) {
     const content = createHash("sha256")

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -15,7 +15,7 @@ function does(cwd, command, ...words) {
   return done.stdout;
 }
 
-test("`npm pack` makes a package that validates a URDD and moves its robot, with types", { timeout: 300_000 }, () => {
+test("`npm pack` makes a package that validates, moves a robot and lints, with types", { timeout: 300_000 }, () => {
   const folder = mkdtempSync(join(tmpdir(), "urdd-npm-"));
   const made = robots(["gripper"]);
   try {
@@ -32,6 +32,7 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       "README.md",
       "index.d.ts",
       "index.mjs",
+      "lint.wasm",
       "module.mjs",
       "modules.d.ts",
     ];
@@ -39,7 +40,7 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
     // TypeScript, so that the types are held too; Node runs what is left without them.
     const program = `
       import { folder, load } from "urdd";
-      import type { Body, Report } from "urdd";
+      import type { Body, Program, Report } from "urdd";
       import type { JointInChain } from "urdd/modules";
       const urdd = await load();
       const source = await folder(process.argv[2] ?? "");
@@ -70,7 +71,18 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       const missed: number | undefined = model?.evaluation.num_missed;
       const least: number | undefined = clearances?.min_clearance?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);
-      console.log(JSON.stringify({ report, there, reached, nearest, code: urdd.explain("DOF003").code }));
+      const urdf = process.argv[3] ?? "";
+      const programs: Program[] = ["mujoco", "humble"];
+      const linted = { all: await urdd.lint(urdf), some: await urdd.lint(new TextEncoder().encode(urdf), { for: programs }) };
+      const around = await folder(process.argv[4] ?? "");
+      const meshes = await urdd.lint(around, { urdf: "robots/arm.urdf" });
+      const deeds = meshes.urdds[0]?.programs.map(({ program, does }) => program + " " + does);
+      if (!deeds?.includes("pybullet null")) throw new Error("deeds: " + deeds?.join());
+      const refusals: string[] = [];
+      const bad = { urdf: () => urdd.lint(around), for: () => urdd.lint(urdf, { for: ["gazeboo" as Program] }) };
+      for (const ask of Object.values(bad)) await ask().catch((error: unknown) => refusals.push(String(error)));
+      const codes = ["DOF003", "LNT060"].map((code) => urdd.explain(code).code);
+      console.log(JSON.stringify({ report, there, reached, nearest, codes, linted, meshes, refusals }));
       robot.close();
       try { robot.linkPoses(q); throw new Error("open"); } catch (error) { if (!/closed/.test(String(error))) throw error; }
     `;
@@ -82,16 +94,43 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
     const strict = ["--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom"];
     does(project, process.execPath, tsc, ...strict, "--typeRoots", types, "--types", "node", "main.ts");
     const target = join(made.robots, "gripper");
-    const found = JSON.parse(does(project, process.execPath, "main.js", target));
+    // A URDF that ROS refuses; and one in a folder, whose mesh is in another.
+    const refused = join(repository, "crates/urdd-lint/tests/cases/LNT060/invalid.urdf");
+    const around = join(folder, "arm_description");
+    for (const name of ["robots", "meshes"]) mkdirSync(join(around, name), { recursive: true });
+    const mesh = `<geometry><mesh filename="package://arm_description/meshes/box.stl"/></geometry>`;
+    const [arm, gone] = [join(around, "robots/arm.urdf"), join(around, "robots/gone.urdf")];
+    writeFileSync(arm, `<robot name="arm"><link name="a"><collision>${mesh}</collision></link></robot>`);
+    writeFileSync(gone, readFileSync(arm, "utf8").replace("box.stl", "bx.stl"));
+    writeFileSync(join(around, "package.xml"), "<package><name>arm_description</name></package>");
+    copyFileSync(
+      join(repository, "crates/urdd-lint/tests/cases/LNT029/meshes/box.stl"),
+      join(around, "meshes/box.stl"),
+    );
+    const words = [target, readFileSync(refused, "utf8"), around];
+    const found = JSON.parse(does(project, process.execPath, "main.js", ...words));
+    const native = (...words) => JSON.parse(run("lint", ...words, "--format", "json").stdout);
+    const named = (report) => JSON.parse(JSON.stringify(report).replaceAll("invalid.urdf", "robot.urdf"));
+    assert.deepEqual(found.linted.all, named(native(refused)));
+    assert.deepEqual(found.linted.some, named(native(refused, "--for", "mujoco,humble")));
+    assert.deepEqual(found.meshes, native(arm));
+    assert.notDeepEqual(native(arm).urdds[0].findings, native(gone).urdds[0].findings);
+    assert.match(found.refusals[0], /several URDFs.*arm\.urdf.*gone\.urdf/);
+    assert.match(found.refusals[1], /no program `gazeboo`; write some of ros, /);
+    const [, union] = /export type Program =([^;]+);/.exec(
+      readFileSync(join(repository, "wasm/npm/index.d.ts"), "utf8"),
+    );
+    const typed = [...union.matchAll(/"(.+?)"/g)].map(([, name]) => name);
+    assert.deepEqual(typed, /some of (.+)$/.exec(found.refusals[1])[1].split(", "));
     assert.deepEqual(found.report, JSON.parse(run("validate", target, "--format", "json").stdout));
-    assert.equal(found.code, "DOF003");
+    assert.deepEqual(found.codes, ["DOF003", "LNT060"]);
     const { samples } = read(join(target, "kinematics_samples_module/module.json"));
     assert.equal(found.there.position.length, samples[0].link_poses[0].position.length);
     assert.ok(found.reached.reached, JSON.stringify(found.reached));
-    const native = JSON.parse(
+    const nearest = JSON.parse(
       run("check-collisions", target, "--shapes", "hulls", "--format", "json", "--nearest", "1").stdout.split("\n")[0],
     );
-    assert.deepEqual(found.nearest.links, native.nearest[0].links);
+    assert.deepEqual(found.nearest.links, nearest.nearest[0].links);
   } finally {
     rmSync(folder, { recursive: true, force: true });
     made.remove();

@@ -1,4 +1,4 @@
-// Brings into this folder what the package holds besides its own sources: the module as `.ci/page` built it, the types
+// Brings into this folder what the package holds besides its own sources: the modules as `.ci/page` built them, the types
 // that the page speaks to it in, and the licences. Needs `npm --prefix page ci`.
 
 import { spawnSync } from "node:child_process";
@@ -10,17 +10,13 @@ import { brotliDecompressSync } from "node:zlib";
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "../..");
 
-writeFileSync(
-  join(here, "urdd.wasm"),
-  brotliDecompressSync(
-    readFileSync(
-      join(
-        process.env.URDD_DIST ?? join(repository, "crates/urdd-view/dist"),
-        "urdd.wasm.br",
-      ),
-    ),
-  ),
-);
+const dist =
+  process.env.URDD_DIST ?? join(repository, "crates/urdd-view/dist");
+for (const module of ["urdd.wasm", "lint.wasm"])
+  writeFileSync(
+    join(here, module),
+    brotliDecompressSync(readFileSync(join(dist, `${module}.br`))),
+  );
 for (const licence of ["LICENSE-MIT", "LICENSE-APACHE"])
   copyFileSync(join(repository, licence), join(here, licence));
 

@@ -22,8 +22,34 @@ export type Source = { name: string } & (
   { files: Record<string, Uint8Array> } | { zip: Uint8Array }
 );
 
-/** Loads the module: from the package itself, or from these bytes. */
-export function load(bytes?: BufferSource): Promise<Urdd>;
+/**
+ * Loads the module: from the package itself, or from these bytes. `lintBytes` are those of `urdd/lint.wasm`, where the
+ * package's own cannot be fetched.
+ */
+export function load(
+  bytes?: BufferSource,
+  lintBytes?: BufferSource | Promise<BufferSource>,
+): Promise<Urdd>;
+
+/** A program that a URDF is for; a distribution of ROS stands for its urdfdom. */
+export type Program =
+  | "ros"
+  | "lyrical"
+  | "rolling"
+  | "jazzy"
+  | "kilted"
+  | "humble"
+  | "noetic"
+  | "iron"
+  | "gazebo"
+  | "mujoco"
+  | "mujoco3.3"
+  | "pinocchio"
+  | "drake"
+  | "pybullet"
+  | "isaac"
+  | "newton"
+  | "three";
 
 /** The files of a folder on disk, for Node. */
 export function folder(path: string): Promise<Source>;
@@ -33,7 +59,21 @@ export class Urdd {
   private constructor();
   /** The report, as `urdd validate --format json` prints it. */
   validate(source: Source): Report;
-  /** Explains a rule, such as `DOF003`. */
+  /**
+   * What is wrong with a URDF, and what programs do with it: the report, as `urdd lint --format json` prints it. The URDF is
+   * a text, its bytes, or a file among others; a mesh that is not among them is missing. The first call loads a second
+   * module.
+   */
+  lint(
+    urdf: string | Uint8Array | Source,
+    question?: {
+      /** The programs that it is for: what these refuse is an error, what only others do is an information. */
+      for?: Program[];
+      /** Its path among the files; it may be left out where there is one `.urdf` alone. */
+      urdf?: string;
+    },
+  ): Promise<Report>;
+  /** Explains a rule, such as `DOF003`; those of `lint` after its first call. */
   explain(code: string): Explanation;
   /** Opens a robot. Close it when it is no longer needed. */
   robot(source: Source): Robot;

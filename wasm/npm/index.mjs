@@ -2,13 +2,13 @@
 
 import { Urdd as Module } from "./module.mjs";
 
-/** Loads the module: from the package itself, or from these bytes. */
-export async function load(bytes) {
-  return new Urdd(await Module.of(bytes ?? (await own())));
+/** Loads the module: from the package itself, or from these bytes; that of `lint` when it is needed first. */
+export async function load(bytes, lintBytes) {
+  const url = new URL("./urdd.wasm", import.meta.url);
+  return new Urdd(await Module.of(bytes ?? (await own(url))), lintBytes);
 }
 
-async function own() {
-  const url = new URL("./urdd.wasm", import.meta.url);
+async function own(url) {
   if (url.protocol === "file:")
     return (await import("node:fs/promises")).readFile(url);
   const response = await fetch(url);
@@ -34,13 +34,47 @@ export async function folder(path) {
 
 export class Urdd {
   #module;
+  #lintBytes;
+  #linting = null;
+  #linter = null;
 
-  constructor(module) {
+  constructor(module, lintBytes) {
     this.#module = module;
+    this.#lintBytes = lintBytes;
+  }
+
+  async lint(source, question = {}) {
+    const linter = await this.#loadLinter();
+    const text = typeof source === "string" ? encode(source) : source;
+    const given =
+      text instanceof Uint8Array
+        ? { name: "robot", files: { "robot.urdf": text } }
+        : source;
+    const files = filesOf(linter, given);
+    try {
+      return linter.lint(files, question);
+    } finally {
+      linter.closeFiles(files);
+    }
+  }
+
+  async #loadLinter() {
+    const url = new URL("./lint.wasm", import.meta.url);
+    const made = async () =>
+      Module.of((await this.#lintBytes) ?? (await own(url)));
+    this.#linting ??= made();
+    try {
+      this.#linter = await this.#linting;
+    } catch (error) {
+      // It may be there the next time.
+      this.#linting = null;
+      throw error;
+    }
+    return this.#linter;
   }
 
   validate(source) {
-    const files = this.#files(source);
+    const files = filesOf(this.#module, source);
     try {
       return this.#module.validate(files, source.name);
     } finally {
@@ -49,18 +83,22 @@ export class Urdd {
   }
 
   explain(code) {
-    return this.#module.explain(code);
+    return (this.#linter ?? this.#module).explain(code);
   }
 
   robot(source) {
-    return new Robot(this.#module, this.#files(source));
+    return new Robot(this.#module, filesOf(this.#module, source));
   }
+}
 
-  #files(source) {
-    return source.zip
-      ? this.#module.zip(source.name, source.zip)
-      : this.#module.files(source.name, source.files);
-  }
+function filesOf(module, source) {
+  return source.zip
+    ? module.zip(source.name, source.zip)
+    : module.files(source.name, source.files);
+}
+
+function encode(text) {
+  return new TextEncoder().encode(text);
 }
 
 export class Robot {

@@ -91,6 +91,14 @@ export class Urdd {
     );
   }
 
+  /** `question`: the path of the URDF, and the programs that it is `for`. */
+  lint(files, question) {
+    const bytes = encode(JSON.stringify(question));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_lint(files, at[0], bytes.length)),
+    );
+  }
+
   explain(code) {
     const bytes = encode(code);
     return this.#with([bytes], (at) =>

@@ -1,6 +1,7 @@
 //! Explanations of rules.
 
 use serde_json::json;
+use urdd_findings::description::Description;
 use urdd_validate::rules;
 
 use crate::{answer, memory};
@@ -13,7 +14,7 @@ use crate::{answer, memory};
 pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let code = String::from_utf8_lossy(unsafe { memory::bytes(code, length) });
-    let rule = rules::all().into_iter().find(|rule| rule.code.to_string() == code);
+    let rule = all().find(|rule| rule.code.as_str() == code);
     answer::result(match rule {
         None => Err(format!("there is no rule `{}`", code.escape_debug())),
         Some(rule) => Ok(json!({
@@ -24,4 +25,16 @@ pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8
             "explanation": rule.explanation(),
         })),
     })
+}
+
+#[cfg(not(feature = "lint"))]
+fn all() -> impl Iterator<Item = &'static Description> {
+    rules::all().into_iter().map(|rule| &rule.description)
+}
+
+/// The rules of the validator, and those of lint.
+#[cfg(feature = "lint")]
+fn all() -> impl Iterator<Item = &'static Description> {
+    let of_urdfs = urdd_lint::rules::all().into_iter().map(|rule| &rule.description);
+    rules::all().into_iter().map(|rule| &rule.description).chain(of_urdfs)
 }

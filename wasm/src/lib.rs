@@ -4,23 +4,36 @@
 //! and that many bytes, to be freed with `urdd_free_answer`. Unless its function states otherwise, an answer
 //! is JSON: the result, or `{"error": "..."}`. A panic is a trap, which ends the instance: create a new one.
 
+#[cfg(feature = "robot")]
 mod about;
 mod answer;
+#[cfg(feature = "robot")]
 mod bodies;
+#[cfg(feature = "robot")]
 mod collisions;
-#[cfg(feature = "validate")]
+#[cfg(any(feature = "validate", feature = "lint"))]
 mod explain;
 mod files;
+#[cfg(feature = "robot")]
 mod inverse;
+#[cfg(feature = "robot")]
 mod kind;
+#[cfg(feature = "lint")]
+mod lint;
 mod memory;
+#[cfg(feature = "robot")]
 mod mesh;
+#[cfg(feature = "robot")]
 mod model;
+#[cfg(feature = "robot")]
 mod pairs;
+#[cfg(feature = "robot")]
 mod pose;
 #[cfg(target_arch = "wasm32")]
 mod random;
+#[cfg(feature = "robot")]
 mod robot;
+#[cfg(feature = "robot")]
 mod sources;
 #[cfg(feature = "validate")]
 mod validate;

@@ -106,7 +106,13 @@ fn link(folder: &Path, at: &Path) -> io::Result<()> {
     std::os::unix::fs::symlink(folder, at)
 }
 
-#[cfg(not(unix))]
+#[cfg(windows)]
 fn link(folder: &Path, at: &Path) -> io::Result<()> {
     std::os::windows::fs::symlink_dir(folder, at)
+}
+
+/// WebAssembly starts no program.
+#[cfg(not(any(unix, windows)))]
+fn link(_: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
