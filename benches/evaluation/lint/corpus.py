@@ -12,10 +12,10 @@ from __future__ import annotations
 import collections
 import json
 import re
+import resource
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
@@ -59,6 +59,12 @@ def second_verdicts(lines: list[dict[str, str | None]]) -> dict[str, str]:
     return {code: text(count) for code, count in counts.items()}
 
 
+def processor_time() -> float:
+    """Seconds that the programs that were run have used. Unlike those on the clock, they hardly depend on what else runs."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def main() -> None:
     program, corpus = sys.argv[1], Path(sys.argv[2])
     explained = subprocess.run([program, "explain", "LNT", "--format", "json"], check=True, capture_output=True)
@@ -70,12 +76,12 @@ def main() -> None:
         off = [rule["code"] for rule in rules if not rule["on_by_default"]]
         settings.write_text("[severity]\n" + "".join(f'{code} = "info"\n' for code in off))
         for package in sorted(path for path in corpus.iterdir() if path.is_dir()):
-            began = time.monotonic()
+            began = processor_time()
             command = [program, "lint", "--format", "json", "--config", str(settings), str(package)]
             ran = subprocess.run(command, capture_output=True, text=True)
             if not ran.stdout:
                 continue  # no URDF
-            seconds += time.monotonic() - began
+            seconds += processor_time() - began
             for urdf in json.loads(ran.stdout)["urdds"]:
                 if urdf["verdict"] == "incomplete":
                     sys.exit(f"{package.name}/{urdf['path']}: {urdf['reason'] or 'a rule crashed'}")
@@ -106,7 +112,7 @@ def main() -> None:
     items: dict[str, results.Table | str] = {
         "rules": {"columns": columns, "rows": rows},
         "corpus": f"{len(files):,} URDFs of {packages} packages",
-        "time": f"{seconds:.0f} s",
+        "time": f"{seconds:.0f} s of processor time",
     }
     results.write("lint", items, "urdd " + subprocess.check_output([program, "--version"], text=True).split()[-1])
     if len(sys.argv) > 3:
