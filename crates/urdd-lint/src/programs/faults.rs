@@ -54,7 +54,15 @@ pub fn faults(answers: &[Answer], bytes: &[u8]) -> Vec<Faulty> {
             }
         }
     }
-    by_place.into_values().flatten().collect()
+    let is_refusing = |program: Program| {
+        answers.iter().any(|answer| answer.program == program && !answer.effects.loads())
+    };
+    // What a program loses of a robot that it does not have says nothing.
+    let is_something = |faulty: &Faulty| {
+        let mut said = faulty.said.iter();
+        said.any(|said| said.deed >= Deed::Refuses || !is_refusing(said.program))
+    };
+    by_place.into_values().flatten().filter(is_something).collect()
 }
 
 impl Faulty {

@@ -78,8 +78,8 @@ fn read_lines(file: &File, bytes: &[u8], effects: &mut Effects) -> Reading<()> {
 struct Reader<'r> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
-    /// The materials that are defined anywhere, with the first colour of each.
-    materials: HashMap<String, String>,
+    /// The materials that are defined anywhere, with the first and the last colour of each.
+    materials: HashMap<String, (String, String)>,
 }
 
 /// The links in their order, and their places in it by their names.
@@ -96,13 +96,14 @@ impl Reader<'_> {
             let name = material.value("name").unwrap_or_default();
             let part = format!("material/{name}");
             match self.materials.get(name) {
-                Some(first) if *first == rgba(material) => {}
+                Some((first, _)) if *first == rgba(material) => {}
                 Some(_) => {
                     self.effects.drop(material, part, Fault::not_unique("material", name));
                 }
                 None => {
                     self.material(material, &part);
-                    self.materials.insert(name.to_owned(), rgba(material).to_owned());
+                    let color = rgba(material).to_owned();
+                    self.materials.insert(name.to_owned(), (color.clone(), color));
                 }
             }
         }
@@ -110,7 +111,9 @@ impl Reader<'_> {
         for material in visuals.filter_map(|visual| visual.child("material")) {
             if is_defined(material) {
                 let name = material.value("name").unwrap_or_default().to_owned();
-                self.materials.entry(name).or_insert_with(|| rgba(material).to_owned());
+                let color = rgba(material).to_owned();
+                let known = self.materials.entry(name);
+                known.or_insert_with(|| (color.clone(), color.clone())).1 = color.clone();
             }
         }
         let mut links = Links::default();

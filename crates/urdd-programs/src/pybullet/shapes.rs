@@ -38,15 +38,15 @@ impl Reader<'_> {
         let name = &*self.effects.needed(material, "name")?.value;
         let part = format!("{part}/material");
         self.material(material, &part);
-        let first = self.materials.get(name);
+        let known = self.materials.get(name);
         if !is_defined(material) {
-            if first.is_none() && !name.is_empty() {
+            if known.is_none() && !name.is_empty() {
                 self.effects.drop(material, part, Fault::unknown("material", name));
             }
-        } else if first.is_some_and(|first| *first != rgba(material)) {
-            // All visuals that only name it have the last colour.
+        } else if let Some((_, last)) = known.filter(|(_, last)| last != rgba(material)) {
+            // All of a name have the last colour.
             let (part, fault) = (format!("material/{name}"), Fault::not_unique("material", name));
-            self.effects.read_as(material, part, fault, rgba(material));
+            self.effects.read_as(material, part, fault, last);
         }
         Ok(())
     }

@@ -43,7 +43,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = Text::utf8(file.bytes);
     let tree = effects.parsed(text.parse(Names::Written))?;
     let robot = effects.robot(&tree)?;
-    let mut reader = Reader { file, effects, materials: HashSet::new() };
+    let mut reader = Reader { file, effects, materials: HashSet::new(), whites: HashSet::new() };
     reader.robot(robot)
 }
 
@@ -60,6 +60,8 @@ struct Reader<'r, 't> {
     effects: &'r mut Effects,
     /// The names of the robot's materials.
     materials: HashSet<&'t str>,
+    /// The materials that a visual defines as white.
+    whites: HashSet<&'t str>,
 }
 
 struct Joint<'t> {
@@ -74,6 +76,13 @@ impl<'t> Reader<'_, 't> {
             self.material(material, &format!("material/{}", name_of(material)))?;
             self.materials.insert(name_of(material));
         }
+        let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
+        let is_white = |material: &Node<'t>| {
+            let rgba = material.child("color").and_then(|color| color.value("rgba"));
+            rgba.is_some_and(|rgba| rgba.split_whitespace().all(|one| one.parse() == Ok(1.0)))
+        };
+        let defined = visuals.flat_map(|visual| named(visual, "material")).filter(is_white);
+        self.whites = defined.map(name_of).collect();
         let children = named_as_children(robot);
         let mut links = HashMap::new();
         let mut root: Option<Node<'t>> = None;
@@ -231,8 +240,8 @@ impl<'t> Reader<'_, 't> {
             let part = format!("{part}/material");
             if name.is_empty() || !self.materials.contains(name) {
                 self.material(material, &part)?;
-                if material.children().next().is_none() {
-                    let fault = Fault::unknown("material of the robot", name);
+                if material.children().next().is_none() && !self.whites.contains(name) {
+                    let fault = Fault::unknown("material directly in `<robot>`", name);
                     self.effects.read_as(material, part, fault, "white");
                 }
             }
