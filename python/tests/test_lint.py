@@ -74,10 +74,12 @@ def test_settings_count(tmp_path: Path) -> None:
     baseline = tmp_path / "known.json"
     assert run("lint", REFUSED, "--write-baseline", baseline).returncode == 0
     assert urdd.lint(REFUSED, baseline=baseline).urdds[0].findings == []
-    part = tmp_path / "part"
-    part.mkdir()
+    # Packages beside the robot's folder are found without a word.
+    part = tmp_path / "far" / "away" / "part"
+    part.mkdir(parents=True)
     (part / "package.xml").write_text("<package><name>elsewhere</name></package>", encoding="utf-8")
-    urdf = tmp_path / "arm.urdf"
+    urdf = tmp_path / "robot" / "arm.urdf"
+    urdf.parent.mkdir()
     mesh = '<visual><geometry><mesh filename="package://elsewhere/box.stl"/></geometry></visual>'
     urdf.write_text(f'<robot name="arm"><link name="a">{mesh}</link></robot>', encoding="utf-8")
 
