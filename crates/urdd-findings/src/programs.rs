@@ -23,8 +23,28 @@ pub const NAMES: &[&str] = &[
     "three",
 ];
 
-/// The names of some of the programs that were asked, in their order: of a family once, where all of it is among them.
-pub fn names(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&str> {
+/// The programs that were asked of which `some` is true, as the subject of a sentence, and whether its verb is a plural.
+pub fn subject(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> (String, bool) {
+    let names = names(all, some);
+    // `Isaac and Newton` are two.
+    let are_many = names.len() > 1 || names.iter().any(|name| name.contains(" and "));
+    (listed(&names), are_many)
+}
+
+/// The kind of a part of a robot: `collision` of `link/arm/collision/0`; `?` for something that is no part.
+pub fn kind(part: &str) -> &str {
+    let mut words = part.split('/').rev();
+    let last = words.next().unwrap_or_default();
+    match words.next() {
+        Some(above @ ("visual" | "collision" | "link" | "joint" | "material")) if last != "?" => {
+            above
+        }
+        _ => last,
+    }
+}
+
+/// The names of some of the programs, in their order: of a family once, where all of it is among them.
+fn names(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for program in all.iter().filter(|program| some(program)) {
         let mut family = all.iter().filter(|other| other.family == program.family);

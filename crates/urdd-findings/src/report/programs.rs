@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use urdd_format::report::{Deed, Does, ProgramEffect, ProgramResult, Report, Severity, Urdd};
+use urdd_format::report::{Deed, Does, ProgramResult, Report, Severity, Urdd};
 
 use super::fill;
 use super::words::plural;
 use crate::examined::Examined;
-use crate::programs::{listed, names};
+use crate::programs::{kind, listed, subject};
 
 /// What each program does with an examined URDF, as the report for people says it: those of the settings and the worst
 /// first, programs that do the same in one line.
@@ -18,22 +18,23 @@ pub fn lines(examined: Examined) -> Vec<String> {
 
 /// What each program does, those of the settings and the worst first; programs that do the same once.
 pub(super) fn describe(urdd: &Urdd) -> Vec<(Option<Deed>, String)> {
-    let mut groups: Vec<(bool, Option<Deed>, Outcome)> = Vec::new();
+    type Group = (bool, Option<Deed>, Outcome);
+    let group = |program: &ProgramResult| -> Group {
+        (program.is_chosen, program.does, outcome(urdd, program))
+    };
+    let mut groups: Vec<(Group, Vec<&str>)> = Vec::new();
     for program in &urdd.programs {
-        let outcome = outcome(urdd, program);
-        let group = (program.is_chosen, program.does, outcome);
-        if !groups.contains(&group) {
-            groups.push(group);
+        let group = group(program);
+        match groups.iter_mut().find(|(known, _)| *known == group) {
+            Some((_, programs)) => programs.push(&program.program),
+            None => groups.push((group, vec![&program.program])),
         }
     }
-    groups.sort_by_key(|(is_chosen, does, _)| (!is_chosen, std::cmp::Reverse(*does)));
-    let describe = |(is_chosen, does, outcome): &(bool, Option<Deed>, Outcome)| {
-        let is_one = |program: &ProgramResult| {
-            program.is_chosen == *is_chosen && self::outcome(urdd, program) == *outcome
-        };
-        let names = names(&urdd.programs, is_one);
-        let are_many = names.len() > 1 || names.iter().any(|name| name.contains(" and "));
-        (*does, format!("{} {}", listed(&names), outcome.words(are_many)))
+    groups.sort_by_key(|((is_chosen, does, _), _)| (!is_chosen, std::cmp::Reverse(*does)));
+    let describe = |((_, does, outcome), programs): &(Group, Vec<&str>)| {
+        let is_one = |program: &ProgramResult| programs.contains(&program.program.as_str());
+        let (names, are_many) = subject(&urdd.programs, is_one);
+        (*does, format!("{names} {}", outcome.words(are_many)))
     };
     groups.iter().map(describe).collect()
 }
@@ -47,14 +48,7 @@ pub(super) fn cell(urdd: &Urdd, program: &str) -> (&'static str, String) {
         (None, _) => ("loads", String::new()),
         (_, Outcome::Refused(Deed::Crashes, why)) => ("**crashes**", why),
         (_, Outcome::Refused(_, why)) => ("**refuses**", why),
-        (_, outcome) => (
-            "loads",
-            outcome
-                .words(true)
-                .replacen("load it", "", 1)
-                .trim_start_matches([',', ' '])
-                .to_owned(),
-        ),
+        (_, Outcome::Loaded(lost, others)) => ("loads", losses(&lost, others).join(", ")),
     }
 }
 
@@ -84,8 +78,8 @@ pub(super) fn counts(report: &Report) -> Vec<(&str, [usize; 3])> {
 enum Outcome {
     /// There is no robot: how, and where it is said why.
     Refused(Deed, String),
-    /// There is one, without so much of each kind, and with so many values otherwise.
-    Loaded(BTreeMap<String, usize>, usize),
+    /// There is one, without so much of each kind, and with so many values otherwise; and so much that the report left out.
+    Loaded(BTreeMap<String, usize>, [usize; 2]),
 }
 
 fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
@@ -122,23 +116,14 @@ fn loaded(program: &ProgramResult) -> Outcome {
     let mut lost: BTreeMap<String, usize> = BTreeMap::new();
     let mut others = 0;
     for effect in &program.effects {
-        match (effect.does, kind(effect)) {
+        let part = effect.part.as_deref().map(kind).filter(|kind| *kind != "?");
+        match (effect.does, part) {
             (Deed::Drops, Some(kind)) => *lost.entry(kind.to_owned()).or_default() += 1,
             _ if effect.is_usual => {}
             _ => others += 1,
         }
     }
-    Outcome::Loaded(lost, others)
-}
-
-/// What kind of part is lost: `collision` of `link/arm/collision/0`.
-fn kind(effect: &ProgramEffect) -> Option<&str> {
-    let mut parts = effect.part.as_deref()?.split('/').rev();
-    let last = parts.next()?;
-    let above = parts.next();
-    let is_numbered = matches!(above, Some("visual" | "collision" | "link" | "joint" | "material"));
-    let kind = if is_numbered { above? } else { last };
-    (kind != "?").then_some(kind)
+    Outcome::Loaded(lost, [others, program.effects_cut.get()])
 }
 
 impl Outcome {
@@ -151,22 +136,23 @@ impl Outcome {
             }
             Outcome::Refused(_, why) => format!("refuse{s} it ({why})"),
             Outcome::Loaded(lost, others) => {
-                let lost: Vec<String> = lost
-                    .iter()
-                    .map(|(kind, count)| plural(*count, &kind.replace('_', " ")))
-                    .collect();
-                let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
-                let without = if lost.is_empty() {
-                    String::new()
-                } else {
-                    format!(" without {}", listed(&lost))
-                };
-                let otherwise = match others {
-                    0 => String::new(),
-                    _ => format!(", {} read otherwise", plural(*others, "value")),
-                };
-                format!("load{s} it{without}{otherwise}")
+                let losses = losses(lost, *others);
+                // `loads it without 1 limit, 2 values read otherwise`
+                let between = if lost.is_empty() { ", " } else { " " };
+                let between = if losses.is_empty() { "" } else { between };
+                format!("load{s} it{between}{}", losses.join(", "))
             }
         }
     }
+}
+
+/// `without 1 limit`, and `2 values read otherwise`, as far as they are so.
+fn losses(lost: &BTreeMap<String, usize>, [others, cut]: [usize; 2]) -> Vec<String> {
+    let lost = lost.iter().map(|(kind, count)| plural(*count, &kind.replace('_', " ")));
+    let lost: Vec<String> = lost.collect();
+    let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
+    let without = (!lost.is_empty()).then(|| format!("without {}", listed(&lost)));
+    let otherwise = (others > 0).then(|| format!("{} read otherwise", plural(others, "value")));
+    let more = (cut > 0).then(|| format!("and {cut} more"));
+    without.into_iter().chain(otherwise).chain(more).collect()
 }

@@ -1,9 +1,10 @@
 //! Gives what programs do to the findings of rules that see the same fault.
 
+use std::cell::RefCell;
 use std::collections::hash_map::Entry;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use urdd_directory::position::Position;
 use urdd_findings::cause::at;
@@ -13,13 +14,13 @@ use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
 use urdd_format::report::{Does, Fix, Place, Severity};
 
-use super::asked::Asked;
-use super::left::Left;
 use urdd_programs::Fault;
 
 use super::answers::deed;
+use super::asked::Asked;
 use super::faults::{Faulty, Said};
 use super::fixes::fix;
+use super::left::Left;
 use super::seen::{Reach, sees};
 use super::severity::{is_refused, severity};
 use super::words::{doings, message};
@@ -129,6 +130,8 @@ struct Index {
     by_subject: HashMap<String, Vec<usize>>,
     /// The first of each rule.
     firsts: Vec<usize>,
+    /// What was found around elements.
+    around: RefCell<HashMap<NodeId, Vec<usize>>>,
     all: Vec<Known>,
 }
 
@@ -186,12 +189,11 @@ impl Index {
             let above = node.parent_element().filter(|above| above.parent_element().is_some())?;
             // A link and a joint hold parts of several kinds.
             let is_one = !matches!(node.tag_name().name(), "link" | "joint");
-            let inside = node.descendants().filter(|_| is_one);
-            let all = std::iter::once(above).chain(above.children()).chain(inside);
-            best(
-                all.filter(Node::is_element).flat_map(starts).flat_map(here).collect(),
-                Reach::Beside,
-            )
+            let inside = node.descendants().filter(|one| is_one && one.is_element());
+            let mut all =
+                self.around(above, |one| starts(one).into_iter().flat_map(here).collect());
+            all.extend(inside.flat_map(starts).flat_map(here));
+            best(all, Reach::Beside)
         };
         let in_part = || {
             let part = crate::subject::subject(node)?;
@@ -202,6 +204,20 @@ impl Index {
             .or_else(beside)
             .or_else(in_part)
             .or_else(|| best(self.firsts.clone(), Reach::File))
+    }
+}
+
+impl Index {
+    /// The first finding of each rule at an element and those in it, which `at` finds at one. They are the same for all in it.
+    fn around(&self, above: Node, at: impl Fn(Node) -> Vec<usize>) -> Vec<usize> {
+        let mut known = self.around.borrow_mut();
+        let firsts = known.entry(above.id()).or_insert_with(|| {
+            let mut seen = HashSet::new();
+            let all = std::iter::once(above).chain(above.children()).filter(Node::is_element);
+            let found = all.flat_map(at).filter(|index| seen.insert(self.all[*index].code));
+            found.collect()
+        });
+        firsts.clone()
     }
 }
 

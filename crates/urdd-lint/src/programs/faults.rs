@@ -54,13 +54,12 @@ pub fn faults(answers: &[Answer], bytes: &[u8]) -> Vec<Faulty> {
             }
         }
     }
-    let is_refusing = |program: Program| {
-        answers.iter().any(|answer| answer.program == program && !answer.effects.loads())
-    };
+    let refusing = answers.iter().filter(|answer| !answer.effects.loads());
+    let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     // What a program loses of a robot that it does not have says nothing.
     let is_something = |faulty: &Faulty| {
         let mut said = faulty.said.iter();
-        said.any(|said| said.deed >= Deed::Refuses || !is_refusing(said.program))
+        said.any(|said| said.deed >= Deed::Refuses || !refusing.contains(&said.program))
     };
     by_place.into_values().flatten().filter(is_something).collect()
 }

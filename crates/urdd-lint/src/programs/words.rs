@@ -1,6 +1,6 @@
 //! What programs do, in words.
 
-use urdd_findings::programs::{listed, names};
+use urdd_findings::programs::{kind, subject};
 use urdd_format::report::ProgramResult;
 use urdd_programs::Deed;
 
@@ -26,9 +26,8 @@ pub fn doings(said: &[Said], programs: &[ProgramResult]) -> String {
     let doing = |(verb, group): &(Verb, Vec<&Said>)| {
         let is_one =
             |result: &ProgramResult| group.iter().any(|said| said.program.id() == result.program);
-        let names = names(programs, is_one);
-        let are_many = names.len() > 1 || names.iter().any(|name| name.contains(" and "));
-        format!("{} {}", listed(&names), verb.words(are_many))
+        let (names, are_many) = subject(programs, is_one);
+        format!("{names} {}", verb.words(are_many))
     };
     groups.iter().map(doing).collect::<Vec<_>>().join("; ")
 }
@@ -51,7 +50,7 @@ impl<'a> Verb<'a> {
         match (self.deed, self.makes) {
             (Deed::Refuses, _) => format!("refuse{s} the robot"),
             (Deed::Crashes, _) => format!("crash{es}"),
-            (Deed::Drops, _) if self.part.ends_with("/?") => format!("ignore{s} it"),
+            (Deed::Drops, _) if kind(self.part) == "?" => format!("ignore{s} it"),
             (Deed::Drops, _) => format!("leave{s} out {}", part(self.part)),
             (Deed::Reads, Some(made)) if !made.is_empty() => format!("read{s} `{made}`"),
             (Deed::Reads, _) => format!("read{s} {} otherwise", part(self.part)),
@@ -61,15 +60,5 @@ impl<'a> Verb<'a> {
 
 /// A part of a robot: `joint/elbow/limit` is "the limit". Which joint it is, the place says.
 fn part(part: &str) -> String {
-    let mut words = part.split('/').rev();
-    let last = words.next().unwrap_or_default();
-    let word = match (last, words.next()) {
-        (_, Some("visual")) => "visual",
-        (_, Some("collision")) => "collision",
-        (_, Some("link")) => "link",
-        (_, Some("joint")) => "joint",
-        (_, Some("material")) => "material",
-        (last, _) => last,
-    };
-    format!("the {}", word.replace('_', " "))
+    format!("the {}", kind(part).replace('_', " "))
 }
