@@ -11,7 +11,7 @@ use urdd_lint::{LintError, LintSettings};
 
 use crate::errors::raise;
 use crate::generate;
-use crate::validate::reporting;
+use crate::validate::Reporting;
 use crate::work;
 
 /// The options of `urdd.lint`, which checks their types.
@@ -24,18 +24,13 @@ pub struct Options {
     xacro_arguments: Vec<String>,
     xacro_timeout: f64,
     baseline: Option<PathBuf>,
-    fail_on: Option<String>,
-    config: Option<String>,
-    select: Vec<String>,
-    ignore: Vec<String>,
-    exclude: Vec<String>,
+    reporting: Reporting,
 }
 
 impl Options {
     /// The settings, without the baseline.
     fn settings(self) -> Result<LintSettings, String> {
-        let lists = [&self.select[..], &self.ignore, &self.exclude];
-        let mut report = reporting(self.config.as_deref(), self.fail_on, lists)?;
+        let mut report = self.reporting.settings()?;
         if let Some(words) = self.for_ {
             let each = words.iter().map(|word| parse_program(word));
             report.programs =

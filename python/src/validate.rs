@@ -18,7 +18,14 @@ use crate::work;
 pub struct Options {
     conformance_class: Option<String>,
     deep: bool,
+    reporting: Reporting,
+}
+
+/// The options of what is reported.
+#[derive(FromPyObject)]
+pub struct Reporting {
     fail_on: Option<String>,
+    /// The text of a settings file.
     config: Option<String>,
     select: Vec<String>,
     ignore: Vec<String>,
@@ -27,8 +34,7 @@ pub struct Options {
 
 impl Options {
     fn settings(self) -> Result<Settings, String> {
-        let lists = [&self.select[..], &self.ignore, &self.exclude];
-        let mut settings = reporting(self.config.as_deref(), self.fail_on, lists)?;
+        let mut settings = self.reporting.settings()?;
         if let Some(class) = self.conformance_class {
             let read = from_value(Value::String(class.clone()));
             let wrong = |_| {
@@ -42,35 +48,33 @@ impl Options {
     }
 }
 
-/// What is reported: the text of a settings file, `fail_on`, and the lists `select`, `ignore` and `exclude`.
-pub fn reporting(
-    config: Option<&str>,
-    fail_on: Option<String>,
-    [select, ignore, exclude]: [&[String]; 3],
-) -> Result<Settings, String> {
-    let mut settings = match config {
-        None => Settings::default(),
-        Some(text) => Settings::from_toml(text).map_err(|error| format!("config: {error}"))?,
-    };
-    if let Some(severity) = fail_on {
-        let read = from_value(Value::String(severity.clone()));
-        let wrong = |_| {
-            let severity = severity.escape_debug();
-            format!("fail_on: `{severity}` is none of error, warning, info")
+impl Reporting {
+    /// The settings of the file, with the other options.
+    pub fn settings(self) -> Result<Settings, String> {
+        let mut settings = match self.config {
+            None => Settings::default(),
+            Some(text) => Settings::from_toml(&text).map_err(|error| format!("config: {error}"))?,
         };
-        settings.fail_on = Some(read.map_err(wrong)?);
+        if let Some(severity) = self.fail_on {
+            let read = from_value(Value::String(severity.clone()));
+            let wrong = |_| {
+                let severity = severity.escape_debug();
+                format!("fail_on: `{severity}` is none of error, warning, info")
+            };
+            settings.fail_on = Some(read.map_err(wrong)?);
+        }
+        let codes = |words: &[String]| -> Result<Vec<Codes>, String> {
+            let each = words.iter().map(|word| word.parse::<Codes>());
+            each.collect::<Result<_, _>>().map_err(|error| error.to_string())
+        };
+        settings.selection.select.extend(codes(&self.select)?);
+        settings.selection.ignore.extend(codes(&self.ignore)?);
+        for pattern in &self.exclude {
+            let exclude = Exclude::new(pattern);
+            settings.excludes.push(exclude.map_err(|error| format!("exclude: {error}"))?);
+        }
+        Ok(settings)
     }
-    let codes = |words: &[String]| -> Result<Vec<Codes>, String> {
-        let each = words.iter().map(|word| word.parse::<Codes>());
-        each.collect::<Result<_, _>>().map_err(|error| error.to_string())
-    };
-    settings.selection.select.extend(codes(select)?);
-    settings.selection.ignore.extend(codes(ignore)?);
-    for pattern in exclude {
-        let exclude = Exclude::new(pattern);
-        settings.excludes.push(exclude.map_err(|error| format!("exclude: {error}"))?);
-    }
-    Ok(settings)
 }
 
 /// The report on every URDD at or below the paths, as JSON.

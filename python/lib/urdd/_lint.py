@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
 from ._options import LintOptions, words
-from ._validate import settings_text
+from ._validate import reporting
 
 if TYPE_CHECKING:
     from .report import Report
@@ -74,11 +74,7 @@ def lint(
         xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
         xacro_timeout=float(xacro_timeout),
         baseline=None if baseline is None else Path(baseline),
-        fail_on=fail_on,
-        config=settings_text(config),
-        select=words(select, "select"),
-        ignore=words(ignore, "ignore"),
-        exclude=words(exclude, "exclude"),
+        reporting=reporting(fail_on, config, select, ignore, exclude),
     )
     from .report import read_report
 

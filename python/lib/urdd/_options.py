@@ -21,6 +21,7 @@ __all__ = [
     "InverseOptions",
     "LintOptions",
     "MakingOptions",
+    "Reporting",
     "ValidateOptions",
     "options_of",
     "whole",
@@ -126,16 +127,23 @@ class InverseOptions:
 
 
 @dataclass(frozen=True)
-class ValidateOptions:
-    """The options of :func:`urdd.validate`, for the compiled part."""
+class Reporting:
+    """The options of what is reported, for the compiled part."""
 
-    conformance_class: str | None
-    deep: bool
     fail_on: str | None
     config: str | None
     select: list[str]
     ignore: list[str]
     exclude: list[str]
+
+
+@dataclass(frozen=True)
+class ValidateOptions:
+    """The options of :func:`urdd.validate`, for the compiled part."""
+
+    conformance_class: str | None
+    deep: bool
+    reporting: Reporting
 
 
 @dataclass(frozen=True)
@@ -149,11 +157,7 @@ class LintOptions:
     xacro_arguments: list[str]
     xacro_timeout: float
     baseline: Path | None
-    fail_on: str | None
-    config: str | None
-    select: list[str]
-    ignore: list[str]
-    exclude: list[str]
+    reporting: Reporting
 
 
 def options_of(

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
-from ._options import ValidateOptions, words
+from ._options import Reporting, ValidateOptions, words
 from .errors import OpenError, ValidationError
 
 if TYPE_CHECKING:
     from .report import Report
 
-__all__ = ["Rule", "check", "explain", "settings_text", "validate"]
+__all__ = ["Rule", "check", "explain", "reporting", "validate"]
 
 #: Maximum number of errors in the message of a :class:`ValidationError`.
 _SHOWN = 5
@@ -74,25 +74,34 @@ def validate(
     options = ValidateOptions(
         conformance_class=conformance_class,
         deep=bool(deep),
-        fail_on=fail_on,
-        config=settings_text(config),
-        select=words(select, "select"),
-        ignore=words(ignore, "ignore"),
-        exclude=words(exclude, "exclude"),
+        reporting=reporting(fail_on, config, select, ignore, exclude),
     )
     from .report import read_report
 
     return read_report(_urdd.validate([Path(path) for path in paths], options))
 
 
-def settings_text(config: str | os.PathLike[str] | None) -> str | None:
-    """The text of a settings file."""
-    if config is None:
-        return None
-    try:
-        return Path(config).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise OpenError(f"{os.fspath(config)}: the settings cannot be read: {error}") from None
+def reporting(
+    fail_on: str | None,
+    config: str | os.PathLike[str] | None,
+    select: Iterable[str],
+    ignore: Iterable[str],
+    exclude: Iterable[str],
+) -> Reporting:
+    """What is reported, with the text of the settings file."""
+    text = None
+    if config is not None:
+        try:
+            text = Path(config).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise OpenError(f"{os.fspath(config)}: the settings cannot be read: {error}") from None
+    return Reporting(
+        fail_on=fail_on,
+        config=text,
+        select=words(select, "select"),
+        ignore=words(ignore, "ignore"),
+        exclude=words(exclude, "exclude"),
+    )
 
 
 def check(path: Path) -> None:
