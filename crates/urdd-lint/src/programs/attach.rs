@@ -130,7 +130,7 @@ struct Index {
     by_subject: HashMap<String, Vec<usize>>,
     /// The first of each rule.
     firsts: Vec<usize>,
-    /// What was found around elements.
+    /// What `around` gave, by element.
     around: RefCell<HashMap<NodeId, Vec<usize>>>,
     all: Vec<Known>,
 }
@@ -208,7 +208,8 @@ impl Index {
 }
 
 impl Index {
-    /// The first finding of each rule at an element and those in it, which `at` finds at one. They are the same for all in it.
+    /// The first finding of each rule at an element, or at one directly in it. `at` gives the findings at one element. It is
+    /// computed once for all elements inside.
     fn around(&self, above: Node, at: impl Fn(Node) -> Vec<usize>) -> Vec<usize> {
         let mut known = self.around.borrow_mut();
         let firsts = known.entry(above.id()).or_insert_with(|| {
