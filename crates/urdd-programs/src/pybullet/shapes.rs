@@ -115,8 +115,10 @@ impl Reader<'_> {
                 let why = "the mesh has no `<asset>` or no `<library_geometries>`";
                 return self.effects.crash(filename, Fault::Mesh(why));
             }
-            (".dae", .., Some(collada)) if collada.triangles > 0 => return Ok(()),
-            (".dae", ..) => "the mesh is no COLLADA file with triangles",
+            (".dae", .., Some(collada)) if collada.triangles > 0 && collada.has_scene => {
+                return Ok(());
+            }
+            (".dae", ..) => "the mesh is no COLLADA file with a scene of triangles",
             _ => {
                 let fault = Fault::ForOthers("the format is not for meshes of links");
                 self.effects.drop(filename, part, fault);

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::fault::{FORMAT, Fault};
-use crate::mesh::{Mesh, MeshFacts};
+use crate::mesh::{ColladaFacts, Mesh, MeshFacts};
 use crate::tree::Node;
 
 impl<'t> Reader<'_, 't> {
@@ -49,10 +49,17 @@ fn as_path(name: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// Whether a shape is a mesh with colours of its own, which it does not paint.
+pub(super) fn is_painted(form: Node<'_>) -> bool {
+    let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
+    form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae")
+}
+
 /// Whether it reads a mesh.
 fn is_mesh(facts: &MeshFacts, ending: &str) -> bool {
     if ending == "dae" {
-        return facts.collada.is_some();
+        let shows = |collada: &ColladaFacts| collada.is_complete && collada.has_scene;
+        return facts.collada.as_ref().is_some_and(shows);
     }
     let Some(count) = facts.stl.as_ref().and_then(|stl| stl.written) else { return false };
     let is_text = facts.head.starts_with(b"solid") && !facts.is_binary_stl();

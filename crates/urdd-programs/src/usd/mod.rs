@@ -25,7 +25,7 @@ pub(crate) const ABOUT: About = About {
     version: "0.3.4",
     settings: &["isaac", "newton"],
     is_asked: true,
-    names: ElementNames::Exact,
+    names: ElementNames::Expanded,
     never: &["acceleration", "deceleration", "jerk", "version", "quat_xyzw"],
     read,
 };
@@ -343,7 +343,10 @@ impl<'t> Reader<'_, 't> {
                 let has_faces = match &*ending {
                     "stl" => is_stl(&facts),
                     "obj" => facts.obj.as_ref().is_some_and(|obj| obj.faces > 0),
-                    _ => facts.collada.is_some(),
+                    _ => facts
+                        .collada
+                        .as_ref()
+                        .is_some_and(|collada| collada.triangles > 0 && collada.has_instance),
                 };
                 (!has_faces).then_some(Fault::Mesh("the program finds nothing in the mesh"))
             }
