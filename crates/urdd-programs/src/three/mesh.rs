@@ -29,6 +29,16 @@ impl<'t> Reader<'_, 't> {
         };
         self.effects.drop(name, part, fault);
     }
+
+    /// A COLLADA mesh is not painted with the material of the visual.
+    pub(super) fn own_colours(&mut self, visual: Node<'t>, form: Node<'t>, part: &str) {
+        let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
+        if form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae") {
+            let fault = Fault::Way("a COLLADA mesh keeps its own colours");
+            let material = visual.child("material").unwrap_or(form);
+            self.effects.drop(material, format!("{part}/material"), fault);
+        }
+    }
 }
 
 /// The file of a name that is taken for a part of a URL.
@@ -47,12 +57,6 @@ fn as_path(name: &str) -> String {
         }
     }
     String::from_utf8_lossy(&bytes).into_owned()
-}
-
-/// Whether a shape is a mesh with colours of its own, which it does not paint.
-pub(super) fn is_painted(form: Node<'_>) -> bool {
-    let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
-    form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae")
 }
 
 /// Whether it reads a mesh.

@@ -5,8 +5,6 @@ mod mesh;
 
 use std::collections::{HashMap, HashSet};
 
-use mesh::is_painted;
-
 use crate::about::{About, Names as ElementNames};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
@@ -248,11 +246,7 @@ impl<'t> Reader<'_, 't> {
                 return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
             };
             self.shape(form, part);
-            if is_painted(form) {
-                let fault = Fault::Way("a COLLADA mesh keeps its own colours");
-                let material = named(visual, "material").next().unwrap_or(form);
-                self.effects.drop(material, format!("{part}/material"), fault);
-            }
+            self.own_colours(visual, form, part);
         }
         Ok(())
     }
