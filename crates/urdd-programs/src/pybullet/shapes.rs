@@ -89,9 +89,11 @@ impl Reader<'_> {
         if path.contains("://") {
             return Mesh::Missing;
         }
-        let folders = if path.starts_with('/') { 0..1 } else { 0..FOLDERS };
-        let places = folders.map(|up| self.file.mesh(&format!("{}{path}", "../".repeat(up))));
-        let found = places.into_iter().find(|mesh| !matches!(mesh, Mesh::Missing));
+        // The root is one of these folders.
+        let absolute = path.starts_with('/').then(|| self.file.mesh(path));
+        let path = path.trim_start_matches('/');
+        let places = (0..FOLDERS).map(|up| self.file.mesh(&format!("{}{path}", "../".repeat(up))));
+        let found = absolute.into_iter().chain(places).find(|mesh| !matches!(mesh, Mesh::Missing));
         match (found, in_package.map(|_| self.file.mesh(name))) {
             (Some(mesh), _) | (None, Some(mesh @ Mesh::Unknown)) => mesh,
             _ => Mesh::Missing,

@@ -110,10 +110,13 @@ impl<'t> Reader<'_, 't> {
         Ok(found)
     }
 
-    /// Of elements that repeat it reads the last.
+    /// Of elements that repeat it reads the last, also if it is empty.
     fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
         for name in names {
-            if let Some(second) = node.repeated(name) {
+            let mut all = node.named(name);
+            let first = all.next().filter(|first| !first.is_empty());
+            let emptied = first.and(all.last()).filter(|last| last.is_empty());
+            if let Some(second) = node.repeated(name).or(emptied) {
                 let fault = Fault::Repeated((*name).to_owned());
                 self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
             }
@@ -298,8 +301,12 @@ impl<'t> Reader<'_, 't> {
         let shapes = ["box", "sphere", "cylinder", "mesh"];
         let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
         else {
-            if let Some(form) = geometry.children().next() {
-                self.effects.drop(form, part, Fault::Shape(shortened(form.name())));
+            match geometry.children().next() {
+                Some(form) => self.effects.drop(form, part, Fault::Shape(shortened(form.name()))),
+                None => {
+                    let fault = Fault::Other("`<geometry>` has no shape");
+                    self.effects.drop(geometry, part, fault);
+                }
             }
             return Ok(());
         };
