@@ -259,6 +259,8 @@ def filename(value: str) -> Iterator[Variant]:
         ("file_absolute_missing", f"file:///nowhere/{last}"),
         ("absolute_missing", f"/nowhere/{last}"),
         ("http", f"http://localhost:1/{last}"),
+        ("leading_slash", f"/{last}"),
+        ("file_leading_slash", f"file:///{last}"),
         ("windows", f"C:\\nowhere\\{last}"),
         ("backslash", "folder\\part.stl"),
         ("dot_slash", f"./{last}"),
