@@ -29,6 +29,8 @@ pub(crate) struct About {
 pub(crate) enum Names {
     /// As they are written.
     Exact,
+    /// As they are written, in the namespace that an `xmlns` gives them.
+    Expanded,
     /// In any letter case.
     AnyCase,
 }

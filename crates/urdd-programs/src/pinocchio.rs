@@ -315,6 +315,9 @@ fn is_read(name: &str, facts: &MeshFacts) -> bool {
         "stl" if is_stl => facts.size > 84,
         "stl" => facts.head.starts_with(b"solid") && facts.triangles > 0,
         "obj" => facts.size >= 16 && facts.triangles > 0,
+        "dae" if facts.collada.is_some() => {
+            facts.triangles > 0 && facts.collada.as_ref().is_some_and(|collada| collada.has_scene)
+        }
         "ply" | "glb" | "gltf" | "off" | "3ds" | "fbx" | "step" => facts.size > 0,
         // A file without an ending that is known is guessed by what is in it.
         _ => facts.triangles > 0 && !is_stl,

@@ -168,6 +168,12 @@ impl Finder<'_> {
             if self.reads.never.contains(&kind.name) {
                 continue;
             }
+            let has_namespace = child.value("xmlns").is_some_and(|name| !name.is_empty());
+            if has_namespace && self.reads.names == Names::Expanded {
+                let fault = Fault::Other("`xmlns` puts the element where URDF has none");
+                self.effects.drop(child, part, fault);
+                continue;
+            }
             let owner = if known.name == "robot" { &part } else { &place.owner };
             let inside = Place { owner: owner.clone(), part };
             self.attributes(child, kind, &inside.part);
@@ -181,7 +187,7 @@ impl Finder<'_> {
     /// The name that a program takes a name for.
     fn read_as(&self, name: &str) -> String {
         match self.reads.names {
-            Names::Exact => name.to_owned(),
+            Names::Exact | Names::Expanded => name.to_owned(),
             Names::AnyCase => name.to_lowercase(),
         }
     }
@@ -204,7 +210,13 @@ impl Finder<'_> {
             let is_default =
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
             if !is_default && (other.name, known.name) != ("material", "collision") {
-                self.add(node, &place.owner, name, other.name);
+                let part = match other.name {
+                    "link" | "joint" => {
+                        part_of("robot", name, node.value("name").unwrap_or_default(), 0)
+                    }
+                    _ => place.owner.clone(),
+                };
+                self.add(node, &part, name, other.name);
             }
         } else if let Some(like) = meant_attribute(parent, name, known) {
             self.add(node, &place.part, name, like);

@@ -186,12 +186,18 @@ def renumbered(facts: Facts, key: str, numbers: tuple[int, ...]) -> Facts:
 
 def shortened(missing: set[str], expected: Facts, got: Facts) -> list[str]:
     """Missing facts, with one `-KEY/` where all that is below KEY is missing."""
-    tops = {key for key in expected if any(other.startswith(f"{key}/") for other in expected)}
-    tops |= {f"{match[1]}/{match[2]}" for key in expected if (match := PART.fullmatch(key))}
+    present = {top for key in expected if key in got for top in above(key)}
+    tops = {top for key in missing for top in above(key) if top in expected or PART.fullmatch(top)}
     found, left = [], set(missing)
-    for top in sorted(tops, key=len):
-        below = {key for key in expected if key == top or key.startswith(f"{top}/")}
-        if len(below & left) > 1 and not any(key in got for key in below):
+    for top in sorted(tops - present, key=lambda top: (len(top), top)):
+        below = {key for key in left if key == top or key.startswith(f"{top}/")}
+        if len(below) > 1:
             found.append(f"-{top}/")
             left -= below
     return found + [f"-{key}" for key in sorted(left)]
+
+
+def above(key: str) -> list[str]:
+    """A key, and those that it is below."""
+    parts = key.split("/")
+    return ["/".join(parts[: count + 1]) for count in range(len(parts))]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 import struct
 import zlib
 from pathlib import Path
@@ -152,6 +153,9 @@ def files() -> dict[str, bytes]:
         "odd.stl": b"This is text, and not a mesh.\n",
         "odd.obj": b"This is text, and not a mesh.\n",
         "odd.dae": b"This is text, and not a mesh.\n",
+        "no_scene.dae": re.sub(rb"<scene>.*</scene>", b"", dae(1, "Z_UP")),
+        "no_asset.dae": re.sub(rb"<asset>.*</asset>", b"", dae(1, "Z_UP")),
+        "no_place.dae": re.sub(rb"<instance_geometry [^/]*/>", b"", dae(1, "Z_UP")),
         "short.stl": part[:200],
         "long.stl": part + b"\0" * 7,
         "no_faces.stl": binary_stl([]),

@@ -3,8 +3,9 @@
 
     python3 real.py SITE_PACKAGES FOLDER [COUNT]
 
-Writes FOLDER with the changed files beside links to what they name, and FOLDER/real.jsonl for `run.py --real`. Outside
-of the repository: the robots are not ours.
+Writes FOLDER/base with the changed files beside links to what they name, and FOLDER/real.jsonl for `run.py --real`.
+`--table FOLDER/table.txt` then makes FOLDER one that URDD_PROGRAMS can name. Outside of the repository: the robots are not
+ours.
 """
 
 from __future__ import annotations
@@ -22,8 +23,11 @@ import elements
 import facts
 from change import Change, apply, mix
 
-ROBOTS = "cmeel.prefix/share/example-robot-data/robots"
-BULLET = "pybullet_data"
+# Packages, and the folders of robots in them.
+PACKAGES = {
+    "cmeel.prefix/share/example-robot-data": "cmeel.prefix/share/example-robot-data/robots",
+    "pybullet_data": "pybullet_data",
+}
 MOST_BYTES = 120_000
 # Robots whose files are taken at most: of a package's folder.
 OF_A_FOLDER = 4
@@ -32,7 +36,7 @@ OF_A_FOLDER = 4
 def sources(site: Path) -> list[Path]:
     """URDFs that are not too large, at most some of each folder."""
     found: dict[Path, list[Path]] = collections.defaultdict(list)
-    for top in (site / ROBOTS, site / BULLET):
+    for top in (site / robots for robots in PACKAGES.values()):
         for path in sorted(top.rglob("*.urdf")):
             if path.stat().st_size <= MOST_BYTES and is_read(path.read_bytes()):
                 found[top / path.relative_to(top).parts[0]].append(path)
@@ -68,6 +72,25 @@ def mirror(path: Path, top: Path, folder: Path) -> Path:
             there.unlink()
         there.mkdir(exist_ok=True)
     return there
+
+
+def name_package(folder: Path) -> None:
+    """Gives a package the name that its URDFs call it by, which is its folder's: Drake looks into package.xml."""
+    file = folder / "package.xml"
+    file.unlink(missing_ok=True)
+    file.write_text(f"<package><name>{folder.name}</name></package>\n", encoding="utf-8")
+
+
+def link_meshes(data: bytes, place: Path, packages: Path) -> None:
+    """Links to all meshes of a file in one folder below it, where the driver of MuJoCo 3.3 looks for them."""
+    together = place / "together"
+    together.mkdir(exist_ok=True)
+    for mesh in ET.fromstring(data).iter("mesh"):
+        name = mesh.get("filename", "")
+        there = packages / name.removeprefix("package://") if name.startswith("package://") else place / name
+        link = together / there.name
+        if there.is_file() and not link.is_symlink():
+            link.symlink_to(there)
 
 
 def changes_of(path: Path, data: bytes, number: int, seed: str) -> list[Change]:
@@ -108,19 +131,21 @@ def sample(site: Path, count: int) -> Iterator[tuple[Path, bytes, Change]]:
 def main() -> None:
     site, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 1000
-    lines, meant = [], {}
+    lines, meant, packages = [], {}, folder / "base" / "packages"
     for number, (path, data, change) in enumerate(sample(site, count)):
-        top = site / ROBOTS if path.is_relative_to(site / ROBOTS) else site / BULLET
-        place = mirror(path, top, folder / top.name)
-        file = place / f"changed_{number:05}.urdf"
+        top = next(site / package for package in PACKAGES if path.is_relative_to(site / package))
+        place = mirror(path, top, packages / top.name)
+        name_package(packages / top.name)
+        file, base_file = place / f"changed_{number:05}.urdf", place / path.name
         file.write_bytes(change.apply(data))
         if path not in meant:
             meant[path] = facts.meant(data)
-        name = path.relative_to(site / ROBOTS if top.name == "robots" else site)
+            link_meshes(data, place, packages)
+        base = str(base_file.relative_to(folder / "base"))
         edits = [[edit.start, edit.end, edit.text.decode("latin-1")] for edit in change.edits]
-        one = {"id": f"{name}: {change.id}", "base": str(name), "kind": change.kind, "edits": edits}
-        one |= {"means": change.means(data, meant[path]), "file": str(file), "base_file": str(place / path.name)}
-        one["packages"] = str(folder / top.name)
+        one = {"id": f"{base}: {change.id}", "base": base, "kind": change.kind, "edits": edits}
+        one |= {"means": change.means(data, meant[path]), "file": str(file), "base_file": str(base_file)}
+        one["packages"] = str(packages)
         lines.append(json.dumps(one, ensure_ascii=False))
     (folder / "real.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print(f"{len(lines)} changes of {len(meant)} files")

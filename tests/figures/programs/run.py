@@ -25,7 +25,7 @@ import changes
 import differ
 import facts
 import table
-from change import BASE, apply
+from change import BASE, Edit, apply
 from driver import HERE, Answer, Driver, Program, programs
 
 
@@ -55,12 +55,17 @@ def cases_of_bases(rows: list[table.Row], scratch: Path) -> list[Case]:
 
 
 def cases_of_real(path: Path) -> list[Case]:
-    """What real.py wrote."""
-    made = []
+    """What real.py wrote, with the unchanged files."""
+    made: list[Case] = []
     for line in path.read_text("utf-8").splitlines():
         read = json.loads(line)
-        row = table.Row(read["id"], read["base"], read["kind"], (), read["means"])
-        made.append(Case(row, Path(read["file"]), Path(read["base_file"]), read["packages"]))
+        base_file, base = Path(read["base_file"]), read["base"]
+        if not made or made[-1].row.base != base:
+            unchanged = table.Row(f"{base}/unchanged", base, "none", (), {})
+            made.append(Case(unchanged, base_file, base_file, read["packages"]))
+        edits = tuple(Edit(start, end, text.encode("latin-1")) for start, end, text in read["edits"])
+        row = table.Row(read["id"], base, read["kind"], edits, read["means"])
+        made.append(Case(row, Path(read["file"]), base_file, read["packages"]))
     return made
 
 

@@ -140,6 +140,7 @@ def inside_joint(base: str, root: Element) -> Iterator[Change]:
     yield put("dynamics_negative_damping", '<dynamics damping="-0.5"/>')
     yield put("dynamics_negative_friction", '<dynamics friction="-0.5"/>')
     yield put("dynamics_spring", '<dynamics damping="0.5" spring_stiffness="2" spring_reference="0.1"/>', False)
+    yield put("dynamics_in_namespace", '<dynamics xmlns="urn:x" damping="0.5"/>', False)
     yield put("calibration", '<calibration rising="0"/>')
     yield put("calibration_empty", "<calibration/>", False)
     yield put("origin_empty", "<origin/>")
@@ -149,6 +150,9 @@ def inside_joint(base: str, root: Element) -> Iterator[Change]:
     yield put("parent_first", '<parent link="one"/>', False)
     yield put("child_first", '<child link="one"/>', False)
     yield put("parent_text", "<parent>two</parent>", False)
+    yield put(
+        "joint_inside", '<joint name="third" type="fixed"><parent link="one"/><child link="four"/></joint>', False
+    )
     yield put("disabled", "<hardwareInterface>x</hardwareInterface>", False)
     for variant, text in (
         ("none", ""),

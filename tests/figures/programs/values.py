@@ -228,7 +228,8 @@ def joint_type(value: str) -> Iterator[Variant]:
 MESHES = (
     "part.stl", "ascii.stl", "solid.stl", "upper.STL", "part.obj", "plain.obj", "part.dae", "part_cm_y.dae",
     "part.glb", "part.gltf", "part.ply", "part", "part.xyz", "with space.stl", "größe.stl", "folder/inside.stl",
-    "folder/part.stl", "empty.stl", "empty.obj", "odd.stl", "odd.obj", "odd.dae", "short.stl", "long.stl",
+    "folder/part.stl", "empty.stl", "empty.obj", "odd.stl", "odd.obj", "odd.dae", "no_scene.dae", "no_asset.dae",
+    "no_place.dae", "short.stl", "long.stl",
     "no_faces.stl", "no_faces.obj", "no_faces_ascii.stl", "flat.stl", "open.stl", "one.stl", "no_material.obj",
     "really_obj.stl", "really_stl.obj", "missing.stl", "missing.obj", "missing.dae", "folder",
 )  # fmt: skip
@@ -258,6 +259,8 @@ def filename(value: str) -> Iterator[Variant]:
         ("file_absolute_missing", f"file:///nowhere/{last}"),
         ("absolute_missing", f"/nowhere/{last}"),
         ("http", f"http://localhost:1/{last}"),
+        ("leading_slash", f"/{last}"),
+        ("file_leading_slash", f"file:///{last}"),
         ("windows", f"C:\\nowhere\\{last}"),
         ("backslash", "folder\\part.stl"),
         ("dot_slash", f"./{last}"),

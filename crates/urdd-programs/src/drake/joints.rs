@@ -54,6 +54,8 @@ impl Reader<'_> {
         for frame in robot.named("frame") {
             self.frame(frame, &mut model)?;
         }
+        let is_joint = |name: &str| model.joints.contains_key(name);
+        self.forces(robot, links, &model.frames, &is_joint)?;
         for name in &model.names {
             let idle = model.joints.get(name).filter(|joint| !joint.is_driven);
             let limit = idle.and_then(|joint| joint.node.child("limit"));
@@ -248,7 +250,7 @@ impl Reader<'_> {
         }
     }
 
-    fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
+    pub(super) fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
         let fault = Fault::range(&value.name, &value.value, "must not be negative");
         self.effects.refuse(value, fault)
     }

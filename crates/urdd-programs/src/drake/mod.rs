@@ -1,6 +1,7 @@
 //! Drake 1.51.1: `Parser.AddModels` into a plant with a scene graph, and `Finalize`. It reads as many numbers as a text
 //! begins with, refuses every mesh that it does not find, and has collisions of few formats of meshes.
 
+mod forces;
 mod inertia;
 mod joints;
 mod shapes;

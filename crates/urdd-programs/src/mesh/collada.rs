@@ -7,6 +7,8 @@ use roxmltree::{Document, Node, ParsingOptions};
 pub struct ColladaFacts {
     /// How many triangles its geometries have; polygons are counted as fans.
     pub triangles: usize,
+    /// Whether a geometry or a controller has a place.
+    pub has_instance: bool,
     /// Whether a scene has a geometry or a controller in it.
     pub has_scene: bool,
     /// Whether it has `<asset>` and `<library_geometries>`.
@@ -44,7 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
                 continue;
             }
             "instance_geometry" | "instance_controller" => {
-                facts.has_scene = true;
+                facts.has_instance = true;
                 facts.depth = facts.depth.max(depth);
             }
             _ => {}
@@ -52,7 +54,8 @@ pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
         let depth = depth + usize::from(node.tag_name().name() == "node");
         open.extend(node.children().filter(Node::is_element).map(|child| (child, depth)));
     }
-    facts.has_scene &= child("scene").is_some_and(|scene| scene.has_children());
+    facts.has_scene =
+        facts.has_instance && child("scene").is_some_and(|scene| scene.has_children());
     Some(facts)
 }
 

@@ -101,10 +101,9 @@ impl Reader<'_> {
             return Ok([0.0; 3]);
         }
         if six.iter().any(|value| !value.is_finite()) {
-            let is_infinite = [ixx, iyy, izz].contains(&f64::INFINITY) && !ixx.is_nan();
             let fault = Fault::Inertia("a number of it is not finite");
             self.effects.read_as(node, format!("link/{name}/inertial"), fault, "0");
-            return Ok(if is_infinite { [f64::NAN; 3] } else { [0.0; 3] });
+            return Ok([0.0; 3]);
         }
         let moments = eigenvalues(
             &[[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]],

@@ -89,9 +89,11 @@ impl Reader<'_> {
         if path.contains("://") {
             return Mesh::Missing;
         }
-        let folders = if path.starts_with('/') { 0..1 } else { 0..FOLDERS };
-        let places = folders.map(|up| self.file.mesh(&format!("{}{path}", "../".repeat(up))));
-        let found = places.into_iter().find(|mesh| !matches!(mesh, Mesh::Missing));
+        // The root is one of these folders.
+        let absolute = path.starts_with('/').then(|| self.file.mesh(path));
+        let path = path.trim_start_matches('/');
+        let places = (0..FOLDERS).map(|up| self.file.mesh(&format!("{}{path}", "../".repeat(up))));
+        let found = absolute.into_iter().chain(places).find(|mesh| !matches!(mesh, Mesh::Missing));
         match (found, in_package.map(|_| self.file.mesh(name))) {
             (Some(mesh), _) | (None, Some(mesh @ Mesh::Unknown)) => mesh,
             _ => Mesh::Missing,
@@ -115,8 +117,10 @@ impl Reader<'_> {
                 let why = "the mesh has no `<asset>` or no `<library_geometries>`";
                 return self.effects.crash(filename, Fault::Mesh(why));
             }
-            (".dae", .., Some(collada)) if collada.triangles > 0 => return Ok(()),
-            (".dae", ..) => "the mesh is no COLLADA file with triangles",
+            (".dae", .., Some(collada)) if collada.triangles > 0 && collada.has_scene => {
+                return Ok(());
+            }
+            (".dae", ..) => "the mesh is no COLLADA file with a scene of triangles",
             _ => {
                 let fault = Fault::ForOthers("the format is not for meshes of links");
                 self.effects.drop(filename, part, fault);

@@ -39,6 +39,8 @@ pub(super) struct Suspect<'t> {
 pub(super) struct Extensions<'t> {
     /// Fixed joints that stay joints.
     pub kept_joints: HashSet<&'t str>,
+    /// Links and joints that are written as SDF.
+    pub own: Vec<Node<'t>>,
     pub suspects: Vec<Suspect<'t>>,
 }
 
@@ -49,6 +51,9 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
         let reference = gazebo.value("reference").unwrap_or_default();
         for element in gazebo.children() {
             let name = element.name();
+            if reference.is_empty() && matches!(name, "link" | "joint") {
+                found.own.push(element);
+            }
             let text = element.value("value").or(element.text()).unwrap_or_default();
             let text = text.trim_matches(crate::number::is_space);
             let is_true = matches!(&*text.to_ascii_lowercase(), "true" | "yes" | "1");

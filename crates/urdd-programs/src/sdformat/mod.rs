@@ -54,7 +54,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     never_read(&model, effects);
     let mut links = Tree::new(&model, &extensions.kept_joints);
     links.build(effects)?;
-    names::check(model.robot, &links, effects)?;
+    names::check(model.robot, &links, &extensions.own, effects)?;
     for body in &links.bodies {
         match body.is_made {
             true => {

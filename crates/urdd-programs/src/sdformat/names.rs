@@ -1,4 +1,4 @@
-//! Names that SDF cannot have.
+//! Names that SDF cannot have, or that are of nothing.
 
 use std::collections::HashSet;
 
@@ -8,12 +8,18 @@ use crate::fault::{Fault, shortened};
 use crate::number::is_space;
 use crate::tree::Node;
 
-/// The names of the robot, and of links and joints that are kept.
-pub(super) fn check(robot: Node<'_>, links: &Tree<'_>, effects: &mut Effects) -> Reading<()> {
+/// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
+pub(super) fn check(
+    robot: Node<'_>,
+    links: &Tree<'_>,
+    own: &[Node<'_>],
+    effects: &mut Effects,
+) -> Reading<()> {
     one(robot, "robot", robot.value("name").unwrap_or_default(), effects)?;
     let mut names = HashSet::new();
     let bodies = || links.bodies.iter().filter(|body| body.is_made);
     let joints = bodies().filter_map(|body| body.joint.as_ref());
+    let joints = joints.filter(|joint| !joint.has_no_type());
     let all = bodies().map(|body| (body.node, "link", body.name));
     for (node, kind, name) in all.chain(joints.map(|joint| (joint.node, "joint", joint.name))) {
         one(node, kind, name, effects)?;
@@ -26,6 +32,51 @@ pub(super) fn check(robot: Node<'_>, links: &Tree<'_>, effects: &mut Effects) ->
         if !names.insert(read) {
             return effects.refuse(node, Fault::not_unique("link or joint", name));
         }
+    }
+    let own = || own.iter().filter_map(|&node| Some((node, node.value("name")?)));
+    for (node, name) in own() {
+        one(node, if node.name() == "link" { "link" } else { "joint" }, name, effects)?;
+        if !names.insert(trimmed(name)) {
+            return effects.refuse(node, Fault::not_unique("link or joint", name));
+        }
+    }
+    for (node, name) in own().filter(|(node, _)| node.name() == "joint") {
+        joint(node, name, &names, effects)?;
+    }
+    Ok(())
+}
+
+/// A joint of SDF: its type, and the links, or joints in their place, that it connects.
+fn joint(node: Node<'_>, name: &str, names: &HashSet<&str>, effects: &mut Effects) -> Reading<()> {
+    const KINDS: [&str; 9] = [
+        "ball",
+        "continuous",
+        "fixed",
+        "gearbox",
+        "prismatic",
+        "revolute",
+        "revolute2",
+        "screw",
+        "universal",
+    ];
+    if let Some(kind) = node.attribute("type")
+        && !KINDS.iter().any(|known| known.eq_ignore_ascii_case(&kind.value))
+    {
+        return effects.refuse(kind, Fault::value("type", &kind.value));
+    }
+    let ends = ["parent", "child"].map(|end| {
+        let end = node.child(end)?;
+        Some((end, trimmed(end.text()?)))
+    });
+    let [Some(parent), Some(child)] = ends else { return Ok(()) };
+    for (end, link) in [parent, child] {
+        let is_world = link == "world" && end.name() == "parent";
+        if !is_world && (link == trimmed(name) || !names.contains(link)) {
+            return effects.refuse(end, Fault::unknown("link or joint", link));
+        }
+    }
+    if parent.1 == child.1 {
+        return effects.refuse(child.0, Fault::Tree("a joint has one link on both sides"));
     }
     Ok(())
 }

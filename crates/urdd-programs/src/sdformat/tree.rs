@@ -38,6 +38,13 @@ pub(super) struct Joint<'t> {
     is_merged: bool,
 }
 
+impl Joint<'_> {
+    /// Whether SDF does not have its type.
+    pub fn has_no_type(&self) -> bool {
+        matches!(self.kind, "floating" | "planar")
+    }
+}
+
 pub(super) struct Tree<'t> {
     pub bodies: Vec<Body<'t>>,
     pub of_name: HashMap<&'t str, usize>,
@@ -171,15 +178,6 @@ impl<'t> Tree<'t> {
                     return effects
                         .refuse(one.node, Fault::Tree("the link is the child of two joints"));
                 }
-                if let Some(joint) = &one.joint
-                    && matches!(joint.kind, "floating" | "planar")
-                {
-                    let at = joint
-                        .node
-                        .attribute("type")
-                        .map_or(joint.node.start(), |kind| kind.range.start);
-                    return effects.refuse(at, Fault::value("type", joint.kind));
-                }
             }
             open.extend(self.bodies[body].children.iter().rev());
         }
@@ -187,6 +185,7 @@ impl<'t> Tree<'t> {
             let node = self.bodies[root].node;
             return effects.refuse(node.child("inertial").unwrap_or(node), without_mass(node));
         }
+        self.joints_of_no_type(effects)?;
         // The last joint of a link may be one in a loop that the root does not reach.
         for joint in
             self.bodies.iter().filter(|body| body.is_made).filter_map(|body| body.joint.as_ref())
@@ -196,6 +195,25 @@ impl<'t> Tree<'t> {
                 let at = joint.node.child("parent").unwrap_or(joint.node);
                 return effects.refuse(at, Fault::Way("the link above is left out"));
             }
+        }
+        Ok(())
+    }
+
+    /// SDF has no floating and planar joints, and the pose of the link below is in the frame of such a joint. It is one
+    /// if another link has its name.
+    fn joints_of_no_type(&self, effects: &mut Effects) -> Reading<()> {
+        for body in self.bodies.iter().filter(|body| body.is_made) {
+            let Some(joint) = body.joint.as_ref().filter(|joint| joint.has_no_type()) else {
+                continue;
+            };
+            let kind = joint.node.attribute("type");
+            let at = kind.map_or(joint.node.start(), |kind| kind.range.start);
+            let fault = Fault::value("type", joint.kind);
+            let link = self.of_name.get(joint.name).map(|&index| &self.bodies[index]);
+            if !link.is_some_and(|link| link.is_made && link.name != body.name) {
+                return effects.refuse(at, fault);
+            }
+            effects.drop(at, format!("joint/{}", joint.name), fault);
         }
         Ok(())
     }

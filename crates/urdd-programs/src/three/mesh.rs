@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::fault::{FORMAT, Fault};
-use crate::mesh::{Mesh, MeshFacts};
+use crate::mesh::{ColladaFacts, Mesh, MeshFacts};
 use crate::tree::Node;
 
 impl<'t> Reader<'_, 't> {
@@ -29,6 +29,16 @@ impl<'t> Reader<'_, 't> {
         };
         self.effects.drop(name, part, fault);
     }
+
+    /// A COLLADA mesh is not painted with the material of the visual.
+    pub(super) fn own_colours(&mut self, visual: Node<'t>, form: Node<'t>, part: &str) {
+        let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
+        if form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae") {
+            let fault = Fault::Way("a COLLADA mesh keeps its own colours");
+            let material = visual.child("material").unwrap_or(form);
+            self.effects.drop(material, format!("{part}/material"), fault);
+        }
+    }
 }
 
 /// The file of a name that is taken for a part of a URL.
@@ -52,7 +62,8 @@ fn as_path(name: &str) -> String {
 /// Whether it reads a mesh.
 fn is_mesh(facts: &MeshFacts, ending: &str) -> bool {
     if ending == "dae" {
-        return facts.collada.is_some();
+        let shows = |collada: &ColladaFacts| collada.is_complete && collada.has_scene;
+        return facts.collada.as_ref().is_some_and(shows);
     }
     let Some(count) = facts.stl.as_ref().and_then(|stl| stl.written) else { return false };
     let is_text = facts.head.starts_with(b"solid") && !facts.is_binary_stl();

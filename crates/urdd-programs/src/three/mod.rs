@@ -255,6 +255,7 @@ impl<'t> Reader<'_, 't> {
                 return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
             };
             self.shape(form, part);
+            self.own_colours(visual, form, part);
         }
         Ok(())
     }

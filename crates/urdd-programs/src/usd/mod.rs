@@ -25,7 +25,7 @@ pub(crate) const ABOUT: About = About {
     version: "0.3.4",
     settings: &["isaac", "newton"],
     is_asked: true,
-    names: ElementNames::Exact,
+    names: ElementNames::Expanded,
     never: &["acceleration", "deceleration", "jerk", "version", "quat_xyzw"],
     read,
 };
@@ -110,10 +110,13 @@ impl<'t> Reader<'_, 't> {
         Ok(found)
     }
 
-    /// Of elements that repeat it reads the last.
+    /// Of elements that repeat it reads the last, also if it is empty.
     fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
         for name in names {
-            if let Some(second) = node.repeated(name) {
+            let mut all = node.named(name);
+            let first = all.next().filter(|first| !first.is_empty());
+            let emptied = first.and(all.last()).filter(|last| last.is_empty());
+            if let Some(second) = node.repeated(name).or(emptied) {
                 let fault = Fault::Repeated((*name).to_owned());
                 self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
             }
@@ -298,8 +301,12 @@ impl<'t> Reader<'_, 't> {
         let shapes = ["box", "sphere", "cylinder", "mesh"];
         let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
         else {
-            if let Some(form) = geometry.children().next() {
-                self.effects.drop(form, part, Fault::Shape(shortened(form.name())));
+            match geometry.children().next() {
+                Some(form) => self.effects.drop(form, part, Fault::Shape(shortened(form.name()))),
+                None => {
+                    let fault = Fault::Other("`<geometry>` has no shape");
+                    self.effects.drop(geometry, part, fault);
+                }
             }
             return Ok(());
         };
@@ -343,7 +350,10 @@ impl<'t> Reader<'_, 't> {
                 let has_faces = match &*ending {
                     "stl" => is_stl(&facts),
                     "obj" => facts.obj.as_ref().is_some_and(|obj| obj.faces > 0),
-                    _ => facts.collada.is_some(),
+                    _ => facts
+                        .collada
+                        .as_ref()
+                        .is_some_and(|collada| collada.triangles > 0 && collada.has_instance),
                 };
                 (!has_faces).then_some(Fault::Mesh("the program finds nothing in the mesh"))
             }

@@ -11,7 +11,7 @@ use parts::{Claim, are_near, claims, covers};
 use urdd_programs::{Deed, Effects, File, Program};
 
 /// Of a hundred changes, so many verdicts are the same.
-const VERDICTS: f64 = 99.5;
+const VERDICTS: f64 = 99.9;
 /// Of a hundred changes with parts lost, so many name each of them.
 const DROPS: f64 = 95.0;
 
@@ -67,9 +67,10 @@ fn readers_do_what_their_programs_do() {
                 lines.iter().for_each(|line| println!("  {what} {line}"));
             }
         }
-        // Of a sample, a few losses more or less may be named.
-        let least = if trials < 5 && chosen.is_none() { DROPS - 5.0 } else { DROPS };
-        if verdicts < VERDICTS || drops < least {
+        // Of a sample, a few more may be wrong, and a few losses unnamed.
+        let is_sample = trials < 5 && chosen.is_none();
+        let (least, few) = if is_sample { (VERDICTS - 0.4, 5) } else { (VERDICTS, 0) };
+        if verdicts < least || drops < DROPS && score.unnamed.len() > few {
             failed.push(program.id());
         }
     }
@@ -88,7 +89,8 @@ fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
         ((mixed ^ (mixed >> 27)) >> 11) as usize % below
     };
     for _ in 0..200 * trials {
-        let mut bytes = rows[random(rows.len())].bytes.clone();
+        let row = &rows[random(rows.len())];
+        let mut bytes = row.bytes.clone();
         for _ in 0..=random(4) {
             let at = random(bytes.len() + 1);
             let end = (at + random(9)).min(bytes.len());
@@ -100,7 +102,7 @@ fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
             bytes.splice(at..end, put);
         }
         for program in Program::ALL {
-            for effect in read(program, &bytes).0 {
+            for effect in read_bytes(program, &row.base, &bytes).0 {
                 let text = String::from_utf8_lossy(&bytes);
                 assert!(effect.at <= bytes.len(), "{}: {effect:?} of {text}", program.id());
             }
@@ -145,12 +147,12 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
         .collect();
     let known: BTreeSet<String> = unchanged
         .values()
-        .flat_map(|row| claims(&read(program, &row.bytes)))
+        .flat_map(|row| claims(&read(program, row)))
         .map(|claim| claim.kind)
         .collect();
     for row in rows {
         let Some(&verdict) = row.verdicts.get(&letter) else { continue };
-        let effects = read(program, &row.bytes);
+        let effects = read(program, row);
         let ours = match effects.worst() {
             Some(Deed::Crashes) => '!',
             Some(Deed::Refuses) => '-',
@@ -223,6 +225,10 @@ fn judge(
     }
 }
 
-fn read(program: Program, bytes: &[u8]) -> Effects {
-    program.read(&File { bytes, meshes: &|name| meshes::find(program, name) })
+fn read(program: Program, row: &table::Row) -> Effects {
+    read_bytes(program, &row.base, &row.bytes)
+}
+
+fn read_bytes(program: Program, base: &str, bytes: &[u8]) -> Effects {
+    program.read(&File { bytes, meshes: &|name| meshes::find(program, base, name) })
 }
