@@ -1,29 +1,17 @@
 //! What each format carries of a robot: the table of docs/export.md, and what was lost of one robot.
 
 use std::collections::HashSet;
-use std::fmt::Write;
 
 use super::error::Note;
 use super::format::Format;
 use super::other_attributes::is_kept;
 use super::output::Export;
 use super::subject::Subject;
+use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
+use urdd_format::carried::{Part, lists, table};
 use urdd_format::escape;
 use urdd_format::urdf::{Joint, JointType, Limit, Link};
 use urdd_xml::other_parts::OtherPart;
-
-/// How a format carries something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum How {
-    Yes,
-    /// In another way.
-    Otherwise(&'static str),
-    No,
-    /// The program has it from another file, such as the URDF.
-    Elsewhere,
-}
-
-use How::{Elsewhere, No, Otherwise, Yes};
 
 /// Something that a robot can have.
 struct Feature {
@@ -249,21 +237,16 @@ pub(super) fn lost(subject: &Subject) -> Option<Note> {
 
 /// The report of an export, as JSON: what is carried, what otherwise, what is lost, and the notes.
 pub(super) fn report(subject: &Subject, made: &Export) -> String {
-    let of = |wanted: fn(How) -> bool| -> Vec<serde_json::Value> {
-        let found = carried(subject).chain(textures(made)).filter(|(_, _, how)| wanted(*how));
-        let entry = |(name, count, how)| match how {
-            Otherwise(how) => serde_json::json!({"what": name, "count": count, "how": how}),
-            _ => serde_json::json!({"what": name, "count": count}),
-        };
-        found.map(entry).collect()
-    };
+    let parts = carried(subject).chain(textures(made));
+    let parts: Vec<Part> = parts.map(|(name, count, how)| (name.to_owned(), count, how)).collect();
+    let [carried, otherwise, lost] = lists(&parts);
     let document = serde_json::json!({
         "robot": subject.urdf.name,
         "format": subject.format.name(),
         "program": urdd_format::registry::PROGRAM_VERSION,
-        "carried": of(|how| how == Yes),
-        "otherwise": of(|how| matches!(how, Otherwise(_))),
-        "lost": of(|how| how == No),
+        "carried": carried,
+        "otherwise": otherwise,
+        "lost": lost,
         "notes": made.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
     });
     let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
@@ -273,37 +256,6 @@ pub(super) fn report(subject: &Subject, made: &Export) -> String {
 /// The table of docs/export.md, in Markdown.
 #[must_use]
 pub fn carried_table() -> String {
-    let mut text = String::from("| |");
-    for format in Format::ALL {
-        let _ = write!(text, " {} |", format.name());
-    }
-    text += "\n|---|";
-    text += &"---|".repeat(Format::ALL.len());
-    text.push('\n');
-    let mut notes: Vec<&str> = Vec::new();
-    for feature in &TABLE {
-        let _ = write!(text, "| {} |", feature.name);
-        for how in feature.by_format {
-            let cell = match how {
-                Yes => "yes".to_owned(),
-                No => "**lost**".to_owned(),
-                Elsewhere => "–".to_owned(),
-                Otherwise(how) => {
-                    let known = notes.iter().position(|note| *note == how);
-                    let place = known.unwrap_or_else(|| {
-                        notes.push(how);
-                        notes.len() - 1
-                    });
-                    format!("({})", place + 1)
-                }
-            };
-            let _ = write!(text, " {cell} |");
-        }
-        text.push('\n');
-    }
-    text.push('\n');
-    for (place, note) in notes.iter().enumerate() {
-        let _ = writeln!(text, "({}) {note}.  ", place + 1);
-    }
-    text
+    let formats: Vec<&str> = Format::ALL.iter().map(|format| format.name()).collect();
+    table(&formats, TABLE.iter().map(|feature| (feature.name, feature.by_format)))
 }

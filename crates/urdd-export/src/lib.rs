@@ -34,8 +34,6 @@ mod carried;
 mod choices;
 mod contacts;
 mod drake;
-#[doc(hidden)]
-pub mod element;
 mod error;
 mod format;
 mod groups;

@@ -1,8 +1,8 @@
 //! Attributes that URDF does not define, on the elements of the source that a URDF has too.
 
-use super::element::Element;
 use super::subject::Subject;
 use urdd_xml::other_parts::{OtherPart, Owner};
+use urdd_xml::writer::Element;
 
 /// Whether a URDF has a part: an attribute, but for those of shapes and materials, which are the file's own.
 pub(super) fn is_kept(part: &OtherPart) -> bool {

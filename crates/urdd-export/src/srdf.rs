@@ -1,12 +1,12 @@
 //! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
 
-use super::element::Element;
 use super::error::ExportError;
 use super::output::Export;
 use super::pairs::LinkPair;
 use super::subject::Subject;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::RobotError;
+use urdd_xml::writer::Element;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut robot = Element::new("robot").with("name", subject.urdf.name.as_str());

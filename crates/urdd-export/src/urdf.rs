@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::joints::joints;
@@ -17,6 +16,7 @@ use super::urdf_elements::{
 use super::xacro;
 use urdd_robot::LinkShape;
 use urdd_xml::other_parts::Owner;
+use urdd_xml::writer::Element;
 
 pub(super) fn export(subject: &Subject, options: &UrdfOptions) -> Result<Export, ExportError> {
     let mut notes = Vec::new();

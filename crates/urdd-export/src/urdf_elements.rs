@@ -3,7 +3,6 @@
 use nalgebra::Isometry3;
 use roxmltree::{Document, Node};
 
-use super::element::Element;
 use super::error::{ExportError, Note};
 use super::inertia::held;
 use super::joints::without_quaternion;
@@ -19,6 +18,7 @@ use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::other_parts::Owner;
+use urdd_xml::writer::Element;
 use urdd_xml::{Kind, is_character};
 
 /// Half the thickness of a flat box for programs that reject flat boxes, in metres.

@@ -3,7 +3,7 @@
 use roxmltree::Node;
 use urdd_xml::Kind;
 
-use super::element::escaped;
+use urdd_xml::writer::escaped;
 
 /// Text that xacro gives back unchanged, in attributes and characters. Of several `$` before a brace, xacro drops one; it
 /// takes no others, but an expression whose value is `$`.

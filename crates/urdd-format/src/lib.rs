@@ -23,6 +23,8 @@ pub mod annotations;
 pub mod bounds;
 #[doc(hidden)]
 pub mod bundle;
+#[doc(hidden)]
+pub mod carried;
 pub mod chain;
 pub mod composition;
 pub mod conformance;

@@ -10,6 +10,7 @@ mod decode;
 mod error;
 pub mod fault;
 mod files;
+pub mod import;
 mod includes;
 pub mod inspect;
 mod load;

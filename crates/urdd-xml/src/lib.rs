@@ -17,6 +17,7 @@ pub mod other_parts;
 mod strict;
 pub mod vocabulary;
 mod words;
+pub mod writer;
 
 pub use count::check as check_limits;
 pub use declaration::wrong_version;

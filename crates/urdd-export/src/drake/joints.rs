@@ -4,7 +4,6 @@
 //! becomes three prismatic joints and a ball joint, with massless links between them. Drake aborts if a lower limit
 //! exceeds its upper limit, and applies the limits of a continuous joint.
 
-use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::joints::joints as resolved;
 use super::super::names::check_unique;
@@ -13,6 +12,7 @@ use super::super::subject::Subject;
 use super::super::urdf_elements::{element_of_joint, type_name};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Axis, Joint, JointType, LinkName};
+use urdd_xml::writer::Element;
 
 const CROSSED: &str =
     "its lower limit is above its upper one, at which Drake stops; it has no range";

@@ -7,7 +7,6 @@ mod transmissions;
 
 use std::collections::BTreeMap;
 
-use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::options::DrakeOptions;
@@ -19,6 +18,7 @@ use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
 };
 use urdd_xml::other_parts::Owner;
+use urdd_xml::writer::Element;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 

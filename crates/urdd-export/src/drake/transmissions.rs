@@ -4,12 +4,12 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use super::super::element::Element;
 use super::super::error::Note;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
 use super::joints::Driven;
 use urdd_xml::Kind;
+use urdd_xml::writer::Element;
 
 /// Elements directly under `robot`, without those that Drake rejects.
 pub(super) struct Kept {

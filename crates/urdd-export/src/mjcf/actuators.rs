@@ -3,12 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::options::{ActuatorKind, MjcfOptions};
 use super::super::subject::Subject;
 use super::gains::inertias;
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 /// Inertia of a joint that moves no mass, kg m² or kg: what the file assumes for bodies without mass.
 const LEAST: f64 = 1e-9;

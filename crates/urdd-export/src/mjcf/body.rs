@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 
-use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::options::MjcfOptions;
@@ -13,6 +12,7 @@ use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
 use urdd_robot::{LinkShape, ShapeKind, Solid};
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 /// The name of the free joint of a floating base.
 const FLOATING_BASE: &str = "floating_base";

@@ -1,7 +1,7 @@
 //! Frames with a meaning: sites at tools and inertial measurement units, and sensors at the latter.
 
-use super::super::element::Element;
 use super::super::subject::Subject;
+use urdd_xml::writer::Element;
 
 /// The site of a link, if its frame is that of a tool, or of an IMU with sensors.
 pub(super) fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {

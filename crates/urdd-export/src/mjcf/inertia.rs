@@ -6,13 +6,13 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::element::Element;
 use super::super::error::Note;
 use super::super::inertia::ROUNDING;
 use super::super::subject::Subject;
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 /// MuJoCo's mjMINVAL, below which it treats a value as 0: kg and kg m².
 const MIN_VALUE: f64 = 1e-15;

@@ -1,12 +1,12 @@
 //! Joints of a body.
 
-use super::super::element::Element;
 use super::super::error::Note;
 use super::super::parts::Moves;
 use super::super::subject::Subject;
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 const LOCKED: &str = "its limits are equal, which MuJoCo refuses; an equality constraint holds it there, and it has no actuator";
 

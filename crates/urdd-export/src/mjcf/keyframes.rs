@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::names::{ANOTHER, check_names};
 use super::super::options::ActuatorKind;
@@ -11,6 +10,7 @@ use super::scene::Stand;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::numbers;
+use urdd_xml::writer::Element;
 
 /// The name of the keyframe of a robot whose URDD names none.
 const DEFAULT: &str = "default";

@@ -19,7 +19,6 @@ mod scene;
 #[doc(hidden)]
 pub mod surface;
 
-use super::element::Element;
 use super::error::{ExportError, Note};
 use super::options::MjcfOptions;
 use super::output::Export;
@@ -27,6 +26,7 @@ use super::subject::Subject;
 use body::{Bodies, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 const SEVERAL: &str =
     "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely";

@@ -2,7 +2,6 @@
 
 use nalgebra::{Isometry3, Point3};
 
-use super::super::element::{escaped, head};
 use super::super::error::ExportError;
 use super::super::options::MjcfOptions;
 use super::super::output::Files;
@@ -10,6 +9,7 @@ use super::super::subject::Subject;
 use super::super::template::fill;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::number;
+use urdd_xml::writer::{escaped, head};
 
 /// Where the robot stands.
 pub(super) struct Stand {

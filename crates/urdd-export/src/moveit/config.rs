@@ -1,6 +1,5 @@
 //! What the files of a package have in common.
 
-use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::groups::joints_of;
 use super::super::names::FileNames;
@@ -9,6 +8,7 @@ use super::super::setup::{Members, Setup};
 use super::super::subject::Subject;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_xml::number::number;
+use urdd_xml::writer::Element;
 
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {

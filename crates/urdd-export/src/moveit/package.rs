@@ -1,10 +1,10 @@
 //! The package: its description, how it is installed, a launch file, and what RViz shows.
 
-use super::super::element::escaped;
 use super::super::template::fill;
 use super::super::yaml::quoted;
 use super::config::Config;
 use super::controllers;
+use urdd_xml::writer::escaped;
 
 const PACKAGE: &str = include_str!("package.xml.in");
 const LAUNCH: &str = include_str!("demo.launch.py.in");

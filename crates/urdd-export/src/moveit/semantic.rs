@@ -1,6 +1,5 @@
 //! The SRDF: groups, states, end effectors, the virtual joint, passive joints, and pairs.
 
-use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::names::{ANOTHER, check_names};
 use super::super::parts::Taken;
@@ -8,6 +7,7 @@ use super::super::setup::Members;
 use super::super::srdf;
 use super::config::Config;
 use urdd_xml::number::number;
+use urdd_xml::writer::Element;
 
 const NO_GROUPS: &str =
     "MoveIt plans for groups, and there are none: write some in the file of `urdd export init`";

@@ -3,13 +3,13 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::super::element::Element;
 use super::super::error::Note;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
 use super::super::urdf_elements::document;
 use urdd_xml::element::wrapped;
 use urdd_xml::number::number;
+use urdd_xml::writer::Element;
 
 const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
 

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::element::Element;
 use super::super::error::Note;
 use super::super::joints::joints as resolved;
 use super::super::parts::{Moves, Taken};
@@ -14,6 +13,7 @@ use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 const CHAIN: &str =
     "it has several DOFs; it is a chain of simple joints with light links between them";

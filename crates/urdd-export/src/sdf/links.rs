@@ -2,7 +2,6 @@
 
 use nalgebra::Isometry3;
 
-use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::inertia::held;
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
@@ -17,6 +16,7 @@ use urdd_document::robot::Inertial;
 use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 /// Mass and moments of inertia of links without them, kg and kg m².
 const LEAST: f64 = 1e-6;

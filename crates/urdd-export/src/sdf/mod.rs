@@ -9,12 +9,12 @@ mod joints;
 mod links;
 
 use super::drake;
-use super::element::Element;
 use super::error::{ExportError, Note};
 use super::options::SdfOptions;
 use super::output::Export;
 use super::subject::Subject;
 use gazebo::{Gazebo, Place};
+use urdd_xml::writer::Element;
 
 const GAZEBO: &str = "Gazebo knows no pairs that need no check; the links do not collide with each other there (`<self_collide>` is off). Drake reads the pairs";
 const WORLD: &str = "the root link is called `world`, which is SDF's own and has neither mass nor shapes; its own are left out";

@@ -6,7 +6,6 @@
 mod carried;
 mod choices;
 mod drake;
-mod element;
 mod fitted_spheres;
 mod gazebo;
 mod hostile_names;

@@ -3,6 +3,8 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod writer;
+
 use urdd_xml::*;
 
 fn attributes(count: usize) -> String {

@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 
+use crate::element::name;
+use crate::number::number;
 use quick_xml::escape::escape;
 use roxmltree::{Attribute, Node};
-use urdd_xml::element::name;
-use urdd_xml::number::number;
 
 use urdd_format::escape::is_hidden;
 
@@ -27,6 +27,7 @@ enum Child {
 }
 
 impl Element {
+    /// An empty element.
     pub fn new(name: &'static str) -> Self {
         Element { name: name.into(), ..Element::default() }
     }
@@ -50,10 +51,12 @@ impl Element {
         }
     }
 
+    /// Its qualified name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
+    /// The value of an attribute.
     pub fn attribute(&self, key: &str) -> Option<&str> {
         let found = self.attributes.iter().find(|(name, _)| name == key);
         found.map(|(_, value)| value.as_str())
@@ -67,6 +70,7 @@ impl Element {
         }
     }
 
+    /// Its child elements.
     pub fn elements(&self) -> impl Iterator<Item = &Element> {
         self.children.iter().filter_map(|child| match child {
             Child::Element(element) => Some(element),
@@ -74,6 +78,7 @@ impl Element {
         })
     }
 
+    /// Its child elements, to be changed.
     pub fn elements_mut(&mut self) -> impl Iterator<Item = &mut Element> {
         self.children.iter_mut().filter_map(|child| match child {
             Child::Element(element) => Some(element),
@@ -153,6 +158,7 @@ impl Element {
         self
     }
 
+    /// Adds a child element.
     pub fn push(&mut self, child: Element) {
         self.children.push(Child::Element(child));
     }
@@ -192,7 +198,7 @@ impl Element {
     }
 
     /// As [`Element::document`]; `of` gives what is written for a text.
-    pub(super) fn document_with(&self, comments: &[String], of: fn(&str) -> String) -> String {
+    pub fn document_with(&self, comments: &[String], of: fn(&str) -> String) -> String {
         let mut text = head(comments);
         self.write(&mut text, 0, of);
         text
@@ -225,7 +231,7 @@ impl Element {
 }
 
 /// The head of a document, with comments.
-pub(super) fn head(comments: &[String]) -> String {
+pub fn head(comments: &[String]) -> String {
     let comments = comments.iter().map(|text| comment(text));
     String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n") + &comments.collect::<String>()
 }
@@ -247,7 +253,7 @@ pub fn comment(text: &str) -> String {
 /// Escapes characters, in content or as the value of an attribute. Tabs, line breaks and what a terminal would act upon
 /// become character references, since XML readers replace the first two with spaces; braces too, since Jinja acts upon
 /// them, by which `launch_param_builder` renders files for MoveIt.
-pub(super) fn escaped(value: &str) -> String {
+pub fn escaped(value: &str) -> String {
     let mut text = String::with_capacity(value.len());
     for c in escape(value).chars() {
         match is_hidden(c) || c == '{' {

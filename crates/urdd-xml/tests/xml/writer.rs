@@ -1,6 +1,6 @@
 //! An XML tree and its serialization.
 
-use urdd_export::element::*;
+use urdd_xml::writer::*;
 
 #[test]
 fn text_from_anybody_stays_inside_its_place() {

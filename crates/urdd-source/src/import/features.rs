@@ -1,0 +1,108 @@
+//! What a description of another format can say, and what an import makes of it: the table of docs/import.md, and the
+//! counts of one robot.
+
+use std::collections::BTreeMap;
+
+use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
+
+use super::model::Place;
+
+/// Something that a description can say, and what becomes of it, by format.
+#[derive(Debug, Clone, Copy)]
+pub struct Feature {
+    /// In the words of people.
+    pub name: &'static str,
+    /// From MJCF. [`Elsewhere`]: the format cannot say it.
+    pub mjcf: How,
+    /// From SDF.
+    pub sdf: How,
+}
+
+macro_rules! features {
+    ($($feature:ident = $name:literal, $mjcf:expr, $sdf:expr;)*) => {
+        $(
+            #[doc = $name]
+            pub const $feature: Feature = Feature { name: $name, mjcf: $mjcf, sdf: $sdf };
+        )*
+        /// All of them, in the order of the table.
+        pub const ALL: &[Feature] = &[$($feature),*];
+    };
+}
+
+const FRAME: How = Otherwise("as a link without mass, by a fixed joint");
+const EMPTY: How = Otherwise("with a link without mass between, `BODY/JOINT`");
+const BALL: How =
+    Otherwise("as `type=\"spherical\"`, or with `--ball revolute` as three revolute joints");
+const CAPSULE: How = Otherwise("as a cylinder and two spheres");
+const ELLIPSOID: How = Otherwise("as a mesh of a sphere, scaled");
+const SLIDE: How = Otherwise("with limits of ±10 m");
+const SRDF: How = Otherwise("in the SRDF");
+const SETUP: How = Otherwise("in `NAME.export.toml`");
+
+features! {
+    BODIES = "bodies", Yes, Yes;
+    HINGES = "hinges", Yes, Yes;
+    SLIDES = "slides with limits", Yes, Yes;
+    FREE_SLIDES = "slides without limits", SLIDE, SLIDE;
+    BALLS = "balls", BALL, BALL;
+    FREE = "the free joint of the root", SETUP, Elsewhere;
+    MORE_JOINTS = "more joints of a body, and joints away from its frame", EMPTY, EMPTY;
+    MASSES = "masses and inertias", Yes, Yes;
+    BOXES = "boxes, spheres and cylinders", Yes, Yes;
+    CAPSULES = "capsules", CAPSULE, CAPSULE;
+    ELLIPSOIDS = "ellipsoids", ELLIPSOID, ELLIPSOID;
+    MESHES = "meshes", Yes, Yes;
+    COLOURS = "colours", Yes, Yes;
+    TEXTURES = "textures", Yes, Yes;
+    FRAMES = "sites, cameras and frames", FRAME, FRAME;
+    POSES = "named configurations", SRDF, Elsewhere;
+    APART = "pairs that never collide", SRDF, SRDF;
+    GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
+    CLOSED = "closed chains", No, No;
+}
+
+/// Something that a person has to know of one robot: what was assumed, or what is left out beside the table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// Where.
+    pub place: Place,
+    /// What is said, and what became of it, as one sentence.
+    pub text: String,
+}
+
+/// What became of what one description says.
+#[derive(Debug, Clone, Default)]
+pub struct Tally {
+    counts: BTreeMap<&'static str, usize>,
+    /// Elements and attributes that are not read, with their number.
+    unread: BTreeMap<String, usize>,
+    /// What else a person has to know.
+    pub remarks: Vec<Remark>,
+}
+
+impl Tally {
+    /// Counts one.
+    pub fn count(&mut self, feature: Feature) {
+        *self.counts.entry(feature.name).or_default() += 1;
+    }
+
+    /// Counts an element or attribute that is not read and is of meaning for the robot: it is lost.
+    pub fn unread(&mut self, name: impl Into<String>) {
+        *self.unread.entry(name.into()).or_default() += 1;
+    }
+
+    /// Says what was assumed, or left out.
+    pub fn remark(&mut self, place: Place, text: impl Into<String>) {
+        self.remarks.push(Remark { place, text: text.into() });
+    }
+
+    /// How many there are of a feature.
+    pub fn number_of(&self, feature: Feature) -> usize {
+        self.counts.get(feature.name).copied().unwrap_or_default()
+    }
+
+    /// What is not read, with its number, by name.
+    pub fn all_unread(&self) -> &BTreeMap<String, usize> {
+        &self.unread
+    }
+}

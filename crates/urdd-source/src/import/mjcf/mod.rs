@@ -1,0 +1,17 @@
+//! Reads MJCF.
+
+pub mod fault;
+
+use super::model::{Model, Place, TextFile};
+use super::options::ImportOptions;
+use super::placed::{Placed, placed};
+use super::reach::Reach;
+use fault::MjcfFault;
+
+/// Reads the robot of a description.
+///
+/// # Errors
+/// If it is refused, with the place.
+pub fn read(file: TextFile, _reach: &Reach, _options: &ImportOptions) -> Result<Model, Placed> {
+    Err(placed(&[file], Place::default(), MjcfFault::NoBody))
+}

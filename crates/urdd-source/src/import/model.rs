@@ -1,0 +1,235 @@
+//! A robot of another format, in the terms of that format: bodies in a tree, each with the joints by which it moves.
+//!
+//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; the writers of
+//! this room make a URDF and its companions from it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+
+use super::features::Tally;
+
+/// A place in one of the files of a description.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The index of the file in [`Model::files`].
+    pub file: usize,
+    /// The byte offset in its text.
+    pub offset: usize,
+}
+
+/// A text file that a description was read from.
+#[derive(Debug, Clone)]
+pub struct TextFile {
+    /// The file, as the user would name it.
+    pub shown: String,
+    /// Its text.
+    pub text: String,
+    /// Its bytes.
+    pub bytes: Arc<[u8]>,
+}
+
+/// A robot.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// Its name.
+    pub name: String,
+    /// The files that were read: the description first, then what it includes.
+    pub files: Vec<TextFile>,
+    /// Its bodies. A parent stands before its children; names are unique and not empty.
+    pub bodies: Vec<Body>,
+    /// Whether the root moves freely in the world.
+    pub is_floating: bool,
+    /// The meshes and images that shapes name.
+    pub assets: Vec<Asset>,
+    /// Named configurations. Joints without a value are at 0.
+    pub configurations: Vec<Configuration>,
+    /// Pairs of bodies that are never checked for collisions, by index.
+    pub apart: Vec<Apart>,
+    /// Complete XML elements that stand in the URDF as they are, such as `<gazebo>` with a plugin.
+    pub elements: Vec<String>,
+    /// The coefficient of friction of all shapes, where all have the same.
+    pub friction: Option<f64>,
+    /// What became of what the description says.
+    pub tally: Tally,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Its parent, by index; none of the first body alone.
+    pub parent: Option<usize>,
+    /// Its frame in its parent's, where each of its joints is at [`Joint::reference`].
+    pub pose: Isometry3<f64>,
+    /// The joints between it and its parent, the one that moves first. None: it is fixed.
+    pub joints: Vec<Joint>,
+    /// The name of the fixed joint, if it has no others; `NAME_fixed` otherwise.
+    pub fixed_by: Option<String>,
+    /// Its mass, if it has one.
+    pub inertial: Option<Inertial>,
+    /// Its shapes.
+    pub shapes: Vec<Shape>,
+    /// Whether it is a frame alone: a site, a camera, a frame of SDF.
+    pub is_frame: bool,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Mass, centre of mass and inertia about it, in the body's frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inertial {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass.
+    pub centre: Point3<f64>,
+    /// The inertia about the centre of mass, along the axes of the body.
+    pub inertia: Matrix3<f64>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// About its axis.
+    Hinge,
+    /// Along its axis.
+    Slide,
+    /// About a point.
+    Ball,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name; unique and not empty.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Its frame in the body's, which moves with the body.
+    pub frame: Isometry3<f64>,
+    /// Its axis in its frame; not zero. Of no meaning for a ball.
+    pub axis: Vector3<f64>,
+    /// Its value in the pose of [`Body::pose`], rad or m.
+    pub reference: f64,
+    /// Its least and greatest value, rad or m.
+    pub range: Option<[f64; 2]>,
+    /// The greatest force, N or N m.
+    pub effort: Option<f64>,
+    /// The greatest speed, m/s or rad/s.
+    pub velocity: Option<f64>,
+    /// Damping, N s/m or N m s/rad.
+    pub damping: f64,
+    /// Friction, N or N m.
+    pub friction: f64,
+    /// The joint that it follows.
+    pub mimic: Option<Mimic>,
+    /// Gains of its actuator: N m/rad or N/m, and N m s/rad or N s/m; the inertia of its motor, kg m² or kg.
+    pub kp: Option<f64>,
+    #[expect(missing_docs, reason = "above")]
+    pub kv: Option<f64>,
+    #[expect(missing_docs, reason = "above")]
+    pub armature: Option<f64>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// `value = multiplier × leader + offset`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mimic {
+    /// The name of the joint that is followed.
+    pub joint: String,
+    #[expect(missing_docs, reason = "above")]
+    pub multiplier: f64,
+    #[expect(missing_docs, reason = "above")]
+    pub offset: f64,
+}
+
+/// What a shape is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// It is seen.
+    Visual,
+    /// It collides.
+    Collision,
+    /// Both.
+    Both,
+}
+
+/// A shape of a body.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// What it is for.
+    pub used: Use,
+    /// Its frame in the body's.
+    pub pose: Isometry3<f64>,
+    /// What it is.
+    pub geometry: Geometry,
+    /// How it looks, if it is said.
+    pub material: Option<Material>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A geometric shape about the origin of its frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// Lengths of the edges.
+    Box([f64; 3]),
+    /// Along z.
+    #[expect(missing_docs, reason = "as in a URDF")]
+    Cylinder { radius: f64, length: f64 },
+    /// Along z; the length is without the two ends.
+    #[expect(missing_docs, reason = "as in a URDF 1.1")]
+    Capsule { radius: f64, length: f64 },
+    /// The radius.
+    Sphere(f64),
+    /// The three radii.
+    Ellipsoid([f64; 3]),
+    /// A mesh: an index in [`Model::assets`], and the factors by which it is scaled.
+    #[expect(missing_docs, reason = "above")]
+    Mesh { asset: usize, scale: [f64; 3] },
+}
+
+/// How a shape looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Its name; one is given to it otherwise.
+    pub name: Option<String>,
+    /// Red, green, blue, alpha, each from 0 to 1.
+    pub rgba: Option<[f64; 4]>,
+    /// An image: an index in [`Model::assets`].
+    pub texture: Option<usize>,
+}
+
+/// A file that the URDF names.
+#[derive(Debug, Clone)]
+pub struct Asset {
+    /// Its path below the folder of the URDF, such as `meshes/base.stl`; unique regardless of case.
+    pub path: String,
+    /// Its content.
+    pub bytes: Arc<[u8]>,
+}
+
+/// A named configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configuration {
+    /// Its name.
+    pub name: String,
+    /// Values by joint, rad or m; of a ball, the components x, y, z of its rotation vector.
+    pub values: BTreeMap<String, Vec<f64>>,
+}
+
+/// Two bodies that are never checked for collisions with each other, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// Their indices.
+    pub bodies: [usize; 2],
+    /// The reason, in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
+    pub reason: &'static str,
+}
