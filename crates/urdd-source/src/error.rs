@@ -5,6 +5,7 @@ use std::fmt;
 use thiserror::Error;
 
 use super::fault::PlacedFault;
+use super::import::fault::ImportFault;
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::escape;
 
@@ -30,6 +31,9 @@ pub enum SourceError {
         /// The last lines of the program's output.
         reason: String,
     },
+    /// A description of another format than URDF.
+    #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
+    Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// A bug in this program.
@@ -50,7 +54,7 @@ impl SourceError {
     pub fn code(&self) -> &'static str {
         match self {
             SourceError::Read { .. } => "unreadable",
-            SourceError::Refused { .. } => "refused",
+            SourceError::Refused { .. } | SourceError::Import { .. } => "refused",
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
             SourceError::Cancelled => "cancelled",

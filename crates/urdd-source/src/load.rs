@@ -291,10 +291,10 @@ pub fn well_formed(text: &str) -> (String, u32) {
 }
 
 /// The file name without its extensions.
-fn stem(path: &Path) -> String {
+pub(crate) fn stem(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &name;
-    for extension in [".xacro", ".xml", ".urdf"] {
+    for extension in [".xacro", ".xml", ".urdf", ".sdf"] {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
     if stem.is_empty() { "robot" } else { stem }.to_owned()

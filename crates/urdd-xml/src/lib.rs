@@ -23,6 +23,7 @@ pub use count::check as check_limits;
 pub use declaration::wrong_version;
 pub use error::XmlError;
 pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
+pub use markup::root_name;
 use roxmltree::{Document, ParsingOptions};
 pub use strict::is_character;
 

@@ -58,3 +58,17 @@ fn tag_length(text: &str, ends: &[u8]) -> Option<usize> {
     });
     Some(end? + 1)
 }
+
+/// The qualified name of the outermost element of a text, found without parsing it; `None` if there is none.
+pub fn root_name(text: &str) -> Option<&str> {
+    let mut at = 0;
+    loop {
+        let markup = next(text, at)?;
+        if markup.kind == MarkupKind::Tag {
+            let name = &text[markup.start + 1..];
+            let end = name.find(|c: char| c.is_ascii_whitespace() || matches!(c, '>' | '/'))?;
+            return Some(&name[..end]).filter(|name| !name.is_empty());
+        }
+        at = markup.end?;
+    }
+}

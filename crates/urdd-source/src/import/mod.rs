@@ -1,11 +1,20 @@
 //! Descriptions that are no URDF: MJCF and SDF. A reader of each format makes a [`model::Model`]; from it come a URDF, its
 //! meshes, an SRDF, what exports need, and a report.
 
+mod companions;
 pub mod fault;
 pub mod features;
+pub mod format;
+mod imported;
 pub mod mjcf;
 pub mod model;
 pub mod options;
+mod origin;
 pub mod placed;
 pub mod reach;
+pub mod report;
 pub mod sdf;
+mod tree;
+mod urdf;
+
+pub use imported::{Imported, import};

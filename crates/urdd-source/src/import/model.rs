@@ -4,6 +4,7 @@
 //! this room make a URDF and its companions from it.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
@@ -24,6 +25,8 @@ pub struct Place {
 pub struct TextFile {
     /// The file, as the user would name it.
     pub shown: String,
+    /// Its path, with symbolic links resolved.
+    pub path: PathBuf,
     /// Its text.
     pub text: String,
     /// Its bytes.

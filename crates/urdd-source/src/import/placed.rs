@@ -19,12 +19,13 @@ pub struct Placed {
 
 /// A fault at a place of one of the files.
 pub fn placed(files: &[TextFile], place: Place, fault: impl Into<ImportFault>) -> Placed {
-    let file = files.get(place.file);
-    let at = file.map(|file| LineIndex::new(&file.text).position(place.offset));
-    Placed {
-        file: file.map(|file| file.shown.clone()).unwrap_or_default(),
-        line: at.as_ref().map_or(0, |at| at.line),
-        column: at.as_ref().map_or(0, |at| at.column),
-        fault: fault.into(),
-    }
+    let (file, line, column) = position(files, place).unwrap_or_default();
+    Placed { file: file.to_owned(), line, column, fault: fault.into() }
+}
+
+/// The file, line and column of a place.
+pub fn position(files: &[TextFile], place: Place) -> Option<(&str, u32, u32)> {
+    let file = files.get(place.file)?;
+    let at = LineIndex::new(&file.text).position(place.offset);
+    Some((&file.shown, at.line, at.column))
 }

@@ -1,0 +1,148 @@
+//! What a URDF cannot say, in the files beside it: `NAME.srdf` for named configurations and pairs that never collide,
+//! `NAME.export.toml` for what exports need.
+
+use std::collections::HashMap;
+
+use nalgebra::{UnitQuaternion, Vector3};
+use toml::{Table, Value};
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
+use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_xml::number::numbers;
+use urdd_xml::writer::Element;
+
+use super::model::{JointKind, Model};
+use super::tree::{Edge, Tree};
+
+/// The group whose states are the named configurations.
+const GROUP: &str = "all";
+/// What is put behind the name of a spherical joint for each of its DOFs: SPEC 5.8.
+const TURNS: [&str; 3] = ["/rot_x", "/rot_y", "/rot_z"];
+
+/// The joints of the URDF that are DOFs: each with the values that it has in the configurations.
+fn movable(tree: &Tree) -> impl Iterator<Item = &Edge> {
+    tree.joints.iter().filter(|edge| edge.joint.is_some() && edge.mimic.is_none())
+}
+
+/// The values of the joints of the URDF in a configuration, by joint.
+fn values<'t>(model: &Model, tree: &'t Tree, at: usize) -> Vec<(&'t str, Vec<f64>)> {
+    let configuration = &model.configurations[at];
+    let mut turns: HashMap<(usize, usize), usize> = HashMap::new();
+    let mut all = Vec::new();
+    for edge in movable(tree) {
+        let Some((body, place)) = edge.joint else { continue };
+        let joint = &model.bodies[body].joints[place];
+        let Some(values) = configuration.values.get(&joint.name) else { continue };
+        let is_split = joint.kind == JointKind::Ball && edge.kind != "spherical";
+        let own = match (is_split, &values[..]) {
+            (true, [x, y, z]) => {
+                let turn = turns.entry((body, place)).or_default();
+                let angles = in_turn([*x, *y, *z]);
+                *turn += 1;
+                vec![angles[(*turn - 1).min(2)]]
+            }
+            _ => values.clone(),
+        };
+        all.push((&*edge.name, own));
+    }
+    all
+}
+
+/// The angles about x, then y, then z as they are turned, of a rotation vector.
+fn in_turn(vector: [f64; 3]) -> [f64; 3] {
+    let rotation: UnitQuaternion<f64> = from_rotation_vector(vector);
+    // The inverse turns about z, then y, then x, as fixed axes do from behind: roll, pitch and yaw, negated.
+    let columns = rotation.inverse().to_rotation_matrix();
+    let [roll, pitch, yaw] = urdd_kinematics::rotation::to_rpy(columns.matrix());
+    Vector3::new(-roll, -pitch, -yaw).into()
+}
+
+/// The named configurations, as a URDD has them.
+pub fn configurations(model: &Model, tree: &Tree) -> Vec<ConfigurationEdit> {
+    let edit = |at: usize| {
+        let positions = values(model, tree, at).into_iter().flat_map(|(joint, values)| {
+            let names: Vec<String> = match values.len() {
+                1 => vec![joint.to_owned()],
+                _ => TURNS.iter().map(|turn| format!("{joint}{turn}")).collect(),
+            };
+            names
+                .into_iter()
+                .zip(values)
+                .map(|(dof_name, position)| DofPosition { dof_name, position })
+        });
+        let name = ConfigurationName::new(&model.configurations[at].name)?;
+        Some(ConfigurationEdit { name, positions: positions.collect() })
+    };
+    (0..model.configurations.len()).filter_map(edit).collect()
+}
+
+/// The pairs that are never checked, as a URDD has them. That of neighbours needs no edit.
+pub fn skips(model: &Model) -> Vec<SkipEdit> {
+    let apart = model.apart.iter().filter(|apart| apart.reason != "Adjacent");
+    let edit = apart.map(|apart| {
+        let [link_a, link_b] = apart.bodies.map(|body| model.bodies[body].name.clone());
+        let reason = format!("imported: {}", apart.reason);
+        SkipEdit { link_a, link_b, skip: true, reason }
+    });
+    edit.collect()
+}
+
+/// The text of `NAME.srdf`; none where it would say nothing.
+pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
+    if model.configurations.is_empty() && model.apart.is_empty() {
+        return None;
+    }
+    let mut robot = Element::new("robot").with("name", &*model.name);
+    if !model.configurations.is_empty() {
+        let mut group = Element::new("group").with("name", GROUP);
+        group.extend(movable(tree).map(|edge| Element::new("joint").with("name", &*edge.name)));
+        robot.push(group);
+    }
+    for (at, configuration) in model.configurations.iter().enumerate() {
+        let mut state =
+            Element::new("group_state").with("name", &*configuration.name).with("group", GROUP);
+        state.extend(values(model, tree, at).into_iter().map(|(joint, values)| {
+            Element::new("joint").with("name", joint).with("value", numbers(&values))
+        }));
+        robot.push(state);
+    }
+    for apart in &model.apart {
+        let [a, b] = apart.bodies.map(|body| &*model.bodies[body].name);
+        let pair = Element::new("disable_collisions").with("link1", a).with("link2", b);
+        robot.push(pair.with("reason", apart.reason));
+    }
+    Some(robot.document(&[format!("`urdd import` made this file from {original}.")]))
+}
+
+/// The text of `NAME.export.toml`; none where it would say nothing.
+pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
+    let mut joints = Table::new();
+    for edge in &tree.joints {
+        let Some((body, place)) = edge.joint else { continue };
+        let joint = &model.bodies[body].joints[place];
+        let mut gains = Table::new();
+        for (key, value) in [("kp", joint.kp), ("kv", joint.kv), ("armature", joint.armature)] {
+            gains.extend(value.map(|value| (key.to_owned(), Value::Float(value))));
+        }
+        if !gains.is_empty() {
+            joints.insert(edge.name.clone(), Value::Table(gains));
+        }
+    }
+    if joints.is_empty() && !model.is_floating && model.friction.is_none() {
+        return None;
+    }
+    let table = |key: &str, value: Value| Value::Table(Table::from_iter([(key.to_owned(), value)]));
+    let mut file = Table::new();
+    file.insert("robot".to_owned(), Value::String(model.name.clone()));
+    if model.is_floating {
+        file.insert("base".to_owned(), table("floating", Value::Boolean(true)));
+    }
+    if !joints.is_empty() {
+        file.insert("actuators".to_owned(), table("joint", Value::Table(joints)));
+    }
+    if let Some(friction) = model.friction {
+        file.insert("contact".to_owned(), table("friction", Value::Float(friction)));
+    }
+    let head = "# `urdd import` made this file; `urdd export --setup` reads it.\n";
+    toml::to_string(&file).ok().map(|text| head.to_owned() + &text)
+}

@@ -1,0 +1,169 @@
+//! Imports a description: what is written of it, and where what is written came from.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use super::companions;
+use super::format::Format;
+use super::model::{Geometry, Model, Place, TextFile};
+use super::options::ImportOptions;
+use super::origin::origin;
+use super::placed::{Placed, position};
+use super::reach::Reach;
+use super::report::Report;
+use super::tree::Tree;
+use super::urdf::{UNIT_SPHERE, urdf};
+use super::{mjcf, sdf};
+use crate::decode::decode;
+use crate::error::SourceError;
+use crate::files::{Files, MAX_SOURCE_BYTES};
+use crate::load::{file_name, stem};
+use crate::packages::Packages;
+use crate::settings::Settings;
+use urdd_directory::path::portable;
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_format::named_configurations::ConfigurationEdit;
+use urdd_geometry::primitives;
+use urdd_geometry::read::Part;
+use urdd_geometry::write::stl;
+
+/// A description of another format as a URDF and its companions, in memory.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    /// The name of the URDF: `NAME.urdf`.
+    pub urdf: String,
+    /// The files, by path relative to the folder of the URDF: the URDF, `NAME.srdf`, meshes and images.
+    pub files: BTreeMap<String, Arc<[u8]>>,
+    /// The text of `NAME.export.toml`: what exports need and a URDF does not say.
+    pub setup: Option<String>,
+    /// The named configurations.
+    pub configurations: Vec<ConfigurationEdit>,
+    /// The pairs of links that are never checked.
+    pub skips: Vec<SkipEdit>,
+    /// What was carried, and what was lost.
+    pub report: Report,
+    /// The original, for `urdd.json`.
+    pub origin: Value,
+    /// The description, as the user named it.
+    pub shown: String,
+    texts: Vec<TextFile>,
+    /// The place of each link and joint in the original, by kind and name.
+    places: BTreeMap<(&'static str, String), Place>,
+}
+
+impl Imported {
+    /// Settings by which the URDF is found in memory, at [`Imported::path`].
+    ///
+    /// # Errors
+    /// If the files are more than memory may hold.
+    pub fn settings(&self, settings: &Settings) -> Result<Settings, SourceError> {
+        let files = self.files.iter().map(|(path, bytes)| (path.clone(), Arc::clone(bytes)));
+        let files = Files::in_memory(files).map_err(|error| SourceError::Read {
+            file: self.shown.clone(),
+            reason: error.to_string(),
+        })?;
+        let packages = Packages::default();
+        Ok(Settings { files, packages, allowed_folders: Vec::new(), ..settings.clone() })
+    }
+
+    /// Where the URDF is in [`Imported::settings`].
+    pub fn path(&self) -> PathBuf {
+        Path::new("/").join(&self.urdf)
+    }
+
+    /// The text of the URDF.
+    pub fn text(&self) -> &str {
+        let bytes = self.files.get(&self.urdf);
+        bytes.and_then(|bytes| std::str::from_utf8(bytes).ok()).unwrap_or_default()
+    }
+
+    /// Where a `link` or `joint` of the URDF stands in the original: file, line, column.
+    pub fn place(&self, kind: &str, name: &str) -> Option<(&str, u32, u32)> {
+        let kind = if kind == "link" { "link" } else { "joint" };
+        position(&self.texts, *self.places.get(&(kind, name.to_owned()))?)
+    }
+}
+
+/// Imports a description, if it is MJCF or SDF by its content; `None` of anything else, and of what cannot be read.
+///
+/// # Errors
+/// If it is refused, with the place.
+pub fn import(
+    path: &Path,
+    options: &ImportOptions,
+    settings: &Settings,
+) -> Result<Option<Imported>, SourceError> {
+    let shown = path.display().to_string();
+    let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
+    let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else { return Ok(None) };
+    let Some(format) = Format::of(&text) else { return Ok(None) };
+    let canonical = settings.files.canonicalize(path);
+    let canonical = canonical
+        .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
+    let folder = canonical.parent().unwrap_or(Path::new("/"));
+    let reach = Reach::new(folder, settings);
+    let file =
+        TextFile { shown: shown.clone(), path: canonical.clone(), text, bytes: bytes.into() };
+    let read = match format {
+        Format::Mjcf => mjcf::read(file, &reach, options),
+        Format::Sdf => sdf::read(file, &reach, options),
+    };
+    let mut model = read.map_err(|Placed { file, line, column, fault }| SourceError::Import {
+        file,
+        line,
+        column,
+        fault: Box::new(fault),
+    })?;
+    if model.name.trim().is_empty() {
+        model.name = stem(&canonical);
+    }
+    written(model, format, shown, options).map(Some)
+}
+
+/// What is written of a model.
+fn written(
+    model: Model,
+    format: Format,
+    shown: String,
+    options: &ImportOptions,
+) -> Result<Imported, SourceError> {
+    let tree = Tree::of(&model, options);
+    let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
+    let name = file_name(model.name.trim_start_matches(['.', '-']));
+    let base = name.strip_suffix(".urdf").unwrap_or(&name);
+    let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
+    let text = urdf(&model, &tree, &original);
+    files.insert(name.clone(), text.into_bytes().into());
+    if let Some(srdf) = companions::srdf(&model, &tree, &original) {
+        files.insert(format!("{base}.srdf"), srdf.into_bytes().into());
+    }
+    let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
+    if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
+        let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
+        let sphere = stl(&[part]).map_err(|error| SourceError::Internal {
+            file: shown.clone(),
+            reason: error.to_string(),
+        })?;
+        files.insert(UNIT_SPHERE.to_owned(), sphere.into());
+    }
+    for asset in &model.assets {
+        files.insert(asset.path.clone(), Arc::clone(&asset.bytes));
+    }
+    let links = tree.links.iter().map(|link| (("link", link.name.clone()), link.place));
+    let joints = tree.joints.iter().map(|edge| (("joint", edge.name.clone()), edge.place));
+    Ok(Imported {
+        places: links.chain(joints).collect(),
+        setup: companions::setup(&model, &tree),
+        configurations: companions::configurations(&model, &tree),
+        skips: companions::skips(&model),
+        report: Report::of(&model, format),
+        origin: origin(format, &model.files),
+        urdf: name,
+        files,
+        shown,
+        texts: model.files,
+    })
+}

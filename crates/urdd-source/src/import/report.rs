@@ -1,0 +1,91 @@
+//! What an import carried, otherwise, and lost.
+
+use serde_json::json;
+use urdd_format::carried::{How, Part, lists, table};
+use urdd_format::escape;
+use urdd_format::registry::PROGRAM_VERSION;
+
+use super::features::{ALL, Feature};
+use super::format::Format;
+use super::model::Model;
+use super::placed::position;
+
+/// What became of a description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The name of the robot.
+    pub robot: String,
+    /// The format.
+    pub format: Format,
+    /// What it has: what, how many, and how it is carried.
+    pub parts: Vec<Part>,
+    /// What else a person has to know: a line each, with its place.
+    pub notes: Vec<String>,
+}
+
+impl Report {
+    /// The report on a model.
+    pub fn of(model: &Model, format: Format) -> Self {
+        let counted = ALL.iter().map(|feature| {
+            let count = model.tally.number_of(*feature);
+            (feature.name.to_owned(), count, how(*feature, format))
+        });
+        let mut parts: Vec<Part> =
+            counted.filter(|(_, count, how)| *count > 0 && *how != How::Elsewhere).collect();
+        let unread = model.tally.all_unread().iter();
+        parts.extend(unread.map(|(name, count)| (name.clone(), *count, How::No)));
+        let note = |(place, text)| match position(&model.files, place) {
+            Some((file, line, column)) => format!("{file}:{line}:{column}: {text}"),
+            None => text,
+        };
+        let remarks = model.tally.remarks.iter();
+        let notes = remarks.map(|remark| note((remark.place, remark.text.clone()))).collect();
+        Report { robot: model.name.clone(), format, parts, notes }
+    }
+
+    /// What is lost: what, and how many.
+    pub fn lost(&self) -> impl Iterator<Item = (&str, usize)> {
+        let lost = self.parts.iter().filter(|(_, _, how)| *how == How::No);
+        lost.map(|(name, count, _)| (name.as_str(), *count))
+    }
+
+    /// What is carried in another way: what, how many, and how.
+    pub fn otherwise(&self) -> impl Iterator<Item = (&str, usize, &'static str)> {
+        self.parts.iter().filter_map(|(name, count, how)| match how {
+            How::Otherwise(how) => Some((name.as_str(), *count, *how)),
+            _ => None,
+        })
+    }
+
+    /// As JSON, with the keys of the report of an export.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let [carried, otherwise, lost] = lists(&self.parts);
+        let document = json!({
+            "robot": self.robot,
+            "format": self.format.name(),
+            "program": PROGRAM_VERSION,
+            "carried": carried,
+            "otherwise": otherwise,
+            "lost": lost,
+            "notes": self.notes,
+        });
+        let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
+        escape::json(&text).into_owned()
+    }
+}
+
+fn how(feature: Feature, format: Format) -> How {
+    match format {
+        Format::Mjcf => feature.mjcf,
+        Format::Sdf => feature.sdf,
+    }
+}
+
+/// The table of docs/import.md, in Markdown.
+#[must_use]
+pub fn imported_table() -> String {
+    let formats = Format::ALL.map(Format::name);
+    let row = |feature: &'static Feature| (feature.name, Format::ALL.map(|of| how(*feature, of)));
+    table(&formats, ALL.iter().map(row))
+}
