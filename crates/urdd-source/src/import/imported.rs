@@ -74,6 +74,11 @@ impl Imported {
         Path::new("/").join(&self.urdf)
     }
 
+    /// The name of the file for exports.
+    pub fn setup_name(&self) -> String {
+        format!("{}.export.toml", self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf))
+    }
+
     /// The text of the URDF.
     pub fn text(&self) -> &str {
         let bytes = self.files.get(&self.urdf);
@@ -91,11 +96,8 @@ impl Imported {
 ///
 /// # Errors
 /// If it is refused, with the place.
-pub fn import(
-    path: &Path,
-    options: &ImportOptions,
-    settings: &Settings,
-) -> Result<Option<Imported>, SourceError> {
+pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, SourceError> {
+    let options = &settings.import;
     let shown = path.display().to_string();
     let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
     let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else { return Ok(None) };
