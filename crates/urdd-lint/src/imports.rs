@@ -61,6 +61,6 @@ fn imported_from(imported: &Imported) -> ImportedFrom {
         format: report.format.name().to_owned(),
         otherwise: otherwise.collect(),
         lost: report.lost().map(|(what, count)| part(what, count, None)).collect(),
-        notes: report.notes.clone(),
+        notes: report.remarks.iter().map(ToString::to_string).collect(),
     }
 }
