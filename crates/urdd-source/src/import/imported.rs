@@ -101,8 +101,11 @@ impl Imported {
 /// The format of a file by the outermost element in the beginning of it: quick, for a choice of what to do.
 pub fn format_of(path: &Path) -> Option<Format> {
     let mut head = Vec::new();
-    let file = std::fs::File::open(path).ok().filter(|_| path.is_file())?;
-    file.take(HEAD).read_to_end(&mut head).ok()?;
+    // Opening a pipe would wait.
+    if !path.is_file() {
+        return None;
+    }
+    std::fs::File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
     Format::of(&String::from_utf8_lossy(&head))
 }
 
