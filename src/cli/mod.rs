@@ -11,6 +11,7 @@ mod export;
 mod foreign;
 mod generate;
 mod generate_output;
+mod import;
 mod info;
 mod inputs;
 mod lint;
@@ -58,6 +59,8 @@ enum Command {
     Generate(generate::GenerateArguments),
     /// Combine robots: a gripper on an arm, arms on a base.
     Combine(combine::CombineArguments),
+    /// Import an MJCF or SDF: a URDF, its meshes, an SRDF, what exports need.
+    Import(import::ImportArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
     /// Check URDFs: what is wrong with them, and what is odd.
@@ -107,6 +110,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Combine(arguments) => combine::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::Lint(arguments) => lint::run(&arguments, color),
         Command::Lsp(arguments) => lsp::run(&arguments),

@@ -11,6 +11,7 @@ use clap::ValueEnum;
 use tempfile::TempPath;
 
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_validate::report::style::STYLES;
 
@@ -161,6 +162,35 @@ pub fn width() -> Option<usize> {
 /// Whether the terminal can only show plain text.
 pub fn is_dumb() -> bool {
     std::env::var_os("TERM").is_some_and(|value| value == "dumb")
+}
+
+/// An error if a file exists with different content. `also` is what its message ends with.
+///
+/// # Errors
+/// A message that names the file.
+pub fn refuse_others<'f>(
+    files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
+    also: &str,
+) -> Result<(), String> {
+    match files.into_iter().find(|file| is_other(file)) {
+        Some((there, _)) => {
+            Err(format!("{} already exists: --force overwrites it{also}", shown(there)))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Whether a file exists with different content.
+pub fn is_other((file, bytes): &(PathBuf, &[u8])) -> bool {
+    match fs::metadata(file) {
+        Ok(there) if there.is_file() => {
+            let read = regular::read(file, bytes.len() as u64);
+            !read.is_ok_and(|there| there == *bytes)
+        }
+        // Writing to devices and pipes is allowed.
+        Ok(there) => there.is_dir(),
+        Err(_) => fs::symlink_metadata(file).is_ok(),
+    }
 }
 
 /// Writes a report to a file, replaced atomically; unchanged on error.

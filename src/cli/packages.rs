@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::output::{Failure, one_line, shown};
+use urdd_source::import::options::ImportOptions;
 use urdd_source::{Packages, Settings};
 
 /// Where the mesh files of a URDF are.
@@ -18,6 +19,28 @@ pub(super) struct PackageArguments {
     /// robot, its packages and the recipe. May be repeated.
     #[arg(long = "allow-folder", value_name = "DIR")]
     allowed_folders: Vec<PathBuf>,
+
+    /// The body of an MJCF that is the root of the robot; default: told by the structure.
+    #[arg(long, value_name = "NAME")]
+    body: Option<String>,
+
+    /// The model of an SDF file that has several.
+    #[arg(long, value_name = "NAME")]
+    model: Option<String>,
+
+    /// How a ball joint of an MJCF or SDF is written: as a spherical joint, which few programs read, or as three revolute
+    /// joints.
+    #[arg(long, value_enum, default_value_t = Ball::Spherical, value_name = "JOINTS")]
+    ball: Ball,
+}
+
+/// How a ball joint is written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Ball {
+    /// As one joint of the type `spherical`.
+    Spherical,
+    /// As three revolute joints.
+    Revolute,
 }
 
 impl PackageArguments {
@@ -34,6 +57,11 @@ impl PackageArguments {
         Ok(Settings {
             packages,
             allowed_folders: self.allowed_folders.clone(),
+            import: ImportOptions {
+                body: self.body.clone(),
+                model: self.model.clone(),
+                has_revolute_balls: self.ball == Ball::Revolute,
+            },
             ..Settings::default()
         })
     }

@@ -1,9 +1,8 @@
 //! A robot composed of other robots; `combine` writes its URDF.
 
-use std::collections::HashSet;
 use std::path::PathBuf;
 
-use super::donor::edits::Decisions;
+use super::given::Given;
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::ConfigurationEdit;
@@ -26,23 +25,14 @@ pub struct Composed {
 }
 
 impl Composed {
-    /// The user's decisions: those of the parts, then `there`, those of the URDD that is replaced; without one
-    /// `is_new` is true.
-    pub(super) fn decisions(&self, is_new: bool, mut there: Decisions) -> Decisions {
-        if let (true, Some(reasons)) = (is_new, &self.skipped_reasons) {
-            there.skipped_reasons.clone_from(reasons);
+    /// What its parts give.
+    pub(super) fn given(&self) -> Given<'_> {
+        Given {
+            edits: &self.edits,
+            configurations: &self.configurations,
+            skipped_reasons: self.skipped_reasons.as_ref(),
+            composition: Some(&self.composition),
+            origin: None,
         }
-        let words = |edit: &SkipEdit| {
-            let [a, b, reason] = [&edit.link_a, &edit.link_b, &edit.reason].map(String::clone);
-            (a, b, edit.skip, reason)
-        };
-        let own: HashSet<_> = self.edits.iter().map(words).collect();
-        there.edits.retain(|edit| !own.contains(&words(edit)));
-        there.edits.splice(..0, self.edits.iter().cloned());
-        let names: HashSet<_> = there.configurations.iter().map(|edit| &edit.name).collect();
-        let new = self.configurations.iter();
-        let new: Vec<_> = new.filter(|edit| !names.contains(&edit.name)).cloned().collect();
-        there.configurations.extend(new);
-        there
     }
 }

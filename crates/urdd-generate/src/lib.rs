@@ -33,6 +33,7 @@ pub mod distinct;
 mod dof;
 mod donor;
 mod error;
+mod given;
 mod inputs;
 mod kinematics_samples;
 mod learned;
@@ -48,6 +49,7 @@ mod progress;
 mod robot;
 mod selection;
 mod settings;
+mod setup;
 #[doc(hidden)]
 pub mod shape_documents;
 mod shape_stages;

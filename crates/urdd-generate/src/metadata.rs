@@ -17,6 +17,9 @@ pub(super) const INPUTS_KEY: &str = "x_urdd_inputs";
 /// Key in the source: the file as found, if the stored text differs.
 pub(super) const FOUND_KEY: &str = "x_urdd_found";
 
+/// Key in the source: the description that it was imported from.
+const IMPORTED_KEY: &str = "x_urdd_imported";
+
 pub(super) struct Entry {
     pub module: ModuleEntry,
     pub inputs: Option<String>,
@@ -82,6 +85,7 @@ pub(super) fn document(
     robot_name: &str,
     source: &FileEntry,
     found: Option<&FileEntry>,
+    origin: Option<&Value>,
     made: &[Entry],
     extensions: Vec<Value>,
 ) -> Result<Value, GenerateError> {
@@ -104,6 +108,9 @@ pub(super) fn document(
         document["source"][FOUND_KEY] = json!({
             "path": found.path, "size": found.size, "sha256": found.sha256,
         });
+    }
+    if let Some(origin) = origin {
+        document["source"][IMPORTED_KEY] = origin.clone();
     }
     if let Some(modules) = document["modules"].as_array_mut() {
         for (module, entry) in modules.iter_mut().zip(made) {

@@ -12,12 +12,13 @@ use super::context::Context;
 use super::donor::edits::{self, Decisions};
 use super::donor::{Donor, configurations, others};
 use super::error::GenerateError;
+use super::given::Given;
 use super::meshes::MeshCount;
 use super::metadata;
 use super::modules::{MadeModule, Modules, check_assumptions};
 use super::progress::Progress;
 use super::settings::Settings;
-use super::{size, stages};
+use super::{setup, size, stages};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::Root;
@@ -26,6 +27,7 @@ use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::root_metadata::{self, ConformanceClass, FileEntry};
 use urdd_source::Source;
+use urdd_source::import::{Imported, import};
 use urdd_source::note::{Note, NoteKind};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
@@ -71,8 +73,35 @@ pub fn generate(
 ) -> Result<Generated, GenerateError> {
     let path = source;
     progress.reads(path);
-    let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
-    make(Some(path), &source, None, target, settings, progress)
+    let Some(imported) = import(path, &settings.source)? else {
+        let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
+        return make(Some(path), &source, Given::default(), target, settings, progress);
+    };
+    let (source, settings) = imported_source(&imported, settings)?;
+    let mut made = make(Some(path), &source, given(&imported), target, &settings, progress)?;
+    made.notes.extend(setup::write(&imported, target));
+    Ok(made)
+}
+
+/// What was imported as a source, and settings by which its files are found.
+fn imported_source(
+    imported: &Imported,
+    settings: &Settings,
+) -> Result<(Source, Settings), GenerateError> {
+    let settings = Settings { source: imported.settings(&settings.source)?, ..settings.clone() };
+    let mut source = urdd_source::load(&imported.path(), &settings.source, &settings.cancellation)?;
+    source.notes.extend(imported.report.notes(&imported.shown));
+    source.shown = format!("{} (as {})", imported.shown, imported.urdf);
+    Ok((source, settings))
+}
+
+fn given(imported: &Imported) -> Given<'_> {
+    Given {
+        edits: &imported.skips,
+        configurations: &imported.configurations,
+        origin: Some(&imported.origin),
+        ..Given::default()
+    }
 }
 
 /// Generates the URDD of a URDF in memory, such as from a pipe. Relative mesh file names refer to `folder`. Notes and
@@ -89,7 +118,7 @@ pub fn generate_text(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let source = urdd_source::load_text(urdf, shown, folder, &settings.source)?;
-    make(None, &source, None, target, settings, progress)
+    make(None, &source, Given::default(), target, settings, progress)
 }
 
 /// Generates the URDD of a composed robot, as [`generate_text`] does for any robot. The URDF is
@@ -109,7 +138,7 @@ pub fn generate_composed(
     // No hidden file, and no option of a command.
     let name = source.reading.robot.name.trim_start_matches(['.', '-']);
     source.file_name = urdd_source::file_name(name);
-    make(None, &source, Some(composed), target, settings, progress)
+    make(None, &source, composed.given(), target, settings, progress)
 }
 
 /// Generates the URDD of a URDF in memory, where [`Settings::source`] says that its files are: nothing is written to the
@@ -123,15 +152,24 @@ pub fn generate_in_memory(
     progress: &dyn Progress,
 ) -> Result<(Generated, UrddFiles), GenerateError> {
     progress.reads(source);
-    let source = urdd_source::load(source, &settings.source, &settings.cancellation)?;
+    let imported = import(source, &settings.source)?;
+    let (source, settings) = match &imported {
+        Some(imported) => imported_source(imported, settings)?,
+        None => {
+            let source = urdd_source::load(source, &settings.source, &settings.cancellation)?;
+            (source, settings.clone())
+        }
+    };
     size::check(&source)?;
-    check_assumptions(&source.notes, settings)?;
-    let context = Context::new(&source, settings, None, Decisions::default(), progress)?;
+    check_assumptions(&source.notes, &settings)?;
+    let given = imported.as_ref().map(given).unwrap_or_default();
+    let decisions = given.decisions(true, Decisions::default());
+    let context = Context::new(&source, &settings, None, decisions, progress)?;
     let files = Growing::default();
     let writer = Writer::in_memory(files.clone());
     let written = write(&context, None, &writer, Root::of(files.clone()))?;
     writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
-    let text = written.metadata(&source.reading.robot.name, Vec::new())?;
+    let text = written.metadata(&source.reading.robot.name, given.origin, Vec::new())?;
     writer.file(ROOT_METADATA, text.as_bytes())?;
     Ok((written.generated(&context, true), files.files()))
 }
@@ -163,9 +201,15 @@ fn write(
 }
 
 impl Written {
-    fn metadata(&self, robot: &str, extensions: Vec<Value>) -> Result<String, GenerateError> {
+    fn metadata(
+        &self,
+        robot: &str,
+        origin: Option<&Value>,
+        extensions: Vec<Value>,
+    ) -> Result<String, GenerateError> {
         let Written { carried, found, entries, .. } = self;
-        let document = metadata::document(robot, carried, found.as_ref(), entries, extensions)?;
+        let found = found.as_ref();
+        let document = metadata::document(robot, carried, found, origin, entries, extensions)?;
         Ok(canonical::json_string(&document))
     }
 
@@ -188,7 +232,7 @@ impl Written {
 fn make(
     path: Option<&Path>,
     source: &Source,
-    composed: Option<&Composed>,
+    given: Given,
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,
@@ -207,14 +251,10 @@ fn make(
             ..edits::read(target, &settings.selection, replaced)?
         },
     };
-    let decisions = match composed {
-        Some(composed) => composed.decisions(replaced.is_none(), decisions),
-        None => decisions,
-    };
+    let decisions = given.decisions(replaced.is_none(), decisions);
     check_target(target, replaced, settings)?;
 
-    let composition = composed.map(|composed| &composed.composition);
-    let context = Context::new(source, settings, composition, decisions, progress)?;
+    let context = Context::new(source, settings, given.composition, decisions, progress)?;
     let content = staging.content();
     let writer = Writer::new(content);
     let root = Root::open_folder(content)
@@ -235,7 +275,7 @@ fn make(
         writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
     }
     let extensions = others::extensions(replaced, content);
-    let text = written.metadata(&source.reading.robot.name, extensions)?;
+    let text = written.metadata(&source.reading.robot.name, given.origin, extensions)?;
     writer.file(ROOT_METADATA, text.as_bytes())?;
     let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &written.made));
     settings.cancellation.check()?;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::files::Files;
+use super::import::options::ImportOptions;
 use super::packages::Packages;
 use super::xacro::XacroSettings;
 
@@ -15,6 +16,8 @@ pub struct Settings {
     pub allowed_folders: Vec<PathBuf>,
     /// How xacro files are expanded.
     pub xacro: XacroSettings,
+    /// What is chosen of a description that is no URDF.
+    pub import: ImportOptions,
     /// Where files are.
     pub files: Files,
 }

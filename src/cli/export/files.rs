@@ -1,12 +1,10 @@
 //! Writes what was exported.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::arguments::{ExportArguments, Target};
 use crate::cli::inputs;
 use crate::cli::output::{self, Failure, about, shown};
-use urdd_directory::regular;
 use urdd_export::{Export, merge_srdf};
 
 /// The existing SRDF, merged with the new pairs.
@@ -56,7 +54,7 @@ pub(super) fn write(
     let mut files: Vec<(PathBuf, &[u8])> = files.collect();
     if arguments.update {
         files.retain(|file| {
-            let stays = is_other(file);
+            let stays = output::is_other(file);
             if stays {
                 output::error(&format!("note: {} stays as it is", shown(&file.0)));
             }
@@ -75,10 +73,7 @@ fn refuse_others<'f>(
     arguments: &ExportArguments,
     files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
 ) -> Result<(), Failure> {
-    let mut files = files.into_iter();
-    if !arguments.force
-        && let Some((there, _)) = files.find(|file| is_other(file))
-    {
+    if !arguments.force {
         let also = match arguments.format {
             Target::Srdf => "; --update replaces the pairs of links in it",
             Target::Moveit => {
@@ -86,20 +81,7 @@ fn refuse_others<'f>(
             }
             _ => "",
         };
-        Err(format!("{} already exists: --force overwrites it{also}", shown(there)))?;
+        output::refuse_others(files, also)?;
     }
     Ok(())
-}
-
-/// Whether a file exists with different content.
-fn is_other((file, bytes): &(PathBuf, &[u8])) -> bool {
-    match fs::metadata(file) {
-        Ok(there) if there.is_file() => {
-            let read = regular::read(file, bytes.len() as u64);
-            !read.is_ok_and(|there| there == *bytes)
-        }
-        // Writing to devices and pipes is allowed.
-        Ok(there) => there.is_dir(),
-        Err(_) => fs::symlink_metadata(file).is_ok(),
-    }
 }

@@ -3,6 +3,7 @@
 //! A description may come from a stranger, and what an import writes may get published. So files are read only from the
 //! folder of the description, from the project that it belongs to, and from the folders that the user allows.
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -22,6 +23,8 @@ const PYTHON: &str = "__init__.py";
 pub struct Reach {
     roots: Roots,
     project: Option<PathBuf>,
+    /// What was read.
+    read: RefCell<Vec<PathBuf>>,
 }
 
 /// Why a file is not read.
@@ -42,12 +45,21 @@ impl Reach {
     /// The folders for a description in a folder (symbolic links resolved).
     pub fn new(folder: &Path, settings: &Settings) -> Self {
         let files = &settings.files;
-        Reach { roots: Roots::new(folder, settings), project: project(folder, files) }
+        Reach {
+            roots: Roots::new(folder, settings),
+            project: project(folder, files),
+            read: RefCell::default(),
+        }
     }
 
     /// Where the files are.
     pub fn files(&self) -> &Files {
         self.roots.files()
+    }
+
+    /// The files that were read, with symbolic links resolved.
+    pub fn into_read(self) -> Vec<PathBuf> {
+        self.read.into_inner()
     }
 
     /// Reads a file of at most `limit` bytes. Gives its path too, with symbolic links resolved.
@@ -65,7 +77,10 @@ impl Reach {
             return Err(Unreachable::Outside { file: shown(), folder });
         }
         match self.files().read(&found, limit) {
-            Ok(bytes) => Ok((found, bytes)),
+            Ok(bytes) => {
+                self.read.borrow_mut().push(found.clone());
+                Ok((found, bytes))
+            }
             Err(ReadError::Missing) => Err(Unreachable::Missing(shown())),
             Err(error) => Err(Unreachable::Unreadable { file: shown(), reason: error.to_string() }),
         }

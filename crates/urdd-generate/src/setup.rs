@@ -1,0 +1,35 @@
+//! Writes what an import says for exports beside the URDD: `NAME.export.toml`.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use urdd_source::import::Imported;
+use urdd_source::note::{Note, NoteKind};
+
+/// Writes the file, unless there is one: it may be a person's. Says so then, and where it cannot be written.
+pub(super) fn write(imported: &Imported, target: &Path) -> Option<Note> {
+    let text = imported.setup.as_ref()?;
+    let mut name = target.file_name()?.to_owned();
+    name.push(".export.toml");
+    let path = target.with_file_name(name);
+    if std::fs::read(&path).is_ok_and(|there| there == text.as_bytes()) {
+        return None;
+    }
+    let written = File::create_new(&path).and_then(|mut file| file.write_all(text.as_bytes()));
+    let error = written.err()?;
+    let assumed = match error.kind() {
+        std::io::ErrorKind::AlreadyExists => {
+            "it stays as it is; `urdd import` writes the new one elsewhere".to_owned()
+        }
+        _ => format!("it is not written: {error}"),
+    };
+    Some(Note {
+        kind: NoteKind::LeftBehind,
+        file: path.display().to_string(),
+        line: 0,
+        column: 0,
+        problem: "the description says other gains, or another base, than this file".to_owned(),
+        assumed,
+    })
+}

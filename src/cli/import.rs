@@ -1,0 +1,101 @@
+//! `urdd import`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::output::{self, Failure, about, counted, shown};
+use super::packages::PackageArguments;
+use urdd_directory::cancellation::Cancellation;
+use urdd_source::import::{Imported, import};
+use urdd_source::{Settings, load};
+
+/// Maximum number of notes that are printed; the report has all.
+const MAX_NOTES: usize = 20;
+
+/// Arguments of `urdd import`.
+#[derive(Args)]
+#[command(
+    after_help = "Writes NAME.urdf with its meshes, and where they say something NAME.srdf (named configurations, pairs that never \
+    collide) and NAME.export.toml (kind of base, gains). The format is told by the content of the file. `urdd generate`, \
+    `view`, `diff`, `lint` and `combine` take MJCF and SDF directly.\n\n\
+    Exit status: 0 the files are written; 2 the file cannot be imported or written."
+)]
+pub struct ImportArguments {
+    /// An MJCF or SDF file.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// The folder for the files.
+    #[arg(long, short, value_name = "FOLDER")]
+    output: PathBuf,
+
+    /// Writes what was carried, carried otherwise and lost of this robot to a file, as JSON.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+
+    /// Overwrites existing files.
+    #[arg(long)]
+    force: bool,
+
+    #[command(flatten)]
+    packages: PackageArguments,
+}
+
+/// Runs `urdd import`.
+pub fn run(arguments: &ImportArguments) -> ExitCode {
+    output::ended(made(arguments).map(|()| 0))
+}
+
+fn made(arguments: &ImportArguments) -> Result<(), Failure> {
+    let settings = arguments.packages.settings()?;
+    let imported = match import(&arguments.file, &settings)? {
+        Some(imported) => imported,
+        None => not_imported(&arguments.file, &settings)?,
+    };
+    // What is written must be a robot.
+    let source = load(&imported.path(), &imported.settings(&settings)?, &Cancellation::default())?;
+    let robot = &source.reading.robot;
+    let report = arguments.report.as_ref().map(|file| (file.clone(), imported.report.to_json()));
+    let path = |name: &String| arguments.output.join(name);
+    let all = imported.files.iter().filter(|(name, _)| **name != imported.urdf);
+    let mut files: Vec<(PathBuf, &[u8])> =
+        all.map(|(name, bytes)| (path(name), &**bytes)).collect();
+    let setup = imported.setup_name();
+    files.extend(imported.setup.as_ref().map(|text| (path(&setup), text.as_bytes())));
+    files.extend(report.as_ref().map(|(file, text)| (file.clone(), text.as_bytes())));
+    // The file that names the others is last.
+    files.push((path(&imported.urdf), imported.text().as_bytes()));
+    if !arguments.force {
+        output::refuse_others(&files, "")?;
+    }
+    output::write_files(&files)?;
+    for note in notes(&imported) {
+        output::error(&note);
+    }
+    let [links, joints] = [(robot.links.len(), "link"), (robot.joints.len(), "joint")]
+        .map(|(count, thing)| counted(count, thing));
+    let urdf = shown(&path(&imported.urdf));
+    Ok(output::print(&format!("{urdf}: {links}, {joints}, {}\n", counted(files.len(), "file")))?)
+}
+
+/// Why a file is not imported.
+fn not_imported(file: &Path, settings: &Settings) -> Result<Imported, Failure> {
+    // An error that says more, if it cannot be read.
+    load(file, settings, &Cancellation::default())?;
+    let text = "this is a URDF already; `urdd generate` takes it as it is";
+    Err(about(file)(text))?
+}
+
+/// What is lost, what is otherwise, and what else a person has to know.
+fn notes(imported: &Imported) -> Vec<String> {
+    let notes = imported.report.notes(&imported.shown);
+    let more = notes.len().saturating_sub(MAX_NOTES);
+    let mut lines: Vec<String> =
+        notes.iter().take(MAX_NOTES).map(|note| format!("note: {note}")).collect();
+    if more > 0 {
+        lines.push(format!("note: and {more} more; --report FILE writes all"));
+    }
+    lines
+}
