@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::super::model::Place;
 use super::document::Element;
 use super::fault::{Fallible, MjcfFault, at};
-use super::super::model::Place;
 
 /// The class that all others are in.
 pub const MAIN: usize = 0;
@@ -53,7 +53,8 @@ impl<'d> Defaults<'d> {
             }
             self.classes[class].elements.entry(&element.tag).or_default().push(element);
         }
-        let counts = self.classes[class].elements.iter().map(|(tag, of)| (*tag, of.len())).collect();
+        let counts =
+            self.classes[class].elements.iter().map(|(tag, of)| (*tag, of.len())).collect();
         let number = self.classes[class].sections.len();
         self.classes[class].sections.push(counts);
         for nested in section.all("default") {
@@ -82,12 +83,19 @@ impl<'d> Defaults<'d> {
     }
 
     /// What a class and those around it say of a tag, the innermost first.
-    pub fn chain<'s>(&'s self, class: usize, tag: &'s str) -> impl Iterator<Item = &'d Element> + 's {
+    pub fn chain<'s>(
+        &'s self,
+        class: usize,
+        tag: &'s str,
+    ) -> impl Iterator<Item = &'d Element> + 's {
         let mut next = self.classes.get(class).map(|of| (of, usize::MAX));
         std::iter::from_fn(move || {
             let (class, section) = next?;
-            next = class.around.and_then(|(around, section)| Some((self.classes.get(around)?, section)));
-            let limit = class.sections.get(section).map(|counts| counts.get(tag).copied().unwrap_or(0));
+            next = class
+                .around
+                .and_then(|(around, section)| Some((self.classes.get(around)?, section)));
+            let limit =
+                class.sections.get(section).map(|counts| counts.get(tag).copied().unwrap_or(0));
             let elements = class.elements.get(tag).map_or(&[][..], Vec::as_slice);
             let count = limit.unwrap_or(elements.len()).min(elements.len());
             Some(elements[..count].iter().rev().copied())

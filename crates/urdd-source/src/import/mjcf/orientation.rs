@@ -21,10 +21,7 @@ pub fn pose(view: View<'_>, compiler: &Compiler) -> Fallible<Isometry3<f64>> {
 }
 
 /// The orientation of an element, if it says one. Another way than `quat` goes before `quat`, whoever says it.
-pub fn orientation(
-    view: View<'_>,
-    compiler: &Compiler,
-) -> Fallible<Option<UnitQuaternion<f64>>> {
+pub fn orientation(view: View<'_>, compiler: &Compiler) -> Fallible<Option<UnitQuaternion<f64>>> {
     for element in view.chain() {
         let ways = WAYS.iter().filter(|way| element.get(way).is_some());
         if ways.count() + usize::from(element.get("quat").is_some()) > 1 {
@@ -43,7 +40,9 @@ pub fn orientation(
             let axis = direction(element, "zaxis", Vector3::new(x, y, z))?;
             Ok(Some(z_to(axis)))
         }
-        Some((element, _)) => Ok(Some(euler(numbers(element, "euler")?.unwrap_or_default(), compiler))),
+        Some((element, _)) => {
+            Ok(Some(euler(numbers(element, "euler")?.unwrap_or_default(), compiler)))
+        }
         None => quaternion(view, "quat"),
     }
 }

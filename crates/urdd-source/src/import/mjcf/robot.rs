@@ -55,8 +55,7 @@ impl<'d> Maker<'_, 'd> {
                 }
             }
         }
-        let mut made =
-            Made { bodies: Vec::new(), index: HashMap::new(), joints: HashMap::new() };
+        let mut made = Made { bodies: Vec::new(), index: HashMap::new(), joints: HashMap::new() };
         for (raw_index, name) in robot.bodies.iter().zip(names.0) {
             let raw = &bodies.all[*raw_index];
             let index = made.bodies.len();
