@@ -1,0 +1,41 @@
+//! The friction of collision shapes, if all have the same.
+
+use super::super::features::{self, Tally};
+use super::tag::Tag;
+
+/// What was met so far.
+#[derive(Debug, Default)]
+pub struct Friction {
+    first: Option<Option<f64>>,
+    is_mixed: bool,
+}
+
+/// Where the coefficient is.
+const PATHS: [&[&str]; 2] =
+    [&["surface", "friction", "ode", "mu"], &["surface", "friction", "bullet", "friction"]];
+
+impl Friction {
+    /// Looks at a collision shape.
+    pub fn meet(&mut self, collision: Tag, tally: &mut Tally) {
+        let found = PATHS.iter().find_map(|path| collision.descendant(path));
+        let found = found.and_then(|tag| tag.text().parse::<f64>().ok());
+        let found = found.filter(|value| value.is_finite() && *value >= 0.0);
+        self.is_mixed |= *self.first.get_or_insert(found) != found;
+        if let Some(surface) = collision.child("surface") {
+            let others = surface.node.descendants().filter(|node| {
+                node.is_element() && !node.children().any(|child| child.is_element())
+            });
+            if others.count() > usize::from(found.is_some()) {
+                tally.count(features::CONTACTS);
+            }
+        }
+        if found.is_some() {
+            tally.count(features::FRICTION);
+        }
+    }
+
+    /// The coefficient that all have.
+    pub fn common(&self) -> Option<f64> {
+        self.first.flatten().filter(|_| !self.is_mixed)
+    }
+}
