@@ -90,19 +90,12 @@ fn not_imported(file: &Path, settings: &Settings) -> Result<Imported, Failure> {
 
 /// What is lost, what is otherwise, and what else a person has to know.
 fn notes(imported: &Imported) -> Vec<String> {
-    let report = &imported.report;
-    let lost: Vec<String> =
-        report.lost().map(|(what, count)| format!("{what} ({count})")).collect();
-    let mut notes = Vec::new();
-    if !lost.is_empty() {
-        notes.push(format!("note: lost: {}", lost.join(", ")));
-    }
-    let otherwise = report.otherwise();
-    notes.extend(otherwise.map(|(what, count, how)| format!("note: {what} ({count}): {how}")));
-    let more = report.notes.len().saturating_sub(MAX_NOTES);
-    notes.extend(report.notes.iter().take(MAX_NOTES).map(|note| format!("note: {note}")));
+    let notes = imported.report.notes(&imported.shown);
+    let more = notes.len().saturating_sub(MAX_NOTES);
+    let mut lines: Vec<String> =
+        notes.iter().take(MAX_NOTES).map(|note| format!("note: {note}")).collect();
     if more > 0 {
-        notes.push(format!("note: and {more} more; --report FILE writes all"));
+        lines.push(format!("note: and {more} more; --report FILE writes all"));
     }
-    notes
+    lines
 }

@@ -60,5 +60,6 @@ pub fn blank(kind: Kind, path: &str) -> Urdd {
         geometry_not_verified: Vec::new(),
         model_not_verified: None,
         programs: Vec::new(),
+        imported: None,
     }
 }

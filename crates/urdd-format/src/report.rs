@@ -78,6 +78,30 @@ types! {
         pub model_not_verified: Option<ModelNotVerified>,
         /// What programs do with a URDF, by their readers; empty where none was asked.
         pub programs: Vec<ProgramResult>,
+        /// The description that the URDF was imported from; null where it was written as a URDF.
+        pub imported: Option<ImportedFrom>,
+    }
+
+    /// What an import made of a description that is no URDF.
+    pub struct ImportedFrom {
+        /// The format: `mjcf`, `sdf`.
+        pub format: String,
+        /// What the URDF has in another way.
+        pub otherwise: Vec<ImportedPart>,
+        /// What is lost.
+        pub lost: Vec<ImportedPart>,
+        /// What else was assumed or left out, each with its place.
+        pub notes: Vec<String>,
+    }
+
+    /// Something that a description has.
+    pub struct ImportedPart {
+        /// What it is.
+        pub what: String,
+        /// How many there are.
+        pub count: Count,
+        /// How it is carried otherwise; null where it is lost.
+        pub how: Option<String>,
     }
 
     /// What a program does with a URDF.

@@ -14,6 +14,7 @@ use urdd_directory::regular;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Fix, Place, TextEdit};
+use urdd_source::import::format::Format;
 use urdd_xml::element::{Edit, apply};
 
 /// How often a file is examined again: a mended fault may uncover another one.
@@ -87,6 +88,10 @@ fn mended(
 ) -> Option<Mended> {
     let read =
         urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
+    if Format::of(&read.text).is_some() {
+        // Fixes are for the URDF that an import makes.
+        return None;
+    }
     let size = read.text.len() + BYTE_ORDER_MARK.len();
     let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
     let mark = if before.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { "" };

@@ -15,6 +15,7 @@ mod fix;
 mod geometry;
 #[doc(hidden)]
 pub mod hull;
+mod imports;
 #[doc(hidden)]
 pub mod inertial;
 mod named_file;
@@ -51,6 +52,7 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
+use urdd_source::import::import;
 use urdd_source::robots::{BatchError, jobs};
 use urdd_source::{SourceError, SourceText, included, read_source};
 use written::Sources;
@@ -160,9 +162,19 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
     let seen = seen_from(path, given);
     let (mut stale, mut text) = (Vec::new(), None);
     let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
-        let read = read_source(path, &settings.source, &settings.report.cancellation)?;
-        let (mut examined, unused) = of_source(path, &read, settings);
-        text = Some(read.text);
+        let (mut examined, unused) = match import(path, &settings.source)? {
+            Some(imported) => {
+                let found = imports::examined_import(&imported, settings)?;
+                text = Some(imported.text().to_owned());
+                found
+            }
+            None => {
+                let read = read_source(path, &settings.source, &settings.report.cancellation)?;
+                let found = of_source(path, &read, settings);
+                text = Some(read.text);
+                found
+            }
+        };
         stale.extend(unused);
         if let Some(baseline) = &settings.baseline {
             stale.extend(baseline.apply(path, &mut examined));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::around::NearPackage;
 use super::error::SourceError;
+use super::import::import;
 use super::inspect::inspect;
 use super::load::{self, Source};
 use super::named::named;
@@ -89,7 +90,7 @@ impl From<NotFound> for MissingMesh {
 }
 
 impl SourceMeshes {
-    /// Opens a description and finds its mesh files.
+    /// Opens a description and finds its mesh files. Those of a description that is imported are in memory.
     ///
     /// # Errors
     /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
@@ -98,7 +99,12 @@ impl SourceMeshes {
         settings: &Settings,
         cancellation: &Cancellation,
     ) -> Result<SourceMeshes, SourceError> {
-        Ok(with_meshes(load::load(path, settings, cancellation)?, settings))
+        let Some(imported) = import(path, settings)? else {
+            return Ok(with_meshes(load::load(path, settings, cancellation)?, settings));
+        };
+        let settings = imported.settings(settings)?;
+        let source = load::load(&imported.path(), &settings, cancellation)?;
+        Ok(with_meshes(source, &settings))
     }
 
     /// As [`SourceMeshes::open`], from a text. Relative names refer to `folder`; `shown` names it in errors.

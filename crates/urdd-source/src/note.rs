@@ -60,6 +60,10 @@ kinds! {
     TooLarge = "too-large",
     /// A selected module that would be of no use.
     OfNoUse = "of-no-use",
+    /// What a URDF cannot say of a description that is imported.
+    Lost = "lost",
+    /// What a URDF has in another way than the description that is imported.
+    Otherwise = "otherwise",
     /// Files of the user's in the folder of a module that is not made any more.
     LeftBehind = "left-behind",
 }
@@ -67,8 +71,8 @@ kinds! {
 impl NoteKind {
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
-        use NoteKind::{Encoding, LeftBehind, OfNoUse, Outside, TooLarge, Xml};
-        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind)
+        use NoteKind::{Encoding, LeftBehind, OfNoUse, Otherwise, Outside, TooLarge, Xml};
+        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind | Otherwise)
     }
 }
 
@@ -85,7 +89,7 @@ pub struct Note {
     pub column: u32,
     /// What is wrong.
     pub problem: String,
-    /// What was assumed or done.
+    /// What was assumed or done; empty where the problem says it.
     pub assumed: String,
 }
 
@@ -97,7 +101,8 @@ impl fmt::Display for Note {
             write!(f, ":{}:{}", self.line, self.column)?;
         }
         let [problem, assumed] = [&self.problem, &self.assumed].map(|text| escape::line(text));
-        write!(f, ": {problem}: {assumed}")
+        write!(f, ": {problem}")?;
+        if assumed.is_empty() { Ok(()) } else { write!(f, ": {assumed}") }
     }
 }
 

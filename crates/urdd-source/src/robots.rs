@@ -145,7 +145,7 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
 fn parts(source: &Path) -> Vec<String> {
     let file = source.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &file;
-    for extension in [".xacro", ".urdf", ".URDF"] {
+    for extension in [".xacro", ".urdf", ".URDF", ".xml", ".sdf"] {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
     let folders = source.parent().into_iter().flat_map(Path::components);

@@ -16,8 +16,8 @@ use super::words::{list, plural, unit};
 use super::{programs, summary, unverified};
 use crate::skip::SkipReason;
 use urdd_format::report::{
-    CheckStatus, Deed, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
-    WrittenAt,
+    CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, Place, Report, Skipped, Status,
+    Urdd, Verdict, WrittenAt,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -87,6 +87,9 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     }
     if !brief {
         write_skipped(urdd, style, out)?;
+        if let Some(imported) = &urdd.imported {
+            write_imported(imported, style, out)?;
+        }
         write_programs(urdd, style, out)?;
         let is_read = urdd.verdict != Verdict::Unreadable;
         if style.suggests_lint && urdd.kind == Kind::Urdf && is_read {
@@ -273,6 +276,23 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
     if absent > 0 {
         let rules = plural(absent, "rule");
         writeln!(out, "  {label} {rules} about modules that are not here")?;
+    }
+    Ok(())
+}
+
+/// What an import made of a description that is no URDF.
+fn write_imported(imported: &ImportedFrom, style: Style, out: &mut impl Write) -> fmt::Result {
+    let format = imported.format.to_uppercase();
+    writeln!(out, "  {} {}", style.paint(DIM, "imported from"), safe(&format))?;
+    for part in &imported.lost {
+        writeln!(out, "    {} {} ({})", style.paint(YELLOW, "lost"), safe(&part.what), part.count)?;
+    }
+    for part in &imported.otherwise {
+        let how = safe(part.how.as_deref().unwrap_or_default());
+        writeln!(out, "    {} ({}): {how}", safe(&part.what), part.count)?;
+    }
+    for note in &imported.notes {
+        writeln!(out, "    {}", safe(note))?;
     }
     Ok(())
 }

@@ -35,6 +35,7 @@ const BALL: How =
     Otherwise("as `type=\"spherical\"`, or with `--ball revolute` as three revolute joints");
 const CAPSULE: How = Otherwise("as a cylinder and two spheres");
 const ELLIPSOID: How = Otherwise("as a mesh of a sphere, scaled");
+const STL: How = Otherwise("as STL");
 const SLIDE: How = Otherwise("with limits of ±10 m");
 const SRDF: How = Otherwise("in the SRDF");
 const SETUP: How = Otherwise("in `NAME.export.toml`");
@@ -67,6 +68,24 @@ features! {
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;
+    FOLLOWERS = "equalities of joints, as mimics", Yes, Elsewhere;
+    WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere;
+    MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere;
+    SURFACES = "planes and height fields", No, No;
+    DISCARDED = "shapes that `discardvisual` leaves out", No, Elsewhere;
+    SPRINGS = "springs of joints", No, No;
+    BALL_RANGES = "ranges of balls", No, Elsewhere;
+    COUPLINGS = "equalities of joints that are not linear, or that no mimic can say", No, Elsewhere;
+    TENDONS = "tendons", No, Elsewhere;
+    OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere;
+    SOFT = "flexes, skins and composites", No, Elsewhere;
+    CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere;
+    FRICTIONS = "coefficients of friction that differ", No, No;
+    CONTROLS = "velocities, activations and controls of named configurations", No, Elsewhere;
+    BASE_POSES = "poses of the free root in named configurations", No, Elsewhere;
+    MEASURED = "sensors", No, Elsewhere;
+    OWN_DATA = "data of users", No, Elsewhere;
+    SETTINGS = "settings of the simulator and the viewer", No, No;
     SCREWS = "screws", Elsewhere, SCREW;
     GEARBOXES = "gearboxes", Elsewhere, No;
     ONE_SIDED = "limits of one side", Elsewhere, SIDE;
@@ -75,17 +94,14 @@ features! {
     DEFAULT_MASSES = "masses and inertias that are not given", Elsewhere, DEFAULT;
     AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes;
     CONES = "cones", Elsewhere, CONE;
-    SURFACES = "planes, height maps, polylines and images", No, No;
     MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
     SUBMESHES = "parts of meshes", Elsewhere, No;
     LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
-    SPRINGS = "springs of joints", Elsewhere, No;
     FRICTION = "friction of surfaces, the same of all", Elsewhere, SETUP;
     CONTACTS = "other properties of contacts", Elsewhere, No;
     INCLUDES = "included models", Elsewhere, Yes;
     IN_WORLD = "the pose of the model in the world", Elsewhere, No;
     KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO;
-    SIMULATOR = "settings of the simulator and the viewer", No, No;
 }
 
 /// Something that a person has to know of one robot: what was assumed, or what is left out beside the table.

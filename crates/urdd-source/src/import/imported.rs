@@ -1,6 +1,7 @@
 //! Imports a description: what is written of it, and where what is written came from.
 
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -30,6 +31,9 @@ use urdd_geometry::primitives;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::stl;
 
+/// How many bytes at the start of a file are searched for its outermost element.
+const HEAD: u64 = 64 << 10;
+
 /// A description of another format as a URDF and its companions, in memory.
 #[derive(Debug, Clone)]
 pub struct Imported {
@@ -49,6 +53,8 @@ pub struct Imported {
     pub origin: Value,
     /// The description, as the user named it.
     pub shown: String,
+    /// The other files that were read: what it includes, meshes, images.
+    pub read: Vec<PathBuf>,
     texts: Vec<TextFile>,
     /// The place of each link and joint in the original, by kind and name.
     places: BTreeMap<(&'static str, String), Place>,
@@ -92,6 +98,17 @@ impl Imported {
     }
 }
 
+/// The format of a file by the outermost element in the beginning of it: quick, for a choice of what to do.
+pub fn format_of(path: &Path) -> Option<Format> {
+    let mut head = Vec::new();
+    // Opening a pipe would wait.
+    if !path.is_file() {
+        return None;
+    }
+    std::fs::File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
+    Format::of(&String::from_utf8_lossy(&head))
+}
+
 /// Imports a description, if it is MJCF or SDF by its content; `None` of anything else, and of what cannot be read.
 ///
 /// # Errors
@@ -122,7 +139,8 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     if model.name.trim().is_empty() {
         model.name = stem(&canonical);
     }
-    written(model, format, shown, options).map(Some)
+    let read = reach.into_read();
+    written(model, format, shown, options).map(|made| Some(Imported { read, ..made }))
 }
 
 /// What is written of a model.
@@ -166,6 +184,7 @@ fn written(
         urdf: name,
         files,
         shown,
+        read: Vec::new(),
         texts: model.files,
     })
 }

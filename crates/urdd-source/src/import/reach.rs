@@ -29,6 +29,8 @@ pub struct Reach {
     /// The folders of packages from which files were found.
     opened: RefCell<BTreeSet<PathBuf>>,
     project: Option<PathBuf>,
+    /// What was read.
+    read: RefCell<Vec<PathBuf>>,
 }
 
 /// Why a file is not read.
@@ -61,6 +63,7 @@ impl Reach {
             packages: settings.packages.clone(),
             opened: RefCell::default(),
             project: project(folder, files),
+            read: RefCell::default(),
         }
     }
 
@@ -97,6 +100,11 @@ impl Reach {
             || self.roots.place(file, None).is_some()
     }
 
+    /// The files that were read, with symbolic links resolved.
+    pub fn into_read(self) -> Vec<PathBuf> {
+        self.read.into_inner()
+    }
+
     /// Reads a file of at most `limit` bytes. Gives its path too, with symbolic links resolved.
     ///
     /// # Errors
@@ -110,7 +118,10 @@ impl Reach {
             return Err(Unreachable::outside(&shown(), &found));
         }
         match self.files().read(&found, limit) {
-            Ok(bytes) => Ok((found, bytes)),
+            Ok(bytes) => {
+                self.read.borrow_mut().push(found.clone());
+                Ok((found, bytes))
+            }
             Err(ReadError::Missing) => Err(Unreachable::Missing(shown())),
             Err(error) => Err(Unreachable::Unreadable { file: shown(), reason: error.to_string() }),
         }

@@ -5,10 +5,11 @@ use urdd_format::carried::{How, Part, lists, table};
 use urdd_format::escape;
 use urdd_format::registry::PROGRAM_VERSION;
 
-use super::features::{ALL, Feature};
+use super::features::{ALL, Feature, Remark};
 use super::format::Format;
 use super::model::Model;
 use super::placed::position;
+use crate::note::{Note, NoteKind};
 
 /// What became of a description.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,8 +20,8 @@ pub struct Report {
     pub format: Format,
     /// What it has: what, how many, and how it is carried.
     pub parts: Vec<Part>,
-    /// What else a person has to know: a line each, with its place.
-    pub notes: Vec<String>,
+    /// What else a person has to know.
+    pub remarks: Vec<Note>,
 }
 
 impl Report {
@@ -34,13 +35,20 @@ impl Report {
             counted.filter(|(_, count, how)| *count > 0 && *how != How::Elsewhere).collect();
         let unread = model.tally.all_unread().iter();
         parts.extend(unread.map(|(name, count)| (name.clone(), *count, How::No)));
-        let note = |(place, text)| match position(&model.files, place) {
-            Some((file, line, column)) => format!("{file}:{line}:{column}: {text}"),
-            None => text,
+        let note = |remark: &Remark| {
+            let (file, line, column) = position(&model.files, remark.place).unwrap_or_default();
+            let (problem, assumed) = (remark.text.clone(), String::new());
+            Note {
+                kind: NoteKind::Otherwise,
+                file: file.to_owned(),
+                line,
+                column,
+                problem,
+                assumed,
+            }
         };
-        let remarks = model.tally.remarks.iter();
-        let notes = remarks.map(|remark| note((remark.place, remark.text.clone()))).collect();
-        Report { robot: model.name.clone(), format, parts, notes }
+        let remarks = model.tally.remarks.iter().map(note).collect();
+        Report { robot: model.name.clone(), format, parts, remarks }
     }
 
     /// What is lost: what, and how many.
@@ -57,6 +65,25 @@ impl Report {
         })
     }
 
+    /// All that is lost or carried otherwise, as notes; `file` is the description.
+    pub fn notes(&self, file: &str) -> Vec<Note> {
+        let whole = |kind, problem, assumed: &str| Note {
+            kind,
+            file: file.to_owned(),
+            line: 0,
+            column: 0,
+            problem,
+            assumed: assumed.to_owned(),
+        };
+        let lost = self.lost().map(|(what, count)| {
+            whole(NoteKind::Lost, format!("{what} ({count})"), "lost; a URDF cannot say it")
+        });
+        let otherwise = self
+            .otherwise()
+            .map(|(what, count, how)| whole(NoteKind::Otherwise, format!("{what} ({count})"), how));
+        lost.chain(otherwise).chain(self.remarks.iter().cloned()).collect()
+    }
+
     /// As JSON, with the keys of the report of an export.
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -68,7 +95,7 @@ impl Report {
             "carried": carried,
             "otherwise": otherwise,
             "lost": lost,
-            "notes": self.notes,
+            "notes": self.remarks.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
         let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
         escape::json(&text).into_owned()

@@ -100,7 +100,7 @@ fn around(root: Tag, tally: &mut Tally) {
                         "joint" | "frame" | "actor" => {
                             tally.unread(format!("`<{}>` of `<world>`", child.name()));
                         }
-                        _ => tally.count(features::SIMULATOR),
+                        _ => tally.count(features::SETTINGS),
                     }
                 }
             }

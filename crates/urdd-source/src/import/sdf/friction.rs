@@ -8,6 +8,8 @@ use super::tag::Tag;
 pub struct Friction {
     first: Option<Option<f64>>,
     is_mixed: bool,
+    /// How many shapes say one.
+    given: usize,
 }
 
 /// Where the coefficient is.
@@ -29,13 +31,13 @@ impl Friction {
                 tally.count(features::CONTACTS);
             }
         }
-        if found.is_some() {
-            tally.count(features::FRICTION);
-        }
+        self.given += usize::from(found.is_some());
     }
 
-    /// The coefficient that all have.
-    pub fn common(&self) -> Option<f64> {
+    /// The coefficient that all have. Counts those that differ.
+    pub fn common(&self, tally: &mut Tally) -> Option<f64> {
+        let feature = if self.is_mixed { features::FRICTIONS } else { features::FRICTION };
+        (0..self.given).for_each(|_| tally.count(feature));
         self.first.flatten().filter(|_| !self.is_mixed)
     }
 }

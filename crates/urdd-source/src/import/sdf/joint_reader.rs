@@ -66,7 +66,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
     for child in tag.children() {
         match child.name() {
             "sensor" => reader.kept.of(&whole, child, &mut reader.tally),
-            "physics" => reader.tally.count(features::SIMULATOR),
+            "physics" => reader.tally.count(features::SETTINGS),
             name if KNOWN.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),
         }
@@ -127,7 +127,7 @@ fn said_of_axis(reader: &mut Reader, axis: Tag, joint: &str) {
     }
     for stop in ["stiffness", "dissipation"] {
         if axis.descendant(&["limit", stop]).is_some() {
-            tally.count(features::SIMULATOR);
+            tally.count(features::SETTINGS);
         }
     }
 }

@@ -56,7 +56,7 @@ fn made(reader: &mut Reader, file: TextFile, options: &ImportOptions) -> Result<
         bodies: made.bodies,
         assets: std::mem::take(&mut reader.assets.files),
         elements: std::mem::take(&mut reader.kept.elements),
-        friction: reader.friction.common(),
+        friction: reader.friction.common(&mut reader.tally),
         tally: std::mem::take(&mut reader.tally),
         ..Model::default()
     })

@@ -67,7 +67,7 @@ pub fn model(
             name if SETTINGS.contains(&name) && parent.is_none() => {
                 reader.kept.of_model(child, &mut reader.tally);
             }
-            name if SETTINGS.contains(&name) => reader.tally.count(features::SIMULATOR),
+            name if SETTINGS.contains(&name) => reader.tally.count(features::SETTINGS),
             "static" if parent.is_none() => reader.kept.of_model(child, &mut reader.tally),
             name if KNOWN.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<model>`")),

@@ -43,7 +43,7 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
     let is_visual = tag.name() == "visual";
     for child in tag.children() {
         match child.name() {
-            name if SETTINGS.contains(&name) => reader.tally.count(features::SIMULATOR),
+            name if SETTINGS.contains(&name) => reader.tally.count(features::SETTINGS),
             name if KNOWN.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<{}>`", tag.name())),
         }
@@ -85,7 +85,7 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
         }
         "mesh" => return mesh(reader, tag),
         "empty" => return Ok(None),
-        "plane" | "heightmap" | "polyline" | "image" => {
+        "plane" | "heightmap" => {
             reader.tally.count(features::SURFACES);
             return Ok(None);
         }
@@ -116,7 +116,7 @@ fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
     let scale = tag.vector("scale")?.map_or([1.0; 3], Into::into);
     tag.unread(&["uri", "scale", "submesh", "convex_decomposition"], &mut reader.tally);
     if tag.attribute("optimization").is_some() {
-        reader.tally.count(features::SIMULATOR);
+        reader.tally.count(features::SETTINGS);
     }
     if let Some(name) = tag.child("submesh").and_then(|submesh| submesh.words("name")) {
         reader.tally.count(features::SUBMESHES);

@@ -1,0 +1,66 @@
+//! Lints the URDF that an import makes, and says of each finding where the original has what it is about.
+
+use std::path::Path;
+
+use crate::examine::examined;
+use crate::settings::LintSettings;
+use urdd_findings::examined::Examined;
+use urdd_findings::finding::Finding;
+use urdd_format::index::Count;
+use urdd_format::report::{ImportedFrom, ImportedPart, Place, StaleIgnore, WrittenAt};
+use urdd_source::SourceError;
+use urdd_source::import::Imported;
+
+/// What is found in the URDF of an import, and the comments in it that matched nothing.
+///
+/// # Errors
+/// If its files are more than memory may hold.
+pub(crate) fn examined_import(
+    imported: &Imported,
+    settings: &LintSettings,
+) -> Result<(Examined, Vec<StaleIgnore>), SourceError> {
+    let settings =
+        LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
+    let text = imported.text();
+    let (mut examined, unused) =
+        examined(text, text.as_bytes(), &imported.urdf, Path::new("/"), &settings);
+    let findings = examined.checks.iter_mut().flat_map(|check| &mut check.findings);
+    for place in findings.flat_map(Finding::places_mut) {
+        say_where(imported, place);
+        place.related.iter_mut().for_each(|related| say_where(imported, related));
+    }
+    examined.report.imported = Some(imported_from(imported));
+    Ok((examined, unused))
+}
+
+fn say_where(imported: &Imported, place: &mut Place) {
+    // The text is in memory: there is nothing to mend.
+    place.fixes.clear();
+    let Some((kind, quoted)) = place.subject.as_deref().and_then(|of| of.split_once(' ')) else {
+        return;
+    };
+    let name = quoted.strip_prefix('`').and_then(|name| name.strip_suffix('`'));
+    let found = name.and_then(|name| imported.place(kind, name));
+    place.written_at = found.map(|(file, line, column)| WrittenAt {
+        file: file.to_owned(),
+        line: Some(Count(line)),
+        column: Some(Count(column)),
+        macro_name: None,
+    });
+}
+
+fn imported_from(imported: &Imported) -> ImportedFrom {
+    let report = &imported.report;
+    let part = |what: &str, count: usize, how: Option<&str>| ImportedPart {
+        what: what.to_owned(),
+        count: Count::saturating(count),
+        how: how.map(str::to_owned),
+    };
+    let otherwise = report.otherwise().map(|(what, count, how)| part(what, count, Some(how)));
+    ImportedFrom {
+        format: report.format.name().to_owned(),
+        otherwise: otherwise.collect(),
+        lost: report.lost().map(|(what, count)| part(what, count, None)).collect(),
+        notes: report.remarks.iter().map(ToString::to_string).collect(),
+    }
+}

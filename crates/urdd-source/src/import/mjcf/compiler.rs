@@ -1,0 +1,127 @@
+//! `<compiler>`: how the rest of a model is read.
+
+use std::ops::RangeInclusive;
+
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+use super::reading::{flag, number_of, numbers, word, wrong};
+
+/// When masses come from shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FromShapes {
+    /// Never.
+    Never,
+    /// Always.
+    Always,
+    /// Where a body says no mass.
+    Auto,
+}
+
+/// How a model is read.
+#[derive(Debug, Clone)]
+pub struct Compiler {
+    /// The radians of a number that is an angle.
+    pub angle: f64,
+    /// The axes of Euler angles, in order; in capitals: fixed ones.
+    pub euler: [char; 3],
+    /// Whether a range is a limit where nothing else is said.
+    pub has_auto_limits: bool,
+    pub mesh_folder: String,
+    pub texture_folder: String,
+    /// Whether folders are cut off the names of files.
+    pub strips_paths: bool,
+    pub from_shapes: FromShapes,
+    /// The groups of shapes that have mass.
+    pub mass_groups: RangeInclusive<i64>,
+    pub balances: bool,
+    pub least_mass: f64,
+    pub least_inertia: f64,
+    pub total_mass: Option<f64>,
+    pub discards_visuals: bool,
+    pub fits_boxes: bool,
+}
+
+impl Compiler {
+    /// What the `<compiler>`s of a model say, the last one last.
+    pub fn of(root: &Element) -> Fallible<Self> {
+        let mut compiler = Compiler {
+            angle: 1.0_f64.to_radians(),
+            euler: ['x', 'y', 'z'],
+            has_auto_limits: true,
+            mesh_folder: String::new(),
+            texture_folder: String::new(),
+            strips_paths: false,
+            from_shapes: FromShapes::Auto,
+            mass_groups: 0..=5,
+            balances: false,
+            least_mass: 0.0,
+            least_inertia: 0.0,
+            total_mass: None,
+            discards_visuals: false,
+            fits_boxes: false,
+        };
+        for element in root.all("compiler") {
+            compiler.read(element)?;
+        }
+        Ok(compiler)
+    }
+
+    fn read(&mut self, element: &Element) -> Fallible<()> {
+        let coordinate = word(element, "coordinate", &["local", "global"], "`local`")?;
+        if coordinate == Some(1) {
+            return Err(at(element.place, MjcfFault::GlobalCoordinates));
+        }
+        if let Some(which) = word(element, "angle", &["radian", "degree"], "`radian` or `degree`")?
+        {
+            self.angle = if which == 0 { 1.0 } else { 1.0_f64.to_radians() };
+        }
+        if let Some(text) = element.get("eulerseq") {
+            let axes: Vec<char> = text.chars().filter(|axis| "xyzXYZ".contains(*axis)).collect();
+            let axes = <[char; 3]>::try_from(axes).ok().filter(|_| text.len() == 3);
+            self.euler =
+                axes.ok_or_else(|| wrong(element, "eulerseq", "three of x, y, z, X, Y, Z"))?;
+        }
+        if let Some(folder) = element.get("assetdir") {
+            self.mesh_folder = folder.to_owned();
+            self.texture_folder = folder.to_owned();
+        }
+        for (name, folder) in
+            [("meshdir", &mut self.mesh_folder), ("texturedir", &mut self.texture_folder)]
+        {
+            if let Some(text) = element.get(name) {
+                text.clone_into(folder);
+            }
+        }
+        for (name, setting) in [
+            ("autolimits", &mut self.has_auto_limits),
+            ("strippath", &mut self.strips_paths),
+            ("balanceinertia", &mut self.balances),
+            ("discardvisual", &mut self.discards_visuals),
+            ("fitaabb", &mut self.fits_boxes),
+        ] {
+            *setting = flag(element, name)?.unwrap_or(*setting);
+        }
+        let words = ["false", "true", "auto"];
+        let from = word(element, "inertiafromgeom", &words, "`false`, `true` or `auto`")?;
+        self.from_shapes = match from {
+            Some(0) => FromShapes::Never,
+            Some(1) => FromShapes::Always,
+            Some(_) => FromShapes::Auto,
+            None => self.from_shapes,
+        };
+        if let Some([first, last]) = numbers::<2>(element, "inertiagrouprange")? {
+            #[expect(clippy::cast_possible_truncation, reason = "groups are few")]
+            let groups = first.ceil() as i64..=last.floor() as i64;
+            self.mass_groups = groups;
+        }
+        for (name, least) in
+            [("boundmass", &mut self.least_mass), ("boundinertia", &mut self.least_inertia)]
+        {
+            *least = number_of(element, name)?.unwrap_or(*least);
+        }
+        if let Some(total) = number_of(element, "settotalmass")? {
+            self.total_mass = (total > 0.0).then_some(total);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,105 @@
+//! Default classes: what elements have that do not say it themselves.
+
+use std::collections::HashMap;
+
+use super::super::model::Place;
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+
+/// The class that all others are in.
+pub const MAIN: usize = 0;
+/// Outermost `<default>`s: one a file. Each look-up passes all of them.
+const MOST: usize = 64;
+
+/// The classes of a model.
+#[derive(Default)]
+pub struct Defaults<'d> {
+    classes: Vec<Class<'d>>,
+    by_name: HashMap<&'d str, usize>,
+}
+
+#[derive(Default)]
+struct Class<'d> {
+    /// The elements of each tag, in the order in which they apply.
+    elements: HashMap<&'d str, Vec<&'d Element>>,
+    /// The class around it, and how many elements of each tag it had when this one began.
+    around: Option<(usize, usize)>,
+    /// How many sections it has.
+    sections: Vec<HashMap<&'d str, usize>>,
+}
+
+impl<'d> Defaults<'d> {
+    /// The classes that the `<default>`s of a model define.
+    pub fn of(root: &'d Element) -> Fallible<Self> {
+        let mut defaults = Defaults { classes: vec![Class::default()], ..Self::default() };
+        defaults.by_name.insert("main", MAIN);
+        for (number, section) in root.all("default").enumerate() {
+            if number == MOST {
+                return Err(at(section.place, MjcfFault::TooManyDefaults(MOST)));
+            }
+            if let Some(name) = section.text("class").filter(|name| *name != "main") {
+                return Err(at(section.place, MjcfFault::MainRenamed(name.to_owned())));
+            }
+            defaults.section(section, MAIN)?;
+        }
+        Ok(defaults)
+    }
+
+    fn section(&mut self, section: &'d Element, class: usize) -> Fallible<()> {
+        let mut seen = HashMap::new();
+        for element in section.children.iter().filter(|child| child.tag != "default") {
+            if seen.insert(element.tag.as_str(), ()).is_some() {
+                return Err(at(element.place, MjcfFault::DefaultTwice(element.tag.clone())));
+            }
+            self.classes[class].elements.entry(&element.tag).or_default().push(element);
+        }
+        let counts =
+            self.classes[class].elements.iter().map(|(tag, of)| (*tag, of.len())).collect();
+        let number = self.classes[class].sections.len();
+        self.classes[class].sections.push(counts);
+        for nested in section.all("default") {
+            let name = nested.text("class");
+            let name = name.ok_or_else(|| at(nested.place, MjcfFault::DefaultWithoutClass))?;
+            let inner = self.classes.len();
+            if self.by_name.insert(name, inner).is_some() {
+                return Err(at(nested.place, MjcfFault::ClassTwice(name.to_owned())));
+            }
+            self.classes.push(Class { around: Some((class, number)), ..Class::default() });
+            self.section(nested, inner)?;
+        }
+        Ok(())
+    }
+
+    /// A class by name.
+    pub fn class(&self, name: &str, place: Place) -> Fallible<usize> {
+        let found = self.by_name.get(name).copied();
+        found.ok_or_else(|| at(place, MjcfFault::UnknownClass(name.to_owned())))
+    }
+
+    /// The class in which the children of an element are.
+    pub fn scope(&self, element: &Element, around: usize) -> Fallible<usize> {
+        let name = element.text("childclass");
+        name.map_or(Ok(around), |name| self.class(name, element.place))
+    }
+
+    /// What a class and those around it say of a tag, the innermost first.
+    pub fn chain<'s>(
+        &'s self,
+        class: usize,
+        tag: &'s str,
+    ) -> impl Iterator<Item = &'d Element> + 's {
+        let mut next = self.classes.get(class).map(|of| (of, usize::MAX));
+        std::iter::from_fn(move || {
+            let (class, section) = next?;
+            next = class
+                .around
+                .and_then(|(around, section)| Some((self.classes.get(around)?, section)));
+            let limit =
+                class.sections.get(section).map(|counts| counts.get(tag).copied().unwrap_or(0));
+            let elements = class.elements.get(tag).map_or(&[][..], Vec::as_slice);
+            let count = limit.unwrap_or(elements.len()).min(elements.len());
+            Some(elements[..count].iter().rev().copied())
+        })
+        .flatten()
+    }
+}

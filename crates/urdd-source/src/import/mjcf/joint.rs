@@ -1,0 +1,152 @@
+//! Joints.
+
+use nalgebra::{Isometry3, Point3, Unit, Vector3};
+
+use super::super::features::{self, Tally};
+use super::super::model::Place;
+use super::compiler::Compiler;
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+use super::reading::{View, wrong};
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Free,
+    Ball,
+    Slide,
+    Hinge,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct RawJoint {
+    pub name: Option<String>,
+    pub kind: Kind,
+    /// Where it is, in the frame of its body.
+    pub position: Point3<f64>,
+    pub axis: Vector3<f64>,
+    pub reference: f64,
+    pub range: Option<[f64; 2]>,
+    /// The greatest force of its actuators.
+    pub effort: Option<f64>,
+    pub damping: f64,
+    pub friction: f64,
+    pub armature: f64,
+    pub place: Place,
+}
+
+impl RawJoint {
+    /// How many numbers of a configuration it has.
+    pub fn positions(&self) -> usize {
+        match self.kind {
+            Kind::Free => 7,
+            Kind::Ball => 4,
+            Kind::Slide | Kind::Hinge => 1,
+        }
+    }
+
+    /// A free joint.
+    pub fn free(element: &Element, name: Option<String>) -> Self {
+        RawJoint {
+            name,
+            kind: Kind::Free,
+            position: Point3::origin(),
+            axis: Vector3::z(),
+            reference: 0.0,
+            range: None,
+            effort: None,
+            damping: 0.0,
+            friction: 0.0,
+            armature: 0.0,
+            place: element.place,
+        }
+    }
+
+    /// A `<joint>` in a frame of its body.
+    pub fn read(
+        view: View<'_>,
+        name: Option<String>,
+        frame: &Isometry3<f64>,
+        compiler: &Compiler,
+        tally: &mut Tally,
+    ) -> Fallible<Self> {
+        let words = ["free", "ball", "slide", "hinge"];
+        let kind = view.word("type", &words, "`free`, `ball`, `slide` or `hinge`")?;
+        let kind = [Kind::Free, Kind::Ball, Kind::Slide, Kind::Hinge][kind.unwrap_or(3)];
+        let element = view.element;
+        if kind == Kind::Free {
+            return Ok(RawJoint::free(element, name));
+        }
+        let position = frame * Point3::from(view.numbers::<3>("pos")?.unwrap_or_default());
+        let axis = Vector3::from(view.numbers::<3>("axis")?.unwrap_or([0.0, 0.0, 1.0]));
+        let axis = match kind {
+            Kind::Ball => Vector3::z(),
+            _ => {
+                let wanted = "an axis that is not zero";
+                let axis = Unit::try_new(axis, 1e-14);
+                frame.rotation * axis.ok_or_else(|| wrong(element, "axis", wanted))?.into_inner()
+            }
+        };
+        let turns = if kind == Kind::Slide { 1.0 } else { compiler.angle };
+        let mut range = limits(view, "range", "limited", compiler)?;
+        range = range.map(|range| range.map(|end| end * turns));
+        let force = limits(view, "actuatorfrcrange", "actuatorfrclimited", compiler)?;
+        if kind == Kind::Ball && range.take().is_some() {
+            tally.count(features::BALL_RANGES);
+        }
+        let [stiffness, damping] = [view.up_to::<3>("stiffness")?, view.up_to::<3>("damping")?];
+        if stiffness.iter().flatten().any(|of| *of != 0.0) || view.text("springdamper").is_some() {
+            tally.count(features::SPRINGS);
+        }
+        if damping[1..].iter().flatten().any(|of| *of != 0.0) {
+            tally.unread("damping of joints that is not linear");
+        }
+        let reference = match kind {
+            Kind::Ball => 0.0,
+            _ => view.number("ref")?.unwrap_or(0.0) * turns,
+        };
+        Ok(RawJoint {
+            name,
+            kind,
+            position,
+            axis,
+            reference,
+            range,
+            effort: force
+                .map(|[low, high]| low.abs().max(high.abs()))
+                .filter(|_| kind != Kind::Ball),
+            damping: damping[0].unwrap_or(0.0),
+            friction: view.number("frictionloss")?.unwrap_or(0.0),
+            armature: view.number("armature")?.unwrap_or(0.0),
+            place: element.place,
+        })
+    }
+}
+
+/// A range, if it is a limit: `limited` says so, or it is not empty and the compiler takes all ranges for limits.
+pub fn limits(
+    view: View<'_>,
+    range: &'static str,
+    limited: &'static str,
+    compiler: &Compiler,
+) -> Fallible<Option<[f64; 2]>> {
+    let said = view.word(limited, &["false", "true", "auto"], "`false`, `true` or `auto`")?;
+    let ends = view.numbers::<2>(range)?.unwrap_or_default();
+    let element = || view.element.tag.clone();
+    let is_limited = match said {
+        Some(0) => false,
+        Some(1) => true,
+        _ if ends == [0.0; 2] => false,
+        _ if !compiler.has_auto_limits => {
+            let fault = MjcfFault::NoLimited { element: element(), attribute: limited };
+            return Err(at(view.element.place, fault));
+        }
+        _ => ends[0] < ends[1],
+    };
+    if is_limited && ends[0] >= ends[1] {
+        let fault = MjcfFault::Range { element: element(), attribute: range };
+        return Err(at(view.element.place, fault));
+    }
+    Ok(is_limited.then_some(ends))
+}

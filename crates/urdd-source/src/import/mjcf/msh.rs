@@ -1,0 +1,34 @@
+//! MuJoCo's own mesh files: four counts (vertices, normals, places in textures, faces), then these.
+
+use urdd_geometry::Mesh;
+
+/// Reads a mesh, or says what is wrong with it.
+pub fn read(bytes: &[u8]) -> Result<Mesh, &'static str> {
+    let words: Vec<[u8; 4]> = bytes.as_chunks().0.to_vec();
+    let head: Option<&[[u8; 4]; 4]> = words.first_chunk();
+    let counts = head.ok_or("has no header of an MSH file")?.map(i32::from_le_bytes);
+    let counts = counts.map(|count| usize::try_from(count).ok());
+    let [Some(vertices), Some(normals), Some(places), Some(faces)] = counts else {
+        return Err("has a negative count in its MSH file");
+    };
+    let sizes = [(vertices, 3), (normals, 3), (places, 2), (faces, 3)];
+    let length: usize = sizes.iter().map(|(count, each)| count * each).sum();
+    if words.len() != 4 + length || bytes.len() % 4 != 0 || vertices < 4 {
+        return Err("is of another length than its MSH file says");
+    }
+    let (coordinates, rest) = words[4..].split_at(vertices * 3);
+    let indices = &rest[normals * 3 + places * 2..];
+    let points = coordinates.as_chunks().0.iter();
+    let points = points.map(|point: &[[u8; 4]; 3]| point.map(|x| f64::from(f32::from_le_bytes(x))));
+    let triangles = indices.as_chunks().0.iter();
+    let triangles: Vec<[u32; 3]> =
+        triangles.map(|face: &[[u8; 4]; 3]| face.map(u32::from_le_bytes)).collect();
+    let mesh = Mesh { vertices: points.collect(), triangles };
+    if mesh.triangles.as_flattened().iter().any(|index| *index as usize >= vertices) {
+        return Err("has a face of a vertex that its MSH file does not have");
+    }
+    if !mesh.vertices.as_flattened().iter().all(|x| x.is_finite()) {
+        return Err("has a vertex that is not finite");
+    }
+    Ok(mesh)
+}

@@ -1,0 +1,167 @@
+//! Reads attributes, with what default classes say of them.
+
+use super::super::fault::ImportFault;
+use super::defaults::Defaults;
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+
+/// An element with its default class.
+#[derive(Clone, Copy)]
+pub struct View<'d> {
+    pub element: &'d Element,
+    defaults: &'d Defaults<'d>,
+    class: usize,
+}
+
+impl<'d> View<'d> {
+    /// An element in the scope of a class; its own class goes first.
+    pub fn new(element: &'d Element, defaults: &'d Defaults<'d>, scope: usize) -> Fallible<Self> {
+        let class = match element.get("class") {
+            Some(name) => defaults.class(name, element.place)?,
+            None => scope,
+        };
+        Ok(View { element, defaults, class })
+    }
+
+    /// The element, then what its class and the classes around it say of its tag.
+    pub fn chain(&self) -> impl Iterator<Item = &'d Element> {
+        let of_class = self.defaults.chain(self.class, &self.element.tag);
+        std::iter::once(self.element).chain(of_class)
+    }
+
+    /// The first of the chain that has an attribute, and its text.
+    fn find(&self, name: &str) -> Option<(&'d Element, &'d str)> {
+        self.chain().find_map(|element| Some((element, element.get(name)?)))
+    }
+
+    /// A text that is not empty.
+    pub fn text(&self, name: &str) -> Option<&'d str> {
+        self.find(name).map(|(_, text)| text).filter(|text| !text.is_empty())
+    }
+
+    /// Exactly `N` numbers.
+    pub fn numbers<const N: usize>(&self, name: &'static str) -> Fallible<Option<[f64; N]>> {
+        self.find(name).map(|(element, _)| numbers(element, name)).transpose().map(Option::flatten)
+    }
+
+    /// One number.
+    pub fn number(&self, name: &'static str) -> Fallible<Option<f64>> {
+        Ok(self.numbers::<1>(name)?.map(|[number]| number))
+    }
+
+    /// Up to `N` numbers: each from the first of the chain that has it.
+    pub fn up_to<const N: usize>(&self, name: &'static str) -> Fallible<[Option<f64>; N]> {
+        let mut found = [None; N];
+        for element in self.chain().filter(|element| element.get(name).is_some()) {
+            let numbers = list(element, name, N)?;
+            for (slot, number) in found.iter_mut().zip(numbers) {
+                slot.get_or_insert(number);
+            }
+        }
+        Ok(found)
+    }
+
+    /// One of some words, by its place among them.
+    pub fn word(
+        &self,
+        name: &'static str,
+        words: &[&str],
+        wanted: &'static str,
+    ) -> Fallible<Option<usize>> {
+        self.find(name).map_or(Ok(None), |(element, _)| word(element, name, words, wanted))
+    }
+
+    /// `true` or `false`.
+    pub fn flag(&self, name: &'static str) -> Fallible<Option<bool>> {
+        self.find(name).map_or(Ok(None), |(element, _)| flag(element, name))
+    }
+
+    /// A whole number.
+    pub fn integer(&self, name: &'static str) -> Fallible<Option<i64>> {
+        self.find(name).map_or(Ok(None), |(element, _)| integer(element, name))
+    }
+}
+
+/// No length, mass or angle is larger; products of a few numbers stay finite.
+const LARGEST: f64 = 1e60;
+
+/// Finite numbers, at most `most` of them.
+pub fn list(element: &Element, name: &str, most: usize) -> Fallible<Vec<f64>> {
+    let text = element.get(name).unwrap_or_default();
+    let mut numbers = Vec::new();
+    for word in text.split_ascii_whitespace() {
+        match word.parse::<f64>() {
+            Ok(number) if number.abs() <= LARGEST && numbers.len() < most => numbers.push(number),
+            Ok(number) if number.abs() <= LARGEST => {
+                return Err(wrong(element, name, "that short: it has too many numbers"));
+            }
+            _ => return Err(wrong(element, name, "a list of finite numbers")),
+        }
+    }
+    Ok(numbers)
+}
+
+/// Exactly `N` finite numbers.
+pub fn numbers<const N: usize>(element: &Element, name: &str) -> Fallible<Option<[f64; N]>> {
+    if element.get(name).is_none() {
+        return Ok(None);
+    }
+    let found = list(element, name, N)?;
+    let wanted = match N {
+        1 => "one number",
+        2 => "two numbers",
+        3 => "three numbers",
+        4 => "four numbers",
+        _ => "six numbers",
+    };
+    <[f64; N]>::try_from(found).map(Some).map_err(|_| wrong(element, name, wanted))
+}
+
+/// One finite number.
+pub fn number_of(element: &Element, name: &str) -> Fallible<Option<f64>> {
+    Ok(numbers::<1>(element, name)?.map(|[number]| number))
+}
+
+/// One of some words, by its place among them.
+pub fn word(
+    element: &Element,
+    name: &str,
+    words: &[&str],
+    wanted: &'static str,
+) -> Fallible<Option<usize>> {
+    let Some(text) = element.get(name) else { return Ok(None) };
+    let found = words.iter().position(|word| *word == text);
+    found.map(Some).ok_or_else(|| wrong(element, name, wanted))
+}
+
+/// `true` or `false`.
+pub fn flag(element: &Element, name: &str) -> Fallible<Option<bool>> {
+    let found = word(element, name, &["false", "true"], "`true` or `false`")?;
+    Ok(found.map(|which| which == 1))
+}
+
+/// A whole number.
+pub fn integer(element: &Element, name: &str) -> Fallible<Option<i64>> {
+    let Some(text) = element.get(name) else { return Ok(None) };
+    let number = text.trim().parse().map_err(|_| wrong(element, name, "a whole number"))?;
+    Ok(Some(number))
+}
+
+/// A text that must be there.
+pub fn required<'e>(element: &'e Element, attribute: &'static str) -> Fallible<&'e str> {
+    element.text(attribute).ok_or_else(|| {
+        at(element.place, MjcfFault::Missing { element: element.tag.clone(), attribute })
+    })
+}
+
+/// A value that is wrong.
+pub fn wrong(element: &Element, attribute: &str, wanted: &'static str) -> super::fault::At {
+    let value: String = element.get(attribute).unwrap_or_default().chars().take(60).collect();
+    let fault = ImportFault::Value {
+        element: element.tag.clone(),
+        attribute: attribute.to_owned(),
+        value: value.replace(char::is_control, " "),
+        wanted,
+    };
+    at(element.place, fault)
+}

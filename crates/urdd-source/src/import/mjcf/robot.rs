@@ -1,0 +1,277 @@
+//! The robot of a model, as the writers of imports want it.
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Translation3};
+
+use super::super::features::{self, Tally};
+use super::super::model::{Body, Geometry, Joint, JointKind, Shape, Use};
+use super::assets::Assets;
+use super::body::{Bodies, RawBody, WORLD};
+use super::compiler::Compiler;
+use super::fault::{Fallible, MjcfFault, at};
+use super::fit::{Fitted, fitted};
+use super::geom::{Geom, Kind};
+use super::inertia::inertial;
+use super::joint::{self, RawJoint};
+use super::material::Materials;
+use super::mesh::Meshes;
+use super::names::Names;
+use super::scene::Robot;
+
+/// What is needed to make bodies.
+pub struct Maker<'m, 'd> {
+    pub bodies: &'m Bodies<'d>,
+    pub robot: &'m Robot,
+    pub compiler: &'m Compiler,
+    pub meshes: Meshes<'d>,
+    pub materials: Materials<'d>,
+    pub assets: Assets<'m>,
+    pub tally: &'m mut Tally,
+}
+
+/// The bodies of the robot, and what each raw one became.
+pub struct Made {
+    pub bodies: Vec<Body>,
+    /// The index of a raw body's body.
+    pub index: HashMap<usize, usize>,
+    /// The body and joint of each raw body's joints.
+    pub joints: HashMap<(usize, usize), (usize, usize)>,
+}
+
+impl<'d> Maker<'_, 'd> {
+    /// Makes the bodies, then the frames of sites and cameras.
+    pub fn make(&mut self) -> Fallible<Made> {
+        let scale = self.scale()?;
+        let names = self.names()?;
+        let mut joint_names = Names::default();
+        let (bodies, robot) = (self.bodies, self.robot);
+        for raw in &bodies.all {
+            for joint in &raw.joints {
+                let Some(name) = joint.name.as_deref() else { continue };
+                if !joint_names.take(name) {
+                    let fault = MjcfFault::SameName { what: "joints", name: name.to_owned() };
+                    return Err(at(joint.place, fault));
+                }
+            }
+        }
+        let mut made = Made { bodies: Vec::new(), index: HashMap::new(), joints: HashMap::new() };
+        for (raw_index, name) in robot.bodies.iter().zip(names.0) {
+            let raw = &bodies.all[*raw_index];
+            let index = made.bodies.len();
+            let is_world = *raw_index == WORLD;
+            let is_empty = is_world && !robot.has_world;
+            let mut body = Body {
+                pose: raw.pose,
+                parent: raw.parent.and_then(|parent| made.index.get(&parent).copied()),
+                joints: Vec::new(),
+                fixed_by: None,
+                inertial: None,
+                shapes: Vec::new(),
+                is_frame: false,
+                place: raw.place,
+                name,
+            };
+            if body.parent.is_none() {
+                body.pose = Isometry3::identity();
+            }
+            self.tally.count(features::BODIES);
+            if !is_empty {
+                let fitted = self.fitted(raw)?;
+                body.shapes = self.shapes(raw, &fitted)?;
+                if !is_world {
+                    body.inertial = self.inertial(raw, &fitted)?;
+                }
+                if let Some(inertial) = &mut body.inertial {
+                    self.tally.count(features::MASSES);
+                    inertial.mass *= scale;
+                    inertial.inertia *= scale;
+                }
+            }
+            if body.parent.is_some() {
+                for (number, joint) in raw.joints.iter().enumerate() {
+                    if let Some(joint) = self.joint(joint, &body.name, &mut joint_names) {
+                        made.joints.insert((*raw_index, number), (index, body.joints.len()));
+                        body.joints.push(joint);
+                    }
+                }
+                if body.joints.len() > 1 {
+                    self.tally.count(features::MORE_JOINTS);
+                }
+            } else if robot.is_floating {
+                self.tally.count(features::FREE);
+            }
+            made.index.insert(*raw_index, index);
+            made.bodies.push(body);
+        }
+        self.frames(&mut made, names.1);
+        Ok(made)
+    }
+
+    fn fitted(&mut self, raw: &RawBody<'d>) -> Fallible<Vec<Fitted>> {
+        let each = raw.geoms.iter();
+        each.map(|geom| fitted(geom, self.compiler, &mut self.meshes, &self.assets)).collect()
+    }
+
+    fn inertial(
+        &mut self,
+        raw: &RawBody<'d>,
+        fitted: &[Fitted],
+    ) -> Fallible<Option<super::super::model::Inertial>> {
+        inertial(raw, fitted, self.compiler, &mut self.meshes, &self.assets)
+    }
+
+    /// By how much all masses are multiplied, so that their sum is what the compiler asks.
+    fn scale(&mut self) -> Fallible<f64> {
+        let Some(total) = self.compiler.total_mass else { return Ok(1.0) };
+        let mut mass = 0.0;
+        let bodies = self.bodies;
+        for raw in bodies.all.iter().skip(1) {
+            let fitted = self.fitted(raw)?;
+            mass += self.inertial(raw, &fitted)?.map_or(0.0, |inertial| inertial.mass);
+        }
+        Ok((total / mass.max(1e-15)).max(1e-15))
+    }
+
+    /// A name for each body of the robot, and the names that are left.
+    fn names(&self) -> Fallible<(Vec<String>, Names)> {
+        let mut names = Names::default();
+        let all = &self.bodies.all;
+        for body in self.robot.bodies.iter().map(|index| &all[*index]) {
+            if let Some(name) = body.name.as_deref().filter(|name| !names.take(name)) {
+                let fault = MjcfFault::SameName { what: "bodies", name: name.to_owned() };
+                return Err(at(body.place, fault));
+            }
+        }
+        let mut known: HashMap<usize, String> = HashMap::new();
+        let mut found = Vec::new();
+        for index in &self.robot.bodies {
+            let body = &all[*index];
+            let name = match (&body.name, body.parent.and_then(|parent| known.get(&parent))) {
+                (Some(name), _) => name.clone(),
+                (None, _) if *index == WORLD => names.free("world"),
+                (None, Some(parent)) => names.free(&format!("{parent}_body")),
+                (None, None) => names.free("body"),
+            };
+            known.insert(*index, name.clone());
+            found.push(name);
+        }
+        Ok((found, names))
+    }
+
+    fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Option<Joint> {
+        let (kind, feature) = match raw.kind {
+            joint::Kind::Free => return None,
+            joint::Kind::Ball => (JointKind::Ball, features::BALLS),
+            joint::Kind::Hinge => (JointKind::Hinge, features::HINGES),
+            joint::Kind::Slide if raw.range.is_none() => (JointKind::Slide, features::FREE_SLIDES),
+            joint::Kind::Slide => (JointKind::Slide, features::SLIDES),
+        };
+        self.tally.count(feature);
+        Some(Joint {
+            name: raw.name.clone().unwrap_or_else(|| names.free(&format!("{body}_joint"))),
+            kind,
+            frame: Translation3::from(raw.position).into(),
+            axis: raw.axis,
+            reference: raw.reference,
+            range: raw.range,
+            effort: raw.effort,
+            velocity: None,
+            damping: raw.damping,
+            friction: raw.friction,
+            mimic: None,
+            kp: None,
+            kv: None,
+            armature: (raw.armature != 0.0).then_some(raw.armature),
+            place: raw.place,
+        })
+    }
+
+    fn shapes(&mut self, raw: &RawBody<'d>, fitted: &[Fitted]) -> Fallible<Vec<Shape>> {
+        let mut shapes = Vec::new();
+        // A body that has shapes only to be seen is seen by these.
+        let has_visuals = raw.geoms.iter().any(Geom::is_visual) && !self.compiler.discards_visuals;
+        for (geom, fitted) in raw.geoms.iter().zip(fitted) {
+            let used = match geom.is_visual() {
+                true if self.compiler.discards_visuals => {
+                    self.tally.count(features::DISCARDED);
+                    continue;
+                }
+                true => Use::Visual,
+                false if has_visuals || geom.rgba.is_some_and(|rgba| rgba[3] == 0.0) => {
+                    Use::Collision
+                }
+                false => Use::Both,
+            };
+            let Some((geometry, frame)) = self.geometry(geom, fitted)? else { continue };
+            let material = self.materials.of(geom, &self.meshes, &mut self.assets, self.tally)?;
+            shapes.push(Shape {
+                name: geom.name.clone(),
+                used,
+                pose: fitted.pose * frame,
+                geometry,
+                material,
+                place: geom.place,
+            });
+        }
+        Ok(shapes)
+    }
+
+    fn geometry(
+        &mut self,
+        geom: &Geom<'d>,
+        fitted: &Fitted,
+    ) -> Fallible<Option<(Geometry, Isometry3<f64>)>> {
+        let [a, b, c] = fitted.size;
+        let (geometry, feature) = match geom.kind {
+            Kind::Plane | Kind::HeightField => {
+                self.tally.count(features::SURFACES);
+                return Ok(None);
+            }
+            Kind::Sphere => (Geometry::Sphere(a), features::BOXES),
+            Kind::Capsule => (Geometry::Capsule { radius: a, length: 2.0 * b }, features::CAPSULES),
+            Kind::Ellipsoid => (Geometry::Ellipsoid([a, b, c]), features::ELLIPSOIDS),
+            Kind::Cylinder => (Geometry::Cylinder { radius: a, length: 2.0 * b }, features::BOXES),
+            Kind::Box => (Geometry::Box([2.0 * a, 2.0 * b, 2.0 * c]), features::BOXES),
+            Kind::Mesh | Kind::DistanceField => {
+                let mesh = geom.mesh.unwrap_or_default();
+                self.tally.count(features::MESHES);
+                let shape = self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
+                return shape.map(Some);
+            }
+        };
+        self.tally.count(feature);
+        Ok(Some((geometry, Isometry3::identity())))
+    }
+
+    /// The sites and cameras, as bodies without mass.
+    fn frames(&mut self, made: &mut Made, mut names: Names) {
+        let (bodies, robot) = (self.bodies, self.robot);
+        for raw_index in robot.bodies.iter().filter(|index| **index != WORLD || robot.has_world) {
+            let parent = made.index.get(raw_index).copied();
+            for frame in &bodies.all[*raw_index].frames {
+                self.tally.count(features::FRAMES);
+                let wanted = frame.name.clone().unwrap_or_else(|| {
+                    let body = parent.map_or("", |parent| &made.bodies[parent].name);
+                    format!("{body}_{}", frame.kind)
+                });
+                let is_free = names.take(&wanted);
+                let name = match is_free {
+                    true => wanted,
+                    false => names.free(&format!("{wanted}_{}", frame.kind)),
+                };
+                made.bodies.push(Body {
+                    name,
+                    parent,
+                    pose: frame.pose,
+                    joints: Vec::new(),
+                    fixed_by: None,
+                    inertial: None,
+                    shapes: Vec::new(),
+                    is_frame: true,
+                    place: frame.place,
+                });
+            }
+        }
+    }
+}
