@@ -28,7 +28,7 @@ pub(crate) const ABOUT: About = About {
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = urdfdom::parse(file, effects)?;
-    let model = urdfdom::model(&tree, Release::Six, effects)?;
+    let model = urdfdom::model(tree, Release::Six, effects)?;
     let mut reader = Reader { file, effects };
     let is_reached = reader.model(&model)?;
     effects.parsed(rapidxml::check(file.bytes))?;

@@ -110,7 +110,7 @@ impl Program {
         // What a reader refuses is among the effects.
         let _ = (self.about().read)(file, &mut effects);
         if effects.loads() {
-            unknown::find(file.bytes, self.about(), &mut effects);
+            unknown::find(file, self.about(), &mut effects);
         }
         effects
     }

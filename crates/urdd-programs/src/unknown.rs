@@ -6,7 +6,8 @@ use std::collections::HashSet;
 use crate::about::{About, Names};
 use crate::effect::Effects;
 use crate::fault::{Fault, shortened};
-use crate::tinyxml;
+use crate::file::File;
+use crate::tinyxml::MOST_DEPTH;
 use crate::tree::Node;
 
 /// An element of URDF.
@@ -103,9 +104,6 @@ const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newt
 /// Names of attributes that say little of where they belong.
 const COMMON: &[&str] = &["name", "type", "value", "link", "joint", "size", "length", "scale"];
 
-/// More elements in each other than URDF ever has.
-const MAX_DEPTH: usize = 1000;
-
 const fn known(
     name: &'static str,
     parents: &'static [&'static str],
@@ -115,8 +113,8 @@ const fn known(
 }
 
 /// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(bytes: &[u8], reads: &About, effects: &mut Effects) {
-    let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
+pub(crate) fn find(file: &File, reads: &About, effects: &mut Effects) {
+    let Ok(tree) = file.document.within(MOST_DEPTH) else { return };
     let mut finder = Finder { reads, effects };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
     if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {

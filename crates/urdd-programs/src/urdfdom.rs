@@ -89,7 +89,7 @@ pub(crate) struct Model<'t> {
 
 pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = parse(file, effects)?;
-    model(&tree, Release::Six, effects).map(|_| ())
+    model(tree, Release::Six, effects).map(|_| ())
 }
 
 /// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
@@ -100,12 +100,12 @@ pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
 
 pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = parse(file, effects)?;
-    model(&tree, Release::Four, effects).map(|_| ())
+    model(tree, Release::Four, effects).map(|_| ())
 }
 
 /// The XML.
-pub(crate) fn parse<'a>(file: &File<'a>, effects: &mut Effects) -> Reading<Tree<'a>> {
-    effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))
+pub(crate) fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
+    effects.parsed(file.document.within(tinyxml::MAX_DEPTH))
 }
 
 /// The robot.

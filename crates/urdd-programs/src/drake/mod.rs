@@ -41,8 +41,8 @@ pub(crate) const ABOUT: About = About {
 const WORLD: &str = "world";
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
-    let robot = effects.robot(&tree)?;
+    let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
+    let robot = effects.robot(tree)?;
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.named(robot, "robot")?;
     for material in robot.named("material") {

@@ -89,7 +89,7 @@ pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
 }
 
 fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
-    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
+    let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let root = tree.tops().next();
     let is_mjcf = |root: &Node<'_>| root.name().eq_ignore_ascii_case("mujoco");
     if root.as_ref().is_some_and(|root| is_mjcf(root) && root.child("link").is_none()) {
