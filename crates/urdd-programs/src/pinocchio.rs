@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{FORMAT, Fault};
 use crate::file::File;
@@ -11,6 +11,7 @@ use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 use crate::urdfdom::{self, Joint, Link, Model, Release};
 
 /// Pinocchio.

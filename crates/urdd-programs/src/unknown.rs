@@ -3,11 +3,9 @@
 
 use std::collections::HashSet;
 
-use crate::about::{About, Names};
-use crate::effect::Effects;
+use crate::effect::{At, Effects};
 use crate::fault::{Fault, shortened};
-use crate::file::File;
-use crate::tinyxml::MOST_DEPTH;
+use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
 
 /// An element of URDF.
@@ -112,10 +110,39 @@ const fn known(
     Known { name, parents, attributes }
 }
 
-/// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(file: &File, reads: &About, effects: &mut Effects) {
-    let Ok(tree) = file.document.within(MOST_DEPTH) else { return };
-    let mut finder = Finder { reads, effects };
+/// Which names a program takes for those of elements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Names {
+    /// As they are written.
+    Exact,
+    /// As they are written, in the namespace that an `xmlns` gives them.
+    Expanded,
+    /// In any letter case.
+    AnyCase,
+}
+
+/// Something that a program ignores if it would read what is meant.
+pub(crate) struct Found {
+    at: usize,
+    part: String,
+    fault: Fault,
+    /// The elements that it is in, and what is meant. A program that never reads one of these loses nothing.
+    meant: Vec<&'static str>,
+}
+
+impl Found {
+    /// Adds it to what a program does that never reads some elements and attributes.
+    pub fn add(&self, never: &[&str], effects: &mut Effects) {
+        if !self.meant.iter().any(|one| never.contains(one)) {
+            effects.drop(self.at, &*self.part, self.fault.clone());
+        }
+    }
+}
+
+/// What programs ignore that take such names for those of elements.
+pub(crate) fn find(document: &Document, names: Names) -> Vec<Found> {
+    let Ok(tree) = document.within(MOST_DEPTH) else { return Vec::new() };
+    let mut finder = Finder { names, inside: Vec::new(), found: Vec::new() };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
     if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
         let place = Place { part: "robot".into(), owner: "robot".into() };
@@ -123,8 +150,9 @@ pub(crate) fn find(file: &File, reads: &About, effects: &mut Effects) {
         finder.children(robot, known, &place);
     }
     if let Some(second) = robots.next() {
-        finder.effects.drop(second, "robot/?", Fault::Repeated("robot".into()));
+        finder.drop(second, "robot/?".into(), Fault::Repeated("robot".into()), &[]);
     }
+    finder.found
 }
 
 /// Where an element stands.
@@ -135,12 +163,14 @@ struct Place {
     owner: String,
 }
 
-struct Finder<'r> {
-    reads: &'r About,
-    effects: &'r mut Effects,
+struct Finder {
+    names: Names,
+    /// The elements that are open, but for the robot.
+    inside: Vec<&'static str>,
+    found: Vec<Found>,
 }
 
-impl Finder<'_> {
+impl Finder {
     /// What is in an element. Goes as deep as URDF does.
     fn children(&mut self, node: Node<'_>, known: &Known, place: &Place) {
         let (mut visuals, mut collisions) = (0, 0);
@@ -163,28 +193,27 @@ impl Finder<'_> {
             let part =
                 part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
             *count += 1;
-            if self.reads.never.contains(&kind.name) {
-                continue;
-            }
+            self.inside.push(kind.name);
             let has_namespace = child.value("xmlns").is_some_and(|name| !name.is_empty());
-            if has_namespace && self.reads.names == Names::Expanded {
+            if has_namespace && self.names == Names::Expanded {
                 let fault = Fault::Other("`xmlns` puts the element where URDF has none");
-                self.effects.drop(child, part, fault);
-                continue;
+                self.drop(child, part, fault, &[]);
+            } else {
+                let owner = if known.name == "robot" { &part } else { &place.owner };
+                let inside = Place { owner: owner.clone(), part };
+                self.attributes(child, kind, &inside.part);
+                self.children(child, kind, &inside);
+                if known.name == "robot" {
+                    here = inside;
+                }
             }
-            let owner = if known.name == "robot" { &part } else { &place.owner };
-            let inside = Place { owner: owner.clone(), part };
-            self.attributes(child, kind, &inside.part);
-            self.children(child, kind, &inside);
-            if known.name == "robot" {
-                here = inside;
-            }
+            self.inside.pop();
         }
     }
 
     /// The name that a program takes a name for.
     fn read_as(&self, name: &str) -> String {
-        match self.reads.names {
+        match self.names {
             Names::Exact | Names::Expanded => name.to_owned(),
             Names::AnyCase => name.to_lowercase(),
         }
@@ -247,13 +276,10 @@ impl Finder<'_> {
         let text = node.text().unwrap_or_default();
         let is_number = |word: &str| word.parse::<f64>().is_ok();
         let is_value = !text.trim().is_empty() && text.split_whitespace().all(is_number);
-        if is_value
-            && !missing.is_empty()
-            && !missing.iter().any(|one| self.reads.never.contains(one))
-        {
+        if is_value && !missing.is_empty() {
             let fault =
                 Fault::Other("numbers are inside of the element, and not in its attributes");
-            self.effects.drop(node, format!("{part}/?"), fault);
+            self.drop(node, format!("{part}/?"), fault, &missing);
         }
         for attribute in node.attributes() {
             let name = &*attribute.name;
@@ -274,19 +300,21 @@ impl Finder<'_> {
                 near.find_map(|one| one.attributes.iter().copied().find(|one| *one == name))
             };
             let other = || other().filter(|name| !COMMON.contains(name));
-            let like = own.or_else(other).filter(|like| !self.reads.never.contains(like));
-            if let Some(like) = like {
+            if let Some(like) = own.or_else(other) {
                 let fault = Fault::UnknownAttribute { name: shortened(name), like };
-                self.effects.drop(attribute, format!("{part}/?"), fault);
+                self.drop(attribute, format!("{part}/?"), fault, &[like]);
             }
         }
     }
 
     fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
-        if !self.reads.never.contains(&like) {
-            let fault = Fault::UnknownElement { name: shortened(name), like };
-            self.effects.drop(node, format!("{part}/?"), fault);
-        }
+        let fault = Fault::UnknownElement { name: shortened(name), like };
+        self.drop(node, format!("{part}/?"), fault, &[like]);
+    }
+
+    fn drop(&mut self, at: impl At, part: String, fault: Fault, meant: &[&'static str]) {
+        let meant = [&self.inside, meant].concat();
+        self.found.push(Found { at: at.at(), part, fault, meant });
     }
 }
 

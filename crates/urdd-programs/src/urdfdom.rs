@@ -5,13 +5,15 @@ mod joints;
 mod links;
 mod values;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
+use crate::look::Look;
 use crate::tree::{Node, Tree};
+use crate::unknown::Names;
 use crate::{tinyxml, tinyxml1};
 
 /// ROS lyrical and rolling.
@@ -126,7 +128,7 @@ pub(crate) fn model<'t>(
             _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
         },
     };
-    let mut reader = Reader { release, minor, effects, materials: HashSet::new() };
+    let mut reader = Reader { release, minor, effects, materials: HashMap::new() };
     reader.materials(robot)?;
     let links = reader.links(robot)?;
     let joints = reader.joints(robot)?;
@@ -171,8 +173,8 @@ struct Reader<'r> {
     /// The version of URDF is 1 and this.
     minor: u32,
     effects: &'r mut Effects,
-    /// Materials that are known.
-    materials: HashSet<String>,
+    /// Materials that are known: the first of each name.
+    materials: HashMap<String, Option<Look>>,
 }
 
 impl Reader<'_> {

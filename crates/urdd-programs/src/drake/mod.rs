@@ -8,13 +8,14 @@ mod shapes;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{is_space, istream};
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 
 /// Drake.
 pub(crate) const ABOUT: About = About {

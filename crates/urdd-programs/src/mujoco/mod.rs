@@ -11,12 +11,13 @@ mod value;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::tinyxml;
 use crate::tree::Node;
+use crate::unknown::Names;
 use inertia::{Body, Pose};
 use joint::Joint;
 use reader::{LEAST, Reader, Release, Settings};

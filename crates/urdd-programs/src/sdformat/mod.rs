@@ -11,13 +11,14 @@ mod xml;
 use self::gazebo::{Extensions, stod};
 use self::tree::{Body, Joint, Tree};
 use self::values::{number, vector};
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::number::pieces;
 use crate::tinyxml;
 use crate::tree::Node;
+use crate::unknown::Names;
 use crate::urdfdom::{self, Model, Release};
 
 /// Gazebo.

@@ -5,14 +5,16 @@ mod mesh;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names as ElementNames};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
+use crate::look::Look;
 use crate::mesh::Mesh;
 use crate::number::parse_float;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names as ElementNames;
 
 /// three.js.
 pub(crate) const ABOUT: About = About {
@@ -43,7 +45,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = Text::utf8(file.bytes);
     let tree = effects.parsed(text.parse(Names::Written))?;
     let robot = effects.robot(&tree)?;
-    let mut reader = Reader { file, effects, materials: HashSet::new(), whites: HashSet::new() };
+    let mut reader = Reader { file, effects, materials: HashMap::new(), whites: HashSet::new() };
     reader.robot(robot)
 }
 
@@ -58,8 +60,8 @@ fn name_of<'t>(node: Node<'t>) -> &'t str {
 struct Reader<'r, 't> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
-    /// The names of the robot's materials.
-    materials: HashSet<&'t str>,
+    /// The robot's materials, the last of each name.
+    materials: HashMap<&'t str, Option<Look>>,
     /// The materials that a visual defines as white.
     whites: HashSet<&'t str>,
 }
@@ -74,7 +76,7 @@ impl<'t> Reader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
         for material in named(robot, "material") {
             self.material(material, &format!("material/{}", name_of(material)))?;
-            self.materials.insert(name_of(material));
+            self.materials.insert(name_of(material), Look::of(material));
         }
         let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
         let is_white = |material: &Node<'t>| {
@@ -238,7 +240,9 @@ impl<'t> Reader<'_, 't> {
         if let Some(material) = named(visual, "material").next() {
             let name = material.value("name").unwrap_or_default();
             let part = format!("{part}/material");
-            if name.is_empty() || !self.materials.contains(name) {
+            if let Some(read) = self.materials.get(name).filter(|_| !name.is_empty()) {
+                Look::compare(read.as_ref(), material, &part, self.effects);
+            } else {
                 self.material(material, &part)?;
                 if material.children().next().is_none() && !self.whites.contains(name) {
                     let fault = Fault::unknown("material directly in `<robot>`", name);
