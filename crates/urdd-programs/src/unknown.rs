@@ -1,62 +1,14 @@
 //! Elements and attributes that look like those of URDF, and that programs ignore: `<Visual>`, `x:origin`, `efort="3"`,
 //! `<inertial>` below `<robot>`. What resembles nothing is an extension, and is not judged.
 
+use std::cell::LazyCell;
 use std::collections::HashSet;
 
 use crate::effect::{At, Effects};
 use crate::fault::{Fault, shortened};
 use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
-
-/// An element of URDF.
-struct Known {
-    name: &'static str,
-    /// What it stands in.
-    parents: &'static [&'static str],
-    attributes: &'static [&'static str],
-}
-
-const GEOMETRY: &[&str] = &["geometry"];
-const JOINT: &[&str] = &["joint"];
-const INERTIAL: &[&str] = &["inertial"];
-const SHOWN: &[&str] = &["visual", "collision"];
-
-const KNOWN: &[Known] = &[
-    known("robot", &[], &["name", "version"]),
-    known("link", &["robot"], &["name", "type"]),
-    known("joint", &["robot"], &["name", "type"]),
-    known("material", &["robot", "visual"], &["name"]),
-    known("color", &["material"], &["rgba"]),
-    known("texture", &["material"], &["filename"]),
-    known("inertial", &["link"], &[]),
-    known("visual", &["link"], &[]),
-    known("collision", &["link"], &[]),
-    known("origin", &["inertial", "visual", "collision", "joint"], &["xyz", "rpy", "quat_xyzw"]),
-    known("mass", INERTIAL, &["value"]),
-    known("inertia", INERTIAL, &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
-    known("geometry", SHOWN, &[]),
-    known("box", GEOMETRY, &["size"]),
-    known("sphere", GEOMETRY, &["radius"]),
-    known("cylinder", GEOMETRY, &["radius", "length"]),
-    known("capsule", GEOMETRY, &["radius", "length"]),
-    known("mesh", GEOMETRY, &["filename", "scale"]),
-    known("parent", JOINT, &["link"]),
-    known("child", JOINT, &["link"]),
-    known("axis", JOINT, &["xyz"]),
-    known(
-        "limit",
-        JOINT,
-        &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
-    ),
-    known("dynamics", JOINT, &["damping", "friction"]),
-    known("mimic", JOINT, &["joint", "multiplier", "offset"]),
-    known("calibration", JOINT, &["reference_position", "rising", "falling"]),
-    known(
-        "safety_controller",
-        JOINT,
-        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
-    ),
-];
+use urdd_xml::vocabulary::{KNOWN, Known, of};
 
 /// Elements of programs and tools, with all that is in them; some stand where URDF has other elements, or look like them.
 const EXTENSIONS: &[&str] = &[
@@ -102,14 +54,6 @@ const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newt
 /// Names of attributes that say little of where they belong.
 const COMMON: &[&str] = &["name", "type", "value", "link", "joint", "size", "length", "scale"];
 
-const fn known(
-    name: &'static str,
-    parents: &'static [&'static str],
-    attributes: &'static [&'static str],
-) -> Known {
-    Known { name, parents, attributes }
-}
-
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Names {
@@ -144,7 +88,7 @@ pub(crate) fn find(document: &Document, names: Names) -> Vec<Found> {
     let Ok(tree) = document.within(MOST_DEPTH) else { return Vec::new() };
     let mut finder = Finder { names, inside: Vec::new(), found: Vec::new() };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
-    if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
+    if let (Some(robot), Some(known)) = (robots.next(), of("robot")) {
         let place = Place { part: "robot".into(), owner: "robot".into() };
         finder.attributes(robot, known, &place.part);
         finder.children(robot, known, &place);
@@ -154,6 +98,9 @@ pub(crate) fn find(document: &Document, names: Names) -> Vec<Found> {
     }
     finder.found
 }
+
+/// The known elements in an element, found when they are asked for.
+type Beside<'t> = LazyCell<HashSet<&'static str>, Box<dyn FnOnce() -> HashSet<&'static str> + 't>>;
 
 /// Where an element stands.
 #[derive(Clone)]
@@ -176,12 +123,20 @@ impl Finder {
         let (mut visuals, mut collisions) = (0, 0);
         // What stands between links is of the one before, most likely.
         let mut here = place.clone();
-        let kinds = node.children().filter_map(|child| of_name(child.name()));
-        let inside: HashSet<&str> = kinds.map(|kind| kind.name).collect();
+        let inside: Beside = LazyCell::new(Box::new(move || {
+            let kinds = node.children().filter_map(|child| of(child.name()));
+            kinds.map(|kind| kind.name).collect()
+        }));
         for child in node.children() {
-            let name = self.read_as(child.name());
-            let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
-            else {
+            let lower;
+            let name = match self.names {
+                Names::Exact | Names::Expanded => child.name(),
+                Names::AnyCase => {
+                    lower = child.name().to_lowercase();
+                    &lower
+                }
+            };
+            let Some(kind) = of(name).filter(|child| known.children.contains(&child.name)) else {
                 self.unknown((node, &inside), child, known, &here);
                 continue;
             };
@@ -211,18 +166,10 @@ impl Finder {
         }
     }
 
-    /// The name that a program takes a name for.
-    fn read_as(&self, name: &str) -> String {
-        match self.names {
-            Names::Exact | Names::Expanded => name.to_owned(),
-            Names::AnyCase => name.to_lowercase(),
-        }
-    }
-
     /// An element that does not stand in its parent.
     fn unknown(
         &mut self,
-        (parent, inside): (Node<'_>, &HashSet<&str>),
+        (parent, inside): (Node<'_>, &Beside<'_>),
         node: Node<'_>,
         known: &Known,
         place: &Place,
@@ -233,7 +180,7 @@ impl Finder {
         }
         if let Some(like) = meant_element(inside, name, known) {
             self.add(node, &part_meant(node, like, known, place), name, like);
-        } else if let Some(other) = of_name(name) {
+        } else if let Some(other) = of(name) {
             let is_default =
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
             if !is_default && (other.name, known.name) != ("material", "collision") {
@@ -253,9 +200,9 @@ impl Finder {
     }
 
     /// Elements that would be read outside of an unknown element.
-    fn wrapped(&mut self, beside: &HashSet<&str>, wrapper: Node<'_>, known: &Known, place: &Place) {
+    fn wrapped(&mut self, beside: &Beside<'_>, wrapper: Node<'_>, known: &Known, place: &Place) {
         for inner in wrapper.children() {
-            let Some(kind) = of_name(inner.name()) else { continue };
+            let Some(kind) = of(inner.name()) else { continue };
             let is_whole = match kind.name {
                 "link" => ["inertial", "visual", "collision"]
                     .iter()
@@ -264,14 +211,16 @@ impl Finder {
                 "material" => inner.attribute("name").is_some(),
                 _ => true,
             };
-            if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
+            if is_whole && known.children.contains(&kind.name) && would_be_read(beside, kind) {
                 self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
             }
         }
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
-        let free = |one: &&str| node.attribute(one).is_none();
+        // Names of shapes are read by few programs, for nothing that is seen.
+        let is_shape = matches!(known.name, "visual" | "collision");
+        let free = |one: &&str| node.attribute(one).is_none() && !(is_shape && *one == "name");
         let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
         let text = node.text().unwrap_or_default();
         let is_number = |word: &str| word.parse::<f64>().is_ok();
@@ -283,17 +232,21 @@ impl Finder {
         }
         for attribute in node.attributes() {
             let name = &*attribute.name;
-            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let has = |all: &[&str]| all.contains(&name);
+            if has(known.attributes) || has(known.other_attributes) || name.starts_with("xml") {
+                continue;
+            }
             let is_default =
                 is_zero(&attribute.value) && matches!(known.name, "origin" | "axis" | "inertia");
-            if is_other || is_default || known.attributes.contains(&name) {
+            if has_prefix(name) || is_default {
                 continue;
             }
             let own = missing.iter().copied().find(|one| is_like(name, one));
             // The attribute of an element beside or inside.
             let is_near = |one: &Known| {
-                one.parents.contains(&known.name)
-                    || one.parents.iter().any(|parent| known.parents.contains(parent))
+                let has = |parent: &Known| parent.children.contains(&one.name);
+                let is_beside = |parent: &Known| parent.children.contains(&known.name);
+                has(known) || KNOWN.iter().any(|parent| has(parent) && is_beside(parent))
             };
             let other = || {
                 let mut near = KNOWN.iter().filter(|one| is_near(one));
@@ -342,15 +295,15 @@ fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
 }
 
 /// The element that is meant by a name that is not one, if it would be read.
-fn meant_element(beside: &HashSet<&str>, name: &str, known: &Known) -> Option<&'static str> {
-    let mut children = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+fn meant_element(beside: &Beside<'_>, name: &str, known: &Known) -> Option<&'static str> {
+    let mut children = known.children.iter().filter_map(|one| of(one));
     let one = children.find(|one| is_like(name, one.name))?;
     would_be_read(beside, one).then_some(one.name)
 }
 
 /// The attribute that is written as an element: `<value>3</value>`.
 fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
-    let inside = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+    let inside = known.children.iter().filter_map(|one| of(one));
     let own = known.attributes.iter().copied();
     let inside = inside.flat_map(|one| one.attributes.iter().copied());
     let found = own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)?;
@@ -358,18 +311,14 @@ fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'stat
 }
 
 /// Whether another element of a kind is read where there may be one already.
-fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
-    let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
-    is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+fn would_be_read(beside: &Beside<'_>, kind: &Known) -> bool {
+    let is_often = ["link", "joint", "material", "visual", "collision"].contains(&kind.name);
+    is_often || !beside.contains(kind.name)
 }
 
 /// Whether a value is that of an origin which is not written.
 fn is_zero(value: &str) -> bool {
     value.split_whitespace().all(|word| word.parse() == Ok(0.0))
-}
-
-fn of_name(name: &str) -> Option<&'static Known> {
-    KNOWN.iter().find(|one| one.name == name)
 }
 
 fn without_prefix(name: &str) -> &str {

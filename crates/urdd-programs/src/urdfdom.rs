@@ -128,7 +128,7 @@ pub(crate) fn model<'t>(
             _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
         },
     };
-    let mut reader = Reader { release, minor, effects, materials: HashMap::new() };
+    let mut reader = Reader { minor, effects, materials: HashMap::new() };
     reader.materials(robot)?;
     let links = reader.links(robot)?;
     let joints = reader.joints(robot)?;
@@ -169,7 +169,6 @@ fn version(text: &str) -> Option<(u32, u32)> {
 }
 
 struct Reader<'r> {
-    release: Release,
     /// The version of URDF is 1 and this.
     minor: u32,
     effects: &'r mut Effects,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::values::{Part, needed, needed_element, number, vector};
-use super::{Link, NO_COLOR, Reader, Release};
+use super::{Link, NO_COLOR, Reader};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::look::Look;
@@ -155,13 +155,7 @@ impl Reader<'_> {
         let sizes: &[&'static str] = match form.name() {
             "sphere" => &["radius"],
             "cylinder" => &["length", "radius"],
-            "capsule" if self.release == Release::Six => {
-                if self.minor == 0 {
-                    let why = "`<capsule>` needs URDF 1.1: write `version=\"1.1\"` on `<robot>`";
-                    return Err((form.start(), Fault::Other(why)));
-                }
-                &["length", "radius"]
-            }
+            "capsule" if self.minor > 0 => &["length", "radius"],
             "box" => {
                 let size = needed(form, "size")?;
                 let sizes = vector(size, 3)?;
