@@ -8,8 +8,19 @@ use super::reading::{list, number_of, numbers, word};
 
 /// The elements of actuators.
 pub const TAGS: [&str; 13] = [
-    "general", "motor", "position", "velocity", "intvelocity", "orientation", "pid", "damper",
-    "cylinder", "muscle", "adhesion", "dcmotor", "plugin",
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "orientation",
+    "pid",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+    "dcmotor",
+    "plugin",
 ];
 
 /// What an actuator's force is made of.
@@ -114,9 +125,8 @@ impl Actuator {
     fn general(&mut self, element: &Element) -> Fallible<()> {
         let gains = ["fixed", "affine", "muscle", "dcmotor", "so3", "pid", "user"];
         let biases = ["none", "affine", "muscle", "dcmotor", "so3", "user"];
-        let states = [
-            "none", "integrator", "filter", "filterexact", "muscle", "dcmotor", "pid", "user",
-        ];
+        let states =
+            ["none", "integrator", "filter", "filterexact", "muscle", "dcmotor", "pid", "user"];
         let gain = word(element, "gaintype", &gains, "a type of gain")?;
         let bias = word(element, "biastype", &biases, "a type of bias")?;
         if let Some(state) = word(element, "dyntype", &states, "a type of dynamics")? {

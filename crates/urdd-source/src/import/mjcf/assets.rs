@@ -20,7 +20,13 @@ pub enum Folder {
 }
 
 /// The places in which a file may be: below the folder of the description, or of the file that names it.
-fn places(file: &str, compiler: &Compiler, folder: Folder, base: &Path, own: &Path) -> Vec<PathBuf> {
+fn places(
+    file: &str,
+    compiler: &Compiler,
+    folder: Folder,
+    base: &Path,
+    own: &Path,
+) -> Vec<PathBuf> {
     let file = match compiler.strips_paths {
         true => file.rsplit(['/', '\\']).next().unwrap_or(file),
         false => file,

@@ -68,7 +68,8 @@ pub fn bodies<'d>(
     let suffix = String::new();
     for section in root.all("worldbody") {
         builder.bodies.all[WORLD].place = section.place;
-        let scope = Scope { body: WORLD, frame: Isometry3::identity(), class: MAIN, suffix: &suffix };
+        let scope =
+            Scope { body: WORLD, frame: Isometry3::identity(), class: MAIN, suffix: &suffix };
         builder.children(section, scope)?;
     }
     Ok(builder.bodies)
@@ -174,10 +175,10 @@ impl<'d> Builder<'d, '_> {
         let kinds: Vec<joint::Kind> = joints.iter().map(|joint| joint.kind).collect();
         let is_free = kinds.contains(&joint::Kind::Free);
         let ball = kinds.iter().position(|kind| *kind == joint::Kind::Ball);
-        let turns_after = ball.is_some_and(|ball| {
-            kinds[ball + 1..].iter().any(|kind| *kind != joint::Kind::Slide)
-        });
-        let freedoms: usize = kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == joint::Kind::Ball)).sum();
+        let turns_after = ball
+            .is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != joint::Kind::Slide));
+        let freedoms: usize =
+            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == joint::Kind::Ball)).sum();
         if is_free && (kinds.len() > 1 || *parent != Some(WORLD)) || turns_after || freedoms > 6 {
             return Err(at(*place, MjcfFault::Joints));
         }

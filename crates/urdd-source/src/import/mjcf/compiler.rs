@@ -71,7 +71,8 @@ impl Compiler {
         if coordinate == Some(1) {
             return Err(at(element.place, MjcfFault::GlobalCoordinates));
         }
-        if let Some(which) = word(element, "angle", &["radian", "degree"], "`radian` or `degree`")? {
+        if let Some(which) = word(element, "angle", &["radian", "degree"], "`radian` or `degree`")?
+        {
             self.angle = if which == 0 { 1.0 } else { 1.0_f64.to_radians() };
         }
         if let Some(text) = element.get("eulerseq") {

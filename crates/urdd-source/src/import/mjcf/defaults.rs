@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::super::model::Place;
 use super::document::Element;
 use super::fault::{Fallible, MjcfFault, at};
-use super::super::model::Place;
 
 /// The class that all others are in.
 pub const MAIN: usize = 0;
@@ -53,7 +53,8 @@ impl<'d> Defaults<'d> {
             }
             self.classes[class].elements.entry(&element.tag).or_default().push(element);
         }
-        let counts = self.classes[class].elements.iter().map(|(tag, of)| (*tag, of.len())).collect();
+        let counts =
+            self.classes[class].elements.iter().map(|(tag, of)| (*tag, of.len())).collect();
         let number = self.classes[class].sections.len();
         self.classes[class].sections.push(counts);
         for nested in section.all("default") {
@@ -82,7 +83,11 @@ impl<'d> Defaults<'d> {
     }
 
     /// What a class and those around it say of a tag, the innermost first.
-    pub fn chain<'s>(&'s self, class: usize, tag: &'s str) -> impl Iterator<Item = &'d Element> + 's {
+    pub fn chain<'s>(
+        &'s self,
+        class: usize,
+        tag: &'s str,
+    ) -> impl Iterator<Item = &'d Element> + 's {
         self.levels(class).flat_map(move |level| level.of(tag).iter().rev().copied())
     }
 
@@ -101,7 +106,8 @@ impl<'d> Defaults<'d> {
 
     /// A class and those around it, the innermost first.
     fn levels(&self, class: usize) -> impl Iterator<Item = Level<'_, 'd>> {
-        let level = |class: usize, section| Some(Level { class: self.classes.get(class)?, section });
+        let level =
+            |class: usize, section| Some(Level { class: self.classes.get(class)?, section });
         std::iter::successors(level(class, None), move |inner| {
             let (around, section) = inner.class.around?;
             level(around, Some(section))

@@ -5,14 +5,11 @@ use std::collections::HashMap;
 use super::super::features::{self, Tally};
 use super::super::model::JointKind;
 use super::actuator::{Actuator, Law, TAGS};
-use super::body::RawBody;
 use super::compiler::Compiler;
 use super::defaults::{Defaults, MAIN};
 use super::document::Element;
 use super::fault::Fallible;
-use super::joint::RawJoint;
 use super::lookup::Lookup;
-use super::reflected::Reflected;
 use super::made::Made;
 
 /// What the actuators of one joint give together.
@@ -30,12 +27,11 @@ pub fn drive<'d>(
     root: &'d Element,
     defaults: &'d Defaults<'d>,
     compiler: &Compiler,
-    all: &[RawBody<'_>],
     lookup: &Lookup<'_>,
     made: &mut Made,
     tally: &mut Tally,
 ) -> Fallible<()> {
-    let mut driven: Vec<(&Element, Actuator, (usize, usize), &RawJoint)> = Vec::new();
+    let mut driven: Vec<(&Element, Actuator, (usize, usize))> = Vec::new();
     for element in root.sections("actuator") {
         let class = match element.text("class") {
             Some(class) => defaults.class(class, element.place)?,
@@ -54,10 +50,10 @@ pub fn drive<'d>(
                 tally.count(features::OTHER_ACTUATORS);
                 continue;
             }
-            driven.push((element, actuator.clone(), at, &all[joint.0].joints[joint.1]));
+            driven.push((element, actuator.clone(), at));
         }
     }
-    for (_, actuator, (body, joint), _) in &driven {
+    for (_, actuator, (body, joint)) in &driven {
         let joint = &mut made.bodies[*body].joints[*joint];
         joint.damping += actuator.gear.powi(2) * actuator.joint_damping;
         let armature = actuator.gear.powi(2) * actuator.armature;
@@ -65,16 +61,14 @@ pub fn drive<'d>(
             joint.armature = Some(joint.armature.unwrap_or(0.0) + armature);
         }
     }
-    let needs_ratio = driven.iter().any(|(_, actuator, ..)| actuator.damping < 0.0);
-    let reflected = needs_ratio.then(|| Reflected::of(&made.bodies));
     let mut given: HashMap<(usize, usize), Given> = HashMap::new();
-    for (element, actuator, at, _) in &driven {
+    for (element, actuator, at) in &driven {
         let [effort, velocity] =
             [actuator.effort(element, compiler)?, actuator.velocity(element, compiler)?];
-        let gains = gains(actuator, || {
-            let joint = &made.bodies[at.0].joints[at.1];
-            reflected.as_ref().map_or(0.0, |of| of.inertia(at.0, joint))
-        });
+        let gains = gains(actuator);
+        if actuator.damping < 0.0 {
+            tally.unread("ratios of damping (dampratio) of actuators");
+        }
         match actuator.law {
             Law::Other => tally.count(features::OTHER_ACTUATORS),
             Law::Gain => tally.count(features::MOTORS),
@@ -83,11 +77,8 @@ pub fn drive<'d>(
         if actuator.has_state {
             tally.unread("filters and integrators of actuators");
         }
-        let entry = given.entry(*at).or_insert(Given {
-            effort: Some(0.0),
-            velocity: None,
-            gains: None,
-        });
+        let entry =
+            given.entry(*at).or_insert(Given { effort: Some(0.0), velocity: None, gains: None });
         entry.effort = entry.effort.zip(effort).map(|(a, b)| a + b);
         entry.velocity = match (entry.velocity, velocity) {
             (Some(a), Some(b)) => Some(a.max(b)),
@@ -113,16 +104,8 @@ pub fn drive<'d>(
 }
 
 /// Stiffness and damping at the joint, if the actuator is a servo.
-fn gains(actuator: &Actuator, reflected: impl Fn() -> f64) -> Option<[f64; 2]> {
-    if actuator.law != Law::Servo {
-        return None;
-    }
+fn gains(actuator: &Actuator) -> Option<[f64; 2]> {
     let square = actuator.gear.powi(2);
-    let mut damping = actuator.damping;
-    let is_position = actuator.gain.to_bits() == actuator.stiffness.to_bits();
-    if damping < 0.0 && is_position && square > 0.0 {
-        // A ratio of the critical damping.
-        damping = -damping * 2.0 * (actuator.stiffness.max(0.0) * reflected() / square).sqrt();
-    }
-    Some([actuator.stiffness * square, damping * square])
+    let gains = [actuator.stiffness * square, actuator.damping.max(0.0) * square];
+    (actuator.law == Law::Servo).then_some(gains)
 }

@@ -8,8 +8,8 @@ use super::document::Element;
 use super::fault::Fallible;
 use super::joint::Kind;
 use super::lookup::Lookup;
-use super::reading::{View, flag};
 use super::made::Made;
+use super::reading::{View, flag};
 
 /// Joints that follow one another; a longer chain is left out.
 const LONGEST: usize = 1000;
@@ -35,11 +35,13 @@ pub fn equalities<'d>(
             "joint" if is_active => couple(view, all, lookup, made, tally)?,
             "joint" => {
                 tally.count(features::COUPLINGS);
-                tally.remark(element.place, "the equality is not active, so its joint moves freely");
+                tally
+                    .remark(element.place, "the equality is not active, so its joint moves freely");
             }
             "connect" | "weld" | "distance" => {
                 tally.count(features::CLOSED);
-                let text = format!("the {} `{name}` closes a chain, which a URDF cannot say", element.tag);
+                let text =
+                    format!("the {} `{name}` closes a chain, which a URDF cannot say", element.tag);
                 tally.remark(element.place, text.replace(" ``", ""));
             }
             "tendon" => tally.count(features::TENDONS),

@@ -12,11 +12,15 @@ use super::super::model::Place;
 pub enum MjcfFault {
     #[error("the model has no `<worldbody>` with a body; there is no robot in it")]
     NoBody,
-    #[error("the model has no body `{0}`; `--body` names a body of the file, or `world` for all of it")]
+    #[error(
+        "the model has no body `{0}`; `--body` names a body of the file, or `world` for all of it"
+    )]
     UnknownBody(String),
     #[error("`<include>` needs the attribute `file`, and no children")]
     Include,
-    #[error("`{0}` is already included; MuJoCo includes each file once, so remove this `<include>`")]
+    #[error(
+        "`{0}` is already included; MuJoCo includes each file once, so remove this `<include>`"
+    )]
     IncludedTwice(String),
     #[error("elements are nested more than {0} deep, with what is included; flatten the model")]
     TooDeep(usize),
@@ -30,13 +34,17 @@ pub enum MjcfFault {
     MainRenamed(String),
     #[error("the default class `{0}` is defined twice; rename one of them")]
     ClassTwice(String),
-    #[error("the default class `{0}` is not defined; define it in `<default>`, or correct its name")]
+    #[error(
+        "the default class `{0}` is not defined; define it in `<default>`, or correct its name"
+    )]
     UnknownClass(String),
     #[error(
         "`coordinate=\"global\"` is of MuJoCo 2.3.3 and older; load and save the model in MuJoCo 2.3.3 first"
     )]
     GlobalCoordinates,
-    #[error("`<{element}>` says its orientation twice; keep one of quat, axisangle, xyaxes, zaxis, euler")]
+    #[error(
+        "`<{element}>` says its orientation twice; keep one of quat, axisangle, xyaxes, zaxis, euler"
+    )]
     TwoOrientations { element: String },
     #[error("`<{element}>` needs the attribute `{attribute}`")]
     Missing { element: String, attribute: &'static str },
@@ -48,7 +56,9 @@ pub enum MjcfFault {
     Range { element: String, attribute: &'static str },
     #[error("size {0} of `<geom>` must be positive")]
     Size(usize),
-    #[error("`fromto` of `<geom>` is for capsules, cylinders, boxes and ellipsoids without a mesh, and with two points that differ")]
+    #[error(
+        "`fromto` of `<geom>` is for capsules, cylinders, boxes and ellipsoids without a mesh, and with two points that differ"
+    )]
     FromTo,
     #[error("`<geom>` names the mesh `{0}`, which `<asset>` does not define")]
     UnknownMesh(String),
@@ -62,7 +72,9 @@ pub enum MjcfFault {
     UnknownTexture(String),
     #[error("`<{0}>` cannot be in the world; put it into a `<body>`")]
     InWorld(String),
-    #[error("a body turns after a ball joint, or has more than 6 degrees of freedom, or a free joint beside others or below another body; split it into several")]
+    #[error(
+        "a body turns after a ball joint, or has more than 6 degrees of freedom, or a free joint beside others or below another body; split it into several"
+    )]
     Joints,
     #[error("two {what} are named `{name}`; rename one of them")]
     SameName { what: &'static str, name: String },
@@ -74,9 +86,13 @@ pub enum MjcfFault {
     Unbalanced(String),
     #[error("`fullinertia` has a principal moment that is not positive; MuJoCo refuses it")]
     FullInertia,
-    #[error("`<inertial>` says its inertia twice; keep `fullinertia`, or `diaginertia` with an orientation")]
+    #[error(
+        "`<inertial>` says its inertia twice; keep `fullinertia`, or `diaginertia` with an orientation"
+    )]
     TwoInertias,
-    #[error("`<{0}>` is not supported; save the compiled model (`mujoco.mj_saveLastXML`), which has its bodies written out, and import that")]
+    #[error(
+        "`<{0}>` is not supported; save the compiled model (`mujoco.mj_saveLastXML`), which has its bodies written out, and import that"
+    )]
     Unsupported(String),
     #[error("`<{element}>` names the {what} `{name}`, which the model does not have")]
     Unknown { element: String, what: &'static str, name: String },

@@ -35,15 +35,14 @@ pub fn fitted(
         false => {
             // The half lengths of the box that has these moments.
             let sum: f64 = moments.iter().sum();
-            moments.map(|moment| {
-                (1.5 * (sum - 2.0 * moment).max(0.0) / measures.volume).sqrt()
-            })
+            moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / measures.volume).sqrt())
         }
         true => {
             let placed = meshes.placed(mesh, geom.place, assets)?;
-            let points = placed.vertices.iter().map(|vertex| {
-                frame.inverse_transform_point(&Point3::from(*vertex)).coords.into()
-            });
+            let points = placed
+                .vertices
+                .iter()
+                .map(|vertex| frame.inverse_transform_point(&Point3::from(*vertex)).coords.into());
             let bounds = Bounds::of(points);
             let centre = [0, 1, 2].map(|axis| (bounds.min[axis] + bounds.max[axis]) / 2.0);
             frame *= Translation3::from(centre);

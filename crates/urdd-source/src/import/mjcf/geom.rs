@@ -84,7 +84,8 @@ impl<'d> Geom<'d> {
     ) -> Fallible<Self> {
         let place = view.element.place;
         let words = KINDS.map(|(word, _)| word);
-        let kind = view.word("type", &words, "a type of geom")?.map_or(Kind::Sphere, |k| KINDS[k].1);
+        let kind =
+            view.word("type", &words, "a type of geom")?.map_or(Kind::Sphere, |k| KINDS[k].1);
         let mesh = view.text("mesh");
         if kind.is_mesh() && mesh.is_none() {
             return Err(at(place, MjcfFault::NoMesh));

@@ -95,8 +95,7 @@ impl RawJoint {
         if kind == Kind::Ball && range.take().is_some() {
             tally.count(features::BALL_RANGES);
         }
-        let [stiffness, damping] =
-            [view.up_to::<3>("stiffness")?, view.up_to::<3>("damping")?];
+        let [stiffness, damping] = [view.up_to::<3>("stiffness")?, view.up_to::<3>("damping")?];
         if stiffness.iter().flatten().any(|of| *of != 0.0) || view.text("springdamper").is_some() {
             tally.count(features::SPRINGS);
         }
@@ -114,7 +113,9 @@ impl RawJoint {
             axis,
             reference,
             range,
-            effort: force.map(|[low, high]| low.abs().max(high.abs())).filter(|_| kind != Kind::Ball),
+            effort: force
+                .map(|[low, high]| low.abs().max(high.abs()))
+                .filter(|_| kind != Kind::Ball),
             damping: damping[0].unwrap_or(0.0),
             friction: view.number("frictionloss")?.unwrap_or(0.0),
             armature: view.number("armature")?.unwrap_or(0.0),

@@ -11,10 +11,10 @@ use super::body::Bodies;
 use super::document::Element;
 use super::fault::{Fallible, MjcfFault, at};
 use super::joint::Kind;
+use super::made::Made;
 use super::names::Names;
 use super::orientation::unit;
 use super::reading::list;
-use super::made::Made;
 
 /// The named configurations of the robot.
 pub fn configurations(
@@ -25,7 +25,9 @@ pub fn configurations(
 ) -> Fallible<Vec<Configuration>> {
     let joints = || {
         let each = bodies.all.iter().enumerate();
-        each.flat_map(|(body, raw)| raw.joints.iter().enumerate().map(move |(at, joint)| ((body, at), joint)))
+        each.flat_map(|(body, raw)| {
+            raw.joints.iter().enumerate().map(move |(at, joint)| ((body, at), joint))
+        })
     };
     let expected: usize = joints().map(|(_, joint)| joint.positions()).sum();
     let (mut configurations, mut names) = (Vec::new(), Names::default());
@@ -37,7 +39,10 @@ pub fn configurations(
         }
         if bodies.is_partial {
             tally.count(features::SOFT);
-            tally.remark(key.place, "the key is left out: it also has positions of what is not read");
+            tally.remark(
+                key.place,
+                "the key is left out: it also has positions of what is not read",
+            );
             continue;
         }
         let numbers = list(key, "qpos", usize::MAX)?;
@@ -59,9 +64,7 @@ pub fn configurations(
             }
             let Some((body, at)) = made.joints.get(&place) else { continue };
             let value = match own {
-                [w, x, y, z] => {
-                    to_rotation_vector(&unit(Quaternion::new(*w, *x, *y, *z))).to_vec()
-                }
+                [w, x, y, z] => to_rotation_vector(&unit(Quaternion::new(*w, *x, *y, *z))).to_vec(),
                 [] if joint.kind == Kind::Ball => vec![0.0; 3],
                 [] => vec![joint.reference],
                 own => own.to_vec(),

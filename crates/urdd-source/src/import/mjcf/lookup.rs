@@ -27,9 +27,9 @@ impl<'b> Lookup<'b> {
         for (index, body) in bodies.all.iter().enumerate() {
             lookup.bodies.extend(body.name.as_deref().map(|name| (name, index)));
             let joints = body.joints.iter().enumerate();
-            lookup.joints.extend(
-                joints.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))),
-            );
+            lookup
+                .joints
+                .extend(joints.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))));
             let geoms = body.geoms.iter().enumerate();
             lookup
                 .geoms

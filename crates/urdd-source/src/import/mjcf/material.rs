@@ -63,7 +63,8 @@ impl<'d> Materials<'d> {
             }));
         };
         let view = self.by_name.get(name);
-        let view = view.ok_or_else(|| at(geom.place, MjcfFault::UnknownMaterial(name.to_owned())))?;
+        let view =
+            view.ok_or_else(|| at(geom.place, MjcfFault::UnknownMaterial(name.to_owned())))?;
         let rgba = match own {
             Some(own) => Some(own),
             None => Some(view.numbers::<4>("rgba")?.unwrap_or([1.0; 4])),
@@ -71,7 +72,8 @@ impl<'d> Materials<'d> {
         tally.count(features::COLOURS);
         let layers = view.element.all("layer");
         let mut colours = layers.filter(|layer| matches!(layer.get("role"), Some("rgb" | "rgba")));
-        let texture = view.text("texture").or_else(|| colours.find_map(|layer| layer.text("texture")));
+        let texture =
+            view.text("texture").or_else(|| colours.find_map(|layer| layer.text("texture")));
         let texture = match texture {
             Some(texture) => self.texture(texture, *view, assets, tally)?,
             None => None,
@@ -90,9 +92,11 @@ impl<'d> Materials<'d> {
     ) -> Fallible<Option<usize>> {
         let place = material.element.place;
         let texture = self.textures.get(name);
-        let texture = texture.ok_or_else(|| at(place, MjcfFault::UnknownTexture(name.to_owned())))?;
+        let texture =
+            texture.ok_or_else(|| at(place, MjcfFault::UnknownTexture(name.to_owned())))?;
         let is_flat = texture.get("type") == Some("2d");
-        let Some(file) = texture.text("file").filter(|_| is_flat && texture.get("gridsize").is_none())
+        let Some(file) =
+            texture.text("file").filter(|_| is_flat && texture.get("gridsize").is_none())
         else {
             tally.count(features::MADE_TEXTURES);
             return Ok(None);
@@ -106,6 +110,10 @@ impl<'d> Materials<'d> {
         }
         tally.count(features::TEXTURES);
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        Ok(Some(assets.add(&format!("texture {file}"), &format!("textures/{stem}.png"), bytes.into())))
+        Ok(Some(assets.add(
+            &format!("texture {file}"),
+            &format!("textures/{stem}.png"),
+            bytes.into(),
+        )))
     }
 }

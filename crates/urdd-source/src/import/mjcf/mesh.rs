@@ -66,7 +66,7 @@ impl<'d> Meshes<'d> {
                 view,
                 file,
                 origin: view.numbers::<3>("refpos")?.unwrap_or_default().into(),
-                rotation: quaternion(view, "refquat")?.unwrap_or_default(),
+                rotation: quaternion(element, "refquat")?.unwrap_or_default(),
                 scale: view.numbers::<3>("scale")?.unwrap_or([1.0; 3]),
                 mode: [Mode::Convex, Mode::Legacy, Mode::Exact, Mode::Shell][mode.unwrap_or(1)],
             };
@@ -92,7 +92,12 @@ impl<'d> Meshes<'d> {
     }
 
     /// The measures of a mesh, in its own frame, with its scale.
-    pub fn measures(&mut self, name: &str, place: Place, assets: &Assets<'_>) -> Fallible<Measures> {
+    pub fn measures(
+        &mut self,
+        name: &str,
+        place: Place,
+        assets: &Assets<'_>,
+    ) -> Fallible<Measures> {
         if let Some(known) = self.measured.get(name) {
             return Ok(*known);
         }
@@ -165,7 +170,9 @@ impl MeshAsset<'_> {
     /// Meshes of the same file share it.
     fn key(&self, name: &str) -> String {
         match self.file {
-            Some(file) => format!("file {file} {}", self.view.text("content_type").unwrap_or_default()),
+            Some(file) => {
+                format!("file {file} {}", self.view.text("content_type").unwrap_or_default())
+            }
             None => format!("text {name}"),
         }
     }
@@ -209,7 +216,8 @@ impl MeshAsset<'_> {
     /// The mesh whose vertices are in the text.
     fn written_out(&self, name: &str) -> Fallible<Content> {
         let element = self.view.element;
-        let unsupported = |what: &str| Err(at(element.place, MjcfFault::Unsupported(what.to_owned())));
+        let unsupported =
+            |what: &str| Err(at(element.place, MjcfFault::Unsupported(what.to_owned())));
         if element.get("builtin").is_some() {
             return unsupported("mesh builtin=…");
         }
@@ -219,8 +227,12 @@ impl MeshAsset<'_> {
         let numbers = list(element, "vertex", usize::MAX)?;
         let faces = list(element, "face", usize::MAX)?;
         #[expect(clippy::cast_possible_truncation, reason = "MuJoCo keeps 32 bits")]
-        let vertices: Vec<[f64; 3]> =
-            numbers.as_chunks().0.iter().map(|v: &[f64; 3]| v.map(|x| f64::from(x as f32))).collect();
+        let vertices: Vec<[f64; 3]> = numbers
+            .as_chunks()
+            .0
+            .iter()
+            .map(|v: &[f64; 3]| v.map(|x| f64::from(x as f32)))
+            .collect();
         if numbers.len() % 3 != 0 || vertices.len() < 4 {
             return Err(wrong(element, "vertex", "three numbers each of 4 vertices or more"));
         }
@@ -259,7 +271,9 @@ fn written(mesh: Mesh, name: &str, place: Place) -> Fallible<Arc<[u8]>> {
     let mut mesh = mesh;
     mesh.round_to_f32();
     let bytes = stl(&[Part::from(mesh)]);
-    bytes.map(Into::into).map_err(|error| broken(name, place, &format!("cannot be written: {error}")))
+    bytes
+        .map(Into::into)
+        .map_err(|error| broken(name, place, &format!("cannot be written: {error}")))
 }
 
 /// An OBJ without what names its materials: MuJoCo does not read them.

@@ -70,7 +70,9 @@ pub fn measure(mesh: &Mesh, mode: Mode) -> Result<Measures, &'static str> {
     if total < SMALL {
         return Err(match mode {
             Mode::Shell => "has no area",
-            _ => "encloses no volume, so it has no mass; write `inertia=\"shell\"` in its `<mesh>`, or `mass=\"0\"` in its `<geom>`",
+            _ => {
+                "encloses no volume, so it has no mass; write `inertia=\"shell\"` in its `<mesh>`, or `mass=\"0\"` in its `<geom>`"
+            }
         });
     }
     centre /= total;

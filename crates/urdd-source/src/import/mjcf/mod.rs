@@ -25,8 +25,8 @@ mod names;
 mod orientation;
 mod principal;
 mod reading;
-mod reflected;
 mod robot;
+mod said;
 mod scene;
 mod solid;
 
@@ -66,6 +66,7 @@ fn model(
     options: &ImportOptions,
 ) -> Fallible<Model> {
     let mut tally = Tally::default();
+    said::say(root, &mut tally);
     let defaults = Defaults::of(root)?;
     let compiler = Compiler::of(root)?;
     let bodies = body::bodies(root, &defaults, &compiler, &mut tally)?;
@@ -85,7 +86,7 @@ fn model(
     let mut made = maker.make()?;
     let (assets, all) = (maker.assets.all, &bodies.all);
     equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally)?;
-    drive::drive(root, &defaults, &compiler, all, &lookup, &mut made, &mut tally)?;
+    drive::drive(root, &defaults, &compiler, &lookup, &mut made, &mut tally)?;
     let configurations = keyframe::configurations(root, &bodies, &made, &mut tally)?;
     let apart = contacts.apart(all, &made, &mut tally);
     let friction = contact::friction(all, &made, &mut tally);

@@ -67,7 +67,12 @@ impl<'d> View<'d> {
     }
 
     /// One of some words, by its place among them.
-    pub fn word(&self, name: &'static str, words: &[&str], wanted: &'static str) -> Fallible<Option<usize>> {
+    pub fn word(
+        &self,
+        name: &'static str,
+        words: &[&str],
+        wanted: &'static str,
+    ) -> Fallible<Option<usize>> {
         self.find(name).map_or(Ok(None), |(element, _)| word(element, name, words, wanted))
     }
 

@@ -186,7 +186,8 @@ impl<'d> Maker<'_, 'd> {
         let geoms = &self.bodies.all[body].geoms;
         let is_visual = |(place, geom): (usize, &Geom<'_>)| contacts.is_visual(geom, body, place);
         // A body that has shapes only to be seen is seen by these.
-        let has_visuals = !self.compiler.discards_visuals && geoms.iter().enumerate().any(is_visual);
+        let has_visuals =
+            !self.compiler.discards_visuals && geoms.iter().enumerate().any(is_visual);
         for (place, (geom, fitted)) in geoms.iter().zip(fitted).enumerate() {
             let used = match is_visual((place, geom)) {
                 true if self.compiler.discards_visuals => {

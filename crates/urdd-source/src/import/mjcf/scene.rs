@@ -49,7 +49,8 @@ pub fn robot(
         Some(name) => {
             let found = all.iter().position(|body| body.name.as_deref() == Some(name));
             let found = found.filter(|body| *body != WORLD);
-            let found = found.ok_or_else(|| at(root.place, MjcfFault::UnknownBody(name.to_owned())))?;
+            let found =
+                found.ok_or_else(|| at(root.place, MjcfFault::UnknownBody(name.to_owned())))?;
             if trees[found] != found {
                 return Ok(below(all, found, tally));
             }
@@ -65,13 +66,13 @@ pub fn robot(
         (1..all.len()).filter(|body| chosen.contains(&trees[*body])).collect();
     let only = robot.first().filter(|_| chosen.len() == 1 && !has_world).copied();
     let is_floating = only.is_some_and(|root| is_free(&all[root]));
-    let is_at_origin = |body: &RawBody<'_>| {
-        body.joints.is_empty() && body.pose == Isometry3::identity()
-    };
+    let is_at_origin =
+        |body: &RawBody<'_>| body.joints.is_empty() && body.pose == Isometry3::identity();
     if !is_floating && !only.is_some_and(|root| is_at_origin(&all[root])) {
         robot.insert(0, WORLD);
         for free in chosen.iter().filter(|body| is_free(&all[**body])) {
-            let text = "the free joint is left out, because the robot has other roots: the body is fixed";
+            let text =
+                "the free joint is left out, because the robot has other roots: the body is fixed";
             tally.remark(all[*free].place, text);
         }
         tally.remarks.sort_by_key(|remark| remark.place);
@@ -104,11 +105,7 @@ fn below(all: &[RawBody<'_>], root: usize, tally: &mut Tally) -> Robot {
     Robot { bodies, has_world: false, is_floating: false }
 }
 
-fn by_structure(
-    all: &[RawBody<'_>],
-    trees: &[usize],
-    driven: &HashSet<&str>,
-) -> HashSet<usize> {
+fn by_structure(all: &[RawBody<'_>], trees: &[usize], driven: &HashSet<&str>) -> HashSet<usize> {
     let mut known = vec![Tree::default(); all.len()];
     let named = |name: &Option<String>| name.as_deref().is_some_and(|name| driven.contains(name));
     for (body, tree) in all.iter().zip(trees).skip(1) {
@@ -129,9 +126,8 @@ fn by_structure(
         Some(0) | None => {}
         Some(most) => return still().filter(|root| known[*root].joints == most).collect(),
     }
-    let largest = roots().max_by_key(|root| {
-        (!all[*root].is_mocap, known[*root].bodies, std::cmp::Reverse(*root))
-    });
+    let largest = roots()
+        .max_by_key(|root| (!all[*root].is_mocap, known[*root].bodies, std::cmp::Reverse(*root)));
     largest.into_iter().collect()
 }
 
@@ -156,15 +152,9 @@ fn is_free(body: &RawBody<'_>) -> bool {
     body.joints.iter().any(|joint| joint.kind == Kind::Free)
 }
 
-fn say_left_out(
-    all: &[RawBody<'_>],
-    trees: &[usize],
-    chosen: &HashSet<usize>,
-    tally: &mut Tally,
-) {
-    let left: Vec<usize> = (1..all.len())
-        .filter(|body| trees[*body] == *body && !chosen.contains(body))
-        .collect();
+fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, tally: &mut Tally) {
+    let left: Vec<usize> =
+        (1..all.len()).filter(|body| trees[*body] == *body && !chosen.contains(body)).collect();
     let place = |index: usize| -> Place { all[index].place };
     if let Some(first) = left.first() {
         let names: Vec<String> = left.iter().take(5).map(|body| title(&all[*body])).collect();
