@@ -15,6 +15,10 @@ const MOST_FOLDERS: usize = 20_000;
 /// Maximum size of a `package.xml` in bytes.
 const MAX_PACKAGE_XML: u64 = 1 << 20;
 
+/// The variables of Gazebo that list folders of models.
+const MODEL_PATHS: [&str; 4] =
+    ["GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH"];
+
 /// A `--package` that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say it")]
@@ -41,7 +45,7 @@ impl Packages {
     }
 
     /// The search paths of the environment: `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`; for `model://` also
-    /// `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH` and `IGN_GAZEBO_RESOURCE_PATH`.
+    /// `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH`, `IGN_GAZEBO_RESOURCE_PATH` and `SDF_PATH`.
     pub fn from_environment(variable: impl Fn(&str) -> Option<OsString>) -> Self {
         let paths = |name: &str| -> Vec<PathBuf> {
             let value = variable(name).unwrap_or_default();
@@ -52,10 +56,7 @@ impl Packages {
             given: BTreeMap::new(),
             ros_package_path: paths("ROS_PACKAGE_PATH"),
             ament_prefix_path: paths("AMENT_PREFIX_PATH"),
-            model_path: ["GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"]
-                .into_iter()
-                .flat_map(paths)
-                .collect(),
+            model_path: MODEL_PATHS.iter().flat_map(|name| paths(name)).collect(),
         }
     }
 

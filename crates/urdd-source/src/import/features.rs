@@ -39,6 +39,13 @@ const STL: How = Otherwise("as STL");
 const SLIDE: How = Otherwise("with limits of ±10 m");
 const SRDF: How = Otherwise("in the SRDF");
 const SETUP: How = Otherwise("in `NAME.export.toml`");
+const SCREW: How = Otherwise("as a hinge, and a slide that follows it");
+const SIDE: How = Otherwise("with the other limit 10 m or 4π rad away from it, or from 0");
+const TURN: How = Otherwise("with parent and child exchanged, and the axis turned round");
+const HELD: How = Otherwise("by a fixed joint to the root");
+const DEFAULT: How = Otherwise("as 1 kg and 1 kg m², which SDF says that they are");
+const CONE: How = Otherwise("as a mesh");
+const GAZEBO: How = Otherwise("as text in `<gazebo>`");
 
 features! {
     BODIES = "bodies", Yes, Yes;
@@ -57,15 +64,16 @@ features! {
     TEXTURES = "textures", Yes, Yes;
     FRAMES = "sites, cameras and frames", FRAME, FRAME;
     POSES = "named configurations", SRDF, Elsewhere;
+    MIMICS = "joints that follow others", Yes, Yes;
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;
     FOLLOWERS = "equalities of joints, as mimics", Yes, Elsewhere;
     WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere;
     MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere;
-    SURFACES = "planes and height fields", No, Elsewhere;
+    SURFACES = "planes and height fields", No, No;
     DISCARDED = "shapes that `discardvisual` leaves out", No, Elsewhere;
-    SPRINGS = "springs of joints", No, Elsewhere;
+    SPRINGS = "springs of joints", No, No;
     BALL_RANGES = "ranges of balls", No, Elsewhere;
     COUPLINGS = "equalities of joints that are not linear, or that no mimic can say", No, Elsewhere;
     TENDONS = "tendons", No, Elsewhere;
@@ -73,12 +81,28 @@ features! {
     OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere;
     SOFT = "flexes, skins and composites", No, Elsewhere;
     CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere;
-    FRICTIONS = "coefficients of friction that differ", No, Elsewhere;
+    FRICTIONS = "coefficients of friction that differ", No, No;
     CONTROLS = "velocities, activations and controls of named configurations", No, Elsewhere;
     BASE_POSES = "poses of the free root in named configurations", No, Elsewhere;
     MEASURED = "sensors", No, Elsewhere;
     OWN_DATA = "data of users", No, Elsewhere;
-    SETTINGS = "settings of the simulator and the viewer", No, Elsewhere;
+    SETTINGS = "settings of the simulator and the viewer", No, No;
+    SCREWS = "screws", Elsewhere, SCREW;
+    GEARBOXES = "gearboxes", Elsewhere, No;
+    ONE_SIDED = "limits of one side", Elsewhere, SIDE;
+    TURNED = "joints that lead to their parent", Elsewhere, TURN;
+    DETACHED = "links that no joint holds", Elsewhere, HELD;
+    DEFAULT_MASSES = "masses and inertias that are not given", Elsewhere, DEFAULT;
+    AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes;
+    CONES = "cones", Elsewhere, CONE;
+    MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
+    SUBMESHES = "parts of meshes", Elsewhere, No;
+    LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
+    FRICTION = "friction of surfaces, the same of all", Elsewhere, SETUP;
+    CONTACTS = "other properties of contacts", Elsewhere, No;
+    INCLUDES = "included models", Elsewhere, Yes;
+    IN_WORLD = "the pose of the model in the world", Elsewhere, No;
+    KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO;
 }
 
 /// Something that a person has to know of one robot: what was assumed, or what is left out beside the table.

@@ -29,7 +29,7 @@ use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_geometry::primitives;
 use urdd_geometry::read::Part;
-use urdd_geometry::write::stl;
+use urdd_geometry::write::obj;
 
 /// How many bytes at the start of a file are searched for its outermost element.
 const HEAD: u64 = 64 << 10;
@@ -101,8 +101,11 @@ impl Imported {
 /// The format of a file by the outermost element in the beginning of it: quick, for a choice of what to do.
 pub fn format_of(path: &Path) -> Option<Format> {
     let mut head = Vec::new();
-    let file = std::fs::File::open(path).ok().filter(|_| path.is_file())?;
-    file.take(HEAD).read_to_end(&mut head).ok()?;
+    // Opening a pipe would wait.
+    if !path.is_file() {
+        return None;
+    }
+    std::fs::File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
     Format::of(&String::from_utf8_lossy(&head))
 }
 
@@ -160,7 +163,7 @@ fn written(
     let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
     if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
         let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
-        let sphere = stl(&[part]).map_err(|error| SourceError::Internal {
+        let sphere = obj(&[part]).map_err(|error| SourceError::Internal {
             file: shown.clone(),
             reason: error.to_string(),
         })?;

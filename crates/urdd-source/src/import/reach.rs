@@ -4,12 +4,15 @@
 //! folder of the description, from the project that it belongs to, and from the folders that the user allows.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use crate::files::Files;
-use crate::roots::Roots;
+use crate::packages::Packages;
+use crate::resolve::resolve;
+use crate::roots::{Place, Roots};
 use crate::settings::Settings;
 use urdd_directory::read_error::ReadError;
 
@@ -22,6 +25,9 @@ const PYTHON: &str = "__init__.py";
 #[derive(Debug)]
 pub struct Reach {
     roots: Roots,
+    packages: Packages,
+    /// The folders of packages from which files were found.
+    opened: RefCell<BTreeSet<PathBuf>>,
     project: Option<PathBuf>,
     /// What was read.
     read: RefCell<Vec<PathBuf>>,
@@ -41,12 +47,21 @@ pub enum Unreachable {
     Unreadable { file: String, reason: String },
 }
 
+impl Unreachable {
+    fn outside(shown: &str, file: &Path) -> Self {
+        let folder = file.parent().unwrap_or(file).to_owned();
+        Unreachable::Outside { file: shown.to_owned(), folder }
+    }
+}
+
 impl Reach {
     /// The folders for a description in a folder (symbolic links resolved).
     pub fn new(folder: &Path, settings: &Settings) -> Self {
         let files = &settings.files;
         Reach {
             roots: Roots::new(folder, settings),
+            packages: settings.packages.clone(),
+            opened: RefCell::default(),
             project: project(folder, files),
             read: RefCell::default(),
         }
@@ -55,6 +70,34 @@ impl Reach {
     /// Where the files are.
     pub fn files(&self) -> &Files {
         self.roots.files()
+    }
+
+    /// Finds the file of a URI, such as `model://arm/meshes/base.dae`, or of a path from a folder.
+    ///
+    /// # Errors
+    /// If there is none, or it is outside of the folders.
+    pub fn find(&self, uri: &str, folder: &Path) -> Result<PathBuf, Unreachable> {
+        let missing = match resolve(uri, folder, &self.packages, &self.roots) {
+            Ok(found) => {
+                if let Place::Package(_, folder) = found.place {
+                    self.opened.borrow_mut().insert(folder);
+                }
+                return Ok(found.file);
+            }
+            Err(missing) => missing,
+        };
+        match missing.outside {
+            Some(file) if self.is_allowed(&file) => Ok(file),
+            Some(file) => Err(Unreachable::outside(uri, &file)),
+            None => Err(Unreachable::Missing(uri.to_owned())),
+        }
+    }
+
+    /// Whether a file (symbolic links resolved) is in one of the folders.
+    fn is_allowed(&self, file: &Path) -> bool {
+        self.project.as_ref().is_some_and(|folder| file.starts_with(folder))
+            || self.opened.borrow().iter().any(|folder| file.starts_with(folder))
+            || self.roots.place(file, None).is_some()
     }
 
     /// The files that were read, with symbolic links resolved.
@@ -71,10 +114,8 @@ impl Reach {
         let Ok(found) = self.files().canonicalize(path) else {
             return Err(Unreachable::Missing(shown()));
         };
-        let is_in_project = self.project.as_ref().is_some_and(|folder| found.starts_with(folder));
-        if !is_in_project && self.roots.place(&found, None).is_none() {
-            let folder = found.parent().unwrap_or(&found).to_owned();
-            return Err(Unreachable::Outside { file: shown(), folder });
+        if !self.is_allowed(&found) {
+            return Err(Unreachable::outside(&shown(), &found));
         }
         match self.files().read(&found, limit) {
             Ok(bytes) => {

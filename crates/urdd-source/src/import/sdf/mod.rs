@@ -1,17 +1,63 @@
-//! Reads SDF.
+//! Reads SDF: files into a scene, whose names are then looked up, and the tree in its graph of links and joints.
 
+mod assets;
+mod auto_inertia;
+mod bodies;
+mod chosen;
+mod cone;
 pub mod fault;
+mod friction;
+mod included;
+mod inertial;
+mod joint_reader;
+mod kept;
+mod link_reader;
+mod models;
+mod moving;
+mod poses;
+mod reader;
+mod refusal;
+mod scene;
+mod shape_reader;
+mod spanning;
+mod tag;
 
-use super::model::{Model, Place, TextFile};
+use super::model::{Model, TextFile};
 use super::options::ImportOptions;
 use super::placed::{Placed, placed};
 use super::reach::Reach;
+use bodies::bodies;
+use chosen::read_chosen;
 use fault::SdfFault;
+use reader::Reader;
+use refusal::Refusal;
 
 /// Reads the robot of a description.
 ///
 /// # Errors
 /// If it is refused, with the place.
-pub fn read(file: TextFile, _reach: &Reach, _options: &ImportOptions) -> Result<Model, Placed> {
-    Err(placed(&[file], Place::default(), SdfFault::NoModel))
+pub fn read(file: TextFile, reach: &Reach, options: &ImportOptions) -> Result<Model, Placed> {
+    let mut reader = Reader::new(reach);
+    let made = made(&mut reader, file, options);
+    made.map_err(|Refusal { place, fault }| placed(&reader.files, place, fault))
+}
+
+fn made(reader: &mut Reader, file: TextFile, options: &ImportOptions) -> Result<Model, Refusal> {
+    let (name, is_static) = reader.open(file, |reader, root| read_chosen(reader, root, options))?;
+    let scene = std::mem::take(&mut reader.scene);
+    if scene.links.is_empty() {
+        return Refusal::at(scene.nodes[0].place, SdfFault::NoLink(name));
+    }
+    let made = bodies(scene, &mut reader.tally)?;
+    Ok(Model {
+        name,
+        files: std::mem::take(&mut reader.files),
+        is_floating: !made.is_held && !is_static,
+        bodies: made.bodies,
+        assets: std::mem::take(&mut reader.assets.files),
+        elements: std::mem::take(&mut reader.kept.elements),
+        friction: reader.friction.common(&mut reader.tally),
+        tally: std::mem::take(&mut reader.tally),
+        ..Model::default()
+    })
 }

@@ -1,0 +1,159 @@
+//! The meshes and images of a robot, with the files that meshes name, under paths below its URDF.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::super::model::Asset;
+use super::super::reach::{Reach, Unreachable};
+
+/// The most bytes of a mesh or image.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Why there is no file.
+#[derive(Debug, Error)]
+pub enum NoAsset {
+    #[error("{0}")]
+    Unreachable(Unreachable),
+    #[error("`{file}` cannot be read as a mesh: {reason}")]
+    Mesh { file: String, reason: String },
+}
+
+/// The files.
+#[derive(Debug, Default)]
+pub struct Assets {
+    pub files: Vec<Asset>,
+    /// Where each file is in the list, by the file that it was.
+    known: BTreeMap<PathBuf, usize>,
+    /// What each path is taken by, in lower case.
+    taken: BTreeMap<String, PathBuf>,
+    /// The number of groups of files that have a folder of their own.
+    groups: usize,
+}
+
+impl Assets {
+    /// Adds the mesh that a URI names, with the files that it names. Gives its place in the list.
+    ///
+    /// # Errors
+    /// If it is not found, may not be read, or is no mesh.
+    pub fn mesh(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
+        self.add(reach, uri, folder, |bytes, path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let around = path.parent().unwrap_or(Path::new("/"));
+            let mut fetch = |side: &str| {
+                let read = reach.read(&around.join(side), MAX_BYTES);
+                read.ok().map(|(_, bytes)| bytes)
+            };
+            match urdd_geometry::read::read(bytes, &name, &mut fetch) {
+                Ok(scene) => Ok(scene.side_files),
+                Err(error) => {
+                    Err(NoAsset::Mesh { file: uri.to_owned(), reason: error.to_string() })
+                }
+            }
+        })
+    }
+
+    /// Adds the image that a URI names.
+    ///
+    /// # Errors
+    /// If it is not found or may not be read.
+    pub fn image(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
+        self.add(reach, uri, folder, |_, _| Ok(Vec::new()))
+    }
+
+    /// Adds a file that was made, once.
+    pub fn made(&mut self, path: &str, bytes: Vec<u8>) -> usize {
+        let source = PathBuf::from(path);
+        match self.known.get(&source) {
+            Some(known) => *known,
+            None => self.push(source, path.to_owned(), bytes),
+        }
+    }
+
+    fn add(
+        &mut self,
+        reach: &Reach,
+        uri: &str,
+        folder: &Path,
+        sides: impl FnOnce(&[u8], &Path) -> Result<Vec<String>, NoAsset>,
+    ) -> Result<usize, NoAsset> {
+        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
+        if let Some(known) = self.known.get(&found) {
+            return Ok(*known);
+        }
+        let read = reach.read(&found, MAX_BYTES).map_err(NoAsset::Unreachable);
+        let (source, bytes) = read?;
+        let sides = sides(&bytes, &source)?;
+        let around = source.parent().unwrap_or(Path::new("/"));
+        let mut group = vec![(source.clone(), bytes)];
+        for side in sides {
+            // A side file that is not there is missing as it was.
+            if let Ok(side) = reach.read(&around.join(&side), MAX_BYTES) {
+                group.push(side);
+            }
+        }
+        let top = common(group.iter().map(|(path, _)| path.as_path()));
+        let base = self.base(&top, group.iter().map(|(path, _)| path.as_path()));
+        let mut first = None;
+        for (path, bytes) in group {
+            let written = written(&base, &top, &path);
+            let is_there = self.taken.contains_key(&written.to_lowercase());
+            let known = self.known.get(&path).copied().filter(|_| is_there);
+            let index = known.unwrap_or_else(|| self.push(path, written, bytes));
+            first.get_or_insert(index);
+        }
+        Ok(first.unwrap_or_default())
+    }
+
+    /// The folder for files below another, in which no path is taken by another file.
+    fn base<'p>(&mut self, top: &Path, group: impl Iterator<Item = &'p Path> + Clone) -> String {
+        let is_free = |base: &str| {
+            group.clone().all(|path| {
+                let taken = self.taken.get(&written(base, top, path).to_lowercase());
+                taken.is_none_or(|taken| taken == path)
+            })
+        };
+        let mut base = "meshes".to_owned();
+        while !is_free(&base) {
+            self.groups += 1;
+            base = format!("meshes/{}", self.groups + 1);
+        }
+        base
+    }
+
+    fn push(&mut self, source: PathBuf, path: String, bytes: Vec<u8>) -> usize {
+        let index = self.files.len();
+        self.taken.insert(path.to_lowercase(), source.clone());
+        self.known.insert(source, index);
+        self.files.push(Asset { path, bytes: Arc::from(bytes) });
+        index
+    }
+}
+
+/// The folder that all files are in.
+fn common<'p>(paths: impl Iterator<Item = &'p Path>) -> PathBuf {
+    let mut common: Option<Vec<Component>> = None;
+    for path in paths {
+        let folder: Vec<Component> = path.parent().unwrap_or(Path::new("/")).components().collect();
+        common = Some(match common {
+            None => folder,
+            Some(common) => {
+                let same = common.iter().zip(&folder).take_while(|(left, right)| left == right);
+                common[..same.count()].to_vec()
+            }
+        });
+    }
+    common.unwrap_or_default().iter().collect()
+}
+
+/// The path of a file below the URDF, with forward slashes.
+fn written(base: &str, top: &Path, path: &Path) -> String {
+    let below = path.strip_prefix(top).unwrap_or(path).components();
+    let parts = below.filter_map(|part| match part {
+        Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
+        _ => None,
+    });
+    parts.fold(base.to_owned(), |path, part| format!("{path}/{part}"))
+}

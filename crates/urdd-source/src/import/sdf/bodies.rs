@@ -1,0 +1,114 @@
+//! Makes bodies of a scene.
+
+use std::collections::HashSet;
+
+use nalgebra::Isometry3;
+
+use super::super::features::{self, Tally};
+use super::super::model::{Body, Place, Shape};
+use super::moving::{moving, needs_links, say_turned};
+use super::poses::{Frames, snapped};
+use super::refusal::Refusal;
+use super::scene::{Kind, Placeable, Scene, WORLD};
+use super::spanning::branches;
+
+/// The bodies of a scene, and whether they are held by the world.
+pub struct Bodies {
+    pub bodies: Vec<Body>,
+    pub is_held: bool,
+}
+
+/// Makes bodies: of the world if a joint holds on to it, of links, and of frames.
+///
+/// # Errors
+/// If a name has no meaning.
+pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
+    let frames = Frames::of(&scene)?;
+    let tree = branches(&scene, &frames, tally)?;
+    let world = scene.links.len();
+    let mut at = vec![None; world + 1];
+    let mut made: Vec<Body> = Vec::new();
+    let mut poses: Vec<Isometry3<f64>> = Vec::new();
+    for branch in &tree {
+        at[branch.link] = Some(made.len());
+        let node = scene.links.get(branch.link).map(|link| link.node);
+        let pose = node.map_or_else(Isometry3::identity, |node| frames.poses[node]);
+        let parent = match branch.joint {
+            Some((before, _)) => at[before],
+            None => (!made.is_empty()).then_some(0),
+        };
+        let mut body = match node {
+            Some(node) => empty(&scene.nodes[node].name, scene.nodes[node].place),
+            None => empty(WORLD, Place::default()),
+        };
+        body.is_frame = node.is_none();
+        body.parent = parent;
+        if let Some(parent) = parent {
+            body.pose = snapped(poses[parent].inv_mul(&pose));
+        }
+        if let Some((_, joint)) = branch.joint {
+            let joint = &scene.joints[joint];
+            body.joints = moving(&scene, &frames, joint, node, branch.is_turned, tally)?;
+            if joint.kind == Kind::Fixed {
+                body.fixed_by = Some(scene.nodes[joint.node].name.clone());
+            } else if branch.is_turned {
+                say_turned(&scene, joint, tally);
+            }
+            if needs_links(&body.joints) {
+                tally.count(features::MORE_JOINTS);
+            }
+        }
+        poses.push(pose);
+        made.push(body);
+    }
+    for (link, index) in at.iter().enumerate().take(world) {
+        let Some(index) = *index else { continue };
+        let shapes = std::mem::take(&mut scene.links[link].shapes);
+        let shapes = shapes.into_iter().map(|shape| placed(&scene, &frames, link, shape));
+        made[index].shapes = shapes.collect::<Result<_, _>>()?;
+        made[index].inertial = Some(scene.links[link].inertial.clone());
+    }
+    let mut taken: HashSet<String> = made.iter().map(|body| body.name.clone()).collect();
+    for frame in &scene.frames {
+        let node = &scene.nodes[*frame];
+        let parent = frames.links[*frame].and_then(|link| at[link]).unwrap_or_default();
+        let pose = snapped(poses[parent].inv_mul(&frames.poses[*frame]));
+        let mut name = node.name.clone();
+        while !taken.insert(name.clone()) {
+            name += "_frame";
+        }
+        let body = empty(&name, node.place);
+        made.push(Body { parent: Some(parent), pose, is_frame: true, ..body });
+    }
+    Ok(Bodies { is_held: at[world].is_some(), bodies: made })
+}
+
+fn empty(name: &str, place: Place) -> Body {
+    Body {
+        name: name.to_owned(),
+        parent: None,
+        pose: Isometry3::identity(),
+        joints: Vec::new(),
+        fixed_by: None,
+        inertial: None,
+        shapes: Vec::new(),
+        is_frame: false,
+        place,
+    }
+}
+
+/// A shape in the frame of its link.
+fn placed(
+    scene: &Scene,
+    frames: &Frames,
+    link: usize,
+    placeable: Placeable,
+) -> Result<Shape, Refusal> {
+    let Placeable { mut shape, relative_to } = placeable;
+    if let Some(name) = relative_to {
+        let node = scene.links[link].node;
+        let base = Frames::named(scene, node, "relative_to", &name)?;
+        shape.pose = frames.relative(base, node) * shape.pose;
+    }
+    Ok(shape)
+}

@@ -1,0 +1,95 @@
+//! Finds what an `<include>` names.
+
+use std::path::PathBuf;
+
+use nalgebra::Isometry3;
+
+use super::super::fault::ImportFault;
+use super::super::features;
+use super::fault::SdfFault;
+use super::reader::Reader;
+use super::refusal::Refusal;
+use super::tag::{Tag, is_true};
+
+/// The files that say which file of a folder is the model.
+const MANIFESTS: &[&str] = &["model.config", "manifest.xml"];
+/// The most bytes of one.
+const MAX_MANIFEST: u64 = 1 << 20;
+/// What an `<include>` says of a model.
+const KNOWN: &[&str] = &["uri", "name", "pose", "placement_frame", "static", "plugin"];
+
+/// What an `<include>` says of the model that it includes.
+#[derive(Debug, Default, Clone)]
+pub struct Overrides {
+    pub name: Option<String>,
+    pub pose: Option<(Isometry3<f64>, Option<String>)>,
+    pub placement: Option<String>,
+    pub is_static: Option<bool>,
+    /// Its elements take part in the scope around it.
+    pub is_merged: bool,
+}
+
+/// A file, and what is said of the model in it.
+pub struct Included {
+    pub path: PathBuf,
+    pub overrides: Overrides,
+}
+
+/// Finds the file that an `<include>` names.
+///
+/// # Errors
+/// If there is none, or what it says is not read.
+pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
+    let Some(uri) = tag.words("uri") else {
+        return tag.lacks("uri");
+    };
+    if tag.child("experimental:params").is_some() {
+        return Refusal::at(tag.place(), SdfFault::Params);
+    }
+    tag.unread(KNOWN, &mut reader.tally);
+    let pose = tag.child("pose").map(|_| tag.pose()).transpose()?;
+    reader.tally.count(features::INCLUDES);
+    Ok(Included {
+        path: find(reader, tag, &uri)?,
+        overrides: Overrides {
+            name: tag.words("name"),
+            pose,
+            placement: tag.words("placement_frame"),
+            is_static: tag.words("static").map(|text| is_true(&text)),
+            is_merged: tag.says("merge"),
+        },
+    })
+}
+
+/// The file of a URI: itself, or the model of the folder that it names.
+fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<PathBuf, Refusal> {
+    let folder = reader.folder(tag.file);
+    let missing = match reader.reach.find(uri, &folder) {
+        Ok(path) => return Ok(path),
+        Err(missing) => missing,
+    };
+    let trimmed = uri.trim_end_matches('/');
+    for manifest in MANIFESTS {
+        let Ok(path) = reader.reach.find(&format!("{trimmed}/{manifest}"), &folder) else {
+            continue;
+        };
+        let Ok((path, bytes)) = reader.reach.read(&path, MAX_MANIFEST) else { continue };
+        let text = String::from_utf8_lossy(&bytes);
+        if let Some((model, folder)) = newest(&text).zip(path.parent()) {
+            return Ok(folder.join(model));
+        }
+    }
+    Refusal::at(tag.place(), ImportFault::File(missing))
+}
+
+/// The file of the newest version that a manifest names.
+fn newest(text: &str) -> Option<String> {
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).ok()?;
+    let files = document.root_element().children().filter(|child| child.has_tag_name("sdf"));
+    let files = files.filter_map(|file| {
+        let version = file.attribute("version").unwrap_or_default().trim();
+        let minor: u32 = version.strip_prefix("1.").and_then(|minor| minor.parse().ok())?;
+        Some((minor, file.text()?.trim().to_owned()))
+    });
+    files.max_by_key(|(minor, _)| *minor).map(|(_, file)| file)
+}

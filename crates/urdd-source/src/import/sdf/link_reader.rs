@@ -1,0 +1,68 @@
+//! Reads links.
+
+use super::super::features;
+use super::fault::SdfFault;
+use super::inertial::inertial;
+use super::reader::Reader;
+use super::refusal::Refusal;
+use super::scene::{Link, Node, NodeKind, WORLD};
+use super::shape_reader::shape;
+use super::tag::Tag;
+
+/// What Gazebo alone reads of a link, and is kept as text.
+const KEPT: &[&str] = &[
+    "sensor",
+    "plugin",
+    "gravity",
+    "enable_wind",
+    "self_collide",
+    "kinematic",
+    "must_be_base_link",
+    "velocity_decay",
+    "projector",
+    "audio_sink",
+    "audio_source",
+    "battery",
+    "light",
+    "particle_emitter",
+];
+
+/// Reads a link into a scope.
+///
+/// # Errors
+/// If it is refused.
+pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+    let name = tag.own_name()?;
+    if name == WORLD {
+        return Refusal::at(tag.place(), SdfFault::WorldLink(name));
+    }
+    let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
+    let (pose, relative_to) = tag.pose()?;
+    let node = Node {
+        name: whole.clone(),
+        kind: NodeKind::Link(reader.scene.links.len()),
+        scope,
+        pose,
+        relative_to,
+        attached_to: None,
+        placement: None,
+        place: tag.place(),
+    };
+    let index = reader.scene.nodes.len();
+    if !reader.scene.add(scope, &name, node) {
+        return Refusal::at(tag.place(), SdfFault::Twice { kind: "link", name });
+    }
+    reader.tally.count(features::BODIES);
+    let mut shapes = Vec::new();
+    for child in tag.children() {
+        match child.name() {
+            "pose" | "inertial" => {}
+            "visual" | "collision" => shapes.extend(shape(reader, child)?),
+            name if KEPT.contains(&name) => reader.kept.of(&whole, child, &mut reader.tally),
+            name => reader.tally.unread(format!("`<{name}>` of `<link>`")),
+        }
+    }
+    let inertial = inertial(tag, &mut reader.tally)?;
+    reader.scene.links.push(Link { node: index, inertial, shapes });
+    Ok(())
+}

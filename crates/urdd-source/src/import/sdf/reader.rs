@@ -1,0 +1,175 @@
+//! Reads the files of an SDF into a scene.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::fault::ImportFault;
+use super::super::features::Tally;
+use super::super::model::{Place, TextFile};
+use super::super::reach::Reach;
+use super::assets::Assets;
+use super::fault::SdfFault;
+use super::friction::Friction;
+use super::kept::Kept;
+use super::refusal::Refusal;
+use super::scene::Scene;
+use super::tag::Tag;
+use crate::decode::decode;
+use crate::files::MAX_SOURCE_BYTES;
+use urdd_xml::{Kind, MAX_ROBOT_ELEMENTS, XmlError};
+
+/// The most bytes of all files that are read, each as often as it is included.
+const MAX_BYTES: u64 = 256 << 20;
+/// The most undeclared prefixes that are declared for a file.
+const MOST_PREFIXES: usize = 32;
+/// The first minor version of SDF that is read, and the last.
+const VERSIONS: [u32; 2] = [2, 12];
+
+/// What was read so far.
+pub struct Reader<'r> {
+    pub reach: &'r Reach,
+    pub files: Vec<TextFile>,
+    pub scene: Scene,
+    pub tally: Tally,
+    pub assets: Assets,
+    pub kept: Kept,
+    pub friction: Friction,
+    /// The files that are being read, the outermost first.
+    open: Vec<PathBuf>,
+    elements: usize,
+    bytes: u64,
+}
+
+impl<'r> Reader<'r> {
+    pub fn new(reach: &'r Reach) -> Self {
+        Reader {
+            reach,
+            files: Vec::new(),
+            scene: Scene::default(),
+            tally: Tally::default(),
+            assets: Assets::default(),
+            kept: Kept::default(),
+            friction: Friction::default(),
+            open: Vec::new(),
+            elements: 0,
+            bytes: 0,
+        }
+    }
+
+    /// The folder of a file.
+    pub fn folder(&self, file: usize) -> PathBuf {
+        let path = self.files.get(file).map(|file| file.path.as_path());
+        path.and_then(Path::parent).unwrap_or(Path::new("/")).to_owned()
+    }
+
+    /// Reads an included file, and goes on with its outermost element.
+    ///
+    /// # Errors
+    /// If it cannot be read, includes itself, or what is done with it fails.
+    pub fn include<T>(
+        &mut self,
+        path: &Path,
+        place: Place,
+        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let refuse = |why| Refusal::at(place, ImportFault::File(why));
+        let (path, bytes) = match self.reach.read(path, MAX_SOURCE_BYTES) {
+            Ok(read) => read,
+            Err(why) => return refuse(why),
+        };
+        let shown = path.display().to_string();
+        if self.open.contains(&path) {
+            return Refusal::at(place, SdfFault::IncludeCircle(shown));
+        }
+        let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else {
+            return Refusal::at(place, ImportFault::NotXml(format!("`{shown}` is not text")));
+        };
+        self.open(TextFile { shown, path, text, bytes: bytes.into() }, then)
+    }
+
+    /// Goes on with the outermost element of a file.
+    ///
+    /// # Errors
+    /// If it is not an SDF, or what is done with it fails.
+    pub fn open<T>(
+        &mut self,
+        file: TextFile,
+        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        self.bytes = self.bytes.saturating_add(file.text.len() as u64);
+        let known = self.files.iter().position(|known| known.path == file.path);
+        let index = known.unwrap_or(self.files.len());
+        let (text, path) = (Arc::<str>::from(&*file.text), file.path.clone());
+        if known.is_none() {
+            self.files.push(file);
+        }
+        let start = Place { file: index, offset: 0 };
+        if self.bytes > MAX_BYTES {
+            return Refusal::at(start, SdfFault::Large(MAX_BYTES >> 20));
+        }
+        let (text, shift) = with_prefixes(&text);
+        let document = match urdd_xml::parse(&text, Kind::Other) {
+            Ok(document) => document,
+            Err(error) => {
+                let place = Place { file: index, offset: offset(&text, &error) };
+                return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
+            }
+        };
+        self.elements += document.descendants().filter(roxmltree::Node::is_element).count();
+        if self.elements > MAX_ROBOT_ELEMENTS {
+            return Refusal::at(start, ImportFault::TooMany(MAX_ROBOT_ELEMENTS));
+        }
+        let root = Tag { node: document.root_element(), file: index, shift, version: 0 };
+        let root = Tag { version: version(root)?, ..root };
+        self.open.push(path);
+        let done = then(self, root);
+        self.open.pop();
+        done
+    }
+}
+
+/// The minor version that an outermost element names.
+fn version(root: Tag) -> Result<u32, Refusal> {
+    if root.name() == "robot" {
+        let words = root.attribute("name").unwrap_or_default().to_owned();
+        return Refusal::at(root.place(), SdfFault::IncludesUrdf(words));
+    }
+    if !matches!(root.name(), "sdf" | "gazebo") {
+        return Refusal::at(root.place(), SdfFault::Root(root.name().to_owned()));
+    }
+    let version = root.attribute("version").unwrap_or_default().trim();
+    let minor = version.strip_prefix("1.").and_then(|rest| {
+        // `1.4.0` was seen.
+        rest.split('.').next()?.parse().ok()
+    });
+    let [first, last] = VERSIONS;
+    match minor.filter(|minor| (first..=last).contains(minor)) {
+        Some(minor) => Ok(minor),
+        None => Refusal::at(root.place(), SdfFault::Version(version.to_owned())),
+    }
+}
+
+/// The text with prefixes declared that it uses and does not declare, and the number of bytes that this adds.
+fn with_prefixes(text: &str) -> (String, usize) {
+    let mut declared = text.to_owned();
+    for _ in 0..MOST_PREFIXES {
+        let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
+            urdd_xml::parse(&declared, Kind::Other)
+        else {
+            break;
+        };
+        let Some(at) = declared.find("<sdf").map(|start| start + "<sdf".len()) else { break };
+        declared.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
+    }
+    let shift = declared.len() - text.len();
+    (declared, shift)
+}
+
+/// The byte offset of an error.
+fn offset(text: &str, error: &XmlError) -> usize {
+    let at = error.pos();
+    let (row, column) = (at.row.max(1) as usize - 1, at.col.max(1) as usize - 1);
+    let before: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
+    let line = text.get(before..).unwrap_or_default();
+    before + line.char_indices().nth(column).map_or(0, |(at, _)| at)
+}

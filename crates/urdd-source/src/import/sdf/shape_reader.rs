@@ -1,0 +1,196 @@
+//! Reads visual and collision shapes.
+
+use super::super::fault::ImportFault;
+use super::super::features;
+use super::super::model::{Geometry, Material, Shape, Use};
+use super::super::reach::Unreachable;
+use super::assets::NoAsset;
+use super::cone::cone;
+use super::reader::Reader;
+use super::refusal::Refusal;
+use super::scene::Placeable;
+use super::tag::Tag;
+
+/// What is read of a shape.
+const KNOWN: &[&str] = &["pose", "geometry", "material", "transparency", "surface", "density"];
+/// Settings of the simulator and the viewer.
+const SETTINGS: &[&str] = &[
+    "cast_shadows",
+    "laser_retro",
+    "visibility_flags",
+    "meta",
+    "max_contacts",
+    "auto_inertia_params",
+];
+/// What a material says beside its colour.
+const LIGHTING: &[&str] = &[
+    "script",
+    "shader",
+    "render_order",
+    "lighting",
+    "ambient",
+    "specular",
+    "shininess",
+    "emissive",
+    "double_sided",
+];
+
+/// Reads a `<visual>` or `<collision>`; `None` if it has no place in a URDF.
+///
+/// # Errors
+/// If a number is none, or a file may not be read.
+pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal> {
+    let is_visual = tag.name() == "visual";
+    for child in tag.children() {
+        match child.name() {
+            name if SETTINGS.contains(&name) => reader.tally.count(features::SETTINGS),
+            name if KNOWN.contains(&name) => {}
+            name => reader.tally.unread(format!("`<{name}>` of `<{}>`", tag.name())),
+        }
+    }
+    if !is_visual {
+        reader.friction.meet(tag, &mut reader.tally);
+    }
+    let Some(found) = tag.child("geometry").and_then(|geometry| geometry.children().next()) else {
+        reader.tally.remark(tag.place(), format!("this `<{}>` has no shape", tag.name()));
+        return Ok(None);
+    };
+    let (pose, relative_to) = tag.pose()?;
+    let Some(geometry) = geometry(reader, found)? else { return Ok(None) };
+    let material = if is_visual { material(reader, tag)? } else { None };
+    let name = tag.attribute("name").map(str::to_owned);
+    let used = if is_visual { Use::Visual } else { Use::Collision };
+    let shape = Shape { name, used, pose, geometry, material, place: tag.place() };
+    Ok(Some(Placeable { shape, relative_to }))
+}
+
+fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+    let (feature, geometry) = match tag.name() {
+        "box" => (features::BOXES, Geometry::Box(lengths(tag, "size")?)),
+        "sphere" => (features::BOXES, Geometry::Sphere(tag.size("radius")?)),
+        "cylinder" => {
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
+            (features::BOXES, Geometry::Cylinder { radius, length })
+        }
+        "capsule" => {
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
+            (features::CAPSULES, Geometry::Capsule { radius, length })
+        }
+        "ellipsoid" => (features::ELLIPSOIDS, Geometry::Ellipsoid(lengths(tag, "radii")?)),
+        "cone" => {
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
+            let Some(bytes) = cone() else { return Ok(None) };
+            let asset = reader.assets.made("meshes/unit_cone.stl", bytes);
+            (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
+        }
+        "mesh" => return mesh(reader, tag),
+        "empty" => return Ok(None),
+        "plane" | "heightmap" => {
+            reader.tally.count(features::SURFACES);
+            return Ok(None);
+        }
+        name => {
+            reader.tally.unread(format!("`<{name}>` of `<geometry>`"));
+            return Ok(None);
+        }
+    };
+    reader.tally.count(feature);
+    Ok(Some(geometry))
+}
+
+/// Three lengths that are greater than 0.
+fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
+    let Some(lengths) = tag.vector(child)? else {
+        return tag.lacks(child);
+    };
+    match lengths.iter().all(|length| *length > 0.0) {
+        true => Ok(lengths.into()),
+        false => tag.refuse(&tag.words(child).unwrap_or_default(), "greater than 0"),
+    }
+}
+
+fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+    let Some(uri) = tag.words("uri") else {
+        return tag.lacks("uri");
+    };
+    let scale = tag.vector("scale")?.map_or([1.0; 3], Into::into);
+    tag.unread(&["uri", "scale", "submesh", "convex_decomposition"], &mut reader.tally);
+    if tag.attribute("optimization").is_some() {
+        reader.tally.count(features::SETTINGS);
+    }
+    if let Some(name) = tag.child("submesh").and_then(|submesh| submesh.words("name")) {
+        reader.tally.count(features::SUBMESHES);
+        let text = format!("the part `{name}` of `{uri}` is left out");
+        reader.tally.remark(tag.place(), text);
+        return Ok(None);
+    }
+    let folder = reader.folder(tag.file);
+    let added = reader.assets.mesh(reader.reach, &uri, &folder);
+    Ok(asset(reader, tag, added)?.map(|asset| {
+        reader.tally.count(features::MESHES);
+        Geometry::Mesh { asset, scale }
+    }))
+}
+
+/// What became of a file: refused if a person can allow it, and left out if it is not there, as Gazebo does.
+fn asset(
+    reader: &mut Reader,
+    tag: Tag,
+    added: Result<usize, NoAsset>,
+) -> Result<Option<usize>, Refusal> {
+    match added {
+        Ok(asset) => Ok(Some(asset)),
+        Err(NoAsset::Unreachable(why @ Unreachable::Outside { .. })) => {
+            Refusal::at(tag.place(), ImportFault::File(why))
+        }
+        Err(why) => {
+            reader.tally.count(features::MISSING_MESHES);
+            reader.tally.remark(tag.place(), format!("{why}; it is left out"));
+            Ok(None)
+        }
+    }
+}
+
+fn material(reader: &mut Reader, visual: Tag) -> Result<Option<Material>, Refusal> {
+    let opacity = 1.0 - visual.number("transparency")?.unwrap_or_default().clamp(0.0, 1.0);
+    let Some(tag) = visual.child("material") else { return Ok(None) };
+    let beside = tag.children().filter(|child| LIGHTING.contains(&child.name())).count();
+    if beside > 0 {
+        reader.tally.count(features::LIGHTING);
+    }
+    let mut known = LIGHTING.to_vec();
+    known.extend(["diffuse", "pbr"]);
+    tag.unread(&known, &mut reader.tally);
+    let rgba = color(tag)?.map(|[r, g, b, a]| [r, g, b, a * opacity]);
+    if rgba.is_some() {
+        reader.tally.count(features::COLOURS);
+    }
+    let flows = tag.child("pbr").into_iter().flat_map(Tag::children);
+    let map = flows.filter_map(|flow| flow.child("albedo_map")).next();
+    let mut texture = None;
+    if let Some((map, uri)) = map.map(|map| (map, map.text())).filter(|(_, uri)| !uri.is_empty()) {
+        let folder = reader.folder(tag.file);
+        let added = reader.assets.image(reader.reach, &uri, &folder);
+        texture = asset(reader, map, added)?;
+        if texture.is_some() {
+            reader.tally.count(features::TEXTURES);
+        }
+    } else if tag.child("pbr").is_some() && beside == 0 {
+        reader.tally.count(features::LIGHTING);
+    }
+    if rgba.is_none() && texture.is_none() {
+        return Ok(None);
+    }
+    Ok(Some(Material { name: None, rgba, texture }))
+}
+
+/// The diffuse colour, each component from 0 to 1.
+fn color(material: Tag) -> Result<Option<[f64; 4]>, Refusal> {
+    let Some(tag) = material.child("diffuse") else { return Ok(None) };
+    let words = tag.text();
+    let color = match words.split_whitespace().count() {
+        3 => tag.numbers::<3>("three or four numbers")?.map(|[r, g, b]| [r, g, b, 1.0]),
+        _ => tag.numbers::<4>("three or four numbers")?,
+    };
+    Ok(color.map(|color| color.map(|value| value.clamp(0.0, 1.0))))
+}

@@ -1,0 +1,117 @@
+//! The tree in the graph of links and joints.
+
+use super::super::features::{self, Tally};
+use super::poses::Frames;
+use super::refusal::Refusal;
+use super::scene::{Kind, Scene, WORLD};
+
+/// A link in the tree, its parent first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Branch {
+    /// The link; the number of links means the world.
+    pub link: usize,
+    /// The link before it, and the joint between the two; none of the root, and of what is only put to the root.
+    pub joint: Option<(usize, usize)>,
+    /// Whether the link is the joint's parent.
+    pub is_turned: bool,
+}
+
+/// The branches of a scene: each link once, and the world if a joint holds on to it.
+///
+/// Joints are taken in the order of the file. One that closes a chain is left out.
+///
+/// # Errors
+/// If a joint names what is not there.
+pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec<Branch>, Refusal> {
+    let world = scene.links.len();
+    let mut sets = Sets::new(world + 1);
+    let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); world + 1];
+    let mut is_child = vec![false; world + 1];
+    for (index, joint) in scene.joints.iter().enumerate() {
+        let node = &scene.nodes[joint.node];
+        let parent = match joint.parent.as_str() {
+            WORLD => Some(world),
+            name => frames.links[Frames::named(scene, joint.node, "parent", name)?],
+        };
+        let Some((parent, child)) = parent.zip(frames.links[joint.node]) else { continue };
+        if joint.kind == Kind::Gearbox {
+            tally.count(features::GEARBOXES);
+            let text = format!("the gearbox `{}` is lost: its joints turn on their own", node.name);
+            tally.remark(node.place, text);
+        } else if sets.join(parent, child) {
+            around[parent].push((child, index, false));
+            around[child].push((parent, index, true));
+            is_child[child] = true;
+        } else {
+            tally.count(features::CLOSED);
+            let text = format!("the joint `{}` is left out: it closes a chain", node.name);
+            tally.remark(node.place, text);
+        }
+    }
+    let is_held = !around[world].is_empty();
+    let canonical = frames.links[0].unwrap_or_default();
+    let main = sets.of(if is_held { world } else { canonical });
+    let mut starts: Vec<usize> = Vec::new();
+    let mut is_started = vec![false; world + 1];
+    let mut start = |link: usize, sets: &mut Sets| {
+        let set = sets.of(link);
+        if !std::mem::replace(&mut is_started[set], true) {
+            starts.push(link);
+        }
+    };
+    if is_held {
+        start(world, &mut sets);
+    } else if !is_child[canonical] {
+        start(canonical, &mut sets);
+    } else {
+        let first = (0..world).find(|link| !is_child[*link] && sets.of(*link) == main);
+        start(first.unwrap_or(canonical), &mut sets);
+    }
+    for link in (0..world).filter(|link| !is_child[*link]) {
+        start(link, &mut sets);
+    }
+    let mut branches: Vec<Branch> = Vec::new();
+    for (place, root) in starts.into_iter().enumerate() {
+        let mut open = vec![Branch { link: root, joint: None, is_turned: false }];
+        if place > 0 {
+            let node = &scene.nodes[scene.links[root].node];
+            tally.count(features::DETACHED);
+            let text = format!("no joint holds link `{}`: it is fixed to the root", node.name);
+            tally.remark(node.place, text);
+        }
+        while let Some(branch) = open.pop() {
+            branches.push(branch);
+            let came = branch.joint.map(|(_, joint)| joint);
+            for (link, joint, is_turned) in around[branch.link].iter().rev().copied() {
+                if Some(joint) != came {
+                    open.push(Branch { link, joint: Some((branch.link, joint)), is_turned });
+                }
+            }
+        }
+    }
+    Ok(branches)
+}
+
+/// Sets of links that joints connect.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Sets((0..count).collect())
+    }
+
+    fn of(&mut self, mut link: usize) -> usize {
+        while self.0[link] != link {
+            self.0[link] = self.0[self.0[link]];
+            link = self.0[link];
+        }
+        link
+    }
+
+    /// Makes one of two sets; false if they are one.
+    fn join(&mut self, left: usize, right: usize) -> bool {
+        let (left, right) = (self.of(left), self.of(right));
+        self.0[left.max(right)] = left.min(right);
+        left != right
+    }
+}

@@ -1,0 +1,198 @@
+//! An element of an SDF, and the values in it.
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use roxmltree::Node;
+use urdd_xml::element;
+
+use super::super::fault::ImportFault;
+use super::super::features::Tally;
+use super::super::model::Place;
+use super::fault::SdfFault;
+use super::refusal::Refusal;
+
+/// The last minor version in which `relative_to` is called `frame`.
+const RENAMED: u32 = 6;
+
+/// An element of a file.
+#[derive(Clone, Copy)]
+pub struct Tag<'a> {
+    pub node: Node<'a, 'a>,
+    /// The index of the file.
+    pub file: usize,
+    /// The number of bytes that were put into the text before it, for it to be read.
+    pub shift: usize,
+    /// The minor version of SDF of the file.
+    pub version: u32,
+}
+
+impl<'a> Tag<'a> {
+    pub fn name(self) -> &'a str {
+        element::name(self.node)
+    }
+
+    pub fn place(self) -> Place {
+        Place { file: self.file, offset: self.node.range().start.saturating_sub(self.shift) }
+    }
+
+    /// The value of an attribute that is not empty.
+    pub fn attribute(self, name: &str) -> Option<&'a str> {
+        let found = element::attribute(self.node, name)?;
+        Some(found.value()).filter(|value| !value.trim().is_empty())
+    }
+
+    /// Whether an attribute says yes.
+    pub fn says(self, attribute: &str) -> bool {
+        self.attribute(attribute).is_some_and(is_true)
+    }
+
+    /// Its name, as it gives it.
+    pub fn own_name(self) -> Result<String, Refusal> {
+        match self.attribute("name") {
+            Some(name) => Ok(name.to_owned()),
+            None => Refusal::at(self.place(), SdfFault::NoName(self.name().to_owned())),
+        }
+    }
+
+    pub fn children(self) -> impl Iterator<Item = Tag<'a>> {
+        element::children(self.node).map(move |(_, node)| Tag { node, ..self })
+    }
+
+    /// The first child element of a name.
+    pub fn child(self, name: &str) -> Option<Tag<'a>> {
+        self.children().find(|child| child.name() == name)
+    }
+
+    /// The child element at a path of names.
+    pub fn descendant(self, path: &[&str]) -> Option<Tag<'a>> {
+        path.iter().try_fold(self, |tag, name| tag.child(name))
+    }
+
+    /// Its characters, without white space around them.
+    pub fn text(self) -> String {
+        let texts = self.node.children().filter(Node::is_text).filter_map(|node| node.text());
+        texts.collect::<String>().trim().to_owned()
+    }
+
+    /// The characters of a child element that is there and not empty.
+    pub fn words(self, child: &str) -> Option<String> {
+        self.child(child).map(Tag::text).filter(|text| !text.is_empty())
+    }
+
+    /// Refuses a value.
+    pub fn refuse<T>(self, value: &str, wanted: &'static str) -> Result<T, Refusal> {
+        let (element, value) = (self.name().to_owned(), value.to_owned());
+        let attribute = "text".to_owned();
+        Refusal::at(self.place(), ImportFault::Value { element, attribute, value, wanted })
+    }
+
+    /// Its numbers; none if it is empty.
+    fn values(self) -> Result<Option<Vec<f64>>, Refusal> {
+        let text = self.text();
+        let values = text.split_whitespace().map(|word| {
+            let value = word.parse::<f64>().ok().filter(|value| !value.is_nan());
+            value.map_or_else(|| self.refuse(word, "a number"), Ok)
+        });
+        let values = values.collect::<Result<Vec<f64>, Refusal>>()?;
+        Ok((!values.is_empty()).then_some(values))
+    }
+
+    /// Its finite numbers, which are as many as `N`; none if it is empty.
+    pub fn numbers<const N: usize>(
+        self,
+        wanted: &'static str,
+    ) -> Result<Option<[f64; N]>, Refusal> {
+        let Some(values) = self.values()? else { return Ok(None) };
+        match <[f64; N]>::try_from(values) {
+            Ok(values) if values.iter().all(|value| value.is_finite()) => Ok(Some(values)),
+            _ => self.refuse(&self.text(), wanted),
+        }
+    }
+
+    /// The finite number in a child element.
+    pub fn number(self, child: &str) -> Result<Option<f64>, Refusal> {
+        let Some(tag) = self.child(child) else { return Ok(None) };
+        Ok(tag.numbers::<1>("a finite number")?.map(|[value]| value))
+    }
+
+    /// The number in a child element, which may be infinite.
+    pub fn any_number(self, child: &str) -> Result<Option<f64>, Refusal> {
+        let Some(tag) = self.child(child) else { return Ok(None) };
+        match tag.values()?.as_deref() {
+            None => Ok(None),
+            Some([value]) => Ok(Some(*value)),
+            Some(_) => tag.refuse(&tag.text(), "a number"),
+        }
+    }
+
+    /// Whether a child element says so.
+    pub fn flag(self, child: &str) -> bool {
+        self.words(child).is_some_and(|text| is_true(&text))
+    }
+
+    /// Refuses an element for what is not in it.
+    pub fn lacks<T>(self, child: &'static str) -> Result<T, Refusal> {
+        Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
+    }
+
+    /// The number in a child element that has to be there and to be greater than 0.
+    pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
+        match self.number(child)? {
+            Some(value) if value > 0.0 => Ok(value),
+            Some(value) => self.refuse(&value.to_string(), "greater than 0"),
+            None => self.lacks(child),
+        }
+    }
+
+    /// The pose in its `<pose>`, and the frame that it is relative to.
+    pub fn pose(self) -> Result<(Isometry3<f64>, Option<String>), Refusal> {
+        let Some(tag) = self.child("pose") else { return Ok((Isometry3::identity(), None)) };
+        let name = if tag.version <= RENAMED { "frame" } else { "relative_to" };
+        let relative = tag.attribute(name);
+        let relative = relative.map(|name| name.trim().to_owned());
+        let is_quaternion = tag.attribute("rotation_format") == Some("quat_xyzw");
+        let pose = match is_quaternion {
+            true => {
+                let wanted = "seven finite numbers: a position and a quaternion x, y, z, w";
+                let Some([x, y, z, i, j, k, w]) = tag.numbers::<7>(wanted)? else {
+                    return Ok((Isometry3::identity(), relative));
+                };
+                let quaternion = Quaternion::new(w, i, j, k);
+                let Some(rotation) = UnitQuaternion::try_new(quaternion, 0.0) else {
+                    return tag.refuse(&tag.text(), wanted);
+                };
+                Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+            }
+            false => {
+                let wanted = "six finite numbers: a position, and roll, pitch and yaw";
+                let Some([x, y, z, r, p, yaw]) = tag.numbers::<6>(wanted)? else {
+                    return Ok((Isometry3::identity(), relative));
+                };
+                let is_degrees = tag.says("degrees");
+                let [r, p, yaw] =
+                    if is_degrees { [r, p, yaw].map(f64::to_radians) } else { [r, p, yaw] };
+                let rotation = UnitQuaternion::from_euler_angles(r, p, yaw);
+                Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+            }
+        };
+        Ok((pose, relative))
+    }
+
+    /// The vector in a child element.
+    pub fn vector(self, child: &str) -> Result<Option<Vector3<f64>>, Refusal> {
+        let Some(tag) = self.child(child) else { return Ok(None) };
+        Ok(tag.numbers::<3>("three finite numbers")?.map(Vector3::from))
+    }
+
+    /// Counts each child element that is not one of these as lost.
+    pub fn unread(self, known: &[&str], tally: &mut Tally) {
+        for child in self.children().filter(|child| !known.contains(&child.name())) {
+            tally.unread(format!("`<{}>` of `<{}>`", child.name(), self.name()));
+        }
+    }
+}
+
+/// Whether a text says yes.
+pub fn is_true(text: &str) -> bool {
+    let text = text.trim();
+    text == "1" || text.eq_ignore_ascii_case("true")
+}
