@@ -4,5 +4,7 @@
 #![allow(clippy::restriction)]
 
 mod files;
+mod mjcf;
+mod mjcf_faults;
 mod origin;
 mod sniff;
