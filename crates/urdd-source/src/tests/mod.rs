@@ -5,4 +5,5 @@
 
 mod files;
 mod origin;
+mod sdf;
 mod sniff;
