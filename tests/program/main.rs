@@ -15,6 +15,7 @@ mod directory_sources;
 mod export;
 mod fuzz_findings;
 mod generate;
+mod imports;
 mod info;
 mod large_inputs;
 mod links;

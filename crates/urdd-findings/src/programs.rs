@@ -31,15 +31,48 @@ pub fn subject(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> 
     (listed(&names), are_many)
 }
 
-/// The kind of a part of a robot: `collision` of `link/arm/collision/0`; `?` for something that is no part.
+/// What parts of links and joints have below their names: elements of URDF, and what readers name besides.
+const INSIDE: &[&str] = &[
+    "inertial",
+    "visual",
+    "collision",
+    "origin",
+    "geometry",
+    "material",
+    "color",
+    "texture",
+    "mass",
+    "inertia",
+    "com",
+    "axis",
+    "limit",
+    "lower",
+    "upper",
+    "effort",
+    "velocity",
+    "dynamics",
+    "damping",
+    "friction",
+    "mimic",
+    "calibration",
+    "safety_controller",
+    "safety",
+    "parent",
+    "child",
+];
+
+/// The kind of a part of a robot: `collision` of `link/arm/collision/0`, `link` of `link/arm/tip`, whose name has a slash;
+/// `?` for something that is no part.
 pub fn kind(part: &str) -> &str {
     let mut words = part.split('/').rev();
     let last = words.next().unwrap_or_default();
-    match words.next() {
-        Some(above @ ("visual" | "collision" | "link" | "joint" | "material")) if last != "?" => {
-            above
-        }
-        _ => last,
+    let above = words.next().filter(|above| matches!(*above, "visual" | "collision"));
+    let first = part.split('/').next().unwrap_or_default();
+    match above {
+        _ if last == "?" || INSIDE.contains(&last) => last,
+        Some(above) => above,
+        None if matches!(first, "link" | "joint" | "material") => first,
+        None => last,
     }
 }
 

@@ -22,5 +22,7 @@ pub(super) fn unit(report: &Report) -> &'static str {
 
 /// A count with its unit.
 pub(super) fn plural(count: usize, unit: &str) -> String {
-    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
+    // `dynamics` is its own plural.
+    let stays = count == 1 || unit.ends_with('s');
+    format!("{count} {unit}{}", if stays { "" } else { "s" })
 }

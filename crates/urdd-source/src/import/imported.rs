@@ -29,7 +29,7 @@ use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_geometry::primitives;
 use urdd_geometry::read::Part;
-use urdd_geometry::write::stl;
+use urdd_geometry::write::obj;
 
 /// How many bytes at the start of a file are searched for its outermost element.
 const HEAD: u64 = 64 << 10;
@@ -163,7 +163,7 @@ fn written(
     let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
     if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
         let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
-        let sphere = stl(&[part]).map_err(|error| SourceError::Internal {
+        let sphere = obj(&[part]).map_err(|error| SourceError::Internal {
             file: shown.clone(),
             reason: error.to_string(),
         })?;

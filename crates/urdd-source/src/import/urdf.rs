@@ -13,7 +13,7 @@ const FAR: f64 = 10.0;
 /// What a joint can do, of which it is not said: N, N m, m/s or rad/s.
 const MUCH: f64 = 1000.0;
 /// The file of the mesh that ellipsoids are made of: a sphere of radius 1.
-pub const UNIT_SPHERE: &str = "meshes/unit_sphere.stl";
+pub const UNIT_SPHERE: &str = "meshes/unit_sphere.obj";
 
 /// The text of the URDF.
 pub fn urdf(model: &Model, tree: &Tree, original: &str) -> String {
