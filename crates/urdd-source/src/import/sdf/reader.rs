@@ -107,7 +107,7 @@ impl<'r> Reader<'r> {
         if self.bytes > MAX_BYTES {
             return Refusal::at(start, SdfFault::Large(MAX_BYTES >> 20));
         }
-        let (text, shift) = with_prefixes(&text);
+        let (text, shift) = mended(&text);
         let document = match urdd_xml::parse(&text, Kind::Other) {
             Ok(document) => document,
             Err(error) => {
@@ -149,20 +149,22 @@ fn version(root: Tag) -> Result<u32, Refusal> {
     }
 }
 
-/// The text with prefixes declared that it uses and does not declare, and the number of bytes that this adds.
-fn with_prefixes(text: &str) -> (String, usize) {
-    let mut declared = text.to_owned();
+/// The text without white space before its declaration, and with prefixes declared that it uses and does not declare; and
+/// by how many bytes this moves what is in it.
+fn mended(text: &str) -> (String, isize) {
+    let trimmed = text.trim_start();
+    let mut mended = if trimmed.starts_with("<?xml") { trimmed } else { text }.to_owned();
     for _ in 0..MOST_PREFIXES {
         let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
-            urdd_xml::parse(&declared, Kind::Other)
+            urdd_xml::parse(&mended, Kind::Other)
         else {
             break;
         };
-        let Some(at) = declared.find("<sdf").map(|start| start + "<sdf".len()) else { break };
-        declared.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
+        let Some(at) = mended.find("<sdf").map(|start| start + "<sdf".len()) else { break };
+        mended.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
     }
-    let shift = declared.len() - text.len();
-    (declared, shift)
+    let shift = mended.len().wrapping_sub(text.len()).cast_signed();
+    (mended, shift)
 }
 
 /// The byte offset of an error.
