@@ -68,7 +68,6 @@ features! {
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;
-    FOLLOWERS = "equalities of joints, as mimics", Yes, Elsewhere;
     WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere;
     MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere;
     SURFACES = "planes and height fields", No, No;
