@@ -20,6 +20,8 @@ use urdd_xml::{Kind, MAX_ROBOT_ELEMENTS, XmlError};
 
 /// The most bytes of all files that are read, each as often as it is included.
 const MAX_BYTES: u64 = 256 << 20;
+/// As many elements as a file counts for beside those in it.
+const ELEMENTS_OF_FILE: usize = 100;
 /// The most undeclared prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
 /// The first minor version of SDF that is read, and the last.
@@ -115,7 +117,8 @@ impl<'r> Reader<'r> {
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
-        self.elements += document.descendants().filter(roxmltree::Node::is_element).count();
+        let elements = document.descendants().filter(roxmltree::Node::is_element).count();
+        self.elements += elements + ELEMENTS_OF_FILE;
         if self.elements > MAX_ROBOT_ELEMENTS {
             return Refusal::at(start, ImportFault::TooMany(MAX_ROBOT_ELEMENTS));
         }
