@@ -21,6 +21,7 @@ mod proximity;
 mod queries;
 mod robot;
 mod shapes;
+mod source;
 mod threads;
 mod validate;
 mod work;

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
-from ._options import LintOptions, words
+from ._options import LintOptions, source, words
 from ._validate import reporting
 
 if TYPE_CHECKING:
@@ -68,11 +68,7 @@ def lint(
         raise TypeError("lint needs a path: a URDF, or a folder with URDFs")
     options = LintOptions(
         for_=None if for_ is None else words(for_, "for_"),
-        packages=[(name, Path(path)) for name, path in (packages or {}).items()],
-        allowed_folders=[Path(folder) for folder in allowed_folders],
-        xacro=bool(xacro),
-        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
-        xacro_timeout=float(xacro_timeout),
+        source=source(packages, allowed_folders, xacro, xacro_arguments, xacro_timeout),
         baseline=None if baseline is None else Path(baseline),
         reporting=reporting(fail_on, config, select, ignore, exclude),
     )

@@ -78,6 +78,7 @@ features! {
     BALL_RANGES = "ranges of balls", No, Elsewhere;
     COUPLINGS = "equalities of joints that are not linear, or that no mimic can say", No, Elsewhere;
     TENDONS = "tendons", No, Elsewhere;
+    MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere;
     OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere;
     SOFT = "flexes, skins and composites", No, Elsewhere;
     CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere;

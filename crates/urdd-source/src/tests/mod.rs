@@ -4,6 +4,8 @@
 #![allow(clippy::restriction)]
 
 mod files;
+mod mjcf;
+mod mjcf_faults;
 mod origin;
 mod sdf;
 mod sniff;

@@ -88,18 +88,44 @@ impl<'d> Defaults<'d> {
         class: usize,
         tag: &'s str,
     ) -> impl Iterator<Item = &'d Element> + 's {
-        let mut next = self.classes.get(class).map(|of| (of, usize::MAX));
-        std::iter::from_fn(move || {
-            let (class, section) = next?;
-            next = class
-                .around
-                .and_then(|(around, section)| Some((self.classes.get(around)?, section)));
-            let limit =
-                class.sections.get(section).map(|counts| counts.get(tag).copied().unwrap_or(0));
-            let elements = class.elements.get(tag).map_or(&[][..], Vec::as_slice);
-            let count = limit.unwrap_or(elements.len()).min(elements.len());
-            Some(elements[..count].iter().rev().copied())
+        self.levels(class).flat_map(move |level| level.of(tag).iter().rev().copied())
+    }
+
+    /// What a class and those around it say of some tags, in the order in which it applies.
+    pub fn applied(&self, class: usize, tags: &[&str]) -> Vec<&'d Element> {
+        let levels: Vec<Level<'_, 'd>> = self.levels(class).collect();
+        let mut applied = Vec::new();
+        for level in levels.iter().rev() {
+            let mut own: Vec<&Element> =
+                tags.iter().flat_map(|tag| level.of(tag)).copied().collect();
+            own.sort_by_key(|element| element.place);
+            applied.extend(own);
+        }
+        applied
+    }
+
+    /// A class and those around it, the innermost first.
+    fn levels(&self, class: usize) -> impl Iterator<Item = Level<'_, 'd>> {
+        let level =
+            |class: usize, section| Some(Level { class: self.classes.get(class)?, section });
+        std::iter::successors(level(class, None), move |inner| {
+            let (around, section) = inner.class.around?;
+            level(around, Some(section))
         })
-        .flatten()
+    }
+}
+
+/// A class as one inside it sees it: up to the section that the other one is in.
+struct Level<'s, 'd> {
+    class: &'s Class<'d>,
+    section: Option<usize>,
+}
+
+impl<'s, 'd> Level<'s, 'd> {
+    fn of(&self, tag: &str) -> &'s [&'d Element] {
+        let elements = self.class.elements.get(tag).map_or(&[][..], Vec::as_slice);
+        let counts = self.section.and_then(|section| self.class.sections.get(section));
+        let count = counts.map(|counts| counts.get(tag).copied().unwrap_or(0));
+        &elements[..count.unwrap_or(elements.len()).min(elements.len())]
     }
 }

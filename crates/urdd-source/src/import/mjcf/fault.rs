@@ -103,7 +103,9 @@ pub enum MjcfFault {
 /// A fault and its place.
 #[derive(Debug)]
 pub struct At {
+    /// Where.
     pub place: Place,
+    /// What is wrong.
     pub fault: ImportFault,
 }
 

@@ -89,7 +89,7 @@ fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Part> {
             if principal(&full).0[2] < SMALL {
                 return Err(at(element.place, MjcfFault::FullInertia));
             }
-            rounded(&full)
+            full
         }
         None => turned(diagonal.unwrap_or_default(), &turn.unwrap_or_default()),
     };
@@ -129,7 +129,7 @@ fn of_shape(
     }
     let pose: &Isometry3<f64> = &fitted.pose;
     let (centre, inertia) = match &measures {
-        Some(measures) => (measures.centre, rounded(&measures.inertia) * (mass / measures.volume)),
+        Some(measures) => (measures.centre, measures.inertia * (mass / measures.volume)),
         None => {
             let moments = moments(geom.kind, fitted.size, geom.is_shell, mass);
             (Vector3::zeros(), Matrix3::from_diagonal(&moments.into()))
@@ -156,7 +156,7 @@ fn together(parts: &[Part]) -> Option<Part> {
         let around = Matrix3::identity() * off.norm_squared() - off * off.transpose();
         part.inertia + around * part.mass
     });
-    Some(Part { mass, centre, inertia: rounded(&inertia.sum()) })
+    Some(Part { mass, centre, inertia: inertia.sum() })
 }
 
 /// An inertia within what the compiler asks of the principal moments.
@@ -173,12 +173,6 @@ fn bounded(inertia: Matrix3<f64>, compiler: &Compiler, place: Place) -> Fallible
         return Err(at(place, MjcfFault::Unbalanced(moments)));
     }
     Ok(Matrix3::identity() * ((a + b + c) / 3.0))
-}
-
-/// What is left of an inertia as MuJoCo keeps it, as moments and axes: small products of inertia are none.
-fn rounded(inertia: &Matrix3<f64>) -> Matrix3<f64> {
-    let (moments, axes) = principal(inertia);
-    turned(moments, &axes)
 }
 
 fn turned(moments: [f64; 3], axes: &UnitQuaternion<f64>) -> Matrix3<f64> {

@@ -134,19 +134,22 @@ pub fn limits(
     let said = view.word(limited, &["false", "true", "auto"], "`false`, `true` or `auto`")?;
     let ends = view.numbers::<2>(range)?.unwrap_or_default();
     let element = || view.element.tag.clone();
-    let is_limited = match said {
-        Some(0) => false,
-        Some(1) => true,
-        _ if ends == [0.0; 2] => false,
-        _ if !compiler.has_auto_limits => {
-            let fault = MjcfFault::NoLimited { element: element(), attribute: limited };
-            return Err(at(view.element.place, fault));
-        }
-        _ => ends[0] < ends[1],
-    };
+    let is_limited = is_limited(said, ends, compiler).ok_or_else(|| {
+        at(view.element.place, MjcfFault::NoLimited { element: element(), attribute: limited })
+    })?;
     if is_limited && ends[0] >= ends[1] {
         let fault = MjcfFault::Range { element: element(), attribute: range };
         return Err(at(view.element.place, fault));
     }
     Ok(is_limited.then_some(ends))
+}
+
+/// Whether a range is a limit, by what is said of it: 0 for false, 1 for true. None: it would have to be said.
+pub fn is_limited(said: Option<usize>, ends: [f64; 2], compiler: &Compiler) -> Option<bool> {
+    match said {
+        Some(0) => Some(false),
+        Some(1) => Some(true),
+        _ if ends == [0.0; 2] => Some(false),
+        _ => compiler.has_auto_limits.then_some(ends[0] < ends[1]),
+    }
 }

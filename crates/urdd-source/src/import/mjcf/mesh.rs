@@ -66,7 +66,7 @@ impl<'d> Meshes<'d> {
                 view,
                 file,
                 origin: view.numbers::<3>("refpos")?.unwrap_or_default().into(),
-                rotation: quaternion(view, "refquat")?.unwrap_or_default(),
+                rotation: quaternion(element, "refquat")?.unwrap_or_default(),
                 scale: view.numbers::<3>("scale")?.unwrap_or([1.0; 3]),
                 mode: [Mode::Convex, Mode::Legacy, Mode::Exact, Mode::Shell][mode.unwrap_or(1)],
             };

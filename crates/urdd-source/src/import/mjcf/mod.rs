@@ -1,15 +1,22 @@
 //! Reads MJCF, as MuJoCo's compiler does.
 
+mod actuator;
 mod assets;
 mod body;
 mod compiler;
+mod contact;
 mod defaults;
 mod document;
+mod drive;
+mod equality;
 pub mod fault;
 mod fit;
 mod geom;
 mod inertia;
 mod joint;
+mod keyframe;
+mod lookup;
+mod made;
 mod material;
 mod mesh;
 mod mesh_mass;
@@ -19,6 +26,7 @@ mod orientation;
 mod principal;
 mod reading;
 mod robot;
+mod said;
 mod scene;
 mod solid;
 
@@ -29,9 +37,11 @@ use super::placed::{Placed, placed};
 use super::reach::Reach;
 use assets::Assets;
 use compiler::Compiler;
+use contact::Contacts;
 use defaults::Defaults;
 use document::Element;
 use fault::Fallible;
+use lookup::Lookup;
 use material::Materials;
 use mesh::Meshes;
 use robot::Maker;
@@ -56,10 +66,13 @@ fn model(
     options: &ImportOptions,
 ) -> Fallible<Model> {
     let mut tally = Tally::default();
+    said::say(root, &mut tally);
     let defaults = Defaults::of(root)?;
     let compiler = Compiler::of(root)?;
     let bodies = body::bodies(root, &defaults, &compiler, &mut tally)?;
     let robot = scene::robot(root, &bodies, options.body.as_deref(), &mut tally)?;
+    let lookup = Lookup::of(&bodies);
+    let contacts = Contacts::of(root, &lookup, &mut tally)?;
     let mut maker = Maker {
         bodies: &bodies,
         robot: &robot,
@@ -67,15 +80,24 @@ fn model(
         meshes: Meshes::of(root, &defaults)?,
         materials: Materials::of_model(root, &defaults)?,
         assets: Assets::new(reach, &compiler, files),
+        contacts: &contacts,
         tally: &mut tally,
     };
-    let made = maker.make()?;
-    let assets = maker.assets.all;
+    let mut made = maker.make()?;
+    let (assets, all) = (maker.assets.all, &bodies.all);
+    equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally)?;
+    drive::drive(root, &defaults, &compiler, &lookup, &mut made, &mut tally)?;
+    let configurations = keyframe::configurations(root, &bodies, &made, &mut tally)?;
+    let apart = contacts.apart(all, &made, &mut tally);
+    let friction = contact::friction(all, &made, &mut tally);
     Ok(Model {
         name: root.text("model").unwrap_or_default().to_owned(),
         bodies: made.bodies,
         is_floating: robot.is_floating,
         assets,
+        configurations,
+        apart,
+        friction,
         tally,
         ..Model::default()
     })

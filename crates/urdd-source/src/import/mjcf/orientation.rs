@@ -9,7 +9,7 @@ use super::document::Element;
 use super::fault::{Fallible, MjcfFault, at};
 use super::reading::{View, numbers, wrong};
 
-const WAYS: [&str; 4] = ["axisangle", "xyaxes", "zaxis", "euler"];
+const WAYS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 /// Vectors that are shorter have no direction.
 const SHORT: f64 = 1e-14;
 
@@ -20,38 +20,34 @@ pub fn pose(view: View<'_>, compiler: &Compiler) -> Fallible<Isometry3<f64>> {
     Ok(Isometry3::from_parts(Translation3::from(position), rotation))
 }
 
-/// The orientation of an element, if it says one. Another way than `quat` goes before `quat`, whoever says it.
+/// The orientation of an element, if it or its class says one.
 pub fn orientation(view: View<'_>, compiler: &Compiler) -> Fallible<Option<UnitQuaternion<f64>>> {
     for element in view.chain() {
-        let ways = WAYS.iter().filter(|way| element.get(way).is_some());
-        if ways.count() + usize::from(element.get("quat").is_some()) > 1 {
+        let mut ways = WAYS.iter().filter(|way| element.get(way).is_some());
+        let Some(way) = ways.next() else { continue };
+        if ways.next().is_some() {
             let element_name = element.tag.clone();
             return Err(at(element.place, MjcfFault::TwoOrientations { element: element_name }));
         }
+        return Ok(Some(match *way {
+            "quat" => quaternion(element, "quat")?.unwrap_or_default(),
+            "axisangle" => axis_angle(element, compiler)?,
+            "xyaxes" => xy_axes(element)?,
+            "zaxis" => {
+                let [x, y, z] = numbers(element, "zaxis")?.unwrap_or_default();
+                z_to(direction(element, "zaxis", Vector3::new(x, y, z))?)
+            }
+            _ => euler(numbers(element, "euler")?.unwrap_or_default(), compiler),
+        }));
     }
-    let way = view.chain().find_map(|element| {
-        WAYS.iter().find(|way| element.get(way).is_some()).map(|way| (element, *way))
-    });
-    match way {
-        Some((element, "axisangle")) => axis_angle(element, compiler).map(Some),
-        Some((element, "xyaxes")) => xy_axes(element).map(Some),
-        Some((element, "zaxis")) => {
-            let [x, y, z] = numbers(element, "zaxis")?.unwrap_or_default();
-            let axis = direction(element, "zaxis", Vector3::new(x, y, z))?;
-            Ok(Some(z_to(axis)))
-        }
-        Some((element, _)) => {
-            Ok(Some(euler(numbers(element, "euler")?.unwrap_or_default(), compiler)))
-        }
-        None => quaternion(view, "quat"),
-    }
+    Ok(None)
 }
 
 /// A quaternion, w first.
-pub fn quaternion(view: View<'_>, name: &'static str) -> Fallible<Option<UnitQuaternion<f64>>> {
-    let Some([w, x, y, z]) = view.numbers::<4>(name)? else { return Ok(None) };
+pub fn quaternion(element: &Element, name: &str) -> Fallible<Option<UnitQuaternion<f64>>> {
+    let Some([w, x, y, z]) = numbers::<4>(element, name)? else { return Ok(None) };
     if [w, x, y, z] == [0.0; 4] {
-        return Err(wrong(view.element, name, "a quaternion that is not zero"));
+        return Err(wrong(element, name, "a quaternion that is not zero"));
     }
     Ok(Some(unit(Quaternion::new(w, x, y, z))))
 }

@@ -29,6 +29,11 @@ impl<'d> View<'d> {
         std::iter::once(self.element).chain(of_class)
     }
 
+    /// What its class says of equalities.
+    pub fn equality_default(&self) -> Option<&'d Element> {
+        self.defaults.chain(self.class, "equality").find(|of| of.get("active").is_some())
+    }
+
     /// The first of the chain that has an attribute, and its text.
     fn find(&self, name: &str) -> Option<(&'d Element, &'d str)> {
         self.chain().find_map(|element| Some((element, element.get(name)?)))

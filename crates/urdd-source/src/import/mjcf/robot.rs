@@ -9,11 +9,13 @@ use super::super::model::{Body, Geometry, Joint, JointKind, Shape, Use};
 use super::assets::Assets;
 use super::body::{Bodies, RawBody, WORLD};
 use super::compiler::Compiler;
+use super::contact::Contacts;
 use super::fault::{Fallible, MjcfFault, at};
 use super::fit::{Fitted, fitted};
 use super::geom::{Geom, Kind};
 use super::inertia::inertial;
 use super::joint::{self, RawJoint};
+use super::made::Made;
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::names::Names;
@@ -27,16 +29,8 @@ pub struct Maker<'m, 'd> {
     pub meshes: Meshes<'d>,
     pub materials: Materials<'d>,
     pub assets: Assets<'m>,
+    pub contacts: &'m Contacts,
     pub tally: &'m mut Tally,
-}
-
-/// The bodies of the robot, and what each raw one became.
-pub struct Made {
-    pub bodies: Vec<Body>,
-    /// The index of a raw body's body.
-    pub index: HashMap<usize, usize>,
-    /// The body and joint of each raw body's joints.
-    pub joints: HashMap<(usize, usize), (usize, usize)>,
 }
 
 impl<'d> Maker<'_, 'd> {
@@ -55,7 +49,7 @@ impl<'d> Maker<'_, 'd> {
                 }
             }
         }
-        let mut made = Made { bodies: Vec::new(), index: HashMap::new(), joints: HashMap::new() };
+        let mut made = Made::default();
         for (raw_index, name) in robot.bodies.iter().zip(names.0) {
             let raw = &bodies.all[*raw_index];
             let index = made.bodies.len();
@@ -78,7 +72,7 @@ impl<'d> Maker<'_, 'd> {
             self.tally.count(features::BODIES);
             if !is_empty {
                 let fitted = self.fitted(raw)?;
-                body.shapes = self.shapes(raw, &fitted)?;
+                body.shapes = self.shapes(*raw_index, &fitted)?;
                 if !is_world {
                     body.inertial = self.inertial(raw, &fitted)?;
                 }
@@ -187,12 +181,15 @@ impl<'d> Maker<'_, 'd> {
         })
     }
 
-    fn shapes(&mut self, raw: &RawBody<'d>, fitted: &[Fitted]) -> Fallible<Vec<Shape>> {
-        let mut shapes = Vec::new();
+    fn shapes(&mut self, body: usize, fitted: &[Fitted]) -> Fallible<Vec<Shape>> {
+        let (mut shapes, contacts) = (Vec::new(), self.contacts);
+        let geoms = &self.bodies.all[body].geoms;
+        let is_visual = |(place, geom): (usize, &Geom<'_>)| contacts.is_visual(geom, body, place);
         // A body that has shapes only to be seen is seen by these.
-        let has_visuals = raw.geoms.iter().any(Geom::is_visual) && !self.compiler.discards_visuals;
-        for (geom, fitted) in raw.geoms.iter().zip(fitted) {
-            let used = match geom.is_visual() {
+        let has_visuals =
+            !self.compiler.discards_visuals && geoms.iter().enumerate().any(is_visual);
+        for (place, (geom, fitted)) in geoms.iter().zip(fitted).enumerate() {
+            let used = match is_visual((place, geom)) {
                 true if self.compiler.discards_visuals => {
                     self.tally.count(features::DISCARDED);
                     continue;

@@ -1,0 +1,212 @@
+//! Actuators, with what default classes say of them: any kind sets the same numbers.
+
+use super::compiler::Compiler;
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+use super::joint::is_limited;
+use super::reading::{list, number_of, numbers, word};
+
+/// The elements of actuators.
+pub const TAGS: [&str; 13] = [
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "orientation",
+    "pid",
+    "damper",
+    "cylinder",
+    "muscle",
+    "adhesion",
+    "dcmotor",
+    "plugin",
+];
+
+/// What an actuator's force is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Law {
+    /// A gain times the control.
+    #[default]
+    Gain,
+    /// That, less a spring and a damper.
+    Servo,
+    /// Anything else: muscles, motors with a circuit, plugins.
+    Other,
+}
+
+/// An actuator.
+#[derive(Debug, Clone)]
+pub struct Actuator {
+    pub law: Law,
+    /// Whether its control goes through a filter or an integrator.
+    pub has_state: bool,
+    pub gear: f64,
+    pub gain: f64,
+    pub stiffness: f64,
+    /// Below 0: a ratio of damping, negated.
+    pub damping: f64,
+    /// What it adds to its joint.
+    pub joint_damping: f64,
+    pub armature: f64,
+    force: Range,
+    control: Range,
+}
+
+/// Two numbers, and whether they are limits.
+#[derive(Debug, Clone, Default)]
+struct Range {
+    ends: [f64; 2],
+    limited: Option<usize>,
+}
+
+impl Default for Actuator {
+    fn default() -> Self {
+        Actuator {
+            law: Law::Gain,
+            has_state: false,
+            gear: 1.0,
+            gain: 1.0,
+            stiffness: 0.0,
+            damping: 0.0,
+            joint_damping: 0.0,
+            armature: 0.0,
+            force: Range::default(),
+            control: Range::default(),
+        }
+    }
+}
+
+impl Actuator {
+    /// What one element after another says.
+    pub fn of<'e>(elements: impl Iterator<Item = &'e Element>) -> Fallible<Self> {
+        let mut actuator = Actuator::default();
+        for element in elements {
+            actuator.apply(element)?;
+        }
+        Ok(actuator)
+    }
+
+    fn apply(&mut self, element: &Element) -> Fallible<()> {
+        self.gear = first(element, "gear", 6)?.unwrap_or(self.gear);
+        self.joint_damping = first(element, "damping", 3)?.unwrap_or(self.joint_damping);
+        self.armature = number_of(element, "armature")?.unwrap_or(self.armature);
+        self.force.read(element, "forcerange", "forcelimited")?;
+        self.control.read(element, "ctrlrange", "ctrllimited")?;
+        let stiffness = number_of(element, "kp")?;
+        let damping = match (number_of(element, "kv")?, number_of(element, "dampratio")?) {
+            (_, Some(ratio)) => Some(-ratio),
+            (damping, None) => damping,
+        };
+        match element.tag.as_str() {
+            "general" => self.general(element)?,
+            "motor" => {
+                (self.law, self.has_state, self.gain) = (Law::Gain, false, 1.0);
+            }
+            "position" | "intvelocity" => {
+                self.law = Law::Servo;
+                self.gain = stiffness.unwrap_or(self.gain);
+                self.stiffness = self.gain;
+                self.damping = damping.unwrap_or(self.damping);
+                let constant = number_of(element, "timeconst")?;
+                self.has_state = element.tag == "intvelocity"
+                    || constant.map_or(self.has_state, |constant| constant != 0.0);
+            }
+            "velocity" => {
+                (self.law, self.has_state, self.stiffness) = (Law::Servo, false, 0.0);
+                self.gain = number_of(element, "kv")?.unwrap_or(self.gain);
+                self.damping = self.gain;
+            }
+            _ => self.law = Law::Other,
+        }
+        Ok(())
+    }
+
+    fn general(&mut self, element: &Element) -> Fallible<()> {
+        let gains = ["fixed", "affine", "muscle", "dcmotor", "so3", "pid", "user"];
+        let biases = ["none", "affine", "muscle", "dcmotor", "so3", "user"];
+        let states =
+            ["none", "integrator", "filter", "filterexact", "muscle", "dcmotor", "pid", "user"];
+        let gain = word(element, "gaintype", &gains, "a type of gain")?;
+        let bias = word(element, "biastype", &biases, "a type of bias")?;
+        if let Some(state) = word(element, "dyntype", &states, "a type of dynamics")? {
+            self.has_state = state != 0;
+        }
+        self.law = match (gain, bias) {
+            (Some(1..), _) | (_, Some(2..)) => Law::Other,
+            (_, None) => self.law,
+            (_, Some(0)) => Law::Gain,
+            (_, Some(_)) => Law::Servo,
+        };
+        self.gain = first(element, "gainprm", 10)?.unwrap_or(self.gain);
+        if element.get("biasprm").is_some() {
+            let bias = list(element, "biasprm", 10)?;
+            let of = |place: usize, now: f64| bias.get(place).map_or(now, |bias| -bias);
+            self.stiffness = of(1, self.stiffness);
+            self.damping = of(2, self.damping);
+        }
+        Ok(())
+    }
+
+    /// The greatest force at its joint; none without a limit.
+    pub fn effort(&self, element: &Element, compiler: &Compiler) -> Fallible<Option<f64>> {
+        let greatest = |ends: [f64; 2]| ends[0].abs().max(ends[1].abs());
+        let force = self.force.limits(element, "forcelimited", compiler)?;
+        let control = self.control.limits(element, "ctrllimited", compiler)?;
+        let control = control.filter(|_| self.law == Law::Gain && !self.has_state);
+        let most = match (force, control) {
+            (Some(force), _) => Some(greatest(force)),
+            (None, control) => control.map(|control| greatest(control) * self.gain.abs()),
+        };
+        Ok(most.map(|most| most * self.gear.abs()))
+    }
+
+    /// The greatest speed that its control asks of its joint, if it is a servo of speed.
+    pub fn velocity(&self, element: &Element, compiler: &Compiler) -> Fallible<Option<f64>> {
+        let is_of_speed = self.law == Law::Servo
+            && self.stiffness == 0.0
+            && self.damping > 0.0
+            && self.damping.to_bits() == self.gain.to_bits()
+            && !self.has_state
+            && self.gear != 0.0;
+        let control = self.control.limits(element, "ctrllimited", compiler)?;
+        let most = control.filter(|_| is_of_speed).map(|ends| ends[0].abs().max(ends[1].abs()));
+        Ok(most.filter(|most| *most > 0.0).map(|most| most / self.gear.abs()))
+    }
+}
+
+impl Range {
+    fn read(
+        &mut self,
+        element: &Element,
+        range: &'static str,
+        limited: &'static str,
+    ) -> Fallible<()> {
+        self.ends = numbers::<2>(element, range)?.unwrap_or(self.ends);
+        let words = ["false", "true", "auto"];
+        let said = word(element, limited, &words, "`false`, `true` or `auto`")?;
+        self.limited = said.or(self.limited);
+        Ok(())
+    }
+
+    fn limits(
+        &self,
+        element: &Element,
+        limited: &'static str,
+        compiler: &Compiler,
+    ) -> Fallible<Option<[f64; 2]>> {
+        let is_limited = is_limited(self.limited, self.ends, compiler).ok_or_else(|| {
+            let element_name = element.tag.clone();
+            at(element.place, MjcfFault::NoLimited { element: element_name, attribute: limited })
+        })?;
+        Ok(is_limited.then_some(self.ends))
+    }
+}
+
+/// The first of up to `most` numbers.
+fn first(element: &Element, name: &str, most: usize) -> Fallible<Option<f64>> {
+    match element.get(name) {
+        Some(_) => Ok(list(element, name, most)?.first().copied()),
+        None => Ok(None),
+    }
+}

@@ -1,0 +1,115 @@
+//! Equalities: joints that follow others as mimics; the rest is lost by name.
+
+use super::super::features::{self, Tally};
+use super::super::model::Mimic;
+use super::body::RawBody;
+use super::defaults::{Defaults, MAIN};
+use super::document::Element;
+use super::fault::Fallible;
+use super::joint::Kind;
+use super::lookup::Lookup;
+use super::made::Made;
+use super::reading::{View, flag};
+
+/// Joints that follow one another; a longer chain is left out.
+const LONGEST: usize = 1000;
+
+/// Gives joints their leaders.
+pub fn equalities<'d>(
+    root: &'d Element,
+    defaults: &'d Defaults<'d>,
+    all: &[RawBody<'_>],
+    lookup: &Lookup<'_>,
+    made: &mut Made,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    for element in root.sections("equality") {
+        let view = View::new(element, defaults, MAIN)?;
+        let of_class = view.equality_default();
+        let is_active = match flag(element, "active")? {
+            Some(active) => active,
+            None => of_class.map_or(Ok(None), |of| flag(of, "active"))?.unwrap_or(true),
+        };
+        let name = element.text("name").unwrap_or_default();
+        match element.tag.as_str() {
+            "joint" if is_active => couple(view, all, lookup, made, tally)?,
+            "joint" => {
+                tally.count(features::COUPLINGS);
+                tally
+                    .remark(element.place, "the equality is not active, so its joint moves freely");
+            }
+            "connect" | "weld" | "distance" => {
+                tally.count(features::CLOSED);
+                let text =
+                    format!("the {} `{name}` closes a chain, which a URDF cannot say", element.tag);
+                tally.remark(element.place, text.replace(" ``", ""));
+            }
+            "tendon" => tally.count(features::TENDONS),
+            _ => tally.count(features::SOFT),
+        }
+    }
+    Ok(())
+}
+
+fn couple(
+    view: View<'_>,
+    all: &[RawBody<'_>],
+    lookup: &Lookup<'_>,
+    made: &mut Made,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    let element = view.element;
+    let names = [element.text("joint1"), element.text("joint2")];
+    let [c0, c1, rest @ ..] = view.up_to::<5>("polycoef")?;
+    let (c0, c1) = (c0.unwrap_or(0.0), c1.unwrap_or(1.0));
+    let is_linear = rest.iter().all(|of| of.unwrap_or(0.0) == 0.0);
+    for suffix in lookup.replicas(&names) {
+        let Some(first) = names[0] else { continue };
+        let follower = lookup.joint(element, first, &suffix)?;
+        let leader = names[1].map(|name| lookup.joint(element, name, &suffix)).transpose()?;
+        let Some(&(body, place)) = made.joints.get(&follower) else { continue };
+        let raw = |(body, place): (usize, usize)| &all[body].joints[place];
+        let leading = leader.and_then(|leader| Some((leader, *made.joints.get(&leader)?)));
+        let is_plain = |at| matches!(raw(at).kind, Kind::Hinge | Kind::Slide);
+        let reason = match leading {
+            None => Some("its joint is held still, or follows one that is left out"),
+            Some(_) if !is_linear => Some("it is not linear"),
+            Some((leader, _)) if !is_plain(leader) || !is_plain(follower) => {
+                Some("it is of another joint than a hinge or a slide")
+            }
+            Some(_) if made.bodies[body].joints[place].mimic.is_some() => {
+                Some("its joint follows another already")
+            }
+            Some((_, at)) if leads_back(made, at, (body, place)) => {
+                Some("its joints follow each other in a circle")
+            }
+            Some(_) => None,
+        };
+        if let (None, Some((leader, (leading_body, leading_place)))) = (reason, leading) {
+            // y - y0 = c0 + c1 (x - x0)
+            let offset = raw(follower).reference + c0 - c1 * raw(leader).reference;
+            let joint = made.bodies[leading_body].joints[leading_place].name.clone();
+            made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
+            made.leaders.insert((body, place), (leading_body, leading_place));
+            tally.count(features::FOLLOWERS);
+        } else {
+            tally.count(features::COUPLINGS);
+            let reason = reason.unwrap_or_default();
+            tally.remark(element.place, format!("an equality of joints is left out: {reason}"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a joint follows another, over however many.
+fn leads_back(made: &Made, from: (usize, usize), to: (usize, usize)) -> bool {
+    let chain = std::iter::successors(Some(from), |at| made.leaders.get(at).copied());
+    let mut number = 0;
+    for at in chain {
+        number += 1;
+        if at == to || number > LONGEST {
+            return true;
+        }
+    }
+    false
+}

@@ -1,0 +1,85 @@
+//! Bodies, joints and shapes by name.
+
+use std::collections::HashMap;
+
+use super::body::Bodies;
+use super::document::Element;
+use super::fault::{Fallible, MjcfFault, at};
+
+/// Bodies, joints and shapes by name.
+pub struct Lookup<'b> {
+    bodies: HashMap<&'b str, usize>,
+    /// By body and place in it.
+    joints: HashMap<&'b str, (usize, usize)>,
+    geoms: HashMap<&'b str, (usize, usize)>,
+    suffixes: &'b HashMap<String, Vec<String>>,
+}
+
+impl<'b> Lookup<'b> {
+    /// The names of a model.
+    pub fn of(bodies: &'b Bodies<'_>) -> Self {
+        let mut lookup = Lookup {
+            bodies: HashMap::from([("world", super::body::WORLD)]),
+            joints: HashMap::new(),
+            geoms: HashMap::new(),
+            suffixes: &bodies.suffixes,
+        };
+        for (index, body) in bodies.all.iter().enumerate() {
+            lookup.bodies.extend(body.name.as_deref().map(|name| (name, index)));
+            let joints = body.joints.iter().enumerate();
+            lookup
+                .joints
+                .extend(joints.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))));
+            let geoms = body.geoms.iter().enumerate();
+            lookup
+                .geoms
+                .extend(geoms.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))));
+        }
+        lookup
+    }
+
+    /// What is put behind the names that an element says, once for each replica of what it names.
+    pub fn replicas(&self, names: &[Option<&str>]) -> Vec<String> {
+        let is_known = |name: &str| {
+            self.joints.contains_key(name)
+                || self.bodies.contains_key(name)
+                || self.geoms.contains_key(name)
+        };
+        let mut replicated = names.iter().flatten().filter(|name| !is_known(name));
+        let suffixes = replicated.find_map(|name| self.suffixes.get(*name));
+        suffixes.cloned().unwrap_or_else(|| vec![String::new()])
+    }
+
+    /// The joint that an element names.
+    pub fn joint(&self, element: &Element, name: &str, suffix: &str) -> Fallible<(usize, usize)> {
+        found(&self.joints, element, "joint", name, suffix)
+    }
+
+    /// The body that an element names.
+    pub fn body(&self, element: &Element, name: &str, suffix: &str) -> Fallible<usize> {
+        found(&self.bodies, element, "body", name, suffix)
+    }
+
+    /// The shape that an element names.
+    pub fn geom(&self, element: &Element, name: &str, suffix: &str) -> Fallible<(usize, usize)> {
+        found(&self.geoms, element, "geom", name, suffix)
+    }
+}
+
+fn found<T: Copy>(
+    named: &HashMap<&str, T>,
+    element: &Element,
+    what: &'static str,
+    name: &str,
+    suffix: &str,
+) -> Fallible<T> {
+    let replica = match suffix {
+        "" => None,
+        suffix => named.get(format!("{name}{suffix}").as_str()),
+    };
+    replica.or_else(|| named.get(name)).copied().ok_or_else(|| {
+        let element_name = element.tag.clone();
+        let name = name.chars().take(60).collect();
+        at(element.place, MjcfFault::Unknown { element: element_name, what, name })
+    })
+}

@@ -1,0 +1,17 @@
+//! What was made of the bodies of a model.
+
+use std::collections::HashMap;
+
+use super::super::model::Body;
+
+/// The bodies of the robot, and what each raw one became.
+#[derive(Default)]
+pub struct Made {
+    pub bodies: Vec<Body>,
+    /// The index of a raw body's body.
+    pub index: HashMap<usize, usize>,
+    /// The body and joint of each raw body's joints.
+    pub joints: HashMap<(usize, usize), (usize, usize)>,
+    /// The body and joint that each follower follows.
+    pub leaders: HashMap<(usize, usize), (usize, usize)>,
+}

@@ -1,0 +1,285 @@
+//! What a model says that is not for the robot, or is not read: all of it is counted.
+
+use super::super::features::{self, Tally};
+use super::document::Element;
+
+/// Attributes that are read, by whatever element.
+const READ: &[&str] = &[
+    "active",
+    "actuatorfrclimited",
+    "actuatorfrcrange",
+    "angle",
+    "anchor",
+    "armature",
+    "assetdir",
+    "autolimits",
+    "axis",
+    "axisangle",
+    "balanceinertia",
+    "biasprm",
+    "biastype",
+    "body",
+    "body1",
+    "body2",
+    "boundinertia",
+    "boundmass",
+    "builtin",
+    "childclass",
+    "class",
+    "conaffinity",
+    "content_type",
+    "contype",
+    "coordinate",
+    "count",
+    "cranksite",
+    "ctrllimited",
+    "ctrlrange",
+    "damping",
+    "dampratio",
+    "density",
+    "diaginertia",
+    "discardvisual",
+    "dyntype",
+    "euler",
+    "eulerseq",
+    "face",
+    "file",
+    "fitaabb",
+    "fitscale",
+    "forcelimited",
+    "forcerange",
+    "friction",
+    "frictionloss",
+    "fromto",
+    "fullinertia",
+    "gainprm",
+    "gaintype",
+    "gear",
+    "geom1",
+    "geom2",
+    "hfield",
+    "inertia",
+    "inertiafromgeom",
+    "inertiagrouprange",
+    "joint",
+    "joint1",
+    "joint2",
+    "jointinparent",
+    "kp",
+    "kv",
+    "limited",
+    "mass",
+    "material",
+    "mesh",
+    "meshdir",
+    "mocap",
+    "model",
+    "name",
+    "offset",
+    "params",
+    "polycoef",
+    "pos",
+    "prefix",
+    "qpos",
+    "quat",
+    "range",
+    "ref",
+    "refpos",
+    "refquat",
+    "rgba",
+    "role",
+    "scale",
+    "sep",
+    "settotalmass",
+    "shellinertia",
+    "site",
+    "size",
+    "springdamper",
+    "stiffness",
+    "strippath",
+    "texture",
+    "texturedir",
+    "timeconst",
+    "type",
+    "vertex",
+    "xyaxes",
+    "zaxis",
+    // Counted with what they belong to.
+    "act",
+    "ctrl",
+    "qvel",
+    "gridlayout",
+    "gridsize",
+];
+
+/// Attributes that concern only the simulator or the viewer.
+const SETTINGS: &[&str] = &[
+    "actdim",
+    "actearly",
+    "actlimited",
+    "actrange",
+    "actuatorgravcomp",
+    "adhesion",
+    "alignfree",
+    "align",
+    "colorspace",
+    "condim",
+    "conflict",
+    "delay",
+    "dynprm",
+    "emission",
+    "fluidcoef",
+    "fluidshape",
+    "gap",
+    "gravcomp",
+    "group",
+    "hflip",
+    "inheritrange",
+    "interp",
+    "lengthrange",
+    "margin",
+    "mark",
+    "markrgb",
+    "maxhullvert",
+    "metallic",
+    "mpos",
+    "mquat",
+    "nchannel",
+    "normal",
+    "nsample",
+    "priority",
+    "random",
+    "reflectance",
+    "rgb1",
+    "rgb2",
+    "roughness",
+    "saveinertial",
+    "shininess",
+    "simple",
+    "sleep",
+    "smoothnormal",
+    "solimp",
+    "solimpfriction",
+    "solimplimit",
+    "solmix",
+    "solref",
+    "solreffriction",
+    "solreflimit",
+    "specular",
+    "springref",
+    "surfacevel",
+    "texcoord",
+    "texrepeat",
+    "texuniform",
+    "time",
+    "usethread",
+    "vflip",
+    "width",
+    "height",
+    "octree_maxdepth",
+    "fileback",
+    "filedown",
+    "filefront",
+    "fileleft",
+    "fileright",
+    "fileup",
+];
+
+/// Attributes of cameras: their lenses.
+const LENS: &[&str] = &[
+    "fovy",
+    "focal",
+    "focalpixel",
+    "ipd",
+    "mode",
+    "output",
+    "principal",
+    "principalpixel",
+    "projection",
+    "resolution",
+    "sensorsize",
+    "target",
+];
+
+/// Counts what is not read of a model.
+pub fn say(root: &Element, tally: &mut Tally) {
+    for section in &root.children {
+        match section.tag.as_str() {
+            "option" | "size" | "visual" | "statistic" => tally.count(features::SETTINGS),
+            "compiler" => {
+                attributes(section, tally);
+                if section.get("fusestatic") == Some("true") {
+                    let text = "`fusestatic` is not followed: bodies without joints stay links";
+                    tally.remark(section.place, text);
+                }
+            }
+            "default" | "worldbody" | "asset" => inside(section, tally),
+            "contact" | "actuator" | "equality" | "keyframe" => each(section, tally),
+            "tendon" => count(section, features::TENDONS, tally),
+            "sensor" => count(section, features::MEASURED, tally),
+            "deformable" => count(section, features::SOFT, tally),
+            "custom" => count(section, features::OWN_DATA, tally),
+            tag => tally.unread(format!("<{tag}>")),
+        }
+    }
+}
+
+fn count(section: &Element, feature: features::Feature, tally: &mut Tally) {
+    for _ in &section.children {
+        tally.count(feature);
+    }
+}
+
+/// The elements of a section of which all children are of one kind.
+fn each(section: &Element, tally: &mut Tally) {
+    for element in &section.children {
+        match element.tag.as_str() {
+            "pair" | "exclude" | "key" | "joint" | "general" | "motor" | "position"
+            | "velocity" | "intvelocity" => attributes(element, tally),
+            // Counted whole.
+            _ => {}
+        }
+    }
+}
+
+fn inside(section: &Element, tally: &mut Tally) {
+    for element in &section.children {
+        match element.tag.as_str() {
+            "body" | "frame" | "replicate" | "default" => {
+                attributes(element, tally);
+                inside(element, tally);
+            }
+            "inertial" | "joint" | "freejoint" | "geom" | "site" | "camera" | "mesh"
+            | "material" | "texture" | "general" | "motor" | "position" | "velocity"
+            | "intvelocity" => {
+                attributes(element, tally);
+            }
+            "light" => tally.count(features::SETTINGS),
+            "skin" => tally.count(features::SOFT),
+            // Counted where they are met, or of something that is.
+            "composite" | "flexcomp" | "hfield" | "attach" | "pair" | "equality" | "tendon"
+            | "orientation" | "pid" | "damper" | "cylinder" | "muscle" | "adhesion" | "dcmotor" => {
+            }
+            tag => tally.unread(format!("<{tag}>")),
+        }
+        for plugin in element.all("plugin").filter(|_| element.tag != "body") {
+            tally.unread(format!("<{}> of <{}>", plugin.tag, element.tag));
+        }
+    }
+}
+
+fn attributes(element: &Element, tally: &mut Tally) {
+    for (name, _) in &element.attributes {
+        match name.as_str() {
+            "user" => tally.count(features::OWN_DATA),
+            "fusestatic" => {}
+            name if LENS.contains(&name) => tally.unread("lenses and targets of cameras"),
+            name if SETTINGS.contains(&name) => tally.count(features::SETTINGS),
+            name if READ.contains(&name) => {}
+            name => {
+                let name: String = name.chars().take(60).collect();
+                tally.unread(format!("{name} of <{}>", element.tag));
+            }
+        }
+    }
+}
