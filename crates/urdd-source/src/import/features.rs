@@ -65,7 +65,7 @@ features! {
     TEXTURES = "textures", Yes, Yes;
     FRAMES = "sites, cameras and frames", FRAME, FRAME;
     POSES = "named configurations", SRDF, Elsewhere;
-    MIMICS = "joints that follow others", Yes, Yes;
+    MIMICS = "joints that follow others", Elsewhere, Yes;
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;

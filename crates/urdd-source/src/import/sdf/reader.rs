@@ -152,11 +152,26 @@ fn version(root: Tag) -> Result<u32, Refusal> {
     }
 }
 
+/// The text with `__` for `::` in names of elements: `gz sdf` writes `<ignition::corrected_offsets>`.
+fn with_single_colons(text: &str) -> String {
+    let mut parts = text.split('<');
+    let mut mended = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_end = |c: char| c.is_ascii_whitespace() || c == '>';
+        let (name, rest) = part.split_at(part.find(is_end).unwrap_or(part.len()));
+        mended.push('<');
+        mended.push_str(&name.replace("::", "__"));
+        mended.push_str(rest);
+    }
+    mended
+}
+
 /// The text without white space before its declaration, and with prefixes declared that it uses and does not declare; and
 /// by how many bytes this moves what is in it.
 fn mended(text: &str) -> (String, isize) {
     let trimmed = text.trim_start();
-    let mut mended = if trimmed.starts_with("<?xml") { trimmed } else { text }.to_owned();
+    let trimmed = if trimmed.starts_with("<?xml") { trimmed } else { text };
+    let mut mended = with_single_colons(trimmed);
     for _ in 0..MOST_PREFIXES {
         let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
             urdd_xml::parse(&mended, Kind::Other)

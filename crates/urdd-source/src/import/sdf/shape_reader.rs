@@ -63,6 +63,12 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
         _ => geometry(reader, found)?.map(|geometry| (geometry, Vector3::zeros())),
     };
     let Some((geometry, shift)) = found else { return Ok(None) };
+    if is_flat(&geometry) {
+        reader.tally.unread("shapes without a volume");
+        let text = format!("this `<{}>` has no volume: it is left out", tag.name());
+        reader.tally.remark(tag.place(), text);
+        return Ok(None);
+    }
     let pose = pose * Translation3::from(shift);
     let material = if is_visual { material(reader, tag)? } else { None };
     let name = tag.attribute("name").map(str::to_owned);
@@ -104,14 +110,24 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
     Ok(Some(geometry))
 }
 
-/// Three lengths that are greater than 0.
+/// Whether a shape has no volume.
+fn is_flat(geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Box(lengths) | Geometry::Ellipsoid(lengths) => lengths.contains(&0.0),
+        Geometry::Sphere(radius) | Geometry::Capsule { radius, .. } => *radius == 0.0,
+        Geometry::Cylinder { radius, length } => *radius == 0.0 || *length == 0.0,
+        Geometry::Mesh { scale, .. } => scale.contains(&0.0),
+    }
+}
+
+/// Three lengths that are not less than 0.
 fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
     let Some(lengths) = tag.vector(child)? else {
         return tag.lacks(child);
     };
-    match lengths.iter().all(|length| *length > 0.0) {
+    match lengths.iter().all(|length| *length >= 0.0) {
         true => Ok(lengths.into()),
-        false => tag.refuse(&tag.words(child).unwrap_or_default(), "greater than 0"),
+        false => tag.refuse(&tag.words(child).unwrap_or_default(), "at least 0"),
     }
 }
 
