@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 use urdd_generate::{Packages, SourceSettings, XacroSettings};
+use urdd_source::import::options::ImportOptions;
 
 /// What functions that read descriptions ask for, which check its types.
 #[derive(FromPyObject)]
@@ -14,6 +15,9 @@ pub struct Source {
     xacro: bool,
     xacro_arguments: Vec<String>,
     xacro_timeout: f64,
+    body: Option<String>,
+    model: Option<String>,
+    ball: String,
 }
 
 impl Source {
@@ -29,7 +33,19 @@ impl Source {
             arguments: self.xacro_arguments,
             time_limit: Duration::from_secs_f64(seconds),
         };
-        Ok(SourceSettings { packages, allowed_folders, xacro, ..SourceSettings::default() })
+        let import = ImportOptions {
+            body: self.body,
+            model: self.model,
+            has_revolute_balls: match self.ball.as_str() {
+                "spherical" => false,
+                "revolute" => true,
+                other => {
+                    let other = other.escape_debug();
+                    return Err(format!("ball: `{other}` is neither spherical nor revolute"));
+                }
+            },
+        };
+        Ok(SourceSettings { packages, allowed_folders, xacro, import, ..SourceSettings::default() })
     }
 }
 

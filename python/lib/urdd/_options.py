@@ -58,6 +58,12 @@ class MakingOptions(TypedDict, total=False):
     """Also expands macros in .urdf files."""
     xacro_timeout: float
     """Time limit of the program xacro, seconds."""
+    body: str | None
+    """The body of an MJCF that is the root of the robot."""
+    model: str | None
+    """The model of an SDF file that has several."""
+    ball: Literal["spherical", "revolute"]
+    """How a ball joint of an MJCF or SDF is written."""
     drop_edits: bool
     """Discards the edits of skips in the URDD that is replaced."""
     force: bool
@@ -73,6 +79,9 @@ class Source:
     xacro: bool
     xacro_arguments: list[str]
     xacro_timeout: float
+    body: str | None
+    model: str | None
+    ball: str
 
 
 @dataclass(frozen=True)
@@ -184,6 +193,9 @@ def options_of(
             given.get("xacro", False),
             xacro_arguments,
             given.get("xacro_timeout", 60.0),
+            body=given.get("body"),
+            model=given.get("model"),
+            ball=given.get("ball", "spherical"),
         ),
         geometry=given.get("geometry", "visual"),
         mesh_formats=words(given.get("mesh_formats", ("glb", "stl", "obj")), "mesh_formats"),
@@ -200,9 +212,13 @@ def options_of(
 def source(
     packages: Mapping[str, str | os.PathLike[str]] | None,
     allowed_folders: Iterable[str | os.PathLike[str]],
-    xacro: bool,
-    xacro_arguments: Mapping[str, object] | None,
-    xacro_timeout: float,
+    xacro: bool = False,
+    xacro_arguments: Mapping[str, object] | None = None,
+    xacro_timeout: float = 60.0,
+    *,
+    body: str | None = None,
+    model: str | None = None,
+    ball: str = "spherical",
 ) -> Source:
     """How descriptions are found and read."""
     return Source(
@@ -211,6 +227,9 @@ def source(
         xacro=bool(xacro),
         xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
         xacro_timeout=float(xacro_timeout),
+        body=body,
+        model=model,
+        ball=ball,
     )
 
 
