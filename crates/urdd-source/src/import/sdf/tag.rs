@@ -135,11 +135,11 @@ impl<'a> Tag<'a> {
         Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
     }
 
-    /// The number in a child element that has to be there and to be greater than 0.
+    /// The number in a child element that has to be there and must not be less than 0.
     pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
         match self.number(child)? {
-            Some(value) if value > 0.0 => Ok(value),
-            Some(value) => self.refuse(&value.to_string(), "greater than 0"),
+            Some(value) if value >= 0.0 => Ok(value),
+            Some(value) => self.refuse(&value.to_string(), "at least 0"),
             None => self.lacks(child),
         }
     }

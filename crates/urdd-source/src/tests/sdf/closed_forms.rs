@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::{body, fixture, inside, joint};
+use super::{body, fixture, given, inside, joint};
 use crate::import::model::{Geometry, Inertial, JointKind, Mimic};
 
 #[test]
@@ -120,4 +120,47 @@ fn colours_are_as_opaque_as_their_shape() {
     assert_eq!((&*model.assets[asset].path, scale), ("meshes/flat.obj", [2.0; 3]));
     // What the mesh names goes with it.
     assert!(model.assets.iter().any(|asset| asset.path == "meshes/flat.mtl"));
+}
+
+/// Two triangles: one at the origin, one with its middle at (2, 3, 0).
+const OBJ: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 2 0\nv 3 2 0\nv 1 4 0\no near\nf 1 2 3\no far\nf 4 5 6\n";
+const COLLADA: &str = "<COLLADA><library_geometries><geometry id='g'><mesh>\
+    <source id='s'><float_array id='f' count='9'>1 2 0 3 2 0 1 4 0</float_array><technique_common>\
+    <accessor source='#f' count='3' stride='3'/></technique_common></source>\
+    <vertices id='v'><input semantic='POSITION' source='#s'/></vertices>\
+    <triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles>\
+    </mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'>\
+    <node name='far'><instance_geometry url='#g'/></node>\
+    <node name='near'><translate>-1 -2 0</translate><instance_geometry url='#g'/></node>\
+    </visual_scene></library_visual_scenes><scene><instance_visual_scene url='#w'/></scene></COLLADA>";
+
+#[test]
+fn a_part_of_a_mesh_is_a_mesh_of_its_own() {
+    for (file, text) in [("m.obj", OBJ), ("m.dae", COLLADA)] {
+        let shape = |part: &str, center: bool| {
+            format!(
+                "<visual name='v'><pose>0 0 1 0 0 0</pose><geometry><mesh><uri>{file}</uri><scale>2 1 1</scale>\
+                 <submesh><name>{part}</name><center>{center}</center></submesh></mesh></geometry></visual>"
+            )
+        };
+        let shapes = [shape("far", true), shape("near", false), shape("none", true)].concat();
+        let text_of_model = format!(
+            "<sdf version='1.6'><model name='m'><link name='a'>{shapes}</link></model></sdf>"
+        );
+        let model = given(&text_of_model, &[(file, text)]).expect("a model");
+        let shapes = &body(&model, "a").shapes;
+        assert_eq!((shapes.len(), model.assets.len()), (2, 2), "{file}");
+        // Scaled about its own middle.
+        assert_eq!(shapes[0].pose.translation.vector, Vector3::new(-4.0, -3.0, 1.0));
+        assert_eq!(shapes[1].pose.translation.vector, Vector3::new(0.0, 0.0, 1.0));
+        let bounds = |index: usize| {
+            let asset = &model.assets[index];
+            let scene = urdd_geometry::read::read(&asset.bytes, &asset.path, &mut |_| None);
+            let bounds = scene.expect("a mesh").merged().bounds().expect("bounds");
+            (bounds.min, bounds.max)
+        };
+        assert_eq!(bounds(0), ([1.0, 2.0, 0.0], [3.0, 4.0, 0.0]), "{file}");
+        assert_eq!(bounds(1).0, [0.0; 3], "{file}");
+    }
 }

@@ -47,7 +47,7 @@ fn numbers_that_are_none_are_refused() {
     refused("1.9", &pose("0 0 0 0 0 nan"), "not a number");
     refused("1.9", &pose("0 0 0 0 0 inf"), "six finite numbers");
     let shape = "<link name='a'><visual name='v'><geometry><sphere><radius>-1</radius></sphere></geometry></visual></link>";
-    refused("1.9", shape, "greater than 0");
+    refused("1.9", shape, "at least 0");
 }
 
 #[test]

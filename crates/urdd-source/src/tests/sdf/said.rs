@@ -76,3 +76,23 @@ fn a_world_has_its_only_robot() {
     let said = two.fault.to_string();
     assert!(said.contains("`arm`, `ground_plane`, `other`") && said.contains("--model"), "{said}");
 }
+
+#[test]
+fn texts_that_gazebo_reads_are_read() {
+    let text = "\n<?xml version='1.0'?><sdf version='1.7'><model name='m'><link name='a'><gz:mark/>\
+        <ignition::corrected_offsets>1</ignition::corrected_offsets>\
+        <visual name='v'><geometry><sphere><radius>0</radius></sphere></geometry></visual><odd/></link></model></sdf>";
+    let model = given(text, &[]).expect("a model");
+    assert!(model.bodies[0].shapes.is_empty());
+    let unread: Vec<&str> = model.tally.all_unread().keys().map(String::as_str).collect();
+    let wanted = [
+        "`<gz:mark>` of `<link>`",
+        "`<ignition__corrected_offsets>` of `<link>`",
+        "`<odd>` of `<link>`",
+        "shapes without a volume",
+    ];
+    assert_eq!(unread, wanted);
+    // Places are those of the text as it was.
+    let offset = model.tally.remarks[0].place.offset;
+    assert!(text[offset..].starts_with("<visual"), "{}", &text[offset..]);
+}
