@@ -65,7 +65,7 @@ features! {
     TEXTURES = "textures", Yes, Yes;
     FRAMES = "sites, cameras and frames", FRAME, FRAME;
     POSES = "named configurations", SRDF, Elsewhere;
-    MIMICS = "joints that follow others", Elsewhere, Yes;
+    MIMICS = "joints that follow others", Yes, Yes;
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;
@@ -98,7 +98,7 @@ features! {
     MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
     SUBMESHES = "parts of meshes", Elsewhere, PART;
     LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
-    FRICTION = "friction of surfaces, the same of all", Elsewhere, SETUP;
+    FRICTION = "friction of surfaces, the same of all", SETUP, SETUP;
     CONTACTS = "other properties of contacts", Elsewhere, No;
     INCLUDES = "included models", Elsewhere, Yes;
     IN_WORLD = "the pose of the model in the world", Elsewhere, No;
