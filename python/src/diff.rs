@@ -8,7 +8,7 @@ use urdd_diff::{DiffError, Options, Side, compare};
 use urdd_validate::report;
 
 use crate::errors::raise;
-use crate::generate::places;
+use crate::source::places;
 use crate::work;
 
 /// How two robots differ, as JSON.

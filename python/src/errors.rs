@@ -132,6 +132,9 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
                 (file.clone(), fault.line, fault.column, advice::of_fault(&fault.fault))
             }))
         }
+        GenerateError::Source(SourceError::Import { file, line, column, fault }) => {
+            places.push((file.clone(), *line, *column, fault.to_string()));
+        }
         GenerateError::Outside { file, meshes } => places.extend(meshes.iter().map(|mesh| {
             let leads = mesh.path.display();
             (file.clone(), mesh.line, mesh.column, format!("mesh {}: leads to {leads}", mesh.name))

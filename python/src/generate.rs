@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -12,20 +11,17 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::caught;
-use urdd_generate::{
-    Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings, SourceSettings,
-    XacroSettings,
-};
+use urdd_generate::{Generated, MeshFormats, Pieces, Progress, Selection, Settings};
 
 use crate::errors::of_generate;
+use crate::source::Source;
 use crate::work::{self, Step, Teller};
 
 /// The options of `urdd.generate`, which checks their types.
 #[derive(FromPyObject)]
 pub struct Options {
     modules: Option<Vec<String>>,
-    packages: Vec<(String, PathBuf)>,
-    allowed_folders: Vec<PathBuf>,
+    source: Source,
     geometry: String,
     mesh_formats: Vec<String>,
     pieces: u8,
@@ -33,9 +29,6 @@ pub struct Options {
     samples: u32,
     skip: Option<Vec<String>>,
     strict: bool,
-    xacro: bool,
-    xacro_arguments: Vec<String>,
-    xacro_timeout: f64,
     drop_edits: bool,
     force: bool,
 }
@@ -47,12 +40,11 @@ impl Options {
             Some(words) => Selection::parse(words.iter().map(String::as_str))
                 .map_err(|error| format!("modules: {error}"))?,
         };
-        let (packages, allowed_folders) = places(&self.packages, self.allowed_folders)?;
+        let source = self.source.settings()?;
         let length = |metres: f64| metres > 0.0 && metres.is_finite();
         if !self.piece_tolerance.is_none_or(length) {
             return Err("piece_tolerance must be a number of metres above 0".to_owned());
         }
-        let xacro = xacro(self.xacro, self.xacro_arguments, self.xacro_timeout)?;
         let skip = self.skip.map(|words| {
             let each = words.iter().map(|word| skipped_reason(word));
             each.collect::<Result<Vec<_>, _>>()
@@ -68,7 +60,7 @@ impl Options {
         let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
         Ok(Settings {
             selection,
-            source: source(packages, allowed_folders, xacro),
+            source,
             preferred_geometry: match self.geometry.as_str() {
                 "visual" => GeometryKind::Visual,
                 "collision" => GeometryKind::Collision,
@@ -89,46 +81,6 @@ impl Options {
             cancellation: Cancellation::default(),
         })
     }
-}
-
-/// Where meshes are: packages, those of the environment too, and folders, which exist.
-pub fn places(
-    named: &[(String, PathBuf)],
-    allowed_folders: Vec<PathBuf>,
-) -> Result<(Packages, Vec<PathBuf>), String> {
-    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
-    for (name, path) in named {
-        let added = packages.add(&format!("{name}={}", path.display()));
-        added.map_err(|error| format!("packages: {error}"))?;
-    }
-    match allowed_folders.iter().find(|folder| !folder.is_dir()) {
-        Some(folder) => {
-            let folder = folder.display();
-            Err(format!("allowed_folders: {folder} is not a folder"))
-        }
-        None => Ok((packages, allowed_folders)),
-    }
-}
-
-/// How xacro files are expanded, in at most so many seconds.
-pub fn xacro(
-    expand_urdf: bool,
-    arguments: Vec<String>,
-    seconds: f64,
-) -> Result<XacroSettings, String> {
-    if !(seconds > 0.0 && seconds < 1e9) {
-        return Err("xacro_timeout must be a number of seconds above 0".to_owned());
-    }
-    Ok(XacroSettings { expand_urdf, arguments, time_limit: Duration::from_secs_f64(seconds) })
-}
-
-/// How descriptions are found and read, from the disk.
-pub fn source(
-    packages: Packages,
-    allowed_folders: Vec<PathBuf>,
-    xacro: XacroSettings,
-) -> SourceSettings {
-    SourceSettings { packages, allowed_folders, xacro, ..SourceSettings::default() }
 }
 
 /// The reason with this name on the command line.

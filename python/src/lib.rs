@@ -12,6 +12,7 @@ mod diff;
 mod errors;
 mod export;
 mod generate;
+mod import;
 mod jobs;
 mod lint;
 mod obstacle;
@@ -21,6 +22,7 @@ mod proximity;
 mod queries;
 mod robot;
 mod shapes;
+mod source;
 mod threads;
 mod validate;
 mod work;
@@ -42,6 +44,8 @@ mod _urdd {
     use crate::export::{export, joint_groups};
     #[pymodule_export]
     use crate::generate::generate;
+    #[pymodule_export]
+    use crate::import::import_robot;
     #[pymodule_export]
     use crate::jobs::find_urdfs;
     #[pymodule_export]

@@ -10,7 +10,7 @@ use urdd_findings::settings::{Settings, parse_program};
 use urdd_lint::{LintError, LintSettings};
 
 use crate::errors::raise;
-use crate::generate;
+use crate::source::Source;
 use crate::validate::Reporting;
 use crate::work;
 
@@ -18,11 +18,7 @@ use crate::work;
 #[derive(FromPyObject)]
 pub struct Options {
     for_: Option<Vec<String>>,
-    packages: Vec<(String, PathBuf)>,
-    allowed_folders: Vec<PathBuf>,
-    xacro: bool,
-    xacro_arguments: Vec<String>,
-    xacro_timeout: f64,
+    source: Source,
     baseline: Option<PathBuf>,
     reporting: Reporting,
 }
@@ -36,10 +32,7 @@ impl Options {
             report.programs =
                 each.collect::<Result<_, _>>().map_err(|error| format!("for_: {error}"))?;
         }
-        let (packages, allowed_folders) = generate::places(&self.packages, self.allowed_folders)?;
-        let xacro = generate::xacro(self.xacro, self.xacro_arguments, self.xacro_timeout)?;
-        let source = generate::source(packages, allowed_folders, xacro);
-        Ok(LintSettings { report, source, ..LintSettings::default() })
+        Ok(LintSettings { report, source: self.source.settings()?, ..LintSettings::default() })
     }
 }
 

@@ -1,15 +1,14 @@
 //! `urdd import`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::output::{self, Failure, about, counted, shown};
+use super::output::{self, Failure, counted, shown};
 use super::packages::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
-use urdd_source::import::{Imported, import};
-use urdd_source::{Settings, load};
+use urdd_source::import::{Imported, import_whole};
 
 /// Maximum number of notes that are printed; the report has all.
 const MAX_NOTES: usize = 20;
@@ -50,12 +49,7 @@ pub fn run(arguments: &ImportArguments) -> ExitCode {
 
 fn made(arguments: &ImportArguments) -> Result<(), Failure> {
     let settings = arguments.packages.settings()?;
-    let imported = match import(&arguments.file, &settings)? {
-        Some(imported) => imported,
-        None => not_imported(&arguments.file, &settings)?,
-    };
-    // What is written must be a robot.
-    let source = load(&imported.path(), &imported.settings(&settings)?, &Cancellation::default())?;
+    let (imported, source) = import_whole(&arguments.file, &settings, &Cancellation::default())?;
     let robot = &source.reading.robot;
     let report = arguments.report.as_ref().map(|file| (file.clone(), imported.report.to_json()));
     let path = |name: &String| arguments.output.join(name);
@@ -78,14 +72,6 @@ fn made(arguments: &ImportArguments) -> Result<(), Failure> {
         .map(|(count, thing)| counted(count, thing));
     let urdf = shown(&path(&imported.urdf));
     Ok(output::print(&format!("{urdf}: {links}, {joints}, {}\n", counted(files.len(), "file")))?)
-}
-
-/// Why a file is not imported.
-fn not_imported(file: &Path, settings: &Settings) -> Result<Imported, Failure> {
-    // An error that says more, if it cannot be read.
-    load(file, settings, &Cancellation::default())?;
-    let text = "this is a URDF already; `urdd generate` takes it as it is";
-    Err(about(file)(text))?
 }
 
 /// What is lost, what is otherwise, and what else a person has to know.

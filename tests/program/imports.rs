@@ -38,7 +38,10 @@ fn files_are_written_once_and_never_over_those_of_a_person() {
     let folder = tempfile::tempdir().expect("a folder");
     let arm = example("mjcf/arm.xml");
     let import = |more: &[&str]| {
-        urdd(&[&["import", &arm, "-o", "arm", "--report", "report.json"], more].concat(), folder.path())
+        urdd(
+            &[&["import", &arm, "-o", "arm", "--report", "report.json"], more].concat(),
+            folder.path(),
+        )
     };
     let (status, out, notes) = import(&[]);
     assert_eq!(status, 0, "{notes}");
@@ -79,18 +82,25 @@ fn a_urdd_of_an_mjcf_has_its_poses_pairs_and_origin_and_passes() {
     let home = &named["configurations"][0];
     assert_eq!(home["name"], "home");
     // The qpos of the file; the fingers follow each other.
-    let values: Vec<f64> =
-        home["configuration"].as_array().expect("a list").iter().filter_map(Value::as_f64).collect();
+    let values: Vec<f64> = home["configuration"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
     assert_eq!(values, [0.0, -0.6, 1.4, 0.8, 0.0, 0.02]);
     let skips = json(&folder.path().join("arm/link_shapes_skips_module/module.json"));
     let edits = skips["edits"].as_array().expect("a list");
-    let is_excluded =
-        |edit: &Value| edit["link_a"] == "base" && edit["link_b"] == "upper_arm";
+    let is_excluded = |edit: &Value| edit["link_a"] == "base" && edit["link_b"] == "upper_arm";
     assert!(edits.iter().any(is_excluded), "{edits:?}");
     let setup = fs::read_to_string(folder.path().join("arm.export.toml")).expect("a file");
-    assert!(setup.contains("[actuators.joint.elbow]\narmature = 0.05\nkp = 400.0\nkv = 40.0"), "{setup}");
+    assert!(
+        setup.contains("[actuators.joint.elbow]\narmature = 0.05\nkp = 400.0\nkv = 40.0"),
+        "{setup}"
+    );
     // A person's file stays.
-    fs::write(folder.path().join("arm.export.toml"), "robot = \"tabletop_arm\"\n").expect("written");
+    fs::write(folder.path().join("arm.export.toml"), "robot = \"tabletop_arm\"\n")
+        .expect("written");
     let (status, _, said) = urdd(&["generate", &arm, "-o", "arm"], folder.path());
     assert!(status == 0 && said.contains("arm.export.toml: "), "{said}");
     let kept = fs::read_to_string(folder.path().join("arm.export.toml")).expect("a file");
@@ -147,13 +157,13 @@ fn what_is_wrong_is_said_with_its_place() {
              <geom type=\"mesh\" mesh=\"m\"/></body></worldbody></mujoco>",
             "no.stl` was not found",
         ),
-        ("nan.xml", "<mujoco><worldbody><body pos=\"0 nan 0\"/></worldbody></mujoco>", "nan.xml:1:"),
-        ("empty.sdf", "<sdf version=\"1.9\"/>", "empty.sdf:1:1: "),
         (
-            "entity.xml",
-            "<!DOCTYPE m [<!ENTITY e \"x\">]><mujoco model=\"&e;\"/>",
-            "entity.xml:1:",
+            "nan.xml",
+            "<mujoco><worldbody><body pos=\"0 nan 0\"/></worldbody></mujoco>",
+            "nan.xml:1:",
         ),
+        ("empty.sdf", "<sdf version=\"1.9\"/>", "empty.sdf:1:1: "),
+        ("entity.xml", "<!DOCTYPE m [<!ENTITY e \"x\">]><mujoco model=\"&e;\"/>", "entity.xml:1:"),
     ];
     for (name, text, wanted) in cases {
         fs::write(inside.join(name), text).expect("written");
@@ -167,8 +177,10 @@ fn what_is_wrong_is_said_with_its_place() {
 #[test]
 fn ten_thousand_bodies_are_read_or_refused_and_do_not_hang() {
     let folder = tempfile::tempdir().expect("a folder");
-    let bodies: String = (0..10_000).map(|at| format!("<body name=\"b{at}\"><geom size=\"1\"/></body>")).collect();
-    let text = format!("<mujoco><worldbody><body name=\"root\">{bodies}</body></worldbody></mujoco>");
+    let bodies: String =
+        (0..10_000).map(|at| format!("<body name=\"b{at}\"><geom size=\"1\"/></body>")).collect();
+    let text =
+        format!("<mujoco><worldbody><body name=\"root\">{bodies}</body></worldbody></mujoco>");
     fs::write(folder.path().join("many.xml"), text).expect("written");
     let (status, out, said) = urdd(&["import", "many.xml", "-o", "many"], folder.path());
     assert_eq!(status, 0, "{said}");

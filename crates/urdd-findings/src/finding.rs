@@ -8,7 +8,7 @@ use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
-use urdd_format::report::{Fix, Magnitude, Severity};
+use urdd_format::report::{Consequence, Fix, Magnitude, Severity};
 
 pub use urdd_format::report::Place;
 
@@ -28,6 +28,8 @@ pub struct Finding {
     pub message: String,
     /// Its severity, if it is not that of its rule. Settings that name the rule come first.
     pub severity: Option<Severity>,
+    /// What it leads to, if that is not what its rule says.
+    pub consequence: Option<Consequence>,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
     /// The faulty meshes, if the finding is about meshes of single links. Does not include those of findings that were
@@ -64,6 +66,7 @@ impl Finding {
             place: Place::default(),
             message: message.into(),
             severity: None,
+            consequence: None,
             tolerance: None,
             parts: Vec::new(),
             count: 1,

@@ -14,6 +14,8 @@ pub struct Bodies {
     pub top: Vec<usize>,
     /// Each link's pose in the frame of its body's topmost link.
     pub pose: Vec<Isometry3<f64>>,
+    /// The links of each body, by its topmost link; none for the other links.
+    members: Vec<Vec<usize>>,
 }
 
 impl Bodies {
@@ -34,13 +36,16 @@ impl Bodies {
                 pose[link] = pose[parent] * isometry(&joint.origin);
             }
         }
-        Some(Bodies { tree, top, pose })
+        let mut members = vec![Vec::new(); links];
+        for (link, &top) in top.iter().enumerate() {
+            members[top].push(link);
+        }
+        Some(Bodies { tree, top, pose, members })
     }
 
     /// The links of a body, by its topmost link.
     pub fn members(&self, top: usize) -> impl Iterator<Item = usize> {
-        let all = self.top.iter().enumerate();
-        all.filter(move |(_, of)| **of == top).map(|(link, _)| link)
+        self.members[top].iter().copied()
     }
 
     /// The topmost links, in link order.

@@ -44,11 +44,13 @@ struct Candidate {
 }
 
 /// The SRDFs of the robot: each whose file has the URDF's name; or else the only one whose robot has the robot's name, or the
-/// only one there is, if most of the names in it are the URDF's and no other URDF beside this one has its file's name.
+/// only one there is, beside the only URDF, if most of the names in it are the URDF's. No other URDF beside this one has its
+/// file's name.
 pub fn of_robot(urdf: &Subject) -> Vec<Srdf> {
     let all = candidates(urdf);
     let has_stem = all.iter().any(|one| one.has_stem);
-    let is_only = all.len() == 1;
+    let is_only_urdf = urdfs(urdf).filter(|name| name.ends_with(".urdf")).count() < 2;
+    let is_only = all.len() == 1 && is_only_urdf;
     let mut found = all;
     found.retain(|one| match has_stem {
         true => one.has_stem && is_of(urdf, one, true),
@@ -102,10 +104,13 @@ fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
 /// Whether a URDF beside this one has an SRDF's name.
 fn is_of_another_urdf(urdf: &Subject, srdf: &Path) -> bool {
     let stem = stem(srdf);
-    names(urdf.folder).iter().any(|name| {
-        let is_urdf = [".urdf", ".xacro"].iter().any(|ending| name.ends_with(ending));
-        is_urdf && self::stem(Path::new(name)) == stem
-    })
+    urdfs(urdf).any(|name| self::stem(Path::new(&name)) == stem)
+}
+
+/// The names of the URDFs in the URDF's folder.
+fn urdfs(urdf: &Subject) -> impl Iterator<Item = String> {
+    let is_urdf = |name: &String| [".urdf", ".xacro"].iter().any(|ending| name.ends_with(ending));
+    names(urdf.folder).into_iter().filter(is_urdf)
 }
 
 /// A file's name without its endings, in small letters.

@@ -2,6 +2,7 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
+use crate::unknown::Names;
 
 /// What a reader says of its program.
 pub(crate) struct About {
@@ -22,15 +23,4 @@ pub(crate) struct About {
     /// Elements and attributes that it never reads: nothing is lost with them.
     pub never: &'static [&'static str],
     pub read: fn(&File, &mut Effects) -> Reading<()>,
-}
-
-/// Which names a program takes for those of elements.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Names {
-    /// As they are written.
-    Exact,
-    /// As they are written, in the namespace that an `xmlns` gives them.
-    Expanded,
-    /// In any letter case.
-    AnyCase,
 }

@@ -145,6 +145,9 @@ impl Fault {
             Fault::Unknown { .. } => "mend the name, or add what it names",
             Fault::Value { .. } => "write one of those that URDF defines",
             Fault::Type(_) => "use joints that the program has",
+            Fault::Shape(shape) if shape == "capsule" => {
+                "use other shapes, or write `version=\"1.1\"` on `<robot>` for ROS (urdfdom 6) and Pinocchio alone"
+            }
             Fault::Shape(_) => "use box, cylinder, sphere or mesh",
             Fault::NeverRead(_) | Fault::Way(_) => "do not rely on it there",
             Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
@@ -197,6 +200,9 @@ impl fmt::Display for Fault {
             Fault::Unknown { kind, name } => write!(f, "no {kind} is called `{name}`"),
             Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
             Fault::Type(kind) => write!(f, "a {kind} joint is not for every program"),
+            Fault::Shape(shape) if shape == "capsule" => {
+                f.write_str("`<capsule>` is not a shape in every program")
+            }
             Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
             Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
             Fault::UnknownElement { name, like } if name == like => {

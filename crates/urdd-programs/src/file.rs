@@ -1,16 +1,33 @@
 //! What a reader is asked about.
 
+use std::cell::OnceCell;
+
 use crate::mesh::Mesh;
+use crate::tinyxml::Document;
+use crate::unknown::{self, Found, Names};
 
 /// A URDF, and the mesh files that it names.
 pub struct File<'a> {
     /// The file as it is on disk.
-    pub bytes: &'a [u8],
-    /// What is there of a mesh, by the name that the URDF gives it.
-    pub meshes: &'a dyn Fn(&str) -> Mesh,
+    pub(crate) bytes: &'a [u8],
+    /// What tinyxml2 makes of it, for all programs that read by it.
+    pub(crate) document: Document<'a>,
+    meshes: &'a dyn Fn(&str) -> Mesh,
+    unknown: [OnceCell<Vec<Found>>; 3],
 }
 
-impl File<'_> {
+impl<'a> File<'a> {
+    /// A file as it is on disk. `meshes` says what is there of a mesh, by the name that the URDF gives it.
+    pub fn new(bytes: &'a [u8], meshes: &'a dyn Fn(&str) -> Mesh) -> Self {
+        File { bytes, document: Document::of(bytes), meshes, unknown: Default::default() }
+    }
+
+    /// What programs ignore that take such names for those of elements.
+    pub(crate) fn unknown(&self, names: Names) -> &[Found] {
+        let found = &self.unknown[names as usize];
+        found.get_or_init(|| unknown::find(&self.document, names))
+    }
+
     pub(crate) fn mesh(&self, name: &str) -> Mesh {
         (self.meshes)(name)
     }

@@ -9,6 +9,7 @@ mod drake;
 mod effect;
 mod fault;
 mod file;
+mod look;
 mod mesh;
 mod mujoco;
 mod number;

@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{FORMAT, Fault};
 use crate::file::File;
@@ -11,6 +11,7 @@ use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 use crate::urdfdom::{self, Joint, Link, Model, Release};
 
 /// Pinocchio.
@@ -28,7 +29,7 @@ pub(crate) const ABOUT: About = About {
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = urdfdom::parse(file, effects)?;
-    let model = urdfdom::model(&tree, Release::Six, effects)?;
+    let model = urdfdom::model(tree, Release::Six, effects)?;
     let mut reader = Reader { file, effects };
     let is_reached = reader.model(&model)?;
     effects.parsed(rapidxml::check(file.bytes))?;

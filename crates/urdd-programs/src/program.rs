@@ -3,7 +3,6 @@
 use crate::about::About;
 use crate::effect::Effects;
 use crate::file::File;
-use crate::unknown;
 use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
 
 /// A program that reads URDFs.
@@ -110,7 +109,8 @@ impl Program {
         // What a reader refuses is among the effects.
         let _ = (self.about().read)(file, &mut effects);
         if effects.loads() {
-            unknown::find(file.bytes, self.about(), &mut effects);
+            let ignored = file.unknown(self.about().names);
+            ignored.iter().for_each(|found| found.add(self.about().never, &mut effects));
         }
         effects
     }

@@ -9,29 +9,45 @@ use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 pub(crate) const MAX_DEPTH: usize = 499;
 pub(crate) const OLD_MAX_DEPTH: usize = 99;
 
-/// Parses a file. An element that is open and `max_depth` elements deep is refused.
-pub(crate) fn parse(bytes: &[u8], max_depth: usize) -> Parsed<Tree<'_>> {
-    let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
-    let mut parser =
-        Parser { bytes: &bytes[..end], at: 0, max_depth, tree: Tree::default(), open: Vec::new() };
-    parser.skip_space();
-    if parser.rest().starts_with(b"\xef\xbb\xbf") {
-        parser.at += 3;
-    }
-    if parser.rest().is_empty() {
-        return parser.refuse(0, "the file is empty");
-    }
-    parser.document()?;
-    Ok(parser.tree)
+/// More elements in each other than URDF ever has.
+pub(crate) const MOST_DEPTH: usize = 1000;
+
+/// A file, parsed once for releases that allow other depths.
+pub(crate) struct Document<'a> {
+    tree: Parsed<Tree<'a>>,
+    /// The first element that is open at each depth, bytes of the file.
+    depths: Vec<usize>,
 }
+
+impl<'a> Document<'a> {
+    /// Parses a file.
+    pub fn of(bytes: &'a [u8]) -> Self {
+        let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
+        let (tree, open, depths) = (Tree::default(), Vec::new(), Vec::new());
+        let mut parser = Parser { bytes: &bytes[..end], at: 0, tree, open, depths };
+        let parsed = parser.file();
+        Document { tree: parsed.map(|()| parser.tree), depths: parser.depths }
+    }
+
+    /// What a release makes of it that refuses an element which is open and `max_depth` elements deep.
+    pub fn within(&self, max_depth: usize) -> Parsed<&Tree<'a>> {
+        match (self.depths.get(max_depth - 1), &self.tree) {
+            (Some(&at), _) => Err(Malformed { at, why: TOO_DEEP }),
+            (None, Ok(tree)) => Ok(tree),
+            (None, Err(bad)) => Err(*bad),
+        }
+    }
+}
+
+const TOO_DEEP: &str = "elements are nested too deep";
 
 struct Parser<'a> {
     bytes: &'a [u8],
     at: usize,
-    max_depth: usize,
     tree: Tree<'a>,
     /// The elements that are not closed yet: index, and whether anything is inside.
     open: Vec<(usize, bool)>,
+    depths: Vec<usize>,
 }
 
 impl<'a> Parser<'a> {
@@ -68,7 +84,14 @@ impl<'a> Parser<'a> {
         Some(&rest[..name])
     }
 
-    fn document(&mut self) -> Parsed<()> {
+    fn file(&mut self) -> Parsed<()> {
+        self.skip_space();
+        if self.rest().starts_with(b"\xef\xbb\xbf") {
+            self.at += 3;
+        }
+        if self.rest().is_empty() {
+            return self.refuse(0, "the file is empty");
+        }
         // Declarations come before all else.
         let mut declares = true;
         loop {
@@ -169,8 +192,11 @@ impl<'a> Parser<'a> {
         });
         if !is_empty {
             self.open.push((index, false));
-            if self.open.len() >= self.max_depth {
-                return self.refuse(start, "elements are nested too deep");
+            if self.open.len() > self.depths.len() {
+                self.depths.push(start);
+            }
+            if self.depths.len() == MOST_DEPTH {
+                return self.refuse(start, TOO_DEEP);
             }
         }
         Ok(false)

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// Why a document is refused.
+#[derive(Clone, Copy)]
 pub(crate) struct Malformed {
     pub at: usize,
     pub why: &'static str,

@@ -1,63 +1,14 @@
 //! Elements and attributes that look like those of URDF, and that programs ignore: `<Visual>`, `x:origin`, `efort="3"`,
 //! `<inertial>` below `<robot>`. What resembles nothing is an extension, and is not judged.
 
+use std::cell::LazyCell;
 use std::collections::HashSet;
 
-use crate::about::{About, Names};
-use crate::effect::Effects;
+use crate::effect::{At, Effects};
 use crate::fault::{Fault, shortened};
-use crate::tinyxml;
+use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
-
-/// An element of URDF.
-struct Known {
-    name: &'static str,
-    /// What it stands in.
-    parents: &'static [&'static str],
-    attributes: &'static [&'static str],
-}
-
-const GEOMETRY: &[&str] = &["geometry"];
-const JOINT: &[&str] = &["joint"];
-const INERTIAL: &[&str] = &["inertial"];
-const SHOWN: &[&str] = &["visual", "collision"];
-
-const KNOWN: &[Known] = &[
-    known("robot", &[], &["name", "version"]),
-    known("link", &["robot"], &["name", "type"]),
-    known("joint", &["robot"], &["name", "type"]),
-    known("material", &["robot", "visual"], &["name"]),
-    known("color", &["material"], &["rgba"]),
-    known("texture", &["material"], &["filename"]),
-    known("inertial", &["link"], &[]),
-    known("visual", &["link"], &[]),
-    known("collision", &["link"], &[]),
-    known("origin", &["inertial", "visual", "collision", "joint"], &["xyz", "rpy", "quat_xyzw"]),
-    known("mass", INERTIAL, &["value"]),
-    known("inertia", INERTIAL, &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
-    known("geometry", SHOWN, &[]),
-    known("box", GEOMETRY, &["size"]),
-    known("sphere", GEOMETRY, &["radius"]),
-    known("cylinder", GEOMETRY, &["radius", "length"]),
-    known("capsule", GEOMETRY, &["radius", "length"]),
-    known("mesh", GEOMETRY, &["filename", "scale"]),
-    known("parent", JOINT, &["link"]),
-    known("child", JOINT, &["link"]),
-    known("axis", JOINT, &["xyz"]),
-    known(
-        "limit",
-        JOINT,
-        &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
-    ),
-    known("dynamics", JOINT, &["damping", "friction"]),
-    known("mimic", JOINT, &["joint", "multiplier", "offset"]),
-    known("calibration", JOINT, &["reference_position", "rising", "falling"]),
-    known(
-        "safety_controller",
-        JOINT,
-        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
-    ),
-];
+use urdd_xml::vocabulary::{KNOWN, Known, of};
 
 /// Elements of programs and tools, with all that is in them; some stand where URDF has other elements, or look like them.
 const EXTENSIONS: &[&str] = &[
@@ -103,31 +54,53 @@ const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newt
 /// Names of attributes that say little of where they belong.
 const COMMON: &[&str] = &["name", "type", "value", "link", "joint", "size", "length", "scale"];
 
-/// More elements in each other than URDF ever has.
-const MAX_DEPTH: usize = 1000;
-
-const fn known(
-    name: &'static str,
-    parents: &'static [&'static str],
-    attributes: &'static [&'static str],
-) -> Known {
-    Known { name, parents, attributes }
+/// Which names a program takes for those of elements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Names {
+    /// As they are written.
+    Exact,
+    /// As they are written, in the namespace that an `xmlns` gives them.
+    Expanded,
+    /// In any letter case.
+    AnyCase,
 }
 
-/// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(bytes: &[u8], reads: &About, effects: &mut Effects) {
-    let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
-    let mut finder = Finder { reads, effects };
+/// Something that a program ignores if it would read what is meant.
+pub(crate) struct Found {
+    at: usize,
+    part: String,
+    fault: Fault,
+    /// The elements that it is in, and what is meant. A program that never reads one of these loses nothing.
+    meant: Vec<&'static str>,
+}
+
+impl Found {
+    /// Adds it to what a program does that never reads some elements and attributes.
+    pub fn add(&self, never: &[&str], effects: &mut Effects) {
+        if !self.meant.iter().any(|one| never.contains(one)) {
+            effects.drop(self.at, &*self.part, self.fault.clone());
+        }
+    }
+}
+
+/// What programs ignore that take such names for those of elements.
+pub(crate) fn find(document: &Document, names: Names) -> Vec<Found> {
+    let Ok(tree) = document.within(MOST_DEPTH) else { return Vec::new() };
+    let mut finder = Finder { names, inside: Vec::new(), found: Vec::new() };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
-    if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
+    if let (Some(robot), Some(known)) = (robots.next(), of("robot")) {
         let place = Place { part: "robot".into(), owner: "robot".into() };
         finder.attributes(robot, known, &place.part);
         finder.children(robot, known, &place);
     }
     if let Some(second) = robots.next() {
-        finder.effects.drop(second, "robot/?", Fault::Repeated("robot".into()));
+        finder.drop(second, "robot/?".into(), Fault::Repeated("robot".into()), &[]);
     }
+    finder.found
 }
+
+/// The known elements in an element, found when they are asked for.
+type Beside<'t> = LazyCell<HashSet<&'static str>, Box<dyn FnOnce() -> HashSet<&'static str> + 't>>;
 
 /// Where an element stands.
 #[derive(Clone)]
@@ -137,23 +110,33 @@ struct Place {
     owner: String,
 }
 
-struct Finder<'r> {
-    reads: &'r About,
-    effects: &'r mut Effects,
+struct Finder {
+    names: Names,
+    /// The elements that are open, but for the robot.
+    inside: Vec<&'static str>,
+    found: Vec<Found>,
 }
 
-impl Finder<'_> {
+impl Finder {
     /// What is in an element. Goes as deep as URDF does.
     fn children(&mut self, node: Node<'_>, known: &Known, place: &Place) {
         let (mut visuals, mut collisions) = (0, 0);
         // What stands between links is of the one before, most likely.
         let mut here = place.clone();
-        let kinds = node.children().filter_map(|child| of_name(child.name()));
-        let inside: HashSet<&str> = kinds.map(|kind| kind.name).collect();
+        let inside: Beside = LazyCell::new(Box::new(move || {
+            let kinds = node.children().filter_map(|child| of(child.name()));
+            kinds.map(|kind| kind.name).collect()
+        }));
         for child in node.children() {
-            let name = self.read_as(child.name());
-            let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
-            else {
+            let lower;
+            let name = match self.names {
+                Names::Exact | Names::Expanded => child.name(),
+                Names::AnyCase => {
+                    lower = child.name().to_lowercase();
+                    &lower
+                }
+            };
+            let Some(kind) = of(name).filter(|child| known.children.contains(&child.name)) else {
                 self.unknown((node, &inside), child, known, &here);
                 continue;
             };
@@ -165,37 +148,28 @@ impl Finder<'_> {
             let part =
                 part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
             *count += 1;
-            if self.reads.never.contains(&kind.name) {
-                continue;
-            }
+            self.inside.push(kind.name);
             let has_namespace = child.value("xmlns").is_some_and(|name| !name.is_empty());
-            if has_namespace && self.reads.names == Names::Expanded {
+            if has_namespace && self.names == Names::Expanded {
                 let fault = Fault::Other("`xmlns` puts the element where URDF has none");
-                self.effects.drop(child, part, fault);
-                continue;
+                self.drop(child, part, fault, &[]);
+            } else {
+                let owner = if known.name == "robot" { &part } else { &place.owner };
+                let inside = Place { owner: owner.clone(), part };
+                self.attributes(child, kind, &inside.part);
+                self.children(child, kind, &inside);
+                if known.name == "robot" {
+                    here = inside;
+                }
             }
-            let owner = if known.name == "robot" { &part } else { &place.owner };
-            let inside = Place { owner: owner.clone(), part };
-            self.attributes(child, kind, &inside.part);
-            self.children(child, kind, &inside);
-            if known.name == "robot" {
-                here = inside;
-            }
-        }
-    }
-
-    /// The name that a program takes a name for.
-    fn read_as(&self, name: &str) -> String {
-        match self.reads.names {
-            Names::Exact | Names::Expanded => name.to_owned(),
-            Names::AnyCase => name.to_lowercase(),
+            self.inside.pop();
         }
     }
 
     /// An element that does not stand in its parent.
     fn unknown(
         &mut self,
-        (parent, inside): (Node<'_>, &HashSet<&str>),
+        (parent, inside): (Node<'_>, &Beside<'_>),
         node: Node<'_>,
         known: &Known,
         place: &Place,
@@ -206,7 +180,7 @@ impl Finder<'_> {
         }
         if let Some(like) = meant_element(inside, name, known) {
             self.add(node, &part_meant(node, like, known, place), name, like);
-        } else if let Some(other) = of_name(name) {
+        } else if let Some(other) = of(name) {
             let is_default =
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
             if !is_default && (other.name, known.name) != ("material", "collision") {
@@ -226,9 +200,9 @@ impl Finder<'_> {
     }
 
     /// Elements that would be read outside of an unknown element.
-    fn wrapped(&mut self, beside: &HashSet<&str>, wrapper: Node<'_>, known: &Known, place: &Place) {
+    fn wrapped(&mut self, beside: &Beside<'_>, wrapper: Node<'_>, known: &Known, place: &Place) {
         for inner in wrapper.children() {
-            let Some(kind) = of_name(inner.name()) else { continue };
+            let Some(kind) = of(inner.name()) else { continue };
             let is_whole = match kind.name {
                 "link" => ["inertial", "visual", "collision"]
                     .iter()
@@ -237,58 +211,63 @@ impl Finder<'_> {
                 "material" => inner.attribute("name").is_some(),
                 _ => true,
             };
-            if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
+            if is_whole && known.children.contains(&kind.name) && would_be_read(beside, kind) {
                 self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
             }
         }
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
-        let free = |one: &&str| node.attribute(one).is_none();
+        // Names of shapes are read by few programs, for nothing that is seen.
+        let is_shape = matches!(known.name, "visual" | "collision");
+        let free = |one: &&str| node.attribute(one).is_none() && !(is_shape && *one == "name");
         let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
         let text = node.text().unwrap_or_default();
         let is_number = |word: &str| word.parse::<f64>().is_ok();
         let is_value = !text.trim().is_empty() && text.split_whitespace().all(is_number);
-        if is_value
-            && !missing.is_empty()
-            && !missing.iter().any(|one| self.reads.never.contains(one))
-        {
+        if is_value && !missing.is_empty() {
             let fault =
                 Fault::Other("numbers are inside of the element, and not in its attributes");
-            self.effects.drop(node, format!("{part}/?"), fault);
+            self.drop(node, format!("{part}/?"), fault, &missing);
         }
         for attribute in node.attributes() {
             let name = &*attribute.name;
-            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let has = |all: &[&str]| all.contains(&name);
+            if has(known.attributes) || has(known.other_attributes) || name.starts_with("xml") {
+                continue;
+            }
             let is_default =
                 is_zero(&attribute.value) && matches!(known.name, "origin" | "axis" | "inertia");
-            if is_other || is_default || known.attributes.contains(&name) {
+            if has_prefix(name) || is_default {
                 continue;
             }
             let own = missing.iter().copied().find(|one| is_like(name, one));
             // The attribute of an element beside or inside.
             let is_near = |one: &Known| {
-                one.parents.contains(&known.name)
-                    || one.parents.iter().any(|parent| known.parents.contains(parent))
+                let has = |parent: &Known| parent.children.contains(&one.name);
+                let is_beside = |parent: &Known| parent.children.contains(&known.name);
+                has(known) || KNOWN.iter().any(|parent| has(parent) && is_beside(parent))
             };
             let other = || {
                 let mut near = KNOWN.iter().filter(|one| is_near(one));
                 near.find_map(|one| one.attributes.iter().copied().find(|one| *one == name))
             };
             let other = || other().filter(|name| !COMMON.contains(name));
-            let like = own.or_else(other).filter(|like| !self.reads.never.contains(like));
-            if let Some(like) = like {
+            if let Some(like) = own.or_else(other) {
                 let fault = Fault::UnknownAttribute { name: shortened(name), like };
-                self.effects.drop(attribute, format!("{part}/?"), fault);
+                self.drop(attribute, format!("{part}/?"), fault, &[like]);
             }
         }
     }
 
     fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
-        if !self.reads.never.contains(&like) {
-            let fault = Fault::UnknownElement { name: shortened(name), like };
-            self.effects.drop(node, format!("{part}/?"), fault);
-        }
+        let fault = Fault::UnknownElement { name: shortened(name), like };
+        self.drop(node, format!("{part}/?"), fault, &[like]);
+    }
+
+    fn drop(&mut self, at: impl At, part: String, fault: Fault, meant: &[&'static str]) {
+        let meant = [&self.inside, meant].concat();
+        self.found.push(Found { at: at.at(), part, fault, meant });
     }
 }
 
@@ -316,15 +295,15 @@ fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
 }
 
 /// The element that is meant by a name that is not one, if it would be read.
-fn meant_element(beside: &HashSet<&str>, name: &str, known: &Known) -> Option<&'static str> {
-    let mut children = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+fn meant_element(beside: &Beside<'_>, name: &str, known: &Known) -> Option<&'static str> {
+    let mut children = known.children.iter().filter_map(|one| of(one));
     let one = children.find(|one| is_like(name, one.name))?;
     would_be_read(beside, one).then_some(one.name)
 }
 
 /// The attribute that is written as an element: `<value>3</value>`.
 fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
-    let inside = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
+    let inside = known.children.iter().filter_map(|one| of(one));
     let own = known.attributes.iter().copied();
     let inside = inside.flat_map(|one| one.attributes.iter().copied());
     let found = own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)?;
@@ -332,18 +311,14 @@ fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'stat
 }
 
 /// Whether another element of a kind is read where there may be one already.
-fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
-    let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
-    is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+fn would_be_read(beside: &Beside<'_>, kind: &Known) -> bool {
+    let is_often = ["link", "joint", "material", "visual", "collision"].contains(&kind.name);
+    is_often || !beside.contains(kind.name)
 }
 
 /// Whether a value is that of an origin which is not written.
 fn is_zero(value: &str) -> bool {
     value.split_whitespace().all(|word| word.parse() == Ok(0.0))
-}
-
-fn of_name(name: &str) -> Option<&'static Known> {
-    KNOWN.iter().find(|one| one.name == name)
 }
 
 fn without_prefix(name: &str) -> &str {

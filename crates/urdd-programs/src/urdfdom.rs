@@ -5,13 +5,15 @@ mod joints;
 mod links;
 mod values;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
+use crate::look::Look;
 use crate::tree::{Node, Tree};
+use crate::unknown::Names;
 use crate::{tinyxml, tinyxml1};
 
 /// ROS lyrical and rolling.
@@ -89,7 +91,7 @@ pub(crate) struct Model<'t> {
 
 pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = parse(file, effects)?;
-    model(&tree, Release::Six, effects).map(|_| ())
+    model(tree, Release::Six, effects).map(|_| ())
 }
 
 /// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
@@ -100,12 +102,12 @@ pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
 
 pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = parse(file, effects)?;
-    model(&tree, Release::Four, effects).map(|_| ())
+    model(tree, Release::Four, effects).map(|_| ())
 }
 
 /// The XML.
-pub(crate) fn parse<'a>(file: &File<'a>, effects: &mut Effects) -> Reading<Tree<'a>> {
-    effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))
+pub(crate) fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
+    effects.parsed(file.document.within(tinyxml::MAX_DEPTH))
 }
 
 /// The robot.
@@ -126,7 +128,7 @@ pub(crate) fn model<'t>(
             _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
         },
     };
-    let mut reader = Reader { release, minor, effects, materials: HashSet::new() };
+    let mut reader = Reader { minor, effects, materials: HashMap::new() };
     reader.materials(robot)?;
     let links = reader.links(robot)?;
     let joints = reader.joints(robot)?;
@@ -167,12 +169,11 @@ fn version(text: &str) -> Option<(u32, u32)> {
 }
 
 struct Reader<'r> {
-    release: Release,
     /// The version of URDF is 1 and this.
     minor: u32,
     effects: &'r mut Effects,
-    /// Materials that are known.
-    materials: HashSet<String>,
+    /// Materials that are known: the first of each name.
+    materials: HashMap<String, Option<Look>>,
 }
 
 impl Reader<'_> {

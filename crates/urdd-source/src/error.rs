@@ -34,6 +34,8 @@ pub enum SourceError {
     /// A description of another format than URDF.
     #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
     Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
+    #[error("{file}: this is a URDF already; `urdd generate` takes it as it is")]
+    IsUrdf { file: String },
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// A bug in this program.
@@ -54,7 +56,9 @@ impl SourceError {
     pub fn code(&self) -> &'static str {
         match self {
             SourceError::Read { .. } => "unreadable",
-            SourceError::Refused { .. } | SourceError::Import { .. } => "refused",
+            SourceError::Refused { .. }
+            | SourceError::Import { .. }
+            | SourceError::IsUrdf { .. } => "refused",
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
             SourceError::Cancelled => "cancelled",

@@ -10,7 +10,7 @@
 
 Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link: see :class:`Robot`.
 :func:`generate` generates a URDD from a URDF, :func:`combine` one from several robots, :func:`validate` validates one,
-:func:`export` writes it in the formats of other programs, :func:`diff` compares two. :func:`lint` finds what is wrong
+:func:`export` writes it in the formats of other programs, :func:`import_robot` reads MJCF and SDF, :func:`diff` compares two. :func:`lint` finds what is wrong
 with a URDF, and what programs do with it. :class:`World` holds obstacles.
 """
 
@@ -47,6 +47,7 @@ from ._combine import Combined, CombineNote, combine
 from ._diff import diff
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
+from ._import import Imported, import_robot
 from ._lint import lint
 from ._proximity import Proximity
 from ._robot import Robot, load
@@ -90,6 +91,7 @@ __all__ = [
     "Frame",
     "GenerateError",
     "Generated",
+    "Imported",
     "InverseSolution",
     "Job",
     "LearnedPair",
@@ -136,6 +138,7 @@ __all__ = [
     "find_urdfs",
     "generate",
     "generate_text",
+    "import_robot",
     "lint",
     "load",
     "modules",

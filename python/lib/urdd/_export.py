@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
@@ -14,7 +14,7 @@ from ._answers import ShapeKind
 from ._description import RobotDescription
 from ._options import ExportOptions, whole, words
 
-__all__ = ["Actuators", "Export", "Format", "export"]
+__all__ = ["Actuators", "Export", "Format", "export", "write_files"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
@@ -52,14 +52,19 @@ class Export:
         target = Path(file)
         own, folder = (target, target.parent) if self.path is None else (target / self.path, target)
         contents = {own: self.text.encode(), **{folder / path: data for path, data in self.files.items()}}
-        if not force:
-            for path, content in contents.items():
-                if path.exists() and path.read_bytes() != content:
-                    raise FileExistsError(f"{path} exists with other content: force=True overwrites it")
-        for path, content in contents.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(content)
+        write_files(contents, force=force)
         return target
+
+
+def write_files(contents: Mapping[Path, bytes], *, force: bool) -> None:
+    """Writes files that belong together. What exists with other content is overwritten with ``force`` only."""
+    if not force:
+        for path, content in contents.items():
+            if path.exists() and path.read_bytes() != content:
+                raise FileExistsError(f"{path} exists with other content: force=True overwrites it")
+    for path, content in contents.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
 
 
 def export(

@@ -37,7 +37,8 @@ class Note:
 
     def __str__(self) -> str:
         place = f":{self.line}:{self.column}" if self.line else ""
-        return f"{self.file}{place}: {self.problem}: {self.assumed}"
+        assumed = f": {self.assumed}" if self.assumed else ""
+        return f"{self.file}{place}: {self.problem}{assumed}"
 
 
 @dataclass(frozen=True)
@@ -102,11 +103,14 @@ def generate(
     xacro: bool = False,
     xacro_arguments: Mapping[str, object] | None = None,
     xacro_timeout: float = 60.0,
+    body: str | None = None,
+    model: str | None = None,
+    ball: Literal["spherical", "revolute"] = "spherical",
     drop_edits: bool = False,
     force: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> Generated:
-    """Generates a URDD from a URDF or xacro file, in the folder ``output``, which is replaced atomically and unchanged
+    """Generates a URDD from a URDF, xacro, MJCF or SDF file, in the folder ``output``, which is replaced atomically and unchanged
     on error.
 
     A second run generates only what changed, and keeps the user's edits of skips.
@@ -130,6 +134,9 @@ def generate(
         xacro: also expands macros in .urdf files.
         xacro_arguments: arguments of the xacro file, by name.
         xacro_timeout: time limit of the program xacro, seconds.
+        body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
+        model: the model of an SDF file that has several.
+        ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
         drop_edits: discards the edits of skips and the named configurations in the URDD that is replaced.
         force: writes to a folder that contains something other than a URDD of this program.
         progress: called with the name of each module before it is generated, the number of finished modules, and the
@@ -153,6 +160,9 @@ def generate(
         "strict": strict,
         "xacro": xacro,
         "xacro_timeout": xacro_timeout,
+        "body": body,
+        "model": model,
+        "ball": ball,
         "drop_edits": drop_edits,
         "force": force,
     }

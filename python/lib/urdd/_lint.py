@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
-from ._options import LintOptions, words
+from ._options import LintOptions, source, words
 from ._validate import reporting
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ def lint(
     xacro: bool = False,
     xacro_arguments: Mapping[str, object] | None = None,
     xacro_timeout: float = 60.0,
+    body: str | None = None,
+    model: str | None = None,
+    ball: Literal["spherical", "revolute"] = "spherical",
     baseline: str | os.PathLike[str] | None = None,
     fail_on: Literal["error", "warning", "info"] | None = None,
     config: str | os.PathLike[str] | None = None,
@@ -53,6 +56,9 @@ def lint(
         xacro: also expands xacro files in folders, and macros in .urdf files.
         xacro_arguments: arguments of the xacro files, by name.
         xacro_timeout: time limit of the program xacro, seconds.
+        body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
+        model: the model of an SDF file that has several.
+        ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
         config: a settings file such as ``urdd.toml``. No such file is read by default.
@@ -68,11 +74,16 @@ def lint(
         raise TypeError("lint needs a path: a URDF, or a folder with URDFs")
     options = LintOptions(
         for_=None if for_ is None else words(for_, "for_"),
-        packages=[(name, Path(path)) for name, path in (packages or {}).items()],
-        allowed_folders=[Path(folder) for folder in allowed_folders],
-        xacro=bool(xacro),
-        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
-        xacro_timeout=float(xacro_timeout),
+        source=source(
+            packages,
+            allowed_folders,
+            xacro,
+            xacro_arguments,
+            xacro_timeout,
+            body=body,
+            model=model,
+            ball=ball,
+        ),
         baseline=None if baseline is None else Path(baseline),
         reporting=reporting(fail_on, config, select, ignore, exclude),
     )

@@ -22,8 +22,10 @@ __all__ = [
     "LintOptions",
     "MakingOptions",
     "Reporting",
+    "Source",
     "ValidateOptions",
     "options_of",
+    "source",
     "whole",
     "words",
 ]
@@ -56,6 +58,12 @@ class MakingOptions(TypedDict, total=False):
     """Also expands macros in .urdf files."""
     xacro_timeout: float
     """Time limit of the program xacro, seconds."""
+    body: str | None
+    """The body of an MJCF that is the root of the robot."""
+    model: str | None
+    """The model of an SDF file that has several."""
+    ball: Literal["spherical", "revolute"]
+    """How a ball joint of an MJCF or SDF is written."""
     drop_edits: bool
     """Discards the edits of skips in the URDD that is replaced."""
     force: bool
@@ -63,12 +71,25 @@ class MakingOptions(TypedDict, total=False):
 
 
 @dataclass(frozen=True)
+class Source:
+    """How descriptions are found and read, for the compiled part."""
+
+    packages: list[tuple[str, Path]]
+    allowed_folders: list[Path]
+    xacro: bool
+    xacro_arguments: list[str]
+    xacro_timeout: float
+    body: str | None
+    model: str | None
+    ball: str
+
+
+@dataclass(frozen=True)
 class GenerateOptions:
     """All options of generation, for the compiled part."""
 
     modules: list[str] | None
-    packages: list[tuple[str, Path]]
-    allowed_folders: list[Path]
+    source: Source
     geometry: str
     mesh_formats: list[str]
     pieces: int
@@ -76,9 +97,6 @@ class GenerateOptions:
     samples: int
     skip: list[str] | None
     strict: bool
-    xacro: bool
-    xacro_arguments: list[str]
-    xacro_timeout: float
     drop_edits: bool
     force: bool
 
@@ -151,11 +169,7 @@ class LintOptions:
     """The options of :func:`urdd.lint`, for the compiled part."""
 
     for_: list[str] | None
-    packages: list[tuple[str, Path]]
-    allowed_folders: list[Path]
-    xacro: bool
-    xacro_arguments: list[str]
-    xacro_timeout: float
+    source: Source
     baseline: Path | None
     reporting: Reporting
 
@@ -173,8 +187,16 @@ def options_of(
     modules, skip, tolerance = given.get("modules"), given.get("skip"), given.get("piece_tolerance")
     return GenerateOptions(
         modules=None if modules is None else words(modules, "modules"),
-        packages=[(name, Path(path)) for name, path in (given.get("packages") or {}).items()],
-        allowed_folders=[Path(folder) for folder in given.get("allowed_folders", ())],
+        source=source(
+            given.get("packages"),
+            given.get("allowed_folders", ()),
+            given.get("xacro", False),
+            xacro_arguments,
+            given.get("xacro_timeout", 60.0),
+            body=given.get("body"),
+            model=given.get("model"),
+            ball=given.get("ball", "spherical"),
+        ),
         geometry=given.get("geometry", "visual"),
         mesh_formats=words(given.get("mesh_formats", ("glb", "stl", "obj")), "mesh_formats"),
         pieces=whole(given.get("pieces", 7), "pieces", 1, 64),
@@ -182,11 +204,32 @@ def options_of(
         samples=whole(given.get("samples", 1000), "samples", 1, 100_000),
         skip=None if skip is None else words(skip, "skip"),
         strict=bool(given.get("strict", False)),
-        xacro=bool(given.get("xacro", False)),
-        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
-        xacro_timeout=float(given.get("xacro_timeout", 60.0)),
         drop_edits=bool(given.get("drop_edits", False)),
         force=bool(given.get("force", False)),
+    )
+
+
+def source(
+    packages: Mapping[str, str | os.PathLike[str]] | None,
+    allowed_folders: Iterable[str | os.PathLike[str]],
+    xacro: bool = False,
+    xacro_arguments: Mapping[str, object] | None = None,
+    xacro_timeout: float = 60.0,
+    *,
+    body: str | None = None,
+    model: str | None = None,
+    ball: str = "spherical",
+) -> Source:
+    """How descriptions are found and read."""
+    return Source(
+        packages=[(name, Path(path)) for name, path in (packages or {}).items()],
+        allowed_folders=[Path(folder) for folder in allowed_folders],
+        xacro=bool(xacro),
+        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
+        xacro_timeout=float(xacro_timeout),
+        body=body,
+        model=model,
+        ball=ball,
     )
 
 

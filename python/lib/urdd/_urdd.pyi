@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._answers import ShapeKind
-from ._options import ExportOptions, GenerateOptions, InverseOptions, LintOptions, ValidateOptions
+from ._options import ExportOptions, GenerateOptions, InverseOptions, LintOptions, Source, ValidateOptions
 
 __all__ = [
     "CollisionModel",
@@ -213,6 +213,7 @@ def generate(
     options: GenerateOptions,
     progress: Callable[[str, int, int], object] | None,
 ) -> dict[str, Any]: ...
+def import_robot(file: Path, source: Source) -> tuple[str, list[tuple[str, bytes]], str]: ...
 def lint(paths: Sequence[Path], options: LintOptions) -> str: ...
 def validate(paths: Sequence[Path], options: ValidateOptions) -> str: ...
 def explain(code: str) -> tuple[str, str, str, str]: ...

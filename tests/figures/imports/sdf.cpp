@@ -26,8 +26,7 @@ static string js(const string &s) {
     return o + "\"";
 }
 static string number(double v) {
-    if (std::isinf(v)) return v > 0 ? "1e999" : "-1e999";
-    if (std::isnan(v)) return "null";
+    if (!std::isfinite(v)) return "null";
     char b[40];
     std::snprintf(b, sizeof b, "%.17g", v);
     return b;

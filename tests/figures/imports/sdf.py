@@ -40,7 +40,7 @@ def motion(joint, name, values):
     """The pose of the child's joint frame in the parent's, at values by the URDF's joint names."""
     kind, axes = joint["type"], [axis["xyz"] for axis in joint["axes"]]
     if kind in (CONTINUOUS, REVOLUTE):
-        return turn(axes[0], values[name])
+        return turn(axes[0] if axes else [0, 0, 1], values[name])
     if kind == PRISMATIC:
         return shift(axes[0], values[name])
     if kind == SCREW:
@@ -75,7 +75,10 @@ def truth_poses(truth, kept, root, values):
             frame = matrix(joint["pose"])
             parent, child = (other, link) if is_turned else (link, other)
             before, after = np.linalg.inv(zero[parent]) @ frame, np.linalg.inv(frame) @ zero[child]
-            step = before @ motion(joint, name, values) @ after
+            moved = motion(joint, name, values)
+            if is_turned and joint["type"] == BALL:  # its values are said to be those of the opposite rotation
+                moved = np.linalg.inv(moved)
+            step = before @ moved @ after
             poses[other] = poses[link] @ (np.linalg.inv(step) if is_turned else step)
             open_.append(other)
     for name, pose in zero.items():  # what no joint holds stays where it is to the root
@@ -135,6 +138,7 @@ def judge(truth, urdf_path, report):
     joints = {e.get("name"): e for e in document.findall("joint")}
     children = {e.find("child").get("link") for e in joints.values()}
     root = next(name for name in links if name not in children)
+    truth["frames"] = {n: f for n, f in truth["frames"].items() if "_merged__" not in n}
     for name in list(truth["links"]) + list(truth["frames"]):
         if name not in links:
             wrong.append(f"no link {name}")
@@ -143,6 +147,9 @@ def judge(truth, urdf_path, report):
     gears = [n for n, j in truth["joints"].items() if j["type"] == GEARBOX]
     kept = []
     names = {e for e in joints}
+    # libsdformat renames joints of old files that are called like a link.
+    for name in [n for n in truth["joints"] if n not in names and n.removesuffix("_joint") in names and n.endswith("_joint")]:
+        truth["joints"][name.removesuffix("_joint")] = truth["joints"].pop(name)
     for name, joint in truth["joints"].items():
         if {name, name + "/axis", name + "_x"} & names:
             kept.append(name)
@@ -176,7 +183,7 @@ def judge(truth, urdf_path, report):
     # Limits.
     for name in kept:
         joint = truth["joints"][name]
-        for n, axis in enumerate(joint["axes"]):
+        for n, axis in enumerate(joint["axes"][:2 if joint["type"] in (REVOLUTE2, UNIVERSAL) else 1]):
             if joint["type"] in (FIXED, BALL):
                 continue
             element = joints.get(name if joint["type"] not in (REVOLUTE2, UNIVERSAL) else name + ["/axis", "/axis2"][n])
@@ -184,12 +191,12 @@ def judge(truth, urdf_path, report):
                 continue
             limit = element.find("limit")
             get = lambda key: None if limit is None or limit.get(key) is None else float(limit.get(key))
-            is_none = lambda value: abs(value) >= 1e16
+            is_none = lambda value: value is None or abs(value) >= 1e16
             if joint["type"] != CONTINUOUS and not is_none(axis["lower"]) and not is_none(axis["upper"]):
                 if not near([get("lower") or 0.0, get("upper") or 0.0], [axis["lower"], axis["upper"]]):
                     wrong.append(f"limits of {name}")
             for key in ("effort", "velocity"):
-                if 0 <= axis[key] < 1e16 and not near(get(key), axis[key]):
+                if axis[key] is not None and 0 <= axis[key] < 1e16 and not near(get(key), axis[key]):
                     wrong.append(f"{key} of {name}")
             dynamics = element.find("dynamics")
             for key in ("damping", "friction"):
@@ -260,7 +267,9 @@ def main():
         for path, line in zip(files, lines):
             truth = json.loads(line)
             row["files"] += 1
-            loads = truth["error"] is None and bool(truth.get("links"))
+            # libsdformat 12 does not know what SDF 1.11 added: other tests have these.
+            is_newer = any(mark in path.read_bytes() for mark in (b'auto="true"', b"<cone>"))
+            loads = truth["error"] is None and bool(truth.get("links")) and not is_newer
             row["loads"] += loads
             with tempfile.TemporaryDirectory() as to:
                 started = time.time()

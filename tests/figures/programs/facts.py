@@ -116,12 +116,16 @@ class Meant:
                 self.facts[f"transmission/{name}"] = joint_name.get("name", "")
 
     def material(self, element: ET.Element) -> None:
+        if (look := self.look(element)) is not None:
+            self.materials.setdefault(element.get("name", ""), look)
+
+    def look(self, element: ET.Element) -> tuple[str | None, str | None] | None:
+        """The colour and the texture that a material has itself."""
         color, texture = element.find("color"), element.find("texture")
         if color is None and texture is None:
-            return
+            return None
         rgba = numbers(vector(color.get("rgba"), "0 0 0 1")) if color is not None else None
-        image = texture.get("filename") if texture is not None else None
-        self.materials.setdefault(element.get("name", ""), (rgba, image))
+        return rgba, texture.get("filename") if texture is not None else None
 
     def link(self, link: ET.Element) -> None:
         key = f"link/{link.get('name', '')}"
@@ -158,7 +162,8 @@ class Meant:
         if (name := part.get("name")) is not None:
             self.facts[f"{key}/name"] = name
         if (material := part.find("material")) is not None:
-            color, texture = self.materials.get(material.get("name", ""), (None, None))
+            # Its own, whatever others of the name have.
+            color, texture = self.look(material) or self.materials.get(material.get("name", ""), (None, None))
             if color:
                 self.facts[f"{key}/color"] = color
             if texture:

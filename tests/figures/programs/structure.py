@@ -317,6 +317,10 @@ def materials(base: str, root: Element) -> Iterator[Change]:
     yield put("again_equal", '<material name="grey"><color rgba="0.5 0.5 0.5 1"/></material>')
     yield put("again_other", f'<material name="grey">{blue}</material>')
     yield put("again_other_local", f'<material name="red">{blue}</material>')
+    for name in ("red", "late", ""):
+        again = later.replace('"late"', f'"{name}"')
+        first = f'<material name="{name}"><color rgba="0 1 0 1"/></material>'
+        yield put(f"again_in_later_link_{name or 'empty'}", first if name != "red" else "", again)
     yield put("nameless", f"<material>{blue}</material>")
     yield put("name_empty", f'<material name="">{blue}</material>')
     yield put("nothing", "<material/>")

@@ -137,7 +137,7 @@ fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {
         severity: found.severity.unwrap_or(check.severity),
         default_severity: check.rule.severity,
         clause: check.rule.clause.map(str::to_owned),
-        consequence: check.rule.consequence,
+        consequence: found.consequence.unwrap_or(check.rule.consequence),
         module,
         file: here.file,
         pointer: here.pointer,

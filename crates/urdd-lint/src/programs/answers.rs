@@ -25,7 +25,8 @@ pub struct Answer {
 /// Asks the programs that the settings name, and those that are always asked. Relative names refer to `folder`.
 pub fn ask(bytes: &[u8], folder: &Path, settings: &LintSettings) -> Vec<Answer> {
     let meshes = MeshFiles::new(folder, settings);
-    let file = File { bytes, meshes: &|name| meshes.mesh(name) };
+    let find = |name: &str| meshes.mesh(name);
+    let file = File::new(bytes, &find);
     let mut chosen: Vec<Program> = Vec::new();
     for program in settings.report.programs.iter().filter_map(|name| Program::of_name(name)) {
         if !chosen.contains(&program) {

@@ -12,7 +12,7 @@ use urdd_findings::check::Check;
 use urdd_findings::code::Code;
 use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
-use urdd_format::report::{Does, Fix, Place, Severity};
+use urdd_format::report::{Consequence, Does, Fix, Place, Severity};
 
 use urdd_programs::Fault;
 
@@ -74,6 +74,7 @@ pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Lef
             offset,
             message: message(faulty, &asked.results),
             severity,
+            consequence: faulty.is_of_looks().then_some(Consequence::Appearance),
             programs: does(&faulty.said),
             fix: fix(subject, offset, &faulty.fault),
             is_refused: faulty.said.iter().any(is_refused),

@@ -70,6 +70,12 @@ impl Faulty {
         self.said.iter().map(|said| said.deed).max()
     }
 
+    /// Whether colours and textures are all that programs lose or read otherwise.
+    pub fn is_of_looks(&self) -> bool {
+        let is_look = |part: &str| part.starts_with("material/") || part.ends_with("/material");
+        self.said.iter().all(|said| is_look(&said.part))
+    }
+
     /// Adds what programs do because of the same fault. Of each program, the worst counts.
     pub fn add(&mut self, other: Faulty) {
         if self.worst() < other.worst() {

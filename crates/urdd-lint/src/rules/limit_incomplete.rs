@@ -6,7 +6,7 @@ declare_lint! {
     /// urdfdom, so all of ROS and Pinocchio, refuses the whole file. A `<limit>` needs both on joints of any type, and a joint
     /// that follows another needs a `<limit>`: `Could not parse limit element`, `did not specify limits`. MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
     ///
-    /// Write both: what the motor can do, in N or N m, and in m/s or rad/s.
+    /// Write what is missing: what the motor can do, in N or N m, and in m/s or rad/s.
     LNT017 "limit-incomplete", Error, Format, since "1.1.0"
 }
 
@@ -22,7 +22,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let mut missing = vec!["effort", "velocity"];
         missing.retain(|name| !limit.has_attribute(*name));
         if !missing.is_empty() {
-            let message = format!("`<limit>` has no {}; write both", missing.join(" and no "));
+            let what = if missing.len() == 1 { "it" } else { "both" };
+            let message = format!("`<limit>` has no {}; write {what}", missing.join(" and no "));
             urdf.at(limit, message).report(findings);
         }
     }

@@ -24,6 +24,7 @@ pub(super) fn report(urdf: &Subject, is_refused: bool, findings: &mut Findings) 
     for fault in urdf.programs().iter().filter(|fault| fault.is_refused == is_refused) {
         let mut finding = urdf.at_offset(fault.offset, &fault.message);
         finding.severity = Some(fault.severity);
+        finding.consequence = fault.consequence;
         finding.place.programs.clone_from(&fault.programs);
         finding.fix(fault.fix.clone()).report(findings);
     }

@@ -70,6 +70,10 @@ fn srdfs_of_other_robots_are_left_alone() {
     // One that a URDF beside this one has the name of, though both call their robot the same.
     let variant = [("config/small.srdf", &*srdf("arm")), ("urdf/small.urdf", ARM)];
     assert_eq!(found("urdf/arm.urdf", &variant), [""; 0]);
+    // One beside two URDFs, with another robot's name: only the robot's name says whose it is.
+    let (beside, own) = (("urdf/leg.urdf", ARM), ("config/all.srdf", &*srdf("arm")));
+    assert_eq!(found("urdf/arm.urdf", &[("config/all.srdf", &srdf("all")), beside]), [""; 0]);
+    assert_eq!(found("urdf/arm.urdf", &[own, beside]), ["../config/all.srdf"]);
     // Several, none of this name: whose they are is not known.
     let several = [("config/a.srdf", &*srdf("arm")), ("config/b.srdf", &*srdf("arm"))];
     assert_eq!(found("urdf/arm.urdf", &several), [""; 0]);

@@ -8,13 +8,14 @@ mod shapes;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{is_space, istream};
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names;
 
 /// Drake.
 pub(crate) const ABOUT: About = About {
@@ -41,8 +42,8 @@ pub(crate) const ABOUT: About = About {
 const WORLD: &str = "world";
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
-    let robot = effects.robot(&tree)?;
+    let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
+    let robot = effects.robot(tree)?;
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.named(robot, "robot")?;
     for material in robot.named("material") {

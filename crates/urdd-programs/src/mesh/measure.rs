@@ -56,18 +56,26 @@ impl Measures {
 
 fn spread<P: Iterator<Item = [f64; 3]>>(points: impl Fn() -> P, first: [f64; 3]) -> [f64; 3] {
     let flat = single(first);
-    let farthest = |distance: &dyn Fn([f64; 3]) -> f64| {
-        points()
-            .map(|point| (distance(point), point))
-            .fold((0.0, first), |far, one| if one.0 > far.0 { one } else { far })
-    };
-    let (from_point, second) = farthest(&|point| length(less(point, first)));
+    let (from_point, second) = farthest(points(), first, |point| length(less(point, first)));
     let line = unit(less(second, first));
-    let (from_line, third) = farthest(&|point| length(cross(less(point, first), line)));
+    let off_line = |point| length(cross(less(point, first), line));
+    let (from_line, third) = farthest(points(), first, off_line);
     let sides = [second, third].map(|point| less(single(point), flat));
     let normal = unit(cross(unit(sides[0]), sides[1]));
-    let (from_plane, _) = farthest(&|point| dot(less(single(point), flat), normal).abs());
+    let off_plane = |point| dot(less(single(point), flat), normal).abs();
+    let (from_plane, _) = farthest(points(), first, off_plane);
     [from_point, from_line, from_plane]
+}
+
+/// The point of the largest distance, and that; `first` if all have none.
+fn farthest(
+    points: impl Iterator<Item = [f64; 3]>,
+    first: [f64; 3],
+    distance: impl Fn([f64; 3]) -> f64,
+) -> (f64, [f64; 3]) {
+    points
+        .map(|point| (distance(point), point))
+        .fold((0.0, first), |far, one| if one.0 > far.0 { one } else { far })
 }
 
 fn volume<T: Iterator<Item = Triangle>>(triangles: impl Fn() -> T) -> f64 {

@@ -33,8 +33,10 @@ pub(super) fn read(bytes: &[u8]) -> (StlFacts, Measures) {
     let whole =
         written.filter(|count| count.checked_mul(50).is_some_and(|size| size <= body.len()));
     let body = whole.map_or(&[][..], |count| &body[..count * 50]);
-    let measures = Measures::of(|| points(body), || triangles(body));
-    facts.shares_corners = super::measure::has_repeated(points(body));
+    let triangles: Vec<Triangle> = triangles(body).collect();
+    let points = || triangles.iter().flatten().copied();
+    let measures = Measures::of(points, || triangles.iter().copied());
+    facts.shares_corners = super::measure::has_repeated(points());
     (facts, measures)
 }
 
@@ -54,8 +56,4 @@ fn triangles(body: &[u8]) -> impl Iterator<Item = Triangle> {
     body.chunks_exact(50).map(move |record| {
         [12, 24, 36].map(|corner| [0, 4, 8].map(|axis| number(record, corner + axis)))
     })
-}
-
-fn points(body: &[u8]) -> impl Iterator<Item = [f64; 3]> {
-    triangles(body).flatten()
 }

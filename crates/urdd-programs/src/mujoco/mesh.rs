@@ -34,7 +34,7 @@ impl Reader<'_> {
         }
         let facts = match self.found(filename, part, strips) {
             Mesh::Unknown => return Ok(Solid::cuboid(1e-3, [0.1; 3])),
-            Mesh::Missing => return self.effects.refuse(filename, Fault::NotFound("mesh")),
+            Mesh::Missing => return self.missing(filename),
             Mesh::Found(facts) => facts,
         };
         let volume = facts.measures.volume * scale.iter().product::<f64>().abs();
@@ -48,6 +48,13 @@ impl Reader<'_> {
             _ => volume,
         };
         Ok(Solid::cuboid(volume, size))
+    }
+
+    fn missing<T>(&mut self, filename: &Attribute<'_>) -> Reading<T> {
+        let is_moved = !self.settings.mesh_folder.is_empty()
+            && matches!(self.file.mesh(&filename.value), Mesh::Found(_));
+        let what = if is_moved { "mesh, in the folder of MuJoCo's `meshdir`," } else { "mesh" };
+        self.effects.refuse(filename, Fault::NotFound(what))
     }
 
     /// Whether a name ends as those of formats that it reads.

@@ -11,12 +11,13 @@ mod value;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::tinyxml;
 use crate::tree::Node;
+use crate::unknown::Names;
 use inertia::{Body, Pose};
 use joint::Joint;
 use reader::{LEAST, Reader, Release, Settings};
@@ -89,7 +90,7 @@ pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
 }
 
 fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
-    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::MAX_DEPTH))?;
+    let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let root = tree.tops().next();
     let is_mjcf = |root: &Node<'_>| root.name().eq_ignore_ascii_case("mujoco");
     if root.as_ref().is_some_and(|root| is_mjcf(root) && root.child("link").is_none()) {

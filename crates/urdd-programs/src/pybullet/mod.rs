@@ -5,15 +5,17 @@ mod joints;
 mod lines;
 mod shapes;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{self, is_space, strtod};
-use crate::tinyxml;
+use crate::tinyxml::{Document, OLD_MAX_DEPTH};
 use crate::tree::{Attribute, Malformed, Node};
+use crate::unknown::Names;
 
 /// Names up to this long do no harm. All are copied into 1,024 bytes, and the process ends soon above.
 const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("link", 2100)];
@@ -59,19 +61,22 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     reading
 }
 
-fn read_lines(file: &File, bytes: &[u8], effects: &mut Effects) -> Reading<()> {
+fn read_lines(file: &File, bytes: &Cow<[u8]>, effects: &mut Effects) -> Reading<()> {
+    let broken = match bytes {
+        Cow::Borrowed(_) => None,
+        Cow::Owned(bytes) => Some(Document::of(bytes)),
+    };
+    let document = broken.as_ref().unwrap_or(&file.document);
     let parsed =
-        tinyxml::parse(bytes, tinyxml::OLD_MAX_DEPTH).map_err(|bad| {
-            match tinyxml::parse(file.bytes, tinyxml::OLD_MAX_DEPTH) {
-                Ok(_) => Malformed {
-                    why: "a line has more than 8,191 bytes, after which the program breaks it",
-                    ..bad
-                },
-                Err(_) => bad,
-            }
+        document.within(OLD_MAX_DEPTH).map_err(|bad| match file.document.within(OLD_MAX_DEPTH) {
+            Ok(_) => Malformed {
+                why: "a line has more than 8,191 bytes, after which the program breaks it",
+                ..bad
+            },
+            Err(_) => bad,
         });
     let tree = effects.parsed(parsed)?;
-    let robot = effects.robot(&tree)?;
+    let robot = effects.robot(tree)?;
     Reader { file, effects, materials: HashMap::new() }.robot(robot)
 }
 

@@ -3,6 +3,7 @@
 use super::{Reader, atof, is_defined, pieces, rgba};
 use crate::effect::Reading;
 use crate::fault::{FORMAT, Fault, shortened};
+use crate::look::is_same;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::tree::{Attribute, Node};
 
@@ -38,14 +39,16 @@ impl Reader<'_> {
         let name = &*self.effects.needed(material, "name")?.value;
         let part = format!("{part}/material");
         self.material(material, &part);
-        let known = self.materials.get(name);
-        if !is_defined(material) {
-            if known.is_none() && !name.is_empty() {
+        let Some((first, last)) = self.materials.get(name) else {
+            if !name.is_empty() {
                 self.effects.drop(material, part, Fault::unknown("material", name));
             }
-        } else if let Some((_, last)) = known.filter(|(_, last)| last != rgba(material)) {
+            return Ok(());
+        };
+        let own = if is_defined(material) { rgba(material) } else { first };
+        if !is_same(own, last) {
             // All of a name have the last colour.
-            let (part, fault) = (format!("material/{name}"), Fault::not_unique("material", name));
+            let fault = Fault::not_unique("material", name);
             self.effects.read_as(material, part, fault, last);
         }
         Ok(())

@@ -11,13 +11,14 @@ mod xml;
 use self::gazebo::{Extensions, stod};
 use self::tree::{Body, Joint, Tree};
 use self::values::{number, vector};
-use crate::about::{About, Names};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::number::pieces;
 use crate::tinyxml;
 use crate::tree::Node;
+use crate::unknown::Names;
 use crate::urdfdom::{self, Model, Release};
 
 /// Gazebo.
@@ -43,12 +44,12 @@ pub(crate) const ABOUT: About = About {
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml::parse(file.bytes, tinyxml::OLD_MAX_DEPTH))?;
+    let tree = effects.parsed(file.document.within(tinyxml::OLD_MAX_DEPTH))?;
     if let Some(sdf) = tree.tops().find(|top| top.name() == "sdf") {
         return effects.refuse(sdf, Fault::Other("the file has `<sdf>`, and is read as SDF alone"));
     }
-    xml::check(file.bytes, &tree, effects)?;
-    let model = urdfdom::model(&tree, Release::Four, effects)?;
+    xml::check(file.bytes, tree, effects)?;
+    let model = urdfdom::model(tree, Release::Four, effects)?;
     let extensions = gazebo::read(model.robot, effects)?;
     origin(model.robot, effects)?;
     never_read(&model, effects);

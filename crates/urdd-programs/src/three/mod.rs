@@ -1,18 +1,22 @@
 //! urdf-loader 0.13.1 of three.js, with its defaults: visuals, no collisions. Any text is a number to it, perhaps NaN.
 //! Names of elements may be in any case. Chromium reads a file that is not well-formed as far as the first error.
 
+mod joints;
 mod mesh;
 
 use std::collections::{HashMap, HashSet};
 
-use crate::about::{About, Names as ElementNames};
+use self::joints::Joint;
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
+use crate::look::Look;
 use crate::mesh::Mesh;
 use crate::number::parse_float;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names as ElementNames;
 
 /// three.js.
 pub(crate) const ABOUT: About = About {
@@ -43,7 +47,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = Text::utf8(file.bytes);
     let tree = effects.parsed(text.parse(Names::Written))?;
     let robot = effects.robot(&tree)?;
-    let mut reader = Reader { file, effects, materials: HashSet::new(), whites: HashSet::new() };
+    let mut reader = Reader { file, effects, materials: HashMap::new(), whites: HashSet::new() };
     reader.robot(robot)
 }
 
@@ -58,23 +62,17 @@ fn name_of<'t>(node: Node<'t>) -> &'t str {
 struct Reader<'r, 't> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
-    /// The names of the robot's materials.
-    materials: HashSet<&'t str>,
+    /// The robot's materials, the last of each name.
+    materials: HashMap<&'t str, Option<Look>>,
     /// The materials that a visual defines as white.
     whites: HashSet<&'t str>,
-}
-
-struct Joint<'t> {
-    node: Node<'t>,
-    child: Option<&'t str>,
-    mimic: Option<Node<'t>>,
 }
 
 impl<'t> Reader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
         for material in named(robot, "material") {
             self.material(material, &format!("material/{}", name_of(material)))?;
-            self.materials.insert(name_of(material));
+            self.materials.insert(name_of(material), Look::of(material));
         }
         let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
         let is_white = |material: &Node<'t>| {
@@ -238,7 +236,9 @@ impl<'t> Reader<'_, 't> {
         if let Some(material) = named(visual, "material").next() {
             let name = material.value("name").unwrap_or_default();
             let part = format!("{part}/material");
-            if name.is_empty() || !self.materials.contains(name) {
+            if let Some(read) = self.materials.get(name).filter(|_| !name.is_empty()) {
+                Look::compare(read.as_ref(), material, &part, self.effects);
+            } else {
                 self.material(material, &part)?;
                 if material.children().next().is_none() && !self.whites.contains(name) {
                     let fault = Fault::unknown("material directly in `<robot>`", name);
@@ -280,128 +280,6 @@ impl<'t> Reader<'_, 't> {
                 None => self.effects.read_as(form, part, Fault::Missing(name), "0"),
             }
         }
-    }
-
-    fn joint(&mut self, node: Node<'t>, links: &HashMap<&str, Node<'t>>) -> Reading<Joint<'t>> {
-        let part = format!("joint/{}", name_of(node));
-        let mimic = named(node, "mimic").next();
-        if let Some(mimic) = mimic {
-            self.numbers(mimic, &["multiplier", "offset"], &format!("{part}/mimic"), "NaN");
-        }
-        self.pose(node, &part);
-        let Some(parent) = self.last(node, "parent", &part) else {
-            return self.effects.refuse(node, Fault::MissingElement("parent"));
-        };
-        let link = parent.value("link").unwrap_or("null");
-        if !links.contains_key(link) {
-            return self.effects.refuse(parent, Fault::unknown("link", link));
-        }
-        let child = self.last(node, "child", &part);
-        let link = child.map(|child| child.value("link").unwrap_or("null"));
-        if link.is_none_or(|link| !links.contains_key(link)) {
-            let fault = Fault::unknown("link", link.unwrap_or_default());
-            self.effects.drop(child.unwrap_or(node), format!("{part}/child"), fault);
-        }
-        if let Some(axis) = named(node, "axis").next() {
-            let Some(xyz) = axis.attribute("xyz") else {
-                return self.effects.refuse(axis, Fault::Missing("xyz"));
-            };
-            self.axis(xyz, &format!("{part}/axis"));
-        }
-        self.limit(node, &part);
-        for unread in ["dynamics", "calibration", "safety_controller"] {
-            if let Some(found) = named(node, unread).next() {
-                let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, format!("{part}/{unread}"), fault);
-            }
-        }
-        Ok(Joint { node, child: link, mimic })
-    }
-
-    /// An axis is split at white space, which may be before the first number too.
-    fn axis(&mut self, xyz: &Attribute<'_>, part: &str) {
-        let text = &*xyz.value;
-        let is_padded = text.is_empty() || text.starts_with(char::is_whitespace);
-        let before = is_padded.then_some("");
-        self.vector(xyz, before.into_iter().chain(text.split_whitespace()), 3, part);
-    }
-
-    fn limit(&mut self, joint: Node<'t>, part: &str) {
-        let (kind, part) = (joint.attribute("type"), format!("{part}/limit"));
-        let text = kind.map_or("", |kind| &*kind.value);
-        let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
-        if !known.contains(&text) {
-            let at = kind.map_or(joint.start(), |kind| kind.range.start);
-            let part = format!("joint/{}", name_of(joint));
-            self.effects.read_as(at, part, Fault::value("type", text), "fixed");
-        }
-        let is_limited = matches!(text, "revolute" | "prismatic");
-        let mut limits = named(joint, "limit").peekable();
-        if limits.peek().is_none() && is_limited {
-            let fault = Fault::MissingElement("limit");
-            self.effects.read_as(joint, &*part, fault, "locked at 0");
-        }
-        for limit in limits {
-            self.numbers(limit, &["lower", "upper", "effort", "velocity"], &part, "NaN");
-            for unread in ["acceleration", "deceleration", "jerk"] {
-                if let Some(unread) = limit.attribute(unread) {
-                    let fault = Fault::NeverRead(unread.name.to_string());
-                    self.effects.drop(unread, &*part, fault);
-                }
-            }
-        }
-    }
-
-    /// Of joints with one child the last has it.
-    fn children(&mut self, joints: &[Joint<'t>]) {
-        let mut last: HashMap<&str, Node<'t>> = HashMap::new();
-        for joint in joints {
-            let Some(child) = joint.child else { continue };
-            if let Some(other) =
-                last.insert(child, joint.node).filter(|one| !one.is_like(joint.node))
-            {
-                let part = format!("joint/{}/child", name_of(other));
-                let fault = Fault::Tree("a link is the child of two joints");
-                self.effects.drop(joint.node, part, fault);
-            }
-        }
-    }
-
-    fn mimics(&mut self, joints: &[Joint<'t>], by_name: &HashMap<&str, usize>) -> Reading<()> {
-        /// How often a joint was met: never, on the way, or to its end.
-        const NEW: usize = 0;
-        const DONE: usize = usize::MAX;
-        let mut driver = vec![None; joints.len()];
-        for (index, joint) in joints.iter().enumerate() {
-            let Some(mimic) =
-                joint.mimic.filter(|_| by_name.get(name_of(joint.node)) == Some(&index))
-            else {
-                continue;
-            };
-            let name = mimic.value("joint").unwrap_or("null");
-            driver[index] = by_name.get(name).copied();
-            if driver[index].is_none() {
-                return self.effects.refuse(mimic, Fault::unknown("joint", name));
-            }
-        }
-        let mut met = vec![NEW; joints.len()];
-        for start in 0..joints.len() {
-            let mut way = Vec::new();
-            let mut at = Some(start);
-            while let Some(joint) = at.filter(|&joint| met[joint] == NEW) {
-                met[joint] = start + 1;
-                way.push(joint);
-                at = driver[joint];
-            }
-            if let Some(again) = at.filter(|&joint| met[joint] == start + 1) {
-                let place = joints[again].mimic.unwrap_or(joints[again].node);
-                return self
-                    .effects
-                    .refuse(place, Fault::Other("joints mimic each other in a loop"));
-            }
-            way.into_iter().for_each(|joint| met[joint] = DONE);
-        }
-        Ok(())
     }
 }
 

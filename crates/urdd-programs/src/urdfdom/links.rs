@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::values::{Part, needed, needed_element, number, vector};
-use super::{Link, NO_COLOR, Reader, Release};
+use super::{Link, NO_COLOR, Reader};
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::look::Look;
 use crate::number::{istream, pieces, whole};
 use crate::tree::{Attribute, Node};
 
@@ -20,7 +21,7 @@ impl Reader<'_> {
                 let fault = Fault::Other(NO_COLOR);
                 self.effects.read_as(material, part, fault, "black");
             }
-            if !self.materials.insert(name.to_owned()) {
+            if self.materials.insert(name.to_owned(), Look::of(material)).is_some() {
                 return self.effects.refuse(material, Fault::not_unique("material", name));
             }
         }
@@ -129,11 +130,13 @@ impl Reader<'_> {
             return Ok(());
         };
         let name = &*needed(material, "name")?.value;
-        if name.is_empty() || !self.materials.contains(name) {
-            let part = format!("{part}/material");
+        let part = format!("{part}/material");
+        if let Some(first) = self.materials.get(name).filter(|_| !name.is_empty()) {
+            Look::compare(first.as_ref(), material, &part, self.effects);
+        } else {
             let is_defined = self.color(material, &part);
             if is_defined && !name.is_empty() {
-                self.materials.insert(name.to_owned());
+                self.materials.insert(name.to_owned(), Look::of(material));
             } else if !is_defined {
                 let fault = match name.is_empty() {
                     true => Fault::Other("the material has no name, no colour and no texture"),
@@ -152,13 +155,7 @@ impl Reader<'_> {
         let sizes: &[&'static str] = match form.name() {
             "sphere" => &["radius"],
             "cylinder" => &["length", "radius"],
-            "capsule" if self.release == Release::Six => {
-                if self.minor == 0 {
-                    let why = "`<capsule>` needs URDF 1.1: write `version=\"1.1\"` on `<robot>`";
-                    return Err((form.start(), Fault::Other(why)));
-                }
-                &["length", "radius"]
-            }
+            "capsule" if self.minor > 0 => &["length", "radius"],
             "box" => {
                 let size = needed(form, "size")?;
                 let sizes = vector(size, 3)?;

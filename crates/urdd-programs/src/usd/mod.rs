@@ -9,13 +9,15 @@ use std::collections::HashMap;
 
 use joint::{Joint, last};
 
-use crate::about::{About, Names as ElementNames};
+use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{FORMAT, Fault, shortened};
 use crate::file::File;
+use crate::look::Look;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
 use crate::tree::{Attribute, Node};
+use crate::unknown::Names as ElementNames;
 
 /// Isaac Sim and Newton.
 pub(crate) const ABOUT: About = About {
@@ -47,8 +49,8 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
 struct Reader<'r, 't> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
-    /// Whether the first material of each name has a colour or a texture; those of the robot have one.
-    materials: HashMap<&'t str, bool>,
+    /// Whether the first material of each name has a colour or a texture, and which; those of the robot have one.
+    materials: HashMap<&'t str, (bool, Option<Look>)>,
 }
 
 impl<'t> Reader<'_, 't> {
@@ -61,7 +63,8 @@ impl<'t> Reader<'_, 't> {
             let name = material.value("name").unwrap_or_default();
             self.look(material, &format!("material/{name}"))?;
         }
-        self.materials = materials.keys().map(|&name| (name, true)).collect();
+        let looks = materials.into_iter().map(|(name, node)| (name, (true, Look::of(node))));
+        self.materials = looks.collect();
         for link in robot.named("link") {
             self.materials_of(link)?;
         }
@@ -211,12 +214,13 @@ impl<'t> Reader<'_, 't> {
             let part = format!("link/{name}/visual/{index}/material");
             let name = material.value("name").unwrap_or_default();
             let has_look = ["color", "texture"].iter().any(|look| material.child(look).is_some());
-            let is_known = !name.is_empty() && self.materials.contains_key(name);
-            if !is_known {
+            if let Some((_, first)) = self.materials.get(name).filter(|_| !name.is_empty()) {
+                Look::compare(first.as_ref(), material, &part, self.effects);
+            } else {
                 self.look(material, &part)?;
-                self.materials.insert(name, has_look);
+                self.materials.insert(name, (has_look, Look::of(material)));
             }
-            if !self.materials.get(name).copied().unwrap_or(has_look) {
+            if !self.materials.get(name).map_or(has_look, |(has_look, _)| *has_look) {
                 let fault = Fault::unknown("material", name);
                 self.effects.read_as(material, part, fault, "black and transparent");
             }

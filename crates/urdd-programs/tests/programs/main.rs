@@ -230,5 +230,5 @@ fn read(program: Program, row: &table::Row) -> Effects {
 }
 
 fn read_bytes(program: Program, base: &str, bytes: &[u8]) -> Effects {
-    program.read(&File { bytes, meshes: &|name| meshes::find(program, base, name) })
+    program.read(&File::new(bytes, &|name| meshes::find(program, base, name)))
 }

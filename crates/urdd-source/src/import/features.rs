@@ -45,6 +45,7 @@ const TURN: How = Otherwise("with parent and child exchanged, and the axis turne
 const HELD: How = Otherwise("by a fixed joint to the root");
 const DEFAULT: How = Otherwise("as 1 kg and 1 kg m², which SDF says that they are");
 const CONE: How = Otherwise("as a mesh");
+const PART: How = Otherwise("as meshes of their own");
 const GAZEBO: How = Otherwise("as text in `<gazebo>`");
 
 features! {
@@ -95,9 +96,9 @@ features! {
     AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes;
     CONES = "cones", Elsewhere, CONE;
     MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
-    SUBMESHES = "parts of meshes", Elsewhere, No;
+    SUBMESHES = "parts of meshes", Elsewhere, PART;
     LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
-    FRICTION = "friction of surfaces, the same of all", Elsewhere, SETUP;
+    FRICTION = "friction of surfaces, the same of all", SETUP, SETUP;
     CONTACTS = "other properties of contacts", Elsewhere, No;
     INCLUDES = "included models", Elsewhere, Yes;
     IN_WORLD = "the pose of the model in the world", Elsewhere, No;

@@ -21,9 +21,10 @@ use super::{mjcf, sdf};
 use crate::decode::decode;
 use crate::error::SourceError;
 use crate::files::{Files, MAX_SOURCE_BYTES};
-use crate::load::{file_name, stem};
+use crate::load::{Source, file_name, load, stem};
 use crate::packages::Packages;
 use crate::settings::Settings;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::path::portable;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::ConfigurationEdit;
@@ -141,6 +142,24 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     }
     let read = reach.into_read();
     written(model, format, shown, options).map(|made| Some(Imported { read, ..made }))
+}
+
+/// As [`import`], and checks that what comes out is a robot.
+///
+/// # Errors
+/// As for [`import`]; also if the file is a URDF, or cannot be read.
+pub fn import_whole(
+    path: &Path,
+    settings: &Settings,
+    cancellation: &Cancellation,
+) -> Result<(Imported, Source), SourceError> {
+    let Some(imported) = import(path, settings)? else {
+        // An error that says more, if it cannot be read.
+        load(path, settings, cancellation)?;
+        return Err(SourceError::IsUrdf { file: path.display().to_string() });
+    };
+    let source = load(&imported.path(), &imported.settings(settings)?, cancellation)?;
+    Ok((imported, source))
 }
 
 /// What is written of a model.

@@ -17,4 +17,4 @@ pub mod sdf;
 mod tree;
 mod urdf;
 
-pub use imported::{Imported, format_of, import};
+pub use imported::{Imported, format_of, import, import_whole};

@@ -7,4 +7,5 @@ mod files;
 mod mjcf;
 mod mjcf_faults;
 mod origin;
+mod sdf;
 mod sniff;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::super::model::Asset;
@@ -19,6 +20,8 @@ pub enum NoAsset {
     Unreachable(Unreachable),
     #[error("`{file}` cannot be read as a mesh: {reason}")]
     Mesh { file: String, reason: String },
+    #[error("`{file}` has no part `{part}`")]
+    Part { file: String, part: String },
 }
 
 /// The files.
@@ -27,6 +30,8 @@ pub struct Assets {
     pub files: Vec<Asset>,
     /// Where each file is in the list, by the file that it was.
     known: BTreeMap<PathBuf, usize>,
+    /// The middle of each mesh.
+    middles: BTreeMap<usize, Vector3<f64>>,
     /// What each path is taken by, in lower case.
     taken: BTreeMap<String, PathBuf>,
     /// The number of groups of files that have a folder of their own.
@@ -34,12 +39,18 @@ pub struct Assets {
 }
 
 impl Assets {
-    /// Adds the mesh that a URI names, with the files that it names. Gives its place in the list.
+    /// Adds the mesh that a URI names, or a part of it, with the files that it names. Gives its place in the list.
     ///
     /// # Errors
     /// If it is not found, may not be read, or is no mesh.
-    pub fn mesh(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
-        self.add(reach, uri, folder, |bytes, path| {
+    pub fn mesh(
+        &mut self,
+        reach: &Reach,
+        uri: &str,
+        folder: &Path,
+        part: Option<&str>,
+    ) -> Result<usize, NoAsset> {
+        self.add(reach, uri, folder, part, |bytes, path| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let around = path.parent().unwrap_or(Path::new("/"));
             let mut fetch = |side: &str| {
@@ -47,7 +58,12 @@ impl Assets {
                 read.ok().map(|(_, bytes)| bytes)
             };
             match urdd_geometry::read::read(bytes, &name, &mut fetch) {
-                Ok(scene) => Ok(scene.side_files),
+                Ok(scene) => {
+                    let middle = scene.merged().bounds().map(|bounds| {
+                        (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0
+                    });
+                    Ok((middle, scene.side_files))
+                }
                 Err(error) => {
                     Err(NoAsset::Mesh { file: uri.to_owned(), reason: error.to_string() })
                 }
@@ -60,7 +76,12 @@ impl Assets {
     /// # Errors
     /// If it is not found or may not be read.
     pub fn image(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
-        self.add(reach, uri, folder, |_, _| Ok(Vec::new()))
+        self.add(reach, uri, folder, None, |_, _| Ok((None, Vec::new())))
+    }
+
+    /// The middle of a mesh.
+    pub fn middle(&self, index: usize) -> Vector3<f64> {
+        self.middles.get(&index).copied().unwrap_or_default()
     }
 
     /// Adds a file that was made, once.
@@ -77,17 +98,22 @@ impl Assets {
         reach: &Reach,
         uri: &str,
         folder: &Path,
-        sides: impl FnOnce(&[u8], &Path) -> Result<Vec<String>, NoAsset>,
+        part: Option<&str>,
+        inside: impl FnOnce(&[u8], &Path) -> Result<(Option<Vector3<f64>>, Vec<String>), NoAsset>,
     ) -> Result<usize, NoAsset> {
         let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
-        if let Some(known) = self.known.get(&found) {
+        if let Some(known) = self.known.get(&of_part(&found, part)) {
             return Ok(*known);
         }
         let read = reach.read(&found, MAX_BYTES).map_err(NoAsset::Unreachable);
-        let (source, bytes) = read?;
-        let sides = sides(&bytes, &source)?;
-        let around = source.parent().unwrap_or(Path::new("/"));
-        let mut group = vec![(source.clone(), bytes)];
+        let (file, mut bytes) = read?;
+        if let Some(name) = part {
+            let missing = || NoAsset::Part { file: uri.to_owned(), part: name.to_owned() };
+            bytes = super::part::part(&bytes, name).ok_or_else(missing)?;
+        }
+        let (middle, sides) = inside(&bytes, &file)?;
+        let around = file.parent().unwrap_or(Path::new("/"));
+        let mut group = vec![(of_part(&file, part), bytes)];
         for side in sides {
             // A side file that is not there is missing as it was.
             if let Ok(side) = reach.read(&around.join(&side), MAX_BYTES) {
@@ -104,7 +130,9 @@ impl Assets {
             let index = known.unwrap_or_else(|| self.push(path, written, bytes));
             first.get_or_insert(index);
         }
-        Ok(first.unwrap_or_default())
+        let first = first.unwrap_or_default();
+        self.middles.extend(middle.map(|middle| (first, middle)));
+        Ok(first)
     }
 
     /// The folder for files below another, in which no path is taken by another file.
@@ -130,6 +158,16 @@ impl Assets {
         self.files.push(Asset { path, bytes: Arc::from(bytes) });
         index
     }
+}
+
+/// The path of a file, or of a part of it, which is beside it.
+fn of_part(file: &Path, part: Option<&str>) -> PathBuf {
+    let Some(part) = part else { return file.to_owned() };
+    let plain = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '_' };
+    let [stem, extension] = [file.file_stem(), file.extension()]
+        .map(|name| name.unwrap_or_default().to_string_lossy().into_owned());
+    let part: String = part.chars().map(plain).collect();
+    file.with_file_name(format!("{stem}.{part}.{extension}"))
 }
 
 /// The folder that all files are in.

@@ -19,8 +19,6 @@ const KNOWN: &[&str] = &[
     "parent",
     "child",
     "pose",
-    "axis",
-    "axis2",
     "thread_pitch",
     "screw_thread_pitch",
     "gearbox_ratio",
@@ -67,7 +65,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
         match child.name() {
             "sensor" => reader.kept.of(&whole, child, &mut reader.tally),
             "physics" => reader.tally.count(features::SETTINGS),
-            name if KNOWN.contains(&name) => {}
+            name if KNOWN.contains(&name) || wanted.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),
         }
     }

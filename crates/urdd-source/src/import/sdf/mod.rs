@@ -14,6 +14,7 @@ mod kept;
 mod link_reader;
 mod models;
 mod moving;
+mod part;
 mod poses;
 mod reader;
 mod refusal;

@@ -20,6 +20,8 @@ use urdd_xml::{Kind, MAX_ROBOT_ELEMENTS, XmlError};
 
 /// The most bytes of all files that are read, each as often as it is included.
 const MAX_BYTES: u64 = 256 << 20;
+/// As many elements as a file counts for beside those in it.
+const ELEMENTS_OF_FILE: usize = 100;
 /// The most undeclared prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
 /// The first minor version of SDF that is read, and the last.
@@ -107,7 +109,7 @@ impl<'r> Reader<'r> {
         if self.bytes > MAX_BYTES {
             return Refusal::at(start, SdfFault::Large(MAX_BYTES >> 20));
         }
-        let (text, shift) = with_prefixes(&text);
+        let (text, shift) = mended(&text);
         let document = match urdd_xml::parse(&text, Kind::Other) {
             Ok(document) => document,
             Err(error) => {
@@ -115,7 +117,8 @@ impl<'r> Reader<'r> {
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
-        self.elements += document.descendants().filter(roxmltree::Node::is_element).count();
+        let elements = document.descendants().filter(roxmltree::Node::is_element).count();
+        self.elements += elements + ELEMENTS_OF_FILE;
         if self.elements > MAX_ROBOT_ELEMENTS {
             return Refusal::at(start, ImportFault::TooMany(MAX_ROBOT_ELEMENTS));
         }
@@ -149,20 +152,37 @@ fn version(root: Tag) -> Result<u32, Refusal> {
     }
 }
 
-/// The text with prefixes declared that it uses and does not declare, and the number of bytes that this adds.
-fn with_prefixes(text: &str) -> (String, usize) {
-    let mut declared = text.to_owned();
+/// The text with `__` for `::` in names of elements: `gz sdf` writes `<ignition::corrected_offsets>`.
+fn with_single_colons(text: &str) -> String {
+    let mut parts = text.split('<');
+    let mut mended = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_end = |c: char| c.is_ascii_whitespace() || c == '>';
+        let (name, rest) = part.split_at(part.find(is_end).unwrap_or(part.len()));
+        mended.push('<');
+        mended.push_str(&name.replace("::", "__"));
+        mended.push_str(rest);
+    }
+    mended
+}
+
+/// The text without white space before its declaration, and with prefixes declared that it uses and does not declare; and
+/// by how many bytes this moves what is in it.
+fn mended(text: &str) -> (String, isize) {
+    let trimmed = text.trim_start();
+    let trimmed = if trimmed.starts_with("<?xml") { trimmed } else { text };
+    let mut mended = with_single_colons(trimmed);
     for _ in 0..MOST_PREFIXES {
         let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
-            urdd_xml::parse(&declared, Kind::Other)
+            urdd_xml::parse(&mended, Kind::Other)
         else {
             break;
         };
-        let Some(at) = declared.find("<sdf").map(|start| start + "<sdf".len()) else { break };
-        declared.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
+        let Some(at) = mended.find("<sdf").map(|start| start + "<sdf".len()) else { break };
+        mended.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
     }
-    let shift = declared.len() - text.len();
-    (declared, shift)
+    let shift = mended.len().wrapping_sub(text.len()).cast_signed();
+    (mended, shift)
 }
 
 /// The byte offset of an error.

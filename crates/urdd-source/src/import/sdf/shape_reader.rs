@@ -1,6 +1,8 @@
 //! Reads visual and collision shapes.
 
 use super::super::fault::ImportFault;
+use nalgebra::{Translation3, Vector3};
+
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
 use super::super::reach::Unreachable;
@@ -56,7 +58,18 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
         return Ok(None);
     };
     let (pose, relative_to) = tag.pose()?;
-    let Some(geometry) = geometry(reader, found)? else { return Ok(None) };
+    let found = match found.name() {
+        "mesh" => mesh(reader, found)?,
+        _ => geometry(reader, found)?.map(|geometry| (geometry, Vector3::zeros())),
+    };
+    let Some((geometry, shift)) = found else { return Ok(None) };
+    if is_flat(&geometry) {
+        reader.tally.unread("shapes without a volume");
+        let text = format!("this `<{}>` has no volume: it is left out", tag.name());
+        reader.tally.remark(tag.place(), text);
+        return Ok(None);
+    }
+    let pose = pose * Translation3::from(shift);
     let material = if is_visual { material(reader, tag)? } else { None };
     let name = tag.attribute("name").map(str::to_owned);
     let used = if is_visual { Use::Visual } else { Use::Collision };
@@ -83,7 +96,6 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
             let asset = reader.assets.made("meshes/unit_cone.stl", bytes);
             (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
         }
-        "mesh" => return mesh(reader, tag),
         "empty" => return Ok(None),
         "plane" | "heightmap" => {
             reader.tally.count(features::SURFACES);
@@ -98,18 +110,29 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
     Ok(Some(geometry))
 }
 
-/// Three lengths that are greater than 0.
+/// Whether a shape has no volume.
+fn is_flat(geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Box(lengths) | Geometry::Ellipsoid(lengths) => lengths.contains(&0.0),
+        Geometry::Sphere(radius) | Geometry::Capsule { radius, .. } => *radius == 0.0,
+        Geometry::Cylinder { radius, length } => *radius == 0.0 || *length == 0.0,
+        Geometry::Mesh { scale, .. } => scale.contains(&0.0),
+    }
+}
+
+/// Three lengths that are not less than 0.
 fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
     let Some(lengths) = tag.vector(child)? else {
         return tag.lacks(child);
     };
-    match lengths.iter().all(|length| *length > 0.0) {
+    match lengths.iter().all(|length| *length >= 0.0) {
         true => Ok(lengths.into()),
-        false => tag.refuse(&tag.words(child).unwrap_or_default(), "greater than 0"),
+        false => tag.refuse(&tag.words(child).unwrap_or_default(), "at least 0"),
     }
 }
 
-fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+/// A mesh, and where its origin is.
+fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)>, Refusal> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
@@ -118,18 +141,18 @@ fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
     if tag.attribute("optimization").is_some() {
         reader.tally.count(features::SETTINGS);
     }
-    if let Some(name) = tag.child("submesh").and_then(|submesh| submesh.words("name")) {
-        reader.tally.count(features::SUBMESHES);
-        let text = format!("the part `{name}` of `{uri}` is left out");
-        reader.tally.remark(tag.place(), text);
-        return Ok(None);
-    }
+    let submesh = tag.child("submesh");
+    let name = submesh.and_then(|submesh| submesh.words("name"));
     let folder = reader.folder(tag.file);
-    let added = reader.assets.mesh(reader.reach, &uri, &folder);
-    Ok(asset(reader, tag, added)?.map(|asset| {
-        reader.tally.count(features::MESHES);
-        Geometry::Mesh { asset, scale }
-    }))
+    let added = reader.assets.mesh(reader.reach, &uri, &folder, name.as_deref());
+    let Some(asset) = asset(reader, tag, added)? else { return Ok(None) };
+    reader.tally.count(if name.is_some() { features::SUBMESHES } else { features::MESHES });
+    let is_centred = name.is_some() && submesh.is_some_and(|submesh| submesh.flag("center"));
+    let shift = match is_centred {
+        true => -reader.assets.middle(asset).component_mul(&Vector3::from(scale)),
+        false => Vector3::zeros(),
+    };
+    Ok(Some((Geometry::Mesh { asset, scale }, shift)))
 }
 
 /// What became of a file: refused if a person can allow it, and left out if it is not there, as Gazebo does.

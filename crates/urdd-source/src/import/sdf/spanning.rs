@@ -18,7 +18,8 @@ pub struct Branch {
 
 /// The branches of a scene: each link once, and the world if a joint holds on to it.
 ///
-/// Joints are taken in the order of the file. One that closes a chain is left out.
+/// Joints are taken in the order of the file, those first that are the first to hold their child, so that few are turned
+/// round. One that closes a chain is left out.
 ///
 /// # Errors
 /// If a joint names what is not there.
@@ -27,26 +28,24 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec
     let mut sets = Sets::new(world + 1);
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); world + 1];
     let mut is_child = vec![false; world + 1];
-    for (index, joint) in scene.joints.iter().enumerate() {
-        let node = &scene.nodes[joint.node];
-        let parent = match joint.parent.as_str() {
-            WORLD => Some(world),
-            name => frames.links[Frames::named(scene, joint.node, "parent", name)?],
-        };
-        let Some((parent, child)) = parent.zip(frames.links[joint.node]) else { continue };
-        if joint.kind == Kind::Gearbox {
-            tally.count(features::GEARBOXES);
-            let text = format!("the gearbox `{}` is lost: its joints turn on their own", node.name);
-            tally.remark(node.place, text);
-        } else if sets.join(parent, child) {
+    let (first, further) = ends(scene, frames, tally)?;
+    let mut left_out = Vec::new();
+    for (index, parent, child) in first.into_iter().chain(further) {
+        if sets.join(parent, child) {
             around[parent].push((child, index, false));
             around[child].push((parent, index, true));
             is_child[child] = true;
         } else {
-            tally.count(features::CLOSED);
-            let text = format!("the joint `{}` is left out: it closes a chain", node.name);
-            tally.remark(node.place, text);
+            left_out.push(index);
         }
+    }
+    around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
+    left_out.sort_unstable();
+    for index in left_out {
+        let node = &scene.nodes[scene.joints[index].node];
+        tally.count(features::CLOSED);
+        let text = format!("the joint `{}` is left out: it closes a chain", node.name);
+        tally.remark(node.place, text);
     }
     let is_held = !around[world].is_empty();
     let canonical = frames.links[0].unwrap_or_default();
@@ -90,6 +89,38 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec
         }
     }
     Ok(branches)
+}
+
+/// A joint, the link that it is on, and its child.
+type End = (usize, usize, usize);
+
+/// The joints that are the first to hold their child, and the others.
+fn ends(
+    scene: &Scene,
+    frames: &Frames,
+    tally: &mut Tally,
+) -> Result<(Vec<End>, Vec<End>), Refusal> {
+    let world = scene.links.len();
+    let (mut first, mut further) = (Vec::new(), Vec::new());
+    let mut is_held = vec![false; world];
+    for (index, joint) in scene.joints.iter().enumerate() {
+        let node = &scene.nodes[joint.node];
+        let parent = match joint.parent.as_str() {
+            WORLD => Some(world),
+            name => frames.links[Frames::named(scene, joint.node, "parent", name)?],
+        };
+        let Some((parent, child)) = parent.zip(frames.links[joint.node]) else { continue };
+        if joint.kind == Kind::Gearbox {
+            tally.count(features::GEARBOXES);
+            let text = format!("the gearbox `{}` is lost: its joints turn on their own", node.name);
+            tally.remark(node.place, text);
+        } else if std::mem::replace(&mut is_held[child], true) {
+            further.push((index, parent, child));
+        } else {
+            first.push((index, parent, child));
+        }
+    }
+    Ok((first, further))
 }
 
 /// Sets of links that joints connect.

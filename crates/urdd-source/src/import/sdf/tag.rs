@@ -19,8 +19,8 @@ pub struct Tag<'a> {
     pub node: Node<'a, 'a>,
     /// The index of the file.
     pub file: usize,
-    /// The number of bytes that were put into the text before it, for it to be read.
-    pub shift: usize,
+    /// By how many bytes a repair of the text moves it.
+    pub shift: isize,
     /// The minor version of SDF of the file.
     pub version: u32,
 }
@@ -31,7 +31,8 @@ impl<'a> Tag<'a> {
     }
 
     pub fn place(self) -> Place {
-        Place { file: self.file, offset: self.node.range().start.saturating_sub(self.shift) }
+        let start = self.node.range().start;
+        Place { file: self.file, offset: start.saturating_add_signed(self.shift.saturating_neg()) }
     }
 
     /// The value of an attribute that is not empty.
@@ -134,11 +135,11 @@ impl<'a> Tag<'a> {
         Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
     }
 
-    /// The number in a child element that has to be there and to be greater than 0.
+    /// The number in a child element that has to be there and must not be less than 0.
     pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
         match self.number(child)? {
-            Some(value) if value > 0.0 => Ok(value),
-            Some(value) => self.refuse(&value.to_string(), "greater than 0"),
+            Some(value) if value >= 0.0 => Ok(value),
+            Some(value) => self.refuse(&value.to_string(), "at least 0"),
             None => self.lacks(child),
         }
     }

@@ -1,0 +1,69 @@
+//! How descriptions are found and read.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use urdd_generate::{Packages, SourceSettings, XacroSettings};
+use urdd_source::import::options::ImportOptions;
+
+/// What functions that read descriptions ask for, which check its types.
+#[derive(FromPyObject)]
+pub struct Source {
+    packages: Vec<(String, PathBuf)>,
+    allowed_folders: Vec<PathBuf>,
+    xacro: bool,
+    xacro_arguments: Vec<String>,
+    xacro_timeout: f64,
+    body: Option<String>,
+    model: Option<String>,
+    ball: String,
+}
+
+impl Source {
+    /// Descriptions are read from the disk.
+    pub fn settings(self) -> Result<SourceSettings, String> {
+        let (packages, allowed_folders) = places(&self.packages, self.allowed_folders)?;
+        let seconds = self.xacro_timeout;
+        if !(seconds > 0.0 && seconds < 1e9) {
+            return Err("xacro_timeout must be a number of seconds above 0".to_owned());
+        }
+        let xacro = XacroSettings {
+            expand_urdf: self.xacro,
+            arguments: self.xacro_arguments,
+            time_limit: Duration::from_secs_f64(seconds),
+        };
+        let import = ImportOptions {
+            body: self.body,
+            model: self.model,
+            has_revolute_balls: match self.ball.as_str() {
+                "spherical" => false,
+                "revolute" => true,
+                other => {
+                    let other = other.escape_debug();
+                    return Err(format!("ball: `{other}` is neither spherical nor revolute"));
+                }
+            },
+        };
+        Ok(SourceSettings { packages, allowed_folders, xacro, import, ..SourceSettings::default() })
+    }
+}
+
+/// Where meshes are: packages, those of the environment too, and folders, which exist.
+pub fn places(
+    named: &[(String, PathBuf)],
+    allowed_folders: Vec<PathBuf>,
+) -> Result<(Packages, Vec<PathBuf>), String> {
+    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+    for (name, path) in named {
+        let added = packages.add(&format!("{name}={}", path.display()));
+        added.map_err(|error| format!("packages: {error}"))?;
+    }
+    match allowed_folders.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => {
+            let folder = folder.display();
+            Err(format!("allowed_folders: {folder} is not a folder"))
+        }
+        None => Ok((packages, allowed_folders)),
+    }
+}
