@@ -1,7 +1,7 @@
 """Imports MJCF models and compares what comes out with MuJoCo's compiled model.
 
     pip install mujoco==4.0.0 numpy trimesh
-    python3 tests/figures/imports/mjcf.py target/debug/urdd FOLDER [--only REGEX] [--write FILE]
+    python3 tests/figures/imports/mjcf.py target/debug/urdd FOLDER --log LOG [--only REGEX] [--write FILE]
 
 Every MJCF below FOLDER/PACKAGE/… that MuJoCo compiles is imported, and compared:
 
@@ -10,7 +10,8 @@ Every MJCF below FOLDER/PACKAGE/… that MuJoCo compiles is imported, and compar
 - limits, forces and gains, named poses, pairs that never collide
 - shapes: kinds, sizes, poses; of meshes the box around all vertices (1e-5 of it)
 
-A line for each model goes to standard output; `--write` writes a table by package. Exits with 1 if something is wrong.
+LOG gets a line for each model. A run that was ended goes on where it was; what was refused or wrong is tried again. `--write`
+writes a table by package. Exits with 1 if something is wrong.
 """
 
 import argparse
@@ -73,6 +74,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--only")
+    parser.add_argument("--log", type=pathlib.Path)
     parser.add_argument("--one", action="store_true")
     parser.add_argument("--write", type=pathlib.Path)
     parser.add_argument("--lanes", type=int, default=2)
@@ -83,7 +85,15 @@ def main():
         print(json.dumps(one(given.program, given.folder, given.rest)))
         return 0
 
+    known = {}
+    for line in given.log.read_text().splitlines() if given.log and given.log.exists() else []:
+        known[json.loads(line)["model"]] = json.loads(line)
+    log = given.log.open("a") if given.log else sys.stdout
+
     def run(path):
+        before = known.get(str(path.relative_to(given.folder)), {"state": "new"})
+        if before["state"] in ("right", "not compiled"):
+            return before
         command = [sys.executable, __file__, given.program, str(path), "--one"]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS)
@@ -103,7 +113,8 @@ def main():
             table[package][found["state"]] += 1
             if found["state"] == "refused":
                 reasons[re.sub(r"^.*?: ", "", found["why"])[:120]] += 1
-            print(json.dumps({"model": str(path.relative_to(given.folder)), **found}), flush=True)
+            if found is not known.get(str(path.relative_to(given.folder))):
+                print(json.dumps({"model": str(path.relative_to(given.folder)), **found}), file=log, flush=True)
     rows = ["| package | models | MuJoCo compiles | imported | right | wrong | refused |", "|---|---|---|---|---|---|---|"]
     total = collections.Counter()
     for package, of in sorted(table.items()):

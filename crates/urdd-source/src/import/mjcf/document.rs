@@ -10,12 +10,12 @@ use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS, XmlError};
 use super::super::fault::ImportFault;
 use super::super::model::{Place, TextFile};
 use super::super::reach::{Reach, Unreachable};
-use super::fault::{At, Fallible, MjcfFault, at};
+use super::fault::{Fallible, MjcfFault, at};
 use crate::decode::decode;
 use crate::files::MAX_SOURCE_BYTES;
 
 /// An element.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Element {
     pub tag: String,
     pub attributes: Vec<(String, String)>,
@@ -46,19 +46,11 @@ impl Element {
     }
 }
 
-/// A description and what it includes.
-pub struct Document {
-    /// The files: the description first.
-    pub files: Vec<TextFile>,
-    /// The outermost element.
-    pub root: Element,
-}
-
-/// Reads a description and what it includes. The files that were read so far come with a fault.
-pub fn read(file: TextFile, reach: &Reach) -> Result<Document, (Vec<TextFile>, At)> {
+/// Reads a description and what it includes: the files, the description first, and the outermost element.
+pub fn read(file: TextFile, reach: &Reach) -> (Vec<TextFile>, Fallible<Element>) {
     let folder = file.path.parent().unwrap_or(Path::new("/")).to_owned();
     let name = file.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let (text, mut root) = (file.text.clone(), Element::default());
+    let text = file.text.clone();
     let mut expansion = Expansion {
         files: vec![file],
         folder,
@@ -66,16 +58,8 @@ pub fn read(file: TextFile, reach: &Reach) -> Result<Document, (Vec<TextFile>, A
         reach,
         elements: 0,
     };
-    let read = parse(&text, 0).and_then(|document| {
-        let node = document.root_element();
-        root.attributes = attributes(node);
-        root.place = Place { file: 0, offset: node.range().start };
-        expansion.children(node, 0, 1, &mut root.children)
-    });
-    match read {
-        Ok(()) => Ok(Document { files: expansion.files, root }),
-        Err(fault) => Err((expansion.files, fault)),
-    }
+    let root = expansion.root(&text);
+    (expansion.files, root)
 }
 
 struct Expansion<'r> {
@@ -89,6 +73,19 @@ struct Expansion<'r> {
 }
 
 impl Expansion<'_> {
+    fn root(&mut self, text: &str) -> Fallible<Element> {
+        let document = parse(text, 0)?;
+        let node = document.root_element();
+        let mut root = Element {
+            tag: node.tag_name().name().to_owned(),
+            attributes: attributes(node),
+            children: Vec::new(),
+            place: Place { file: 0, offset: node.range().start },
+        };
+        self.children(node, 0, 1, &mut root.children)?;
+        Ok(root)
+    }
+
     fn children(
         &mut self,
         parent: Node<'_, '_>,

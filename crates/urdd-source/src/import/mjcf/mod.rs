@@ -51,9 +51,8 @@ use robot::Maker;
 /// # Errors
 /// If it is refused, with the place.
 pub fn read(file: TextFile, reach: &Reach, options: &ImportOptions) -> Result<Model, Placed> {
-    let document::Document { files, root } = document::read(file, reach)
-        .map_err(|(files, fault)| placed(&files, fault.place, fault.fault))?;
-    match model(&root, &files, reach, options) {
+    let (files, root) = document::read(file, reach);
+    match root.and_then(|root| model(&root, &files, reach, options)) {
         Ok(model) => Ok(Model { files, ..model }),
         Err(fault) => Err(placed(&files, fault.place, fault.fault)),
     }

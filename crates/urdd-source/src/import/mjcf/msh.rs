@@ -4,7 +4,7 @@ use urdd_geometry::Mesh;
 
 /// Reads a mesh, or says what is wrong with it.
 pub fn read(bytes: &[u8]) -> Result<Mesh, &'static str> {
-    let words: Vec<[u8; 4]> = bytes.as_chunks().0.to_vec();
+    let (words, rest_of_word) = bytes.as_chunks::<4>();
     let head: Option<&[[u8; 4]; 4]> = words.first_chunk();
     let counts = head.ok_or("has no header of an MSH file")?.map(i32::from_le_bytes);
     let counts = counts.map(|count| usize::try_from(count).ok());
@@ -13,7 +13,7 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, &'static str> {
     };
     let sizes = [(vertices, 3), (normals, 3), (places, 2), (faces, 3)];
     let length: usize = sizes.iter().map(|(count, each)| count * each).sum();
-    if words.len() != 4 + length || bytes.len() % 4 != 0 || vertices < 4 {
+    if words.len() != 4 + length || !rest_of_word.is_empty() || vertices < 4 {
         return Err("is of another length than its MSH file says");
     }
     let (coordinates, rest) = words[4..].split_at(vertices * 3);
