@@ -64,6 +64,12 @@ def robot(model, links):
         root for root in roots
         if len(roots) == 1 or any(model.body(body).name in names for body in trees[root])
     ]
+    if not chosen:
+        # Nothing has a name: as docs/import.md chooses.
+        def size(root):
+            moving = [j for j in range(model.njnt) if model.jnt_bodyid[j] in trees[root] and model.jnt_type[j] != FREE]
+            return len(moving), len(trees[root]), -root
+        chosen = [max(roots, key=size)]
     return sorted(body for root in chosen for body in trees[root])
 
 

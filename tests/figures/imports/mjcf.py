@@ -64,7 +64,7 @@ def one(program, path, options):
 def models(folder, only):
     for path in sorted(folder.rglob("*.xml")):
         text = path.read_text(errors="replace")
-        if "<mujoco" in text and (only is None or re.search(only, str(path))):
+        if re.search(r"<mujoco[\s>]", text) and (only is None or re.search(only, str(path))):
             yield path
 
 

@@ -3,6 +3,7 @@
 use super::{Reader, atof, is_defined, pieces, rgba};
 use crate::effect::Reading;
 use crate::fault::{FORMAT, Fault, shortened};
+use crate::look::is_same;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::tree::{Attribute, Node};
 
@@ -45,7 +46,7 @@ impl Reader<'_> {
             return Ok(());
         };
         let own = if is_defined(material) { rgba(material) } else { first };
-        if own != last {
+        if !is_same(own, last) {
             // All of a name have the last colour.
             let fault = Fault::not_unique("material", name);
             self.effects.read_as(material, part, fault, last);

@@ -65,11 +65,10 @@ features! {
     TEXTURES = "textures", Yes, Yes;
     FRAMES = "sites, cameras and frames", FRAME, FRAME;
     POSES = "named configurations", SRDF, Elsewhere;
-    MIMICS = "joints that follow others", Elsewhere, Yes;
+    MIMICS = "joints that follow others", Yes, Yes;
     APART = "pairs that never collide", SRDF, SRDF;
     GAINS = "gains of actuators, and armatures", SETUP, Elsewhere;
     CLOSED = "closed chains", No, No;
-    FOLLOWERS = "equalities of joints, as mimics", Yes, Elsewhere;
     WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere;
     MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere;
     SURFACES = "planes and height fields", No, No;
@@ -99,7 +98,7 @@ features! {
     MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
     SUBMESHES = "parts of meshes", Elsewhere, PART;
     LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
-    FRICTION = "friction of surfaces, the same of all", Elsewhere, SETUP;
+    FRICTION = "friction of surfaces, the same of all", SETUP, SETUP;
     CONTACTS = "other properties of contacts", Elsewhere, No;
     INCLUDES = "included models", Elsewhere, Yes;
     IN_WORLD = "the pose of the model in the world", Elsewhere, No;

@@ -96,6 +96,10 @@ fn what_is_wrong_of_a_model_is_said() {
         assert!(found.contains(said), "{inside}: {found}");
     }
     assert!(fault("<mujoco><worldbody/></mujoco>").contains("there is no robot in it"));
+    let deep: String = (0..40).map(|class| format!("<default class=\"{class}\">")).collect();
+    let deep =
+        format!("<mujoco><default>{deep}{}</default>{body}</mujoco>", "</default>".repeat(40));
+    assert!(fault(&deep).contains("nested more than 32 deep"));
     let text = world("<joint range=\"0 1\"/>");
     let text = text.replace("<worldbody>", "<compiler autolimits=\"false\"/><worldbody>");
     assert!(fault(&text).contains("but not `limited`"));

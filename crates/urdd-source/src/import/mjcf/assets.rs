@@ -39,6 +39,7 @@ fn places(
     let between = own.strip_prefix(base).unwrap_or(Path::new(""));
     vec![
         base.join(inside).join(&file),
+        own.join(&file),
         base.join(inside).join(between).join(&file),
         own.join(inside).join(&file),
     ]

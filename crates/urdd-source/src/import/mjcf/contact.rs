@@ -149,10 +149,9 @@ pub fn friction(all: &[RawBody<'_>], made: &Made, tally: &mut Tally) -> Option<f
         .collect();
     let first = said.iter().flatten().next()?;
     let is_one = said.iter().all(|of| of.unwrap_or(1.0).to_bits() == first.to_bits());
-    if !is_one {
-        for _ in said.iter().flatten() {
-            tally.count(features::FRICTIONS);
-        }
+    let feature = if is_one { features::FRICTION } else { features::FRICTIONS };
+    for _ in said.iter().flatten() {
+        tally.count(feature);
     }
     is_one.then_some(*first)
 }

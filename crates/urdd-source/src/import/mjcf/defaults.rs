@@ -10,6 +10,8 @@ use super::fault::{Fallible, MjcfFault, at};
 pub const MAIN: usize = 0;
 /// Outermost `<default>`s: one a file. Each look-up passes all of them.
 const MOST: usize = 64;
+/// Classes in one another; each look-up passes all of them. Robots have up to 5.
+const DEEPEST: usize = 32;
 
 /// The classes of a model.
 #[derive(Default)]
@@ -40,12 +42,15 @@ impl<'d> Defaults<'d> {
             if let Some(name) = section.text("class").filter(|name| *name != "main") {
                 return Err(at(section.place, MjcfFault::MainRenamed(name.to_owned())));
             }
-            defaults.section(section, MAIN)?;
+            defaults.section(section, MAIN, 0)?;
         }
         Ok(defaults)
     }
 
-    fn section(&mut self, section: &'d Element, class: usize) -> Fallible<()> {
+    fn section(&mut self, section: &'d Element, class: usize, depth: usize) -> Fallible<()> {
+        if depth > DEEPEST {
+            return Err(at(section.place, MjcfFault::DeepDefaults(DEEPEST)));
+        }
         let mut seen = HashMap::new();
         for element in section.children.iter().filter(|child| child.tag != "default") {
             if seen.insert(element.tag.as_str(), ()).is_some() {
@@ -65,7 +70,7 @@ impl<'d> Defaults<'d> {
                 return Err(at(nested.place, MjcfFault::ClassTwice(name.to_owned())));
             }
             self.classes.push(Class { around: Some((class, number)), ..Class::default() });
-            self.section(nested, inner)?;
+            self.section(nested, inner, depth + 1)?;
         }
         Ok(())
     }

@@ -91,7 +91,7 @@ fn couple(
             let joint = made.bodies[leading_body].joints[leading_place].name.clone();
             made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
             made.leaders.insert((body, place), (leading_body, leading_place));
-            tally.count(features::FOLLOWERS);
+            tally.count(features::MIMICS);
         } else {
             tally.count(features::COUPLINGS);
             let reason = reason.unwrap_or_default();

@@ -26,6 +26,8 @@ pub enum MjcfFault {
     TooDeep(usize),
     #[error("there are more than {0} outermost `<default>`; merge them")]
     TooManyDefaults(usize),
+    #[error("`<default>`s are nested more than {0} deep; flatten the classes")]
+    DeepDefaults(usize),
     #[error("`<{0}>` stands twice in one `<default>`; keep one of them")]
     DefaultTwice(String),
     #[error("`<default>` inside `<default>` needs the attribute `class`")]
