@@ -150,10 +150,13 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
         };
         axis.xyz = direction;
     }
-    axis.expressed_in = match tag.version {
-        ..=AXES_OF_MODEL => Some("__model__".to_owned()),
-        ..=AXES_BY_FLAG => tag.flag("use_parent_model_frame").then(|| "__model__".to_owned()),
-        _ => tag.child("xyz").and_then(|xyz| xyz.attribute("expressed_in")).map(str::to_owned),
+    let is_of_model = tag.version <= AXES_OF_MODEL
+        || (tag.version <= AXES_BY_FLAG && tag.flag("use_parent_model_frame"));
+    axis.expressed_in = if is_of_model {
+        Some("__model__".to_owned())
+    } else {
+        let named = tag.child("xyz").filter(|_| tag.version > AXES_BY_FLAG);
+        named.and_then(|xyz| xyz.attribute("expressed_in")).map(str::to_owned)
     };
     if let Some(limit) = tag.child("limit") {
         for (side, name) in axis.range.iter_mut().zip(["lower", "upper"]) {
