@@ -29,6 +29,14 @@ from change import BASE, Edit, apply
 from driver import HERE, Answer, Driver, Program, programs
 
 
+# What PyBullet takes from memory that it has not written, or overwrites while it goes round: another answer each time.
+RANDOM = {
+    ("pybullet", "all/shoulder.axis@xyz:attribute_upper"),
+    ("pybullet", "all/shoulder.axis:repeated_empty_first"),
+    ("pybullet", "small/tree:loop_of_two"),
+}
+
+
 @dataclass
 class Case:
     """A changed file. `base_file` is the unchanged one beside it."""
@@ -166,7 +174,7 @@ def compare(before: list[table.Row], now: dict[str, table.Row], asked: list[Prog
     for row in before:
         for program in asked:
             letter, other = program.letter, now[row.id]
-            if letter not in row.verdicts or letter not in other.verdicts:
+            if letter not in row.verdicts or letter not in other.verdicts or (program.name, row.id) in RANDOM:
                 continue
             was = row.verdicts[letter], row.differences.get(letter, [])
             is_now = other.verdicts[letter], other.differences.get(letter, [])

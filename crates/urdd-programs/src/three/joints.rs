@@ -2,17 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::{Reader, name_of, named};
+use super::{Joint, Reader, name_of, named};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::tree::{Attribute, Node};
-
-/// A joint.
-pub(super) struct Joint<'t> {
-    pub node: Node<'t>,
-    pub child: Option<&'t str>,
-    pub mimic: Option<Node<'t>>,
-}
 
 impl<'t> Reader<'_, 't> {
     pub(super) fn joint(

@@ -6,7 +6,6 @@ mod mesh;
 
 use std::collections::{HashMap, HashSet};
 
-use self::joints::Joint;
 use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
@@ -66,6 +65,13 @@ struct Reader<'r, 't> {
     materials: HashMap<&'t str, Option<Look>>,
     /// The materials that a visual defines as white.
     whites: HashSet<&'t str>,
+}
+
+/// A joint.
+struct Joint<'t> {
+    node: Node<'t>,
+    child: Option<&'t str>,
+    mimic: Option<Node<'t>>,
 }
 
 impl<'t> Reader<'_, 't> {
