@@ -37,8 +37,7 @@ pub fn drive<'d>(
             Some(class) => defaults.class(class, element.place)?,
             None => MAIN,
         };
-        let applied = defaults.applied(class, &TAGS);
-        let actuator = Actuator::of(applied.into_iter().chain([element]))?;
+        let actuator = Actuator::of(element, &defaults.applied(class, &TAGS))?;
         let Some(name) = element.text("joint").or(element.text("jointinparent")) else {
             tally.count(features::OTHER_ACTUATORS);
             continue;
