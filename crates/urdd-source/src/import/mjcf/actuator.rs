@@ -1,8 +1,9 @@
 //! Actuators, with what default classes say of them: any kind sets the same numbers.
 
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::joint::is_limited;
 use super::reading::{list, number_of, numbers, word};
 

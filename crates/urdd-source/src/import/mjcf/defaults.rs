@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::super::model::Place;
+use super::at::{Fallible, at};
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 
 /// The class that all others are in.
 pub const MAIN: usize = 0;
