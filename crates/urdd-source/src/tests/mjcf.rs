@@ -287,6 +287,9 @@ fn actuators_give_forces_speeds_and_gains() {
     assert_eq!(of("e"), (None, Some(1.0), Some(0.0), Some(36.0)));
     // 3 times 2 of one motor, 4 of another; nobody knows how much of the muscle.
     assert_eq!(of("f"), (None, None, None, None));
+    // Of a class with motors and servos of speed, a servo of position takes the gear, but not the gain.
+    assert_eq!(of("h"), (None, None, Some(80.0), Some(4.0)));
+    assert_eq!(of("i"), (None, None, Some(0.0), Some(12.0)));
     let e = joint(&model, "e");
     assert!((e.damping - 1.2).abs() < 1e-12 && (e.armature.unwrap() - 1.8).abs() < 1e-12);
     let unread: Vec<&str> = model.tally.all_unread().keys().map(String::as_str).collect();

@@ -1,8 +1,9 @@
 //! Actuators, with what default classes say of them: any kind sets the same numbers.
 
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::joint::is_limited;
 use super::reading::{list, number_of, numbers, word};
 
@@ -78,21 +79,34 @@ impl Default for Actuator {
 }
 
 impl Actuator {
-    /// What one element after another says.
-    pub fn of<'e>(elements: impl Iterator<Item = &'e Element>) -> Fallible<Self> {
+    /// What an element says, after the classes around it, the outermost first. What makes the force is taken from a class
+    /// only if the last actuator in it is of the same kind, or `<general>`.
+    pub fn of(element: &Element, classes: &[Vec<&Element>]) -> Fallible<Self> {
         let mut actuator = Actuator::default();
-        for element in elements {
-            actuator.apply(element)?;
+        for class in classes {
+            let kind = class.last().map_or("general", |last| last.tag.as_str());
+            let is_kin = kind == "general" || element.tag == "general" || kind == element.tag;
+            for of_class in class {
+                actuator.limits(of_class)?;
+                if is_kin {
+                    actuator.law(of_class)?;
+                }
+            }
         }
+        actuator.limits(element)?;
+        actuator.law(element)?;
         Ok(actuator)
     }
 
-    fn apply(&mut self, element: &Element) -> Fallible<()> {
+    fn limits(&mut self, element: &Element) -> Fallible<()> {
         self.gear = first(element, "gear", 6)?.unwrap_or(self.gear);
         self.joint_damping = first(element, "damping", 3)?.unwrap_or(self.joint_damping);
         self.armature = number_of(element, "armature")?.unwrap_or(self.armature);
         self.force.read(element, "forcerange", "forcelimited")?;
-        self.control.read(element, "ctrlrange", "ctrllimited")?;
+        self.control.read(element, "ctrlrange", "ctrllimited")
+    }
+
+    fn law(&mut self, element: &Element) -> Fallible<()> {
         let stiffness = number_of(element, "kp")?;
         let damping = match (number_of(element, "kv")?, number_of(element, "dampratio")?) {
             (_, Some(ratio)) => Some(-ratio),

@@ -2,8 +2,9 @@
 
 use std::ops::RangeInclusive;
 
+use super::at::{Fallible, at};
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::reading::{flag, number_of, numbers, word, wrong};
 
 /// When masses come from shapes.

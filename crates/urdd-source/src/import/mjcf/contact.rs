@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Apart, Place};
+use super::at::Fallible;
 use super::body::{RawBody, WORLD};
 use super::document::Element;
-use super::fault::Fallible;
 use super::geom::{Geom, Kind};
 use super::lookup::Lookup;
 use super::made::Made;

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::super::model::Place;
+use super::at::{Fallible, at};
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 
 /// The class that all others are in.
 pub const MAIN: usize = 0;
@@ -96,16 +97,16 @@ impl<'d> Defaults<'d> {
         self.levels(class).flat_map(move |level| level.of(tag).iter().rev().copied())
     }
 
-    /// What a class and those around it say of some tags, in the order in which it applies.
-    pub fn applied(&self, class: usize, tags: &[&str]) -> Vec<&'d Element> {
-        let levels: Vec<Level<'_, 'd>> = self.levels(class).collect();
-        let mut applied = Vec::new();
-        for level in levels.iter().rev() {
+    /// What a class and those around it say of some tags: by class, the outermost first, in the order in which it applies.
+    pub fn applied(&self, class: usize, tags: &[&str]) -> Vec<Vec<&'d Element>> {
+        let own = |level: Level<'_, 'd>| {
             let mut own: Vec<&Element> =
                 tags.iter().flat_map(|tag| level.of(tag)).copied().collect();
             own.sort_by_key(|element| element.place);
-            applied.extend(own);
-        }
+            own
+        };
+        let mut applied: Vec<Vec<&Element>> = self.levels(class).map(own).collect();
+        applied.reverse();
         applied
     }
 

@@ -10,7 +10,8 @@ use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS, XmlError};
 use super::super::fault::ImportFault;
 use super::super::model::{Place, TextFile};
 use super::super::reach::{Reach, Unreachable};
-use super::fault::{Fallible, MjcfFault, at};
+use super::at::{Fallible, at};
+use super::fault::MjcfFault;
 use crate::decode::decode;
 use crate::files::MAX_SOURCE_BYTES;
 

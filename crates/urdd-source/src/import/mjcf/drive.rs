@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use super::super::features::{self, Tally};
 use super::super::model::JointKind;
 use super::actuator::{Actuator, Law, TAGS};
+use super::at::Fallible;
 use super::compiler::Compiler;
 use super::defaults::{Defaults, MAIN};
 use super::document::Element;
-use super::fault::Fallible;
 use super::lookup::Lookup;
 use super::made::Made;
 
@@ -37,8 +37,7 @@ pub fn drive<'d>(
             Some(class) => defaults.class(class, element.place)?,
             None => MAIN,
         };
-        let applied = defaults.applied(class, &TAGS);
-        let actuator = Actuator::of(applied.into_iter().chain([element]))?;
+        let actuator = Actuator::of(element, &defaults.applied(class, &TAGS))?;
         let Some(name) = element.text("joint").or(element.text("jointinparent")) else {
             tally.count(features::OTHER_ACTUATORS);
             continue;
@@ -66,7 +65,7 @@ pub fn drive<'d>(
         let [effort, velocity] =
             [actuator.effort(element, compiler)?, actuator.velocity(element, compiler)?];
         let gains = gains(actuator);
-        if actuator.damping < 0.0 {
+        if actuator.law == Law::Servo && actuator.damping < 0.0 {
             tally.unread("ratios of damping (dampratio) of actuators");
         }
         match actuator.law {

@@ -2,10 +2,10 @@
 
 use super::super::features::{self, Tally};
 use super::super::model::Mimic;
+use super::at::Fallible;
 use super::body::RawBody;
 use super::defaults::{Defaults, MAIN};
 use super::document::Element;
-use super::fault::Fallible;
 use super::joint::Kind;
 use super::lookup::Lookup;
 use super::made::Made;

@@ -2,9 +2,6 @@
 
 use thiserror::Error;
 
-use super::super::fault::ImportFault;
-use super::super::model::Place;
-
 /// Why an MJCF is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -100,21 +97,4 @@ pub enum MjcfFault {
     Unknown { element: String, what: &'static str, name: String },
     #[error("`qpos` of the key has {found} numbers, but the model has {expected} positions")]
     Qpos { found: usize, expected: usize },
-}
-
-/// A fault and its place.
-#[derive(Debug)]
-pub struct At {
-    /// Where.
-    pub place: Place,
-    /// What is wrong.
-    pub fault: ImportFault,
-}
-
-/// What fails with a place.
-pub type Fallible<T> = Result<T, At>;
-
-/// A fault at a place.
-pub fn at(place: Place, fault: impl Into<ImportFault>) -> At {
-    At { place, fault: fault.into() }
 }

@@ -4,8 +4,9 @@ use nalgebra::{Isometry3, Point3, Translation3};
 use urdd_geometry::mesh::Bounds;
 
 use super::assets::Assets;
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::geom::{Geom, Kind};
 use super::mesh::Meshes;
 use super::principal::principal;

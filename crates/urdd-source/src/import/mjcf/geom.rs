@@ -3,8 +3,9 @@
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::super::model::Place;
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::orientation::{pose, z_to};
 use super::reading::View;
 

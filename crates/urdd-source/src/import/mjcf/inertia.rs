@@ -4,9 +4,10 @@ use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
 
 use super::super::model::{Inertial, Place};
 use super::assets::Assets;
+use super::at::{Fallible, at};
 use super::body::RawBody;
 use super::compiler::{Compiler, FromShapes};
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::fit::Fitted;
 use super::geom::Geom;
 use super::mesh::Meshes;

@@ -4,9 +4,10 @@ use nalgebra::{Isometry3, Point3, Unit, Vector3};
 
 use super::super::features::{self, Tally};
 use super::super::model::Place;
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::reading::{View, wrong};
 
 /// How a joint moves.

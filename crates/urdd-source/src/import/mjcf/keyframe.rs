@@ -7,9 +7,10 @@ use urdd_kinematics::rotation::to_rotation_vector;
 
 use super::super::features::{self, Tally};
 use super::super::model::Configuration;
+use super::at::{Fallible, at};
 use super::body::Bodies;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::joint::Kind;
 use super::made::Made;
 use super::names::Names;

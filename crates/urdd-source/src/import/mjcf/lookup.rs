@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
+use super::at::{Fallible, at};
 use super::body::Bodies;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 
 /// Bodies, joints and shapes by name.
 pub struct Lookup<'b> {

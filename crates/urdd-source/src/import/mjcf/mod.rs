@@ -2,6 +2,7 @@
 
 mod actuator;
 mod assets;
+mod at;
 mod body;
 mod compiler;
 mod contact;
@@ -36,11 +37,11 @@ use super::options::ImportOptions;
 use super::placed::{Placed, placed};
 use super::reach::Reach;
 use assets::Assets;
+use at::Fallible;
 use compiler::Compiler;
 use contact::Contacts;
 use defaults::Defaults;
 use document::Element;
-use fault::Fallible;
 use lookup::Lookup;
 use material::Materials;
 use mesh::Meshes;

@@ -4,9 +4,10 @@ use nalgebra::{
     Isometry3, Matrix3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3,
 };
 
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::reading::{View, numbers, wrong};
 
 const WAYS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];

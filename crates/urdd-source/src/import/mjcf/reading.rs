@@ -1,9 +1,10 @@
 //! Reads attributes, with what default classes say of them.
 
 use super::super::fault::ImportFault;
+use super::at::{Fallible, at};
 use super::defaults::Defaults;
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 
 /// An element with its default class.
 #[derive(Clone, Copy)]
@@ -160,7 +161,7 @@ pub fn required<'e>(element: &'e Element, attribute: &'static str) -> Fallible<&
 }
 
 /// A value that is wrong.
-pub fn wrong(element: &Element, attribute: &str, wanted: &'static str) -> super::fault::At {
+pub fn wrong(element: &Element, attribute: &str, wanted: &'static str) -> super::at::At {
     let value: String = element.get(attribute).unwrap_or_default().chars().take(60).collect();
     let fault = ImportFault::Value {
         element: element.tag.clone(),

@@ -9,9 +9,10 @@ use nalgebra::Isometry3;
 
 use super::super::features::Tally;
 use super::super::model::Place;
+use super::at::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
 use super::document::Element;
-use super::fault::{Fallible, MjcfFault, at};
+use super::fault::MjcfFault;
 use super::joint::Kind;
 
 /// The robot of a model.
