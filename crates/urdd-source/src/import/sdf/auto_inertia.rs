@@ -6,7 +6,6 @@ use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use super::super::features::Tally;
 use super::super::model::Inertial;
-use super::inertial::turned;
 use super::refusal::Refusal;
 use super::tag::Tag;
 
@@ -67,8 +66,12 @@ pub fn auto_inertia(
     }
     let given = inertial.number("mass")?.filter(|given| *given > 0.0);
     let scale = given.map_or(1.0, |given| given / mass);
-    let pose = Isometry3::translation(centre.x, centre.y, centre.z);
-    Ok(Some(turned(mass * scale, &(inertia * scale), &pose, inertial)))
+    Ok(Some(Inertial {
+        mass: mass * scale,
+        centre: centre.into(),
+        inertia: inertia * scale,
+        place: inertial.place(),
+    }))
 }
 
 /// A shape as a solid.

@@ -59,7 +59,7 @@ pub fn inertial(link: Tag, tally: &mut Tally) -> Result<Inertial, Refusal> {
 }
 
 /// A mass whose inertia is along the axes of its own frame.
-pub fn turned(mass: f64, own: &Matrix3<f64>, pose: &Isometry3<f64>, tag: Tag) -> Inertial {
+fn turned(mass: f64, own: &Matrix3<f64>, pose: &Isometry3<f64>, tag: Tag) -> Inertial {
     let centre = pose.translation.vector.into();
     let inertia = if pose.rotation.angle() == 0.0 {
         *own
