@@ -38,5 +38,6 @@ mod srdf_merge;
 mod states;
 mod textured_box;
 mod textures;
+mod there_and_back;
 mod urdf;
 mod yaml;

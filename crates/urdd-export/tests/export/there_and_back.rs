@@ -1,0 +1,110 @@
+//! Robots go to MJCF and to SDF, and come back by an import: the same poses, masses, limits and followers.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use nalgebra::Isometry3;
+use urdd_export::{Choices, Format};
+use urdd_format::urdf::UrdfModule;
+use urdd_generate::{Selection, Settings};
+use urdd_robot::Robot;
+
+use crate::made::export;
+use testkit::robots::made_named;
+
+/// m and rad.
+const TOLERANCE: f64 = 1e-9;
+const CONFIGURATIONS: u64 = 20;
+
+/// A robot as it comes back from a format.
+fn back(robot: &Robot, format: Format, folder: &Path) -> Robot {
+    let choices = Choices { samples: 100, ..Choices::default() };
+    let made = export(robot, format, &choices).expect("an export");
+    let file = folder.join("there/robot.xml");
+    for (path, bytes) in &made.files {
+        let path = folder.join("there").join(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, bytes).expect("written");
+    }
+    fs::create_dir_all(folder.join("there")).expect("a folder");
+    fs::write(&file, made.text).expect("written");
+    let settings = Settings {
+        selection: Selection::parse(["core"].into_iter()).expect("a class"),
+        ..Settings::default()
+    };
+    urdd_generate::generate(&file, &folder.join("back"), &settings, &()).expect("a URDD");
+    Robot::open(folder.join("back")).expect("a robot")
+}
+
+/// The poses of links in that of one of them.
+fn poses(robot: &Robot, q: &[f64], root: &str) -> BTreeMap<String, Isometry3<f64>> {
+    let names = robot.link_names().expect("names");
+    let poses = robot.link_poses(q).expect("poses");
+    let at = names.iter().position(|name| name == root).expect("the root");
+    let inverse = poses[at].inverse();
+    names.iter().cloned().zip(poses.iter().map(|pose| inverse * pose)).collect()
+}
+
+/// Mass, centre and inertia of links whose inertias are along the axes of the link.
+fn masses(robot: &UrdfModule) -> BTreeMap<&str, Vec<f64>> {
+    let links = robot.links.iter().filter_map(|link| {
+        let inertial = link.inertial.as_ref()?;
+        let origin = inertial.origin.as_ref();
+        let is_along = origin.and_then(|origin| origin.rpy).is_none_or(|rpy| rpy == [0.0; 3]);
+        let [x, y, z] = origin.and_then(|origin| origin.xyz).unwrap_or_default();
+        let of = inertial.inertia.as_ref()?;
+        let values = vec![inertial.mass.as_ref()?.value, x, y, z];
+        let moments = [of.ixx, of.ixy, of.ixz, of.iyy, of.iyz, of.izz];
+        let moments = moments.map(|moment| moment.unwrap_or_default());
+        is_along.then(|| (link.name.as_str(), [values, moments.to_vec()].concat()))
+    });
+    links.collect()
+}
+
+#[test]
+fn poses_masses_limits_and_followers_come_back() {
+    for name in ["six_axis_arm", "welding_arm", "hand", "quadruped"] {
+        let (_folder, path) = made_named(name);
+        let robot = Robot::open(&path).expect("a robot");
+        let description = robot.description().expect("a description").clone();
+        let dofs = robot.dof_names().expect("names").to_vec();
+        let root = robot.link_names().expect("names")[0].clone();
+        for format in [Format::Mjcf, Format::Sdf] {
+            let shown = format!("{name} by {}", format.name());
+            let folder = tempfile::tempdir().expect("a folder");
+            let other = back(&robot, format, folder.path());
+            assert_eq!(other.dof_names().expect("names"), dofs, "{shown}");
+            let (a, b) = (masses(&description), other.description().expect("a description"));
+            let b = masses(b);
+            let mut compared = 0;
+            for (link, values) in &a {
+                let Some(others) = b.get(link) else { continue };
+                let scale = values.iter().fold(1e-3_f64, |most, value| most.max(value.abs()));
+                for (value, other) in values.iter().zip(others) {
+                    assert!((value - other).abs() <= 1e-9 * scale, "{shown}: {link}: {values:?}");
+                }
+                compared += 1;
+            }
+            assert!(compared > 0, "{shown}: no mass");
+            let joints = &other.description().expect("a description").joints;
+            for joint in &description.joints {
+                let of = joints.iter().find(|of| of.name == joint.name);
+                let (Some(limit), Some(of)) = (&joint.limit, of) else { continue };
+                let back = of.limit.as_ref().expect("a limit");
+                assert_eq!((limit.lower, limit.upper), (back.lower, back.upper), "{shown}");
+                assert_eq!(joint.mimic.is_some(), of.mimic.is_some(), "{shown}: {}", joint.name);
+            }
+            for k in 0..CONFIGURATIONS {
+                let q = robot.configurations().expect("configurations").random(k);
+                let (here, there) = (poses(&robot, &q, &root), poses(&other, &q, &root));
+                for (link, pose) in &here {
+                    let Some(other) = there.get(link) else { continue };
+                    let apart = pose.inverse() * other;
+                    let apart = apart.translation.vector.norm().max(apart.rotation.angle());
+                    assert!(apart < TOLERANCE, "{shown}: {link} is {apart} off");
+                }
+            }
+        }
+    }
+}
