@@ -8,6 +8,7 @@ mod shapes;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use self::lines::Lines;
 use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
@@ -53,16 +54,16 @@ pub(crate) const ABOUT: About = About {
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let lines = lines::Lines::of(file.bytes);
-    let reading = read_lines(file, &lines.bytes, effects);
+    let lines = Lines::of(file.bytes);
+    let reading = read_lines(file, &lines, effects);
     for effect in &mut effects.0 {
         effect.at = lines.place(effect.at).min(file.bytes.len());
     }
     reading
 }
 
-fn read_lines(file: &File, bytes: &Cow<[u8]>, effects: &mut Effects) -> Reading<()> {
-    let broken = match bytes {
+fn read_lines(file: &File, lines: &Lines<'_>, effects: &mut Effects) -> Reading<()> {
+    let broken = match &lines.bytes {
         Cow::Borrowed(_) => None,
         Cow::Owned(bytes) => Some(Document::of(bytes)),
     };
