@@ -44,9 +44,9 @@ fn of_file(path: &Path) -> Option<&'static str> {
 
 const NEITHER: &str = "this is a file, but neither a URDF (its name would end in .urdf) nor a URDD \
     (a folder that holds urdd.json or the module folders, or a zip archive of one)";
-const SDF: &str = "this is SDF; URDDs are generated from URDF: convert it (for example with `sdf2urdf`), then `urdd generate`";
-const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are generated from URDF: look for the original URDF, \
-    or convert it, then `urdd generate`";
+const SDF: &str = "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
+const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, \
+    `urdd import` makes a URDF";
 
 fn by_content(path: &Path) -> Option<&'static str> {
     let mut head = Vec::new();

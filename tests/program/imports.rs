@@ -89,7 +89,8 @@ fn a_urdd_of_an_mjcf_has_its_poses_pairs_and_origin_and_passes() {
         .filter_map(Value::as_f64)
         .collect();
     assert_eq!(values, [0.0, -0.6, 1.4, 0.8, 0.0, 0.02]);
-    let skips = json(&folder.path().join("arm/link_shapes_skips_module/module.json"));
+    let skips =
+        json(&folder.path().join("arm/link_shapes_modules/link_shapes_skips_module/module.json"));
     let edits = skips["edits"].as_array().expect("a list");
     let is_excluded = |edit: &Value| edit["link_a"] == "base" && edit["link_b"] == "upper_arm";
     assert!(edits.iter().any(is_excluded), "{edits:?}");
@@ -142,7 +143,7 @@ fn what_is_wrong_is_said_with_its_place() {
     let folder = tempfile::tempdir().expect("a folder");
     let secret = folder.path().join("secret.xml");
     fs::write(&secret, "<mujoco><worldbody/></mujoco>").expect("written");
-    let inside = folder.path().join("robot");
+    let inside = folder.path().join("model");
     fs::create_dir(&inside).expect("a folder");
     let cases = [
         ("loop.xml", "<mujoco>\n<include file=\"loop.xml\"/></mujoco>", "loop.xml:2:1: "),

@@ -10,11 +10,12 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_format::report;
+use urdd_source::import::format_of;
 use urdd_validate::settings::Settings;
-use urdd_validate::{Run, ValidateError, validate, validate_loaded};
+use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
 
 impl Side {
-    /// Opens a URDF (a file whose name ends in `.urdf`), or a URDD: a folder or a zip archive.
+    /// Opens a URDF (a file whose name ends in `.urdf`), an MJCF or SDF as the URDF that it becomes, or a URDD: a folder or a zip archive.
     ///
     /// # Errors
     /// If the path has no robot, or one that cannot be read.
@@ -23,8 +24,16 @@ impl Side {
         let extension = path.extension().unwrap_or_default();
         let is_urdf = extension.eq_ignore_ascii_case("urdf") && !path.is_dir();
         if is_urdf && path.exists() {
-            let mut side = side_urdf::open(path, shown, options)?;
+            let (mut side, _) = side_urdf::open(path, shown, options)?;
             side.validation = validation(options, |settings| validate(&[path], settings))?;
+            return Ok(side);
+        }
+        if format_of(path).is_some() {
+            let (mut side, text) = side_urdf::open(path, shown, options)?;
+            side.validation = validation(options, |settings| {
+                let examined = vec![examine_urdf(&text, &side.path)];
+                Ok(Run::of(examined, vec![path.to_owned()], 0, settings))
+            })?;
             return Ok(side);
         }
         let found = discover(path).map_err(DiffError::Discover)?;

@@ -10,11 +10,15 @@ use urdd_format::report::Kind;
 use urdd_source::SourceMeshes;
 use urdd_xml::other_parts::other_parts;
 
-/// Opens a URDF and reads its meshes.
+/// Opens a URDF and reads its meshes. Gives its text too.
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot.
-pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side, DiffError> {
+pub(super) fn open(
+    path: &Path,
+    shown: String,
+    options: &Options,
+) -> Result<(Side, String), DiffError> {
     let source =
         SourceMeshes::open(path, &options.urdf, &options.cancellation).map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
@@ -23,7 +27,7 @@ pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side
         (place, mesh.file.clone().map_err(|why| why.reason))
     });
     let shapes = shapes(&view, files.collect(), |file| source.read(file));
-    Ok(Side {
+    let side = Side {
         path: shown,
         kind: Kind::Urdf,
         dofs: dof_state::of_robot(&view),
@@ -34,5 +38,6 @@ pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side
         urdd: None,
         validation: None,
         notes: Vec::new(),
-    })
+    };
+    Ok((side, source.text))
 }

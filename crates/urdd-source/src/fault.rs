@@ -103,8 +103,8 @@ pub enum Fault {
 
 fn sdf_hint(element: &str) -> &'static str {
     match element {
-        "sdf" => ": this is SDF; convert it to URDF first",
-        "mujoco" => ": this is a MuJoCo model; convert it to URDF first",
+        "sdf" => ": this is SDF; `urdd import` makes a URDF of a file of it",
+        "mujoco" => ": this is a MuJoCo model; `urdd import` makes a URDF of a file of it",
         "xacro:macro" => ": this is a xacro macro file, to be included by others",
         _ => "",
     }

@@ -31,7 +31,7 @@ fn what_is_no_robot_is_refused_with_advice() {
         ("broken.urdf", "broken.urdf:1:"),
         ("empty.urdf", "empty.urdf:1:"),
         ("two.urdf", "two.urdf:1:"),
-        ("robot.sdf", "sdf2urdf"),
+        ("robot.sdf", "robot.sdf:1:"),
         ("robot.xacro", "xacro"),
         ("bomb.urdf", "bomb.urdf:1:"),
         ("deep.urdf", "deep.urdf:1:"),
