@@ -29,10 +29,8 @@ fn back(robot: &Robot, format: Format, folder: &Path) -> Robot {
     }
     fs::create_dir_all(folder.join("there")).expect("a folder");
     fs::write(&file, made.text).expect("written");
-    let settings = Settings {
-        selection: Selection::parse(["core"].into_iter()).expect("a class"),
-        ..Settings::default()
-    };
+    let settings =
+        Settings { selection: Selection::parse(["core"]).expect("a class"), ..Settings::default() };
     urdd_generate::generate(&file, &folder.join("back"), &settings, &()).expect("a URDD");
     Robot::open(folder.join("back")).expect("a robot")
 }
@@ -67,7 +65,7 @@ fn poses_masses_limits_and_followers_come_back() {
     for name in ["six_axis_arm", "welding_arm", "hand", "quadruped"] {
         let (_folder, path) = made_named(name);
         let robot = Robot::open(&path).expect("a robot");
-        let description = robot.description().expect("a description").clone();
+        let description = robot.description().expect("a description");
         let dofs = robot.dof_names().expect("names").to_vec();
         let root = robot.link_names().expect("names")[0].clone();
         for format in [Format::Mjcf, Format::Sdf] {
@@ -75,8 +73,8 @@ fn poses_masses_limits_and_followers_come_back() {
             let folder = tempfile::tempdir().expect("a folder");
             let other = back(&robot, format, folder.path());
             assert_eq!(other.dof_names().expect("names"), dofs, "{shown}");
-            let (a, b) = (masses(&description), other.description().expect("a description"));
-            let b = masses(b);
+            let after = other.description().expect("a description");
+            let (a, b) = (masses(&description), masses(&after));
             let mut compared = 0;
             for (link, values) in &a {
                 let Some(others) = b.get(link) else { continue };
@@ -87,7 +85,7 @@ fn poses_masses_limits_and_followers_come_back() {
                 compared += 1;
             }
             assert!(compared > 0, "{shown}: no mass");
-            let joints = &other.description().expect("a description").joints;
+            let joints = &after.joints;
             for joint in &description.joints {
                 let of = joints.iter().find(|of| of.name == joint.name);
                 let (Some(limit), Some(of)) = (&joint.limit, of) else { continue };

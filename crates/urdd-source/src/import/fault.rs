@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use super::mjcf::fault::MjcfFault;
-use super::reach::Unreachable;
 use super::sdf::fault::SdfFault;
+use super::unreachable::Unreachable;
 
 /// Why a description of another format is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
 
-use super::model::Place;
+use super::place::Place;
 
 /// Something that a description can say, and what becomes of it, by format.
 #[derive(Debug, Clone, Copy)]

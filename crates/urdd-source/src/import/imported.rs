@@ -9,9 +9,10 @@ use serde_json::Value;
 
 use super::companions;
 use super::format::Format;
-use super::model::{Geometry, Model, Place, TextFile};
+use super::model::{Geometry, Model};
 use super::options::ImportOptions;
 use super::origin::origin;
+use super::place::{Place, TextFile};
 use super::placed::{Placed, position};
 use super::reach::Reach;
 use super::report::Report;

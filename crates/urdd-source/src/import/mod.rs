@@ -10,11 +10,13 @@ pub mod mjcf;
 pub mod model;
 pub mod options;
 mod origin;
+pub mod place;
 pub mod placed;
 pub mod reach;
 pub mod report;
 pub mod sdf;
 mod tree;
+pub mod unreachable;
 mod urdf;
 
 pub use imported::{Imported, format_of, import, import_whole};

@@ -4,34 +4,12 @@
 //! this room make a URDF and its companions from it.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
 use super::features::Tally;
-
-/// A place in one of the files of a description.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
-    /// The index of the file in [`Model::files`].
-    pub file: usize,
-    /// The byte offset in its text.
-    pub offset: usize,
-}
-
-/// A text file that a description was read from.
-#[derive(Debug, Clone)]
-pub struct TextFile {
-    /// The file, as the user would name it.
-    pub shown: String,
-    /// Its path, with symbolic links resolved.
-    pub path: PathBuf,
-    /// Its text.
-    pub text: String,
-    /// Its bytes.
-    pub bytes: Arc<[u8]>,
-}
+use super::place::{Place, TextFile};
 
 /// A robot.
 #[derive(Debug, Clone, Default)]

@@ -6,7 +6,7 @@ use urdd_directory::writer::sha256;
 use urdd_format::registry::PROGRAM_VERSION;
 
 use super::format::Format;
-use super::model::TextFile;
+use super::place::TextFile;
 
 /// The value of `x_urdd_imported`: the format, each file with its size and hash, and the importer.
 pub fn origin(format: Format, files: &[TextFile]) -> Value {

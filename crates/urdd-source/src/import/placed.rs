@@ -1,7 +1,7 @@
 //! A fault of a description, with its place in a file.
 
 use super::fault::ImportFault;
-use super::model::{Place, TextFile};
+use super::place::{Place, TextFile};
 use urdd_directory::position::LineIndex;
 
 /// A fault, and its place.

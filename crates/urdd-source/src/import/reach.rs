@@ -7,8 +7,7 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
+use super::unreachable::Unreachable;
 use crate::files::Files;
 use crate::packages::Packages;
 use crate::resolve::resolve;
@@ -31,27 +30,6 @@ pub struct Reach {
     project: Option<PathBuf>,
     /// What was read.
     read: RefCell<Vec<PathBuf>>,
-}
-
-/// Why a file is not read.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say it")]
-pub enum Unreachable {
-    #[error("`{0}` was not found")]
-    Missing(String),
-    #[error(
-        "`{file}` is outside of the folders of the description; `--allow-folder {}` allows its folder", folder.display()
-    )]
-    Outside { file: String, folder: PathBuf },
-    #[error("`{file}` cannot be read: {reason}")]
-    Unreadable { file: String, reason: String },
-}
-
-impl Unreachable {
-    fn outside(shown: &str, file: &Path) -> Self {
-        let folder = file.parent().unwrap_or(file).to_owned();
-        Unreachable::Outside { file: shown.to_owned(), folder }
-    }
 }
 
 impl Reach {

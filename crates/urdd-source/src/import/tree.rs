@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::model::{Body, Joint, JointKind, Mimic, Model, Place};
+use super::model::{Body, Joint, JointKind, Mimic, Model};
 use super::options::ImportOptions;
+use super::place::Place;
 
 /// The axes about which the three joints of a ball turn, and what is put behind its name.
 const BALL: [([f64; 3], &str); 3] =

@@ -9,8 +9,9 @@ use serde_json::Value;
 
 use crate::Settings;
 use crate::import::mjcf;
-use crate::import::model::{Body, Geometry, Joint, JointKind, Model, Shape, TextFile, Use};
+use crate::import::model::{Body, Geometry, Joint, JointKind, Model, Shape, Use};
 use crate::import::options::ImportOptions;
+use crate::import::place::TextFile;
 use crate::import::placed::Placed;
 use crate::import::reach::Reach;
 

@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use urdd_directory::path::portable;
 
-use super::super::model::{Asset, Place, TextFile};
-use super::super::reach::{Reach, Unreachable};
+use super::super::model::Asset;
+use super::super::place::{Place, TextFile};
+use super::super::reach::Reach;
+use super::super::unreachable::Unreachable;
 use super::compiler::Compiler;
 use super::document::first;
 use super::names::Names;

@@ -1,7 +1,7 @@
 //! Faults at their places.
 
 use super::super::fault::ImportFault;
-use super::super::model::Place;
+use super::super::place::Place;
 
 /// A fault and its place.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use urdd_xml::MAX_ROBOT_ELEMENTS;
 
 use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
-use super::super::model::Place;
+use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::defaults::{Defaults, MAIN};

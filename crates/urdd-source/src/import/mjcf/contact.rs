@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Apart, Place};
+use super::super::model::Apart;
+use super::super::place::Place;
 use super::at::Fallible;
 use super::body::{RawBody, WORLD};
 use super::document::Element;

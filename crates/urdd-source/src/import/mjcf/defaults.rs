@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::super::model::Place;
+use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::document::Element;
 use super::fault::MjcfFault;

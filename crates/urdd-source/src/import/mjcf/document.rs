@@ -8,8 +8,9 @@ use urdd_directory::position::LineIndex;
 use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS, XmlError};
 
 use super::super::fault::ImportFault;
-use super::super::model::{Place, TextFile};
-use super::super::reach::{Reach, Unreachable};
+use super::super::place::{Place, TextFile};
+use super::super::reach::Reach;
+use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
 use super::fault::MjcfFault;
 use crate::decode::decode;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
-use super::super::model::Place;
+use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::fault::MjcfFault;

@@ -2,7 +2,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
 
-use super::super::model::{Inertial, Place};
+use super::super::model::Inertial;
+use super::super::place::Place;
 use super::assets::Assets;
 use super::at::{Fallible, at};
 use super::body::RawBody;

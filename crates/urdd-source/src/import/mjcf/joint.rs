@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Unit, Vector3};
 
 use super::super::features::{self, Tally};
-use super::super::model::Place;
+use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::Element;

@@ -11,7 +11,8 @@ use urdd_geometry::write::stl;
 
 use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
-use super::super::model::{Geometry, Place};
+use super::super::model::Geometry;
+use super::super::place::Place;
 use super::assets::{Assets, Folder};
 use super::at::{At, Fallible, at};
 use super::defaults::{Defaults, MAIN};

@@ -32,8 +32,9 @@ mod scene;
 mod solid;
 
 use super::features::Tally;
-use super::model::{Model, TextFile};
+use super::model::Model;
 use super::options::ImportOptions;
+use super::place::TextFile;
 use super::placed::{Placed, placed};
 use super::reach::Reach;
 use assets::Assets;

@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use nalgebra::Isometry3;
 
 use super::super::features::Tally;
-use super::super::model::Place;
+use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
 use super::document::Element;

@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::super::model::Asset;
-use super::super::reach::{Reach, Unreachable};
+use super::super::reach::Reach;
+use super::super::unreachable::Unreachable;
 
 /// The most bytes of a mesh or image.
 const MAX_BYTES: u64 = 1 << 30;

@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use nalgebra::Isometry3;
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, Place, Shape};
+use super::super::model::{Body, Shape};
+use super::super::place::Place;
 use super::moving::{moving, needs_links, say_turned};
 use super::poses::{Frames, snapped};
 use super::refusal::Refusal;

@@ -1,8 +1,8 @@
 //! Chooses the model of a file.
 
 use super::super::features::{self, Tally};
-use super::super::model::Place;
 use super::super::options::ImportOptions;
+use super::super::place::Place;
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
 use super::models::model;

@@ -23,8 +23,9 @@ mod shape_reader;
 mod spanning;
 mod tag;
 
-use super::model::{Model, TextFile};
+use super::model::Model;
 use super::options::ImportOptions;
+use super::place::TextFile;
 use super::placed::{Placed, placed};
 use super::reach::Reach;
 use bodies::bodies;

@@ -3,7 +3,8 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Joint as Moving, JointKind, Mimic, Place};
+use super::super::model::{Joint as Moving, JointKind, Mimic};
+use super::super::place::Place;
 use super::fault::SdfFault;
 use super::poses::Frames;
 use super::refusal::Refusal;

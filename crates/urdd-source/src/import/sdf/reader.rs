@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
-use super::super::model::{Place, TextFile};
+use super::super::place::{Place, TextFile};
 use super::super::reach::Reach;
 use super::assets::Assets;
 use super::fault::SdfFault;

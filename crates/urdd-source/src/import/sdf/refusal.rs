@@ -1,7 +1,7 @@
 //! A fault and its place, on its way to the reader's caller.
 
 use super::super::fault::ImportFault;
-use super::super::model::Place;
+use super::super::place::Place;
 
 /// A fault, and where it is.
 #[derive(Debug)]

@@ -5,7 +5,8 @@ use std::collections::btree_map::Entry;
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::super::model::{Inertial, Place, Shape};
+use super::super::model::{Inertial, Shape};
+use super::super::place::Place;
 
 /// The name of the world, as the parent of a joint.
 pub const WORLD: &str = "world";

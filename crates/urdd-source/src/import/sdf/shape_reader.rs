@@ -5,7 +5,7 @@ use nalgebra::{Translation3, Vector3};
 
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
-use super::super::reach::Unreachable;
+use super::super::unreachable::Unreachable;
 use super::assets::NoAsset;
 use super::cone::cone;
 use super::reader::Reader;

@@ -6,7 +6,7 @@ use urdd_xml::element;
 
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
-use super::super::model::Place;
+use super::super::place::Place;
 use super::fault::SdfFault;
 use super::refusal::Refusal;
 

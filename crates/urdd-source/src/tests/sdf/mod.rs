@@ -15,8 +15,9 @@ use nalgebra::Isometry3;
 
 use crate::Settings;
 use crate::files::Files;
-use crate::import::model::{Body, Joint, Model, TextFile};
+use crate::import::model::{Body, Joint, Model};
 use crate::import::options::ImportOptions;
+use crate::import::place::TextFile;
 use crate::import::placed::Placed;
 use crate::import::reach::Reach;
 use crate::import::sdf;
