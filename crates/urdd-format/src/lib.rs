@@ -60,6 +60,7 @@ pub mod rate;
 pub mod readable;
 pub mod registry;
 pub mod report;
+mod report_of_urdf;
 pub mod root_metadata;
 pub mod schema;
 pub mod self_collision_model;

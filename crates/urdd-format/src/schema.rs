@@ -167,11 +167,11 @@ impl Subject {
             Subject::DiffReport => schemars::schema_for!(DiffReport),
             Subject::FirstReport => without(
                 schemars::schema_for!(Report),
-                "programs",
-                &["ProgramResult", "ProgramEffect", "Does", "Deed"],
+                &["programs", "imported"],
+                &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
             ),
             Subject::FirstDiffReport => {
-                without(schemars::schema_for!(DiffReport), "configurations", &[])
+                without(schemars::schema_for!(DiffReport), &["configurations"], &[])
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
@@ -202,25 +202,25 @@ impl Subject {
     }
 }
 
-/// The schema before a key and these types were added.
-fn without(mut schema: Schema, key: &str, types: &[&str]) -> Schema {
+/// The schema before these keys and types were added.
+fn without(mut schema: Schema, keys: &[&str], types: &[&str]) -> Schema {
     let mut definitions = schema.get_mut("$defs");
     let definitions = definitions.as_mut().and_then(|all| all.as_object_mut());
     if let Some(all) = definitions {
         all.retain(|name, _| !types.contains(&name.as_str()));
-        all.values_mut().filter_map(Value::as_object_mut).for_each(|object| forget(object, key));
+        all.values_mut().filter_map(Value::as_object_mut).for_each(|object| forget(object, keys));
     }
-    forget(schema.ensure_object(), key);
+    forget(schema.ensure_object(), keys);
     schema
 }
 
-/// Removes a key from the schema of an object.
-fn forget(object: &mut Map<String, Value>, key: &str) {
+/// Removes keys from the schema of an object.
+fn forget(object: &mut Map<String, Value>, keys: &[&str]) {
     if let Some(Value::Object(properties)) = object.get_mut("properties") {
-        properties.shift_remove(key);
+        properties.retain(|key, _| !keys.contains(&key.as_str()));
     }
     if let Some(Value::Array(required)) = object.get_mut("required") {
-        required.retain(|one| one != key);
+        required.retain(|one| !keys.iter().any(|key| one == key));
     }
 }
 
