@@ -69,8 +69,12 @@ impl<'a> Subject<'a> {
                 is_floating |= of.floating_base;
                 link_pairs(robot, &of.model.pairs)?
             }
-            // MJCF handles pairs of pieces exactly.
+            // MJCF and USD handle pairs of pieces exactly.
             Options::Mjcf(of) => {
+                is_floating |= of.floating_base;
+                pairs(robot, shapes, of.reasons.as_deref(), false)?
+            }
+            Options::Usd(of) => {
                 is_floating |= of.floating_base;
                 pairs(robot, shapes, of.reasons.as_deref(), false)?
             }
@@ -118,7 +122,7 @@ impl<'a> Subject<'a> {
         self.given.and_then(|setup| setup.friction)
     }
 
-    /// Whether the root link of an MJCF moves freely. One called `world` is MuJoCo's own body, which cannot.
+    /// Whether the root link of an MJCF or a USD moves freely. One called `world` cannot: it is MuJoCo's own body.
     pub fn has_free_base(&self) -> bool {
         self.is_floating && !self.is_world(self.tree.root)
     }

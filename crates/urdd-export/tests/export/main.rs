@@ -39,4 +39,6 @@ mod states;
 mod textured_box;
 mod textures;
 mod urdf;
+mod usd;
+mod usd_input;
 mod yaml;
