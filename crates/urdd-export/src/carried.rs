@@ -44,6 +44,7 @@ const DRIVEN: How = Otherwise("velocity for Newton and PhysX; effort of drives (
 const NEWTON: How = Otherwise("by Newton's attributes, which other programs ignore");
 const MIMICS: How = Otherwise("by attributes of Newton and of PhysX");
 const GENERIC: How = Otherwise("as a generic joint with free axes");
+const KEPT: How = Otherwise("for whole links; by piece with `--keep-pairs`");
 const CUSTOM: How = Otherwise("as custom data, which programs ignore");
 
 impl Feature {
@@ -144,7 +145,7 @@ const TABLE: [Feature; 21] = [
     Feature {
         name: "pairs that need no collision check",
         count: |of| of.disabled().count(),
-        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE, Yes],
+        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE, KEPT],
     },
     Feature {
         name: "named configurations",

@@ -154,8 +154,7 @@ impl Choices {
                 Options::Sdf(SdfOptions { model: self.model(), floating_base: self.floating_base })
             }
             Format::Usd => Options::Usd(UsdOptions {
-                shapes: self.shapes,
-                reasons: self.reasons.clone(),
+                pairs: self.pairs(),
                 meshes: self.meshes(),
                 floating_base: self.floating_base,
                 actuators: self.actuators,

@@ -49,7 +49,7 @@ impl Options {
             Options::Spherized(of) => (Format::Spherized, of.spheres.shapes, None),
             Options::Moveit(of) => (Format::Moveit, of.model.pairs.shapes, of.model.setup.as_ref()),
             Options::Sdf(of) => (Format::Sdf, of.model.pairs.shapes, of.model.setup.as_ref()),
-            Options::Usd(of) => (Format::Usd, of.shapes, of.setup.as_ref()),
+            Options::Usd(of) => (Format::Usd, of.pairs.shapes, of.setup.as_ref()),
         }
     }
 }
@@ -257,10 +257,8 @@ pub struct SdfOptions {
 /// Options of USD.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UsdOptions {
-    /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
-    pub shapes: ShapeKind,
-    /// The reasons for which pairs are filtered; `None` for those of the URDD. The user's edits apply in either case.
-    pub reasons: Option<Vec<SkippedReason>>,
+    /// The shapes, and the pairs that are filtered. With [`keep_pairs`](PairOptions::keep_pairs), pairs of pieces are.
+    pub pairs: PairOptions,
     /// The files of meshes and textures.
     pub meshes: MeshOptions,
     /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.

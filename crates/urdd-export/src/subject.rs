@@ -69,14 +69,14 @@ impl<'a> Subject<'a> {
                 is_floating |= of.floating_base;
                 link_pairs(robot, &of.model.pairs)?
             }
-            // MJCF and USD handle pairs of pieces exactly.
+            // MJCF handles pairs of pieces exactly.
             Options::Mjcf(of) => {
                 is_floating |= of.floating_base;
                 pairs(robot, shapes, of.reasons.as_deref(), false)?
             }
             Options::Usd(of) => {
                 is_floating |= of.floating_base;
-                pairs(robot, shapes, of.reasons.as_deref(), false)?
+                link_pairs(robot, &of.pairs)?
             }
             // URDF cannot express pairs; the sphere formats compute their own.
             Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {

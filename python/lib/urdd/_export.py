@@ -96,7 +96,7 @@ def export(
         shapes: the kind of collision shapes. Pairs are disabled by the skips of this kind.
         reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
         keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
-            links only. By default such a pair is disabled, and a note names it.
+            links only, and in USD, piece by piece. By default such a pair is disabled, and a note names it.
         spheres: maximum number of spheres for each link. By default 12 on average and at most 150 in all; with
             ``cover``, 8.
         total_spheres: maximum number of spheres for all links together, but at least one for each.

@@ -36,6 +36,7 @@ class NewtonRobot:
     notes: list[str]
     """What USD cannot express, or expresses differently."""
     _start: Floats
+    _zero: Floats
     _places: tuple[tuple[Joint, slice], ...]
 
     def q(self, q: ArrayLike) -> Floats:
@@ -56,7 +57,8 @@ class NewtonRobot:
     def dofs(self, q: ArrayLike) -> Floats:
         """(..., dofs): our configuration of Newton's ``joint_q``. Ignores the values of mimic joints."""
         rows, batch = positions(q, len(self._start), "Newton's")
-        found = np.zeros((len(rows), len(self.dof_names)))
+        # A joint that its limits hold is fixed here.
+        found = np.tile(self._zero, (len(rows), 1))
         for joint, at in self._places:
             values = rows[:, at]
             if joint.mimic is not None:
@@ -114,21 +116,19 @@ def to_newton(
         file = exported.write(Path(folder) / "robot.usda")
         stage = pxr.Stage.Open(str(file))
         builder.add_usd(stage)
-        shown = lambda label: stage.GetPrimAtPath(label).GetDisplayName() or label.rsplit("/", 1)[-1]  # noqa: E731
         starts = [*builder.joint_q_start, len(builder.joint_q)]
         at = {
-            shown(label): slice(start, end)
+            prim.GetDisplayName() or prim.GetName(): slice(start, end)
             for label, start, end in zip(builder.joint_label, starts[:-1], starts[1:], strict=True)
-            if stage.GetPrimAtPath(label)
+            if (prim := stage.GetPrimAtPath(label))
         }
-        del stage
     places = tuple(
         (joint, at[joint.name])
         for joint in joints_of(robot.modules)
         if joint.kind != "Fixed" and at[joint.name].stop > at[joint.name].start
     )
     start = np.array(builder.joint_q, dtype=np.float64)
-    found = NewtonRobot(None, builder, robot.dof_names, exported.notes, start, places)
+    found = NewtonRobot(None, builder, robot.dof_names, exported.notes, start, robot.zero, places)
     start[:] = found.q(robot.zero)
     builder.joint_q[:] = start.tolist()
-    return NewtonRobot(builder.finalize(), builder, robot.dof_names, exported.notes, start, places)
+    return NewtonRobot(builder.finalize(), builder, robot.dof_names, exported.notes, start, robot.zero, places)

@@ -45,7 +45,8 @@ pub struct ExportArguments {
     pub reasons: Option<Vec<Skip>>,
 
     /// Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
-    /// disabled. Applies to formats that list pairs of links; MJCF and USD always follow the URDD for each piece.
+    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece, and USD then
+    /// does.
     #[arg(long)]
     pub keep_pairs: bool,
 

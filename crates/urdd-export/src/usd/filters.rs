@@ -1,4 +1,6 @@
-//! Pairs that need no collision check: of two bodies, or of two of their shapes where the URDD checks others.
+//! Pairs that need no collision check: of two bodies, or, where a person keeps pairs of which the URDD checks some pieces,
+//! of two of their shapes. MuJoCo, by which Newton simulates, has 32 bits for pairs of shapes, which do not suffice for
+//! most robots; pairs of bodies it leaves out exactly.
 //!
 //! The two bodies of a joint are not checked unless the joint says so: a joint whose links the URDD checks does.
 
@@ -27,18 +29,15 @@ impl Filters {
         for pair in &subject.pairs {
             let joint = joint(pair.links);
             let [a, b] = pair.links.map(|link| &paths.links[link]);
-            match (&pair.mixed, joint) {
-                (None, Some(joint)) if !pair.disabled => {
-                    filters.checked.insert(joint);
+            if pair.disabled {
+                if joint.is_none() {
+                    filters.add(a.clone(), b.clone());
                 }
-                (None, None) if pair.disabled => filters.add(a.clone(), b.clone()),
-                (None, _) => {}
-                (Some(mixed), joint) => {
-                    filters.checked.extend(joint);
-                    for [one, other] in &mixed.skipped {
-                        filters.add(path_of_shape(a, *one), path_of_shape(b, *other));
-                    }
-                }
+                continue;
+            }
+            filters.checked.extend(joint);
+            for [one, other] in pair.mixed.iter().flat_map(|mixed| &mixed.skipped) {
+                filters.add(path_of_shape(a, *one), path_of_shape(b, *other));
             }
         }
         filters

@@ -94,6 +94,8 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     for index in 0..subject.view.joints.len() {
         scope.push(joints.prim(index, &mut notes));
     }
+    let is_whole = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
+    notes.extend(subject.notes().into_iter().filter(is_whole));
     if !paths.mended.is_empty() {
         notes.push(Note::Mended(paths.mended.clone()));
     }

@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vec
 use testkit::robots::{made, our_robots};
 use testkit::usda::{Prim, parsed};
 use urdd_export::{ActuatorKind, Choices, Format};
+use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_kinematics::rotation::{from_rotation_vector, from_rpy, planar_basis, unit_axis};
 use urdd_robot::{Robot, ShapeKind};
 
@@ -274,7 +275,7 @@ fn the_pairs_are_those_of_the_urdd_by_piece() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for kind in [ShapeKind::Pieces, ShapeKind::Hulls] {
-            let options = Choices { shapes: kind, ..Choices::default() };
+            let options = Choices { shapes: kind, keep_pairs: true, ..Choices::default() };
             let read = Read::new(&export(&robot, Format::Usd, &options).expect("an export").text);
             let skips = robot.skips(kind).expect("skips");
             let links = robot.link_names().expect("links");
@@ -290,6 +291,29 @@ fn the_pairs_are_those_of_the_urdd_by_piece() {
                 }
             }
             count += expected.len();
+            assert_eq!(filtered(&read), expected, "{name} {kind}");
+            // By default, links of which one pair of pieces is skipped for a contact are not checked.
+            let touches = [SkipReason::Always, SkipReason::Adjacent, SkipReason::Default];
+            let places = skips.places();
+            let is_whole = |a: usize, b: usize| {
+                (0..places.len()).any(|i| {
+                    (0..places.len()).any(|j| {
+                        let reason = skips.reason(i, j);
+                        places[i].0 == a
+                            && places[j].0 == b
+                            && reason.is_some_and(|reason| touches.contains(&reason))
+                    })
+                })
+            };
+            for &(a, piece) in places {
+                for &(b, other) in places.iter().filter(|(b, _)| a < *b && is_whole(a, *b)) {
+                    let mut pair = [(links[a].clone(), piece), (links[b].clone(), other)];
+                    pair.sort();
+                    expected.insert(pair);
+                }
+            }
+            let options = Choices { shapes: kind, ..Choices::default() };
+            let read = Read::new(&export(&robot, Format::Usd, &options).expect("an export").text);
             assert_eq!(filtered(&read), expected, "{name} {kind}");
             assert!(joints.len() < read.joints().len() + 1);
         }
