@@ -150,6 +150,26 @@ def test_mujoco_frees_the_base(arm: urdd.Robot, mujoco: Any) -> None:
     assert abs(data.qpos[2] - height + 0.5 * 9.81 * data.time**2) < 0.3
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_newton_moves_alike(name: str, urdds: Path) -> None:
+    """`.ci/full usd` has Newton, whose numbers are binary32."""
+    newton = pytest.importorskip("newton")
+    robot = urdd.load(urdds / name)
+    peer = robot.to_newton(floating_base=name == "gripper")
+    state = peer.model.state()
+    links = {label.rsplit("/", 1)[1]: body for body, label in enumerate(peer.model.body_label)}
+    q = robot.random(20, seed=3)
+    np.testing.assert_allclose(peer.dofs(peer.q(q)), q, atol=1e-12)
+    for ours, own in zip([robot.zero, *q], [peer.model.joint_q.numpy(), *peer.q(q)], strict=True):
+        peer.model.joint_q.assign(own.astype(np.float32))
+        newton.eval_fk(peer.model, peer.model.joint_q, peer.model.joint_qd, state)
+        found = state.body_q.numpy()
+        root = found[links[robot.root_link]][:3]
+        for link, pose in zip(robot.link_names, robot.link_poses(ours), strict=True):
+            if link in links:
+                np.testing.assert_allclose(found[links[link]][:3] - root, pose[:3, 3], atol=1e-5)
+
+
 def test_options_of_mjcf_are_refused_elsewhere(arm: urdd.Robot) -> None:
     with pytest.raises(ValueError, match="for mjcf"):
         urdd.export(arm, "urdf", actuators="position")

@@ -46,6 +46,7 @@ PUBLIC = [
     "ModuleMissingError",
     "ModuleUnusableError",
     "MujocoRobot",
+    "NewtonRobot",
     "Note",
     "ObstacleDistance",
     "ObstacleError",

@@ -20,6 +20,7 @@
 //! - [`urdfs`]: URDFs that tests of crates and of the program share
 //! - [`workshop`]: a folder with our robots, to change them
 //! - [`requests`], [`site`]: the server and the exported site of `urdd view`, as a browser reads them
+//! - [`usda`]: text of USD
 //! - [`xml`]: XML, read by two parsers
 //!
 //! [`robots`] generates URDDs of the project's robots.
@@ -45,6 +46,7 @@ pub mod transform;
 pub mod trials;
 pub mod urdf_to_core;
 pub mod urdfs;
+pub mod usda;
 pub mod workshop;
 pub mod xml;
 

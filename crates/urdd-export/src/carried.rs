@@ -19,7 +19,7 @@ struct Feature {
     /// How many a robot has.
     count: fn(&Subject) -> usize,
     /// By format, in the order of [`Format::ALL`].
-    by_format: [How; 9],
+    by_format: [How; 10],
 }
 
 const MIMIC: How = Otherwise("as equality constraints, which hold in simulation only");
@@ -40,17 +40,23 @@ const NO_FRICTION: How = Otherwise("damping; Drake ignores friction");
 const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
 const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
+const DRIVEN: How = Otherwise("velocity for Newton and PhysX; effort of drives (`--actuators`)");
+const NEWTON: How = Otherwise("by Newton's attributes, which other programs ignore");
+const MIMICS: How = Otherwise("by attributes of Newton and of PhysX");
+const GENERIC: How = Otherwise("as a generic joint with free axes");
+const KEPT: How = Otherwise("for whole links; by piece with `--keep-pairs`");
+const CUSTOM: How = Otherwise("as custom data, which programs ignore");
 
 impl Feature {
-    /// What every URDF has in the same way, whichever shapes it has; what Drake, MJCF and SDF make of it; and what other
+    /// What every URDF has in the same way, whichever shapes it has; what Drake, MJCF, SDF and USD make of it; and what other
     /// formats leave to the URDF.
     const fn new(
         name: &'static str,
         count: fn(&Subject) -> usize,
-        [urdf, drake, mjcf, sdf]: [How; 4],
+        [urdf, drake, mjcf, sdf, usd]: [How; 5],
     ) -> Self {
         let e = Elsewhere;
-        Feature { name, count, by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf] }
+        Feature { name, count, by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf, usd] }
     }
 
     /// The same, but for cuRobo.
@@ -61,82 +67,92 @@ impl Feature {
 }
 
 const TABLE: [Feature; 21] = [
-    Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 4]),
+    Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 5]),
     Feature::new(
         "colours of visual geometry",
         |of| links(of, |it| !it.visual.is_empty()),
-        [Yes; 4],
+        [Yes; 5],
     ),
     // `textures` counts what became of them.
-    Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG]),
-    Feature::new("textures that the URDF itself names", |of| links(of, has_texture), [No; 4]),
-    Feature::new("limits of position", limited, [Yes; 4]),
+    Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG, Yes]),
+    Feature::new("textures that the URDF itself names", |of| links(of, has_texture), [No; 5]),
+    Feature::new("limits of position", limited, [Yes; 5]),
     Feature::new(
         "limits of effort and velocity",
         |of| limits(of, |it| it.effort.or(it.velocity)),
-        [Yes, Yes, EFFORT, Yes],
+        [Yes, Yes, EFFORT, Yes, DRIVEN],
     ),
     Feature::new(
         "limits of acceleration and jerk",
         |of| limits(of, |it| it.acceleration.or(it.jerk)),
-        [Yes, NO_JERK, No, No],
+        [Yes, NO_JERK, No, No, No],
     )
     .with_curobo(CUROBO),
     Feature::new(
         "damping and friction of joints",
         |of| joints(of, |it| it.dynamics.is_some()),
-        [Yes, NO_FRICTION, Yes, Yes],
+        [Yes, NO_FRICTION, Yes, Yes, NEWTON],
     ),
     Feature::new(
         "safety controllers and calibrations",
         |of| joints(of, |it| it.safety_controller.is_some() || it.calibration.is_some()),
-        [Yes, IGNORED, No, No],
+        [Yes, IGNORED, No, No, No],
     ),
     Feature::new(
         "mimic joints",
         |of| of.mimics.by_joint.iter().flatten().count(),
-        [Yes, Yes, MIMIC, Yes],
+        [Yes, Yes, MIMIC, Yes, MIMICS],
     ),
-    Feature::new("joints with the name of a link", namesakes, [Yes, Yes, Yes, RENAMED])
+    Feature::new("joints with the name of a link", namesakes, [Yes, Yes, Yes, RENAMED, Yes])
         .with_curobo(Yes),
-    Feature::new("planar joints", |of| typed(of, JointType::Planar), [Yes, Yes, PLANAR, CHAIN]),
+    Feature::new(
+        "planar joints",
+        |of| typed(of, JointType::Planar),
+        [Yes, Yes, PLANAR, CHAIN, GENERIC],
+    ),
     Feature::new(
         "floating joints",
         |of| typed(of, JointType::Floating),
-        [Yes, CHAIN, SLIDES, CHAIN],
+        [Yes, CHAIN, SLIDES, CHAIN, GENERIC],
     ),
-    Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 4]),
-    Feature::new("names of visual and collision elements", named_shapes, [NAMES, NAMES, No, No]),
+    Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 5]),
+    Feature::new(
+        "names of visual and collision elements",
+        named_shapes,
+        [NAMES, NAMES, No, No, No],
+    ),
     Feature::new(
         "attributes that URDF does not define, outside of shapes and materials",
         |of| others(of, is_kept),
-        [Yes, Yes, No, No],
+        [Yes, Yes, No, No, No],
     ),
     Feature::new(
         "what URDF does not define in shapes, materials, limits and the like",
         |of| others(of, |part| !is_kept(part)),
-        [No; 4],
+        [No; 5],
     ),
     Feature::new(
         "`<gazebo>` elements",
         |of| of.urdf.unknown_elements.iter().filter(|text| is_gazebo(text)).count(),
-        [Yes, Yes, No, GAZEBO],
+        [Yes, Yes, No, GAZEBO, CUSTOM],
     ),
     Feature::new(
         "other elements that URDF does not define, such as transmissions",
         other_elements,
-        [Yes, Yes, No, No],
+        [Yes, Yes, No, No, CUSTOM],
     ),
     // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",
         count: |of| of.disabled().count(),
-        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE],
+        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE, KEPT],
     },
     Feature {
         name: "named configurations",
         count: |of| of.robot.named_configurations().map_or(0, <[_]>::len),
-        by_format: [Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No],
+        by_format: [
+            Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No, CUSTOM,
+        ],
     },
 ];
 

@@ -10,7 +10,7 @@ use super::format::Format;
 use super::options::{
     ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
     MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions,
+    UrdfOptions, UsdOptions,
 };
 use super::setup::Setup;
 
@@ -88,10 +88,10 @@ type Only = (&'static str, fn(&Choices) -> bool, &'static [Format]);
 
 /// Options that are refused for formats that do not have them. Others are passed over there.
 const ONLY: [Only; 6] = [
-    ("actuators", |of| of.actuators.is_some(), &[Format::Mjcf]),
+    ("actuators", |of| of.actuators.is_some(), &[Format::Mjcf, Format::Usd]),
     ("sensors", |of| of.sensors, &[Format::Mjcf]),
     ("scene", |of| of.scene, &[Format::Mjcf]),
-    ("floating_base", |of| of.floating_base, &[Format::Mjcf, Format::Sdf]),
+    ("floating_base", |of| of.floating_base, &[Format::Mjcf, Format::Sdf, Format::Usd]),
     ("robot_file", |of| of.robot_file.is_some(), &[Format::Curobo]),
     ("package", |of| of.package.is_some(), &[Format::Moveit, Format::Drake]),
 ];
@@ -153,6 +153,15 @@ impl Choices {
             Format::Sdf => {
                 Options::Sdf(SdfOptions { model: self.model(), floating_base: self.floating_base })
             }
+            Format::Usd => Options::Usd(UsdOptions {
+                pairs: self.pairs(),
+                meshes: self.meshes(),
+                floating_base: self.floating_base,
+                actuators: self.actuators,
+                bandwidth: self.bandwidth,
+                file: self.file(),
+                setup: self.setup.clone(),
+            }),
         })
     }
 

@@ -52,6 +52,14 @@ pub enum ExportError {
     /// Spheres cannot be fitted to shapes of this kind.
     #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
     SpheresOf(ShapeKind),
+    /// A binary file, and the format is a text.
+    #[error("`{}` would be binary, and this is a text: write a `.usda`, and make the `{ending}` with `{}`", .file.escape_debug(), binary(.ending))]
+    Binary {
+        /// The file.
+        file: String,
+        /// Its ending, `.usdc` or `.usdz`.
+        ending: &'static str,
+    },
     /// A mesh that cannot be written.
     #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
     Mesh {
@@ -69,6 +77,11 @@ pub(super) fn unknown<'n>(
     known: impl Iterator<Item = &'n str>,
 ) -> RobotError {
     RobotError::Unknown { what, name: name.to_owned(), nearest: nearest(known, name) }
+}
+
+/// What makes a binary file of a text.
+fn binary(ending: &str) -> &'static str {
+    if ending == ".usdz" { "usdzip -a x.usda x.usdz" } else { "usdcat -o x.usdc x.usda" }
 }
 
 fn article(what: &str) -> &'static str {
@@ -134,6 +147,9 @@ pub enum Note {
         /// Its name in the file.
         name: String,
     },
+    /// Names that USD cannot have.
+    #[error("USD has only letters, digits and `_` in names, and no two of one name in one place: written in another way, and shown as they are, are {}", few(.0))]
+    Mended(Vec<String>),
     /// Groups, end effectors and tool frames were guessed.
     #[error(
         "groups, end effectors and tool frames are guessed: `urdd export init` writes the guesses to a file, to be checked"
@@ -235,6 +251,14 @@ fn some(links: &[String]) -> String {
         1 => format!("link {names} has"),
         count if count > SHOWN => format!("links {names} and {} others have", count - shown),
         _ => format!("links {names} have"),
+    }
+}
+
+/// Names, the first few of many.
+fn few(names: &[String]) -> String {
+    match names.len().saturating_sub(SHOWN) {
+        0 => all(names),
+        more => format!("{} and {more} others", all(&names[..SHOWN])),
     }
 }
 

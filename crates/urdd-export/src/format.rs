@@ -21,6 +21,8 @@ pub enum Format {
     Moveit,
     /// SDF, for Gazebo and Drake.
     Sdf,
+    /// USD, for Isaac, Newton and Omniverse.
+    Usd,
 }
 
 impl Format {
@@ -35,6 +37,7 @@ impl Format {
         Format::Spherized,
         Format::Moveit,
         Format::Sdf,
+        Format::Usd,
     ];
 
     /// Its word for users, and its name in messages and comments.
@@ -49,6 +52,7 @@ impl Format {
             Format::Spherized => ("spherized", "URDF with spheres"),
             Format::Moveit => ("moveit", "MoveIt's configuration"),
             Format::Sdf => ("sdf", "SDF"),
+            Format::Usd => ("usd", "USD"),
         }
     }
 

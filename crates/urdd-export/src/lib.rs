@@ -14,6 +14,7 @@
 //! | [`Format::Spherized`] | any reader of URDF | the robot, with these spheres as collision geometry |
 //! | [`Format::Moveit`] | MoveIt 2 | a package: groups, limits, solvers, planners, controllers, a launch file, our URDF |
 //! | [`Format::Sdf`] | Gazebo, Drake | links, joints, our shapes as collisions, collision filters for Drake |
+//! | [`Format::Usd`] | Isaac, Newton, Omniverse | rigid bodies under an articulation, joints, our shapes, filtered pairs |
 //!
 //! ```
 //! use urdd_export::{Choices, Format, export};
@@ -35,7 +36,9 @@ mod choices;
 mod contacts;
 mod drake;
 mod error;
+mod flat;
 mod format;
+mod gains;
 mod groups;
 #[doc(hidden)]
 pub mod inertia;
@@ -65,6 +68,7 @@ mod srdf;
 mod srdf_document;
 mod srdf_import;
 mod srdf_merge;
+mod stand;
 mod states_import;
 mod structure;
 mod subject;
@@ -72,6 +76,8 @@ mod template;
 mod textures;
 mod urdf;
 mod urdf_elements;
+#[doc(hidden)]
+pub mod usd;
 mod xacro;
 #[doc(hidden)]
 pub mod yaml;
@@ -86,7 +92,7 @@ pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{
     ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
     MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions,
+    UrdfOptions, UsdOptions,
 };
 pub use output::Export;
 pub use pairs::Contacts;
@@ -116,6 +122,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Spherized(of) => spheres::urdf::export(&subject, of),
         Options::Moveit(of) => moveit::export(&subject, of),
         Options::Sdf(of) => sdf::export(&subject, of),
+        Options::Usd(of) => usd::export(&subject, of),
     }?;
     made.notes.extend(subject.lost.clone());
     made.report = carried::report(&subject, &made);

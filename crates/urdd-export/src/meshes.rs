@@ -89,6 +89,21 @@ impl<'a> MeshFiles<'a> {
         Ok((self.file(link, &what, "obj", bytes), Some(image)))
     }
 
+    /// Adds a file of text that USD reads, and returns its path.
+    pub fn add_text(&mut self, link: usize, what: &str, text: String) -> String {
+        self.file(link, what, "usda", text.into_bytes())
+    }
+
+    /// Adds the images of looks, and returns their paths.
+    pub fn add_images(&mut self, link: usize, looks: &[Look]) -> Vec<Option<String>> {
+        let add = |(place, look): (usize, &Look)| {
+            let image = look.image.as_ref()?;
+            let what = format!("texture_{place}");
+            Some(self.file(link, &what, image.ending, image.bytes.to_vec()))
+        };
+        looks.iter().enumerate().map(add).collect()
+    }
+
     fn fault(&self, link: usize) -> impl FnOnce(WriteError) -> ExportError + use<> {
         let link = self.subject.links[link].clone();
         |error| ExportError::Mesh { link, error }

@@ -76,7 +76,7 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
 }
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
-    let is_xml = !matches!(format, Format::Curobo | Format::Foam);
+    let is_xml = !matches!(format, Format::Curobo | Format::Foam | Format::Usd);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
         Format::Moveit if XACRO.iter().any(|part| name.contains(part)) => {

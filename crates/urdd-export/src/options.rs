@@ -27,6 +27,8 @@ pub enum Options {
     Moveit(MoveitOptions),
     /// [`Format::Sdf`].
     Sdf(SdfOptions),
+    /// [`Format::Usd`].
+    Usd(UsdOptions),
 }
 
 impl Options {
@@ -47,6 +49,7 @@ impl Options {
             Options::Spherized(of) => (Format::Spherized, of.spheres.shapes, None),
             Options::Moveit(of) => (Format::Moveit, of.model.pairs.shapes, of.model.setup.as_ref()),
             Options::Sdf(of) => (Format::Sdf, of.model.pairs.shapes, of.model.setup.as_ref()),
+            Options::Usd(of) => (Format::Usd, of.pairs.shapes, of.setup.as_ref()),
         }
     }
 }
@@ -249,4 +252,23 @@ pub struct SdfOptions {
     pub model: ModelOptions,
     /// Whether the root link moves freely. Otherwise it is fixed to the world, unless the setup says that it moves.
     pub floating_base: bool,
+}
+
+/// Options of USD.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UsdOptions {
+    /// The shapes, and the pairs that are filtered. With [`keep_pairs`](PairOptions::keep_pairs), pairs of pieces are.
+    pub pairs: PairOptions,
+    /// The files of meshes and textures.
+    pub meshes: MeshOptions,
+    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
+    pub floating_base: bool,
+    /// What the drives of joints of one DOF are told; `None` for no drives.
+    pub actuators: Option<ActuatorKind>,
+    /// As [`MjcfOptions::bandwidth`].
+    pub bandwidth: Option<f64>,
+    /// The name of the file: that of a binary one is refused.
+    pub file: Option<String>,
+    /// What the URDD does not say.
+    pub setup: Option<Setup>,
 }

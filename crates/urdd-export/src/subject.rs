@@ -74,6 +74,10 @@ impl<'a> Subject<'a> {
                 is_floating |= of.floating_base;
                 pairs(robot, shapes, of.reasons.as_deref(), false)?
             }
+            Options::Usd(of) => {
+                is_floating |= of.floating_base;
+                link_pairs(robot, &of.pairs)?
+            }
             // URDF cannot express pairs; the sphere formats compute their own.
             Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
                 Vec::new()
@@ -118,7 +122,7 @@ impl<'a> Subject<'a> {
         self.given.and_then(|setup| setup.friction)
     }
 
-    /// Whether the root link of an MJCF moves freely. One called `world` is MuJoCo's own body, which cannot.
+    /// Whether the root link of an MJCF or a USD moves freely. One called `world` cannot: it is MuJoCo's own body.
     pub fn has_free_base(&self) -> bool {
         self.is_floating && !self.is_world(self.tree.root)
     }

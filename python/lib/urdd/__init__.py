@@ -73,6 +73,7 @@ from .errors import (
 if TYPE_CHECKING:
     from . import modules, report
     from ._mujoco import MujocoRobot
+    from ._newton import NewtonRobot
     from ._pinocchio import PinocchioRobot
     from ._pybullet import PybulletRobot
     from ._show import Frame, Shown, ShownByViser
@@ -100,6 +101,7 @@ __all__ = [
     "ModuleMissingError",
     "ModuleUnusableError",
     "MujocoRobot",
+    "NewtonRobot",
     "Note",
     "ObstacleDistance",
     "ObstacleError",
@@ -153,6 +155,7 @@ __all__ = [
 _LATER = {
     "Frame": "_show",
     "MujocoRobot": "_mujoco",
+    "NewtonRobot": "_newton",
     "PinocchioRobot": "_pinocchio",
     "PybulletRobot": "_pybullet",
     "Shown": "_show",

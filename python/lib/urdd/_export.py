@@ -16,9 +16,10 @@ from ._options import ExportOptions, whole, words
 
 __all__ = ["Actuators", "Export", "Format", "export", "write_files"]
 
-Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf"]
+Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
-for cuRobo and Foam, URDF with these spheres, a package for MoveIt 2, SDF for Gazebo."""
+for cuRobo and Foam, URDF with these spheres, a package for MoveIt 2, SDF for Gazebo, USD for Isaac, Newton
+and Omniverse."""
 
 Actuators: TypeAlias = Literal["position", "velocity", "motor"]
 """What actuators are told: positions (rad or m), velocities (rad/s or m/s), or torques and forces (N m or N)."""
@@ -100,7 +101,7 @@ def export(
         shapes: the kind of collision shapes. Pairs are disabled by the skips of this kind.
         reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
         keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
-            links only. By default such a pair is disabled, and a note names it.
+            links only, and in USD, piece by piece. By default such a pair is disabled, and a note names it.
         spheres: maximum number of spheres for each link. By default 12 on average and at most 150 in all; with
             ``cover``, 8.
         total_spheres: maximum number of spheres for all links together, but at least one for each.
@@ -109,11 +110,11 @@ def export(
         visuals: whether the file has visual geometry; or the largest part of its triangles to keep, such as 0.1, or
             the most to keep in all.
         mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
-        actuators: MJCF: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
+        actuators: MJCF and USD: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
             from the inertia that each joint moves.
-        bandwidth: MJCF: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By default that
+        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By default that
             of ``setup``, or 10.
-        floating_base: MJCF and SDF: the root link moves freely, in MJCF by a free joint ``floating_base``.
+        floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
         scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the

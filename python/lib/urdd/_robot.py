@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ._chain_arrays import ChainArrays
     from ._export import Actuators
     from ._mujoco import MujocoRobot
+    from ._newton import NewtonRobot
     from ._pinocchio import PinocchioRobot
     from ._pybullet import PybulletRobot
     from ._show import Frame, Shown, ShownByViser
@@ -216,6 +217,26 @@ class Robot(RobotKinematics):
         from ._mujoco import to_mujoco
 
         return to_mujoco(
+            self, shapes, visuals=visuals, actuators=actuators, bandwidth=bandwidth, floating_base=floating_base
+        )
+
+    def to_newton(
+        self,
+        shapes: ShapeKind = "pieces",
+        *,
+        visuals: bool | float = True,
+        actuators: Actuators | None = None,
+        bandwidth: float | None = None,
+        floating_base: bool = False,
+    ) -> NewtonRobot:
+        """A Newton model, with shapes of this kind as convex colliders, and the skips as filtered pairs.
+
+        It goes through our USD. For the arguments, see :meth:`to_mujoco`; what drives joints are drives, and a free base is
+        Newton's own free joint.
+        """
+        from ._newton import to_newton
+
+        return to_newton(
             self, shapes, visuals=visuals, actuators=actuators, bandwidth=bandwidth, floating_base=floating_base
         )
 

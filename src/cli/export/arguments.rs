@@ -45,7 +45,8 @@ pub struct ExportArguments {
     pub reasons: Option<Vec<Skip>>,
 
     /// Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
-    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece.
+    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece, and USD then
+    /// does.
     #[arg(long)]
     pub keep_pairs: bool,
 
@@ -74,7 +75,7 @@ pub struct ExportArguments {
     #[arg(long, value_name = "RATIO|TRIANGLES", conflicts_with = "no_visuals", value_parser = detail)]
     pub visuals: Option<Detail>,
 
-    /// MJCF and SDF: the root link moves freely. Otherwise it is fixed to the world.
+    /// MJCF, SDF and USD: the root link moves freely. Otherwise it is fixed to the world.
     #[arg(long)]
     pub floating_base: bool,
 
@@ -133,6 +134,8 @@ pub enum Target {
     Moveit,
     /// For Gazebo and Drake: links, joints, shapes.
     Sdf,
+    /// For Isaac, Newton and Omniverse: a `.usda` of rigid bodies, joints, shapes, filtered pairs.
+    Usd,
     /// What exports need and the URDD does not say, guessed: groups, end effectors, tool frames.
     Init,
 }

@@ -7,11 +7,11 @@ use urdd_export::{ActuatorKind, Choices};
 /// Arguments of MJCF alone.
 #[derive(Args)]
 pub struct MjcfArguments {
-    /// MJCF: adds an actuator to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
+    /// MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
     #[arg(long, value_enum, value_name = "KIND", default_value_t = Actuators::None)]
     actuators: Actuators,
 
-    /// MJCF: the frequency below which a joint follows its actuator, Hz.
+    /// MJCF and USD: the frequency below which a joint follows its actuator, Hz.
     /// Default: that of `NAME.export.toml`, or 10.
     #[arg(long, value_name = "HZ", value_parser = bandwidth)]
     bandwidth: Option<f64>,

@@ -47,7 +47,8 @@ fn write(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {
     }
     let is_disabled = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
     if made.notes.iter().any(is_disabled) {
-        output::error("note: --keep-pairs checks these pairs of links as a whole");
+        let how = if format == Format::Usd { "by piece" } else { "as a whole" };
+        output::error(&format!("note: --keep-pairs checks these pairs of links {how}"));
     }
     files::write(arguments, output, made)
 }

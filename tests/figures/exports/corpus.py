@@ -1,7 +1,7 @@
 """Exports hundreds of robots in every format, and loads each file with every program for it that PyPI or Debian has.
 
     pip install mujoco==4.0.0 pin==4.1.0 drake==1.51.1 yourdfpy==0.0.60 example-robot-data==6.0.0 pybullet==3.2.7 \\
-        newton==1.8.0 xacro==2.1.1 rtb-data==2.0.0 pyyaml numpy trimesh
+        newton==1.8.0 newton-usd-schemas==0.6.0 usd-core==26.8 xacro==2.1.1 rtb-data==2.0.0 pyyaml numpy trimesh
     g++ -O1 sdf.cpp -o sdf_load $(pkg-config --cflags --libs sdformat12)      # Debian's libsdformat-dev
     SDF_LOAD=$PWD/sdf_load python3 tests/figures/exports/corpus.py target/release/urdd FOLDER [--only REGEX] [--write]
 
@@ -60,6 +60,7 @@ EXPORTS = {
     "mjcf": ("mjcf", "mjcf/r.xml"),
     "mjcf-simulated": ("mjcf", "used/r.xml", "--actuators", "position", "--scene", "--setup", "guessed.toml"),
     "sdf": ("sdf", "sdf/r.sdf"),
+    "usd": ("usd", "usd/r.usda", "--actuators", "position"),
     "spherized": ("spherized", "spherized/r.urdf", *FEW),
     "curobo": ("curobo", "r.yml", "--config", *FEW),
     "foam": ("foam", "r.json", *FEW),
@@ -67,13 +68,14 @@ EXPORTS = {
 }
 TITLES = {
     "urdd": "(URDD)", "srdf": "SRDF", "urdf": "URDF", "drake": "Drake", "drake-directive": "Drake, model directive", "mjcf": "MJCF",
-    "mjcf-simulated": "MJCF, position actuators and scene", "sdf": "SDF", "spherized": "URDF with spheres", "curobo": "cuRobo's YAML",
+    "mjcf-simulated": "MJCF, position actuators and scene", "sdf": "SDF", "usd": "USD", "spherized": "URDF with spheres", "curobo": "cuRobo's YAML",
     "foam": "Foam's JSON", "moveit": "MoveIt's package",
 }  # fmt: skip
 # Which program loads what: the export, the file where it is another one, the greatest difference of poses.
 LOADS = {
     "MuJoCo": [("mjcf", None), ("mjcf-simulated", "used/r_scene.xml")],
-    "Newton": [("mjcf", None), ("urdf", None)],
+    "Newton": [("mjcf", None), ("urdf", None), ("usd", None)],
+    "usd-core": [("usd", None)],
     "Pinocchio": [("urdf", None), ("spherized", None), ("srdf", None), ("moveit", None)],
     "yourdfpy": [("urdf", None), ("spherized", None)],
     "PyBullet": [("urdf", None), ("spherized", None)],
@@ -86,8 +88,8 @@ LOADS = {
 SITE = pathlib.Path(importlib.metadata.distribution("example-robot-data").locate_file(""))
 # Where mesh names of example-robot-data begin.
 ENVIRONMENT = os.environ | {"ROS_PACKAGE_PATH": str(SITE / "cmeel.prefix/share")}
-# PyBullet and Newton compute in binary32; what yourdfpy computes by rounds angles near a right one.
-TOLERANCE = collections.defaultdict(lambda: 1e-9, Newton=1e-4, PyBullet=1e-6, yourdfpy=1e-7)
+# PyBullet and Newton compute in binary32, which USD has for frames of joints; what yourdfpy computes by rounds angles near a right one.
+TOLERANCE = collections.defaultdict(lambda: 1e-9, {"usd-core": 1e-6}, Newton=1e-4, PyBullet=1e-6, yourdfpy=1e-7)
 
 
 def robots():
@@ -118,6 +120,10 @@ def load_mujoco(urdd, file):
 
 def load_newton(urdd, file):
     return urdd.difference(programs.Newton(urdd, file), CONFIGURATIONS)
+
+
+def load_usd(urdd, file):
+    return urdd.difference(programs.Usd(urdd, file), CONFIGURATIONS)
 
 
 def load_pinocchio(urdd, file):
@@ -209,7 +215,7 @@ def load_foam(urdd, file):
 
 
 LOADERS = {
-    "MuJoCo": load_mujoco, "Newton": load_newton, "Pinocchio": load_pinocchio, "yourdfpy": load_yourdfpy,
+    "MuJoCo": load_mujoco, "Newton": load_newton, "usd-core": load_usd, "Pinocchio": load_pinocchio, "yourdfpy": load_yourdfpy,
     "PyBullet": load_pybullet, "Drake": load_drake, "libsdformat": load_libsdformat, "xacro, YAML": load_moveit,
     "YAML": load_curobo, "JSON": load_foam,
 }  # fmt: skip
@@ -466,7 +472,7 @@ def main():
     if arguments.write and is_whole:
         versions = [
             f"{name} {importlib.metadata.version(name)}"
-            for name in ("mujoco", "newton", "pin", "yourdfpy", "pybullet", "drake")
+            for name in ("mujoco", "newton", "usd-core", "pin", "yourdfpy", "pybullet", "drake")
         ]
         pages.write(
             "exports",

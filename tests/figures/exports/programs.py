@@ -101,10 +101,26 @@ class Urdd:
             np.maximum.reduce(
                 [
                     worst(loaded.place(self.values(sample["configuration"])), sample["link_poses"])
-                    for sample in self.samples[:count]
+                    for sample in self.samples_of(loaded)[:count]
                 ]
             )
         )
+
+    def samples_of(self, loaded):
+        """The samples that a program can be in: where it fixes a joint with equal limits, only those that have it there."""
+        if not getattr(loaded, "holds", False):
+            return self.samples
+        limits = {joint["name"]: joint["limit"] or {} for joint in self.joints}
+        held = {name: limit["lower"] for name, limit in limits.items() if limit and limit["lower"] == limit["upper"]}
+        kinds = {joint["name"]: joint["joint_type"] for joint in self.joints}
+        held = {name: lower for name, lower in held.items() if kinds[name] in ("Revolute", "Prismatic")}
+
+        def is_held(sample):
+            values = self.values(sample["configuration"])
+            mimics = {joint["name"] for joint in self.joints if joint["mimic"]}
+            return all(values[name] == [lower or 0.0] for name, lower in held.items() if name not in mimics)
+
+        return [sample for sample in self.samples if is_held(sample)]
 
     def export(self, kind, file, *more):
         command = [self.program, "export", kind, str(self.root), "-o", str(file), "--force", *more]
@@ -317,39 +333,154 @@ class Pybullet:
         return in_root(pose(*base), [pose(*one) for one in poses])
 
 
+def names_of_usd(stage):
+    """The prims of a robot of ours by the names that they show, by kind: links and joints."""
+    from pxr import UsdPhysics
+
+    links, joints = {}, {}
+    for prim in stage.Traverse():
+        kind = links if prim.HasAPI(UsdPhysics.RigidBodyAPI) else joints if prim.IsA(UsdPhysics.Joint) else None
+        if kind is not None:
+            kind[prim.GetDisplayName() or prim.GetName()] = prim
+    return links, joints
+
+
+class Usd:
+    """A USD by Pixar's library: valid by its own rules, and the poses that its joints say, computed in binary64."""
+
+    def __init__(self, urdd, file):
+        from pxr import Usd, UsdPhysics, UsdValidation
+
+        self.urdd, self.physics, self.holds = urdd, UsdPhysics, True
+        self.stage = Usd.Stage.Open(str(file))
+        validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+        errors = UsdValidation.ValidationContext(validators).Validate(self.stage)
+        if errors:
+            raise ValueError(f"{len(errors)} errors of validation: {errors[0].GetErrorAsString()}")
+        parsed = UsdPhysics.UsdPhysicsLoadStageFromPrimRange(self.stage, ["/"])
+        for paths, described in parsed.values():
+            for path, one in zip(paths, described, strict=True):
+                if not one.isValid:
+                    raise ValueError(f"UsdPhysics does not take {path}")
+        self.links, self.joints = names_of_usd(self.stage)
+        bodies = {str(path) for path in parsed[UsdPhysics.ObjectType.RigidBody][0]}
+        if {*self.links} != {*urdd.names} or {str(prim.GetPath()) for prim in self.links.values()} != bodies:
+            raise ValueError("its bodies are not the links")
+        if missing := {joint["name"] for joint in urdd.joints} - {*self.joints}:
+            raise ValueError(f"without the joints {sorted(missing)}")
+
+    def frames(self, joint):
+        frame = lambda position, rotation: (np.array(position), matrix_of_quaternion(rotation.real, *rotation.imaginary))
+        of = self.physics.Joint(joint)
+        first = frame(of.GetLocalPos0Attr().Get(), of.GetLocalRot0Attr().Get())
+        return first, frame(of.GetLocalPos1Attr().Get(), of.GetLocalRot1Attr().Get())
+
+    def motion(self, prim, value):
+        kind = prim.GetTypeName()
+        if kind == "PhysicsFixedJoint":
+            return np.zeros(3), np.eye(3)
+        if kind == "PhysicsSphericalJoint":
+            return np.zeros(3), matrix_of_vector(value)
+        if kind == "PhysicsJoint":
+            free = lambda axis: self.physics.LimitAPI(prim, axis).GetLowAttr().Get() == -np.inf
+            along = [free(f"trans{axis}") for axis in "XYZ"]
+            about = [free(f"rot{axis}") for axis in "XYZ"]
+            if all(along + about):
+                return np.array(value[:3]), matrix_of_vector(value[3:])
+            if along + about != [True, True, False, False, False, True]:
+                raise ValueError(f"{prim.GetPath()} is neither planar nor floating")
+            return np.array([*value[:2], 0.0]), matrix_of_vector([0.0, 0.0, value[2]])
+        axis = np.eye(3)["XYZ".index(prim.GetAttribute("physics:axis").Get())] * value[0]
+        return (axis, np.eye(3)) if kind == "PhysicsPrismaticJoint" else (np.zeros(3), matrix_of_vector(axis))
+
+    def place(self, values):
+        after = lambda a, b: (a[0] + a[1] @ b[0], a[1] @ b[1])
+        back = lambda a: (-a[1].T @ a[0], a[1].T)
+        poses = {self.urdd.base: (np.zeros(3), np.eye(3))}
+        left = list(self.urdd.joints)
+        while left:
+            joint = next(joint for joint in left if joint["parent"]["link"] in poses)
+            left.remove(joint)
+            prim = self.joints[joint["name"]]
+            first, second = self.frames(prim)
+            moved = after(first, self.motion(prim, values[joint["name"]]))
+            poses[joint["child"]["link"]] = after(poses[joint["parent"]["link"]], after(moved, back(second)))
+        return [poses[name] for name in self.urdd.names]
+
+
 WORLD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Newton:
-    """A URDF or an MJCF. Its numbers are binary32."""
+    """A URDF, an MJCF or a USD. Its numbers are binary32."""
 
-    def __init__(self, urdd, file):
+    def __init__(self, urdd, file, prepare=None, floor=False):
         import newton
         import warp
 
         warp.config.quiet = True
         self.newton = newton
-        builder = newton.ModelBuilder()
-        add = builder.add_mjcf if pathlib.Path(file).suffix == ".xml" else builder.add_urdf
-        add(str(file))
-        # A label is a path that ends in the name.
-        ends = lambda label, names: max((name for name in names if label.endswith(f"/{name}")), key=len, default=None)
-        self.joints = [ends(label, {joint["name"] for joint in urdd.joints}) for label in builder.joint_label]
-        self.bodies = {ends(label, urdd.names): body for body, label in enumerate(builder.body_label)}
+        self.builder = builder = newton.ModelBuilder()
+        if prepare:
+            prepare(builder)
+        self.is_usd = self.holds = pathlib.Path(file).suffix.startswith(".usd")
+        if self.is_usd:
+            from pxr import Usd
+
+            builder.add_usd(str(file))
+            self.stage = Usd.Stage.Open(str(file))
+            links, joints = names_of_usd(self.stage)
+            at = lambda prims: {str(prim.GetPath()): name for name, prim in prims.items()}
+            links, joints = at(links), at(joints)
+            self.joints = [joints.get(label) for label in builder.joint_label]
+            self.bodies = {links[label]: body for body, label in enumerate(builder.body_label)}
+        else:
+            add = builder.add_mjcf if pathlib.Path(file).suffix == ".xml" else builder.add_urdf
+            add(str(file))
+            # A label is a path that ends in the name.
+            ends = lambda label, names: max(
+                (name for name in names if label.endswith(f"/{name}")), key=len, default=None
+            )
+            self.joints = [ends(label, {joint["name"] for joint in urdd.joints}) for label in builder.joint_label]
+            self.bodies = {ends(label, urdd.names): body for body, label in enumerate(builder.body_label)}
         self.turns = {joint["name"]: joint["joint_type"] in ("Revolute", "Continuous") for joint in urdd.joints}
+        if floor:
+            builder.add_ground_plane()
         self.urdd, self.model = urdd, builder.finalize()
         self.state = self.model.state()
 
-    def place(self, values):
-        self.urdd.single("Newton")
+    def position(self, values):
+        """Newton's coordinates."""
         q = self.model.joint_q.numpy()
         starts = self.model.joint_q_start.numpy()
         for at, name in enumerate(self.joints):
-            if name and starts[at + 1] - starts[at] == 1:
+            count = starts[at + 1] - starts[at]
+            if not name or not count:
+                continue
+            value = values[name]
+            if count == 4:
+                w, x, y, z = quaternion_of_vector(value)
+                value = [x, y, z, w]
+            elif count == 6:
+                # Newton turns about x, then about the y that was turned, then about the z that was: as fixed axes the
+                # other way round.
+                r = matrix_of_vector(value[3:])
+                value = [
+                    *value[:3],
+                    np.arctan2(-r[1, 2], r[2, 2]),
+                    np.arctan2(r[0, 2], np.hypot(r[0, 0], r[0, 1])),
+                    np.arctan2(-r[0, 1], r[0, 0]),
+                ]
+            elif self.turns[name]:
                 # In binary32, many turns leave nothing of an angle.
-                value = values[name][0]
-                q[starts[at]] = np.arctan2(np.sin(value), np.cos(value)) if self.turns[name] else value
-        self.model.joint_q.assign(q)
+                value = [np.arctan2(np.sin(value[0]), np.cos(value[0]))]
+            q[starts[at] : starts[at + 1]] = value
+        return q
+
+    def place(self, values):
+        if not self.is_usd:
+            self.urdd.single("Newton")
+        self.model.joint_q.assign(self.position(values))
         self.newton.eval_fk(self.model, self.model.joint_q, self.model.joint_qd, self.state)
         poses = self.state.body_q.numpy().astype(float)
         pose = lambda body: (body[:3], matrix_of_quaternion(body[6], *body[3:6]))

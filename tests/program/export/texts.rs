@@ -190,7 +190,7 @@ fn options(format: Format, setup: Setup) -> Choices {
         package: (format == Format::Drake).then(|| "r_description".to_owned()),
         output: Some("robot.file".into()),
         mesh_folder: (format != Format::Moveit).then(|| "meshes".to_owned()),
-        actuators: is_mjcf.then_some(ActuatorKind::Position),
+        actuators: (is_mjcf || format == Format::Usd).then_some(ActuatorKind::Position),
         sensors: is_mjcf,
         scene: is_mjcf,
         ..Choices::default()
@@ -206,6 +206,7 @@ fn files(format: Format, made: &Export) -> Vec<(String, String)> {
         Format::Sdf => "robot.sdf".to_owned(),
         Format::Curobo => "robot.yml".to_owned(),
         Format::Foam => "robot.json".to_owned(),
+        Format::Usd => "robot.usda".to_owned(),
         Format::Moveit => panic!("MoveIt's is a folder"),
     });
     let report = ("report.json".to_owned(), made.report.clone());
@@ -243,6 +244,7 @@ fn structure(path: &str, text: &str) -> Vec<String> {
                 })
                 .collect()
         }
+        "usda" => testkit::usda::parsed(text).structure(),
         "yaml" | "yml" | "rviz" => vec![shape(&serde_yaml::from_str(text).expect("YAML"))],
         "json" => {
             let read: Value = serde_json::from_str(text).expect("JSON");

@@ -1,19 +1,11 @@
-//! Actuators of the joints of one DOF. Gains are computed, not tuned: a joint with inertia I follows its actuator as a
-//! critically damped mass on a spring with the natural frequency w = 2 pi bandwidth.
-
-use std::f64::consts::TAU;
+//! Actuators of the joints of one DOF.
 
 use super::super::error::{ExportError, Note};
-use super::super::options::{ActuatorKind, MjcfOptions};
+use super::super::gains::gains;
+use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
-use super::gains::inertias;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
-
-/// Inertia of a joint that moves no mass, kg m² or kg: what the file assumes for bodies without mass.
-const LEAST: f64 = 1e-9;
-
-const SEVERAL: &str = "it has several DOFs; it has no actuator";
 
 /// The actuators, and a sentence about them.
 pub(super) struct Actuators {
@@ -27,22 +19,11 @@ pub(super) fn actuators(
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
 ) -> Result<Actuators, ExportError> {
-    let given = || subject.given.and_then(|setup| setup.gains.bandwidth);
-    let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
-    let frequency = TAU * bandwidth;
+    let (gains, said) = gains(subject, bandwidth, kind, notes)?;
     let mut element = Element::new("actuator");
-    for (index, inertia) in inertias(subject)?.into_iter().enumerate() {
-        let joint = &subject.view.joints[index];
-        if joint.num_dofs() > 1 {
-            notes.push(Note::joint(&joint.name, SEVERAL));
-        }
-        let Some(inertia) = inertia else {
+    for (joint, gains) in subject.view.joints.iter().zip(gains) {
+        let Some(gains) = gains else {
             continue;
-        };
-        let chosen = subject.gains(index);
-        let inertia = inertia.max(LEAST) + chosen.armature.unwrap_or(0.0);
-        let gain = |chosen: Option<f64>, computed: f64| {
-            number(chosen.unwrap_or_else(|| rounded(computed)))
         };
         let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
         let effort = positive(joint.limit.and_then(|limit| limit.effort));
@@ -54,33 +35,17 @@ pub(super) fn actuators(
             ActuatorKind::Position => {
                 let range = joint.position_limits().filter(|(lower, upper)| lower < upper);
                 actuator
-                    .with("kp", gain(chosen.kp, inertia * frequency * frequency))
-                    .with("kv", gain(chosen.kv, 2.0 * inertia * frequency))
+                    .with("kp", number(gains.kp))
+                    .with("kv", number(gains.kv))
                     .with_some("ctrlrange", range.map(|(lower, upper)| numbers(&[lower, upper])))
                     .with_some("forcerange", either_way(effort))
             }
             ActuatorKind::Velocity => actuator
-                .with("kv", gain(chosen.kv, inertia * frequency))
+                .with("kv", number(gains.kv))
                 .with_some("ctrlrange", either_way(velocity))
                 .with_some("forcerange", either_way(effort)),
             ActuatorKind::Motor => actuator.with_some("ctrlrange", either_way(effort)),
         });
     }
-    let bandwidth = number(bandwidth);
-    let computed = |gains: &str| {
-        format!(
-            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: {gains}. They are not tuned, except those that a person set."
-        )
-    };
-    let said = match kind {
-        ActuatorKind::Position => computed("kp = I w^2, kv = 2 I w"),
-        ActuatorKind::Velocity => computed("kv = I w"),
-        ActuatorKind::Motor => " Actuators take torques and forces, N m and N.".to_owned(),
-    };
     Ok(Actuators { element, said })
-}
-
-/// To four significant digits: more would say more than is known.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -5,12 +5,13 @@ use std::collections::HashSet;
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 
 use super::super::error::{ExportError, Note};
+use super::super::flat::FlatShapes;
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::options::MjcfOptions;
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
-use urdd_robot::{LinkShape, ShapeKind, Solid};
+use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
@@ -25,8 +26,7 @@ pub(super) struct Bodies<'a> {
     options: &'a MjcfOptions,
     shapes: Vec<Vec<LinkShape>>,
     looks: Vec<Vec<Look>>,
-    /// Bounding boxes, to replace flat shapes, by link and piece.
-    boxes: Vec<LinkShape>,
+    flat: FlatShapes,
     pub files: MeshFiles<'a>,
     pub assets: Element,
     /// Paths that already have an asset.
@@ -43,11 +43,6 @@ impl<'a> Bodies<'a> {
     pub fn new(subject: &'a Subject<'a>, options: &'a MjcfOptions) -> Result<Self, ExportError> {
         let kind = subject.shapes;
         let shapes = subject.shapes_by_link()?;
-        let boxes = match kind {
-            ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
-            ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
-            _ => Vec::new(),
-        };
         let mut notes = Vec::new();
         if shapes.iter().all(Vec::is_empty) {
             notes.push(Note::NoShapes(kind));
@@ -58,7 +53,7 @@ impl<'a> Bodies<'a> {
             options,
             shapes,
             looks: looks(subject, &options.meshes, &mut notes)?,
-            boxes,
+            flat: FlatShapes::new(subject)?,
             files: MeshFiles::new(subject, &options.meshes),
             assets: Element::new("asset"),
             named: HashSet::new(),
@@ -167,18 +162,8 @@ impl<'a> Bodies<'a> {
         let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
             Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
-                let found = self
-                    .boxes
-                    .iter()
-                    .find(|other| other.link == link && other.piece == shape.piece);
-                self.notes.push(Note::Flat {
-                    link: self.subject.links[link].clone(),
-                    thickness: "0.000002",
-                });
-                match found.map(|found| &found.solid) {
-                    Some(Solid::Box { pose, half_extents }) => cuboid(geom, pose, *half_extents),
-                    _ => return Err(ExportError::NoShapes(ShapeKind::PieceBoxes)),
-                }
+                let (pose, half_extents) = self.flat.cuboid(shape.piece, link, &mut self.notes)?;
+                cuboid(geom, &pose, half_extents)
             }
             Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.piece);

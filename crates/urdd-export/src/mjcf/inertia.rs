@@ -34,7 +34,7 @@ const NO_MASS: &str =
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mass {
     pub mass: f64,
-    centre: [f64; 3],
+    pub centre: [f64; 3],
     /// Principal moments of inertia, kg m².
     pub moments: Vector3<f64>,
     /// The principal axes, in the link's frame.
@@ -123,7 +123,7 @@ pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass
 }
 
 impl Mass {
-    const NONE: Mass = Mass {
+    pub const NONE: Mass = Mass {
         mass: 0.0,
         centre: [0.0; 3],
         moments: Vector3::new(0.0, 0.0, 0.0),

@@ -10,7 +10,6 @@
 mod actuators;
 mod body;
 mod frames;
-mod gains;
 #[doc(hidden)]
 pub mod inertia;
 mod joint;
@@ -22,6 +21,7 @@ pub mod surface;
 use super::error::{ExportError, Note};
 use super::options::MjcfOptions;
 use super::output::Export;
+use super::stand::Stand;
 use super::subject::Subject;
 use body::{Bodies, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
@@ -34,7 +34,7 @@ const SEVERAL: &str =
 const WORLD: &str = "the root link is called `world`, which is MuJoCo's own body and never moves; the base is not free";
 
 pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export, ExportError> {
-    let stand = scene::Stand::new(subject, options)?;
+    let stand = Stand::new(subject, options.scene_of.is_some())?;
     let mut bodies = Bodies::new(subject, options)?;
     let world = bodies.world(stand.base_height)?;
     let mut notes = bodies.notes;

@@ -39,8 +39,8 @@ const URDF: &str = r#"<robot name="r"><link name="base"><inertial><mass value="2
 <gazebo reference="base"><gravity>false</gravity></gazebo><gear_train/></robot>"#;
 
 /// What a format writes of each thing; nothing where it does not carry it.
-const PROBES: [(&str, &[&str; 9]); 9] = [
-    // SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt's URDF, SDF.
+const PROBES: [(&str, &[&str; 10]); 9] = [
+    // SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt's URDF, SDF, USD.
     (
         "masses and inertias",
         &[
@@ -53,6 +53,7 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
             "mass value=\"2.5\"",
             "mass value=\"2.5\"",
             "<mass>2.5</mass>",
+            "physics:mass = 2.5",
         ],
     ),
     (
@@ -67,6 +68,8 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
             "0.125 0.25 0.5 1",
             "0.125 0.25 0.5 1",
             "0.125 0.25 0.5 1",
+            // sRGB's curve of each.
+            "inputs:diffuseColor = (0.0143",
         ],
     ),
     (
@@ -81,25 +84,43 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
             "lower=\"-0.75\"",
             "lower=\"-0.75\"",
             "<lower>-0.75</lower>",
+            "lowerLimit = -42.971",
         ],
     ),
     (
         "limits of effort and velocity",
-        &["", "7.25", "7.25", "7.25", "", "", "7.25", "7.25", "7.25"],
+        &["", "7.25", "7.25", "7.25", "", "", "7.25", "7.25", "7.25", "velocityLimit = 186.2"],
     ),
-    ("limits of acceleration and jerk", &["", "9.125", "9.125", "", "", "", "9.125", "9.125", ""]),
+    (
+        "limits of acceleration and jerk",
+        &["", "9.125", "9.125", "", "", "", "9.125", "9.125", "", ""],
+    ),
     (
         "damping and friction of joints",
-        &["", "0.375", "0.375", "0.375", "", "", "0.375", "0.375", "0.375"],
+        &[
+            "",
+            "0.375",
+            "0.375",
+            "0.375",
+            "",
+            "",
+            "0.375",
+            "0.375",
+            "0.375",
+            "newton:friction = 0.625",
+        ],
     ),
-    ("mimic joints", &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875"]),
+    (
+        "mimic joints",
+        &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875", "mimicCoef1 = 1.875"],
+    ),
     (
         "`<gazebo>` elements",
-        &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false"],
+        &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false", "<gazebo"],
     ),
     (
         "other elements that URDF does not define, such as transmissions",
-        &["", "<gear", "<gear", "", "", "", "<gear", "<gear", ""],
+        &["", "<gear", "<gear", "", "", "", "<gear", "<gear", "", "<gear"],
     ),
 ];
 

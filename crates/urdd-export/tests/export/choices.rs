@@ -7,10 +7,10 @@ use urdd_export::{ActuatorKind, Choices, Format, Options};
 fn what_a_format_does_not_have_is_refused() {
     let none = Choices::default;
     let cases = [
-        ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf"),
+        ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf and usd"),
         ("sensors", Choices { sensors: true, ..none() }, "mjcf"),
         ("scene", Choices { scene: true, ..none() }, "mjcf"),
-        ("floating_base", Choices { floating_base: true, ..none() }, "mjcf and sdf"),
+        ("floating_base", Choices { floating_base: true, ..none() }, "mjcf and sdf and usd"),
         ("robot_file", Choices { robot_file: Some("r.urdf".to_owned()), ..none() }, "curobo"),
         ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
     ];

@@ -80,6 +80,7 @@ fn read(format: Format, text: &str) -> Names {
         Format::Urdf | Format::Drake | Format::Spherized => urdf(text),
         Format::Sdf => sdf(text),
         Format::Mjcf => mjcf(text),
+        Format::Usd => usd(text),
         Format::Curobo => keys(serde_yaml::from_str(text).expect("YAML"), "collision_spheres"),
         Format::Foam => keys(serde_json::from_str(text).expect("JSON"), "links"),
     }
@@ -137,6 +138,21 @@ fn mjcf(text: &str) -> Names {
     Names { robot: robot(text, "model"), links, joints: Some(of_tag(text, "joint", "name")) }
 }
 
+/// What prims show.
+fn usd(text: &str) -> Names {
+    let read = crate::usd::Read::new(text);
+    let shown = |prims: Vec<&testkit::usda::Prim>| {
+        prims.iter().map(|prim| prim.shown().to_owned()).collect::<BTreeSet<_>>()
+    };
+    let mut joints = read.joints();
+    joints.retain(|joint| joint.properties.contains_key("physics:body0"));
+    Names {
+        robot: Some(read.root.shown().to_owned()),
+        links: shown(read.links()),
+        joints: Some(shown(joints)),
+    }
+}
+
 fn keys(document: serde_json::Value, key: &str) -> Names {
     let links = document[key].as_object().expect("an object").keys();
     Names { robot: None, links: links.cloned().collect(), joints: None }
@@ -148,7 +164,7 @@ fn may_refuse(format: Format, name: &str) -> bool {
     let unheld =
         |c: char| (c < ' ' && !"\t\n\r".contains(c)) || ['\u{fffe}', '\u{ffff}'].contains(&c);
     match format {
-        Format::Curobo | Format::Foam => name.is_empty(),
+        Format::Curobo | Format::Foam | Format::Usd => name.is_empty(),
         Format::Drake if name.contains("::") => true,
         Format::Drake | Format::Mjcf | Format::Sdf if name == "world" => true,
         // Names in text are trimmed by readers of SDF; xacro evaluates some in MoveIt.

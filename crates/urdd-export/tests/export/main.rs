@@ -40,4 +40,6 @@ mod textured_box;
 mod textures;
 mod there_and_back;
 mod urdf;
+mod usd;
+mod usd_input;
 mod yaml;

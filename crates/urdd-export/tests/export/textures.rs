@@ -123,6 +123,54 @@ fn each_format_shows_a_texture_where_the_mesh_does() {
     }
 }
 
+/// The mesh of a USD as an OBJ.
+fn obj_of(mesh: &testkit::usda::Prim) -> String {
+    let mut text = String::new();
+    for point in mesh.numbers("points").chunks(3) {
+        let _ = writeln!(text, "v {} {} {}", point[0], point[1], point[2]);
+    }
+    for place in mesh.numbers("primvars:st").chunks(2) {
+        let _ = writeln!(text, "vt {} {}", place[0], place[1]);
+    }
+    for face in mesh.numbers("faceVertexIndices").chunks(3) {
+        let corner = |k: usize| format!("{0}/{0}", face[k] + 1.0);
+        let _ = writeln!(text, "f {} {} {}", corner(0), corner(1), corner(2));
+    }
+    text
+}
+
+#[test]
+fn usd_shows_a_texture_where_the_mesh_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    write(at.join("0.png"), png(0)).expect("written");
+    write(at.join("1.jpg"), jpeg()).expect("written");
+    obj(at, "a", "0.png", true);
+    collada(at, "b", "1.jpg");
+    obj(at, "c", "missing.png", true);
+    let robot = robot(at, &["a.obj", "b.dae", "c.obj"]);
+    let made = export(&robot, Format::Usd, &Choices::default()).expect("exported");
+    assert_eq!([report(&made, "carried"), report(&made, "lost")], [Some(2), Some(1)]);
+    let read = crate::usd::Read::new(&made.text);
+    for (link, ending) in [(0, "png"), (1, "jpg")] {
+        let mesh = read.links()[link].child("visuals").child("mesh");
+        assert_eq!(corners(obj_of(mesh).as_bytes()), expected(), "{link}");
+        let material = mesh.get("material:binding").text();
+        let all = read.root.all();
+        let image = all.iter().find(|prim| prim.path == format!("{material}/image"));
+        let path = image.expect("an image").get("inputs:file").text();
+        assert_eq!(path, format!("./meshes/l{link}_texture_0.{ending}"));
+        file(&made, &path[2..]);
+    }
+    // What is missing has the colour of the URDF, half of the way by sRGB's curve.
+    let plain = read.links()[2].child("visuals").child("mesh");
+    let material = plain.get("material:binding").text();
+    let all = read.root.all();
+    let surface = all.iter().find(|prim| prim.path == format!("{material}/surface"));
+    let grey = surface.expect("a surface").numbers("inputs:diffuseColor")[0];
+    assert!((grey - ((0.5f64 + 0.055) / 1.055).powf(2.4)).abs() < 1e-7);
+}
+
 #[test]
 fn programs_that_read_no_jpeg_get_png() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,12 +1,74 @@
-//! The inertia that a joint moves, from which the gains of its actuator are computed.
+//! Gains of the actuators of joints of one DOF. They are computed, not tuned: a joint with inertia I follows its actuator
+//! as a critically damped mass on a spring with the natural frequency w = 2 pi bandwidth.
+
+use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::super::error::ExportError;
-use super::super::subject::Subject;
+use super::error::{ExportError, Note};
+use super::options::{ActuatorKind, MjcfOptions};
+use super::subject::Subject;
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::unit_axis;
+use urdd_xml::number::number;
+
+/// Inertia of a joint that moves no mass, kg m² or kg: what the file assumes for bodies without mass.
+const LEAST: f64 = 1e-9;
+
+const SEVERAL: &str = "it has several DOFs; it has no actuator";
+
+/// The gains of an actuator: N m/rad and N m s/rad, or N/m and N s/m. 0 for what its kind does not have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gains {
+    pub kp: f64,
+    pub kv: f64,
+}
+
+/// The gains of each joint that has an actuator, in joint order, and a sentence about them.
+pub(super) fn gains(
+    subject: &Subject,
+    bandwidth: Option<f64>,
+    kind: ActuatorKind,
+    notes: &mut Vec<Note>,
+) -> Result<(Vec<Option<Gains>>, String), ExportError> {
+    let given = || subject.given.and_then(|setup| setup.gains.bandwidth);
+    let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
+    let frequency = TAU * bandwidth;
+    let several = subject.view.joints.iter().filter(|joint| joint.num_dofs() > 1);
+    notes.extend(several.map(|joint| Note::joint(&joint.name, SEVERAL)));
+    let of_joint = |(index, inertia): (usize, Option<f64>)| {
+        let chosen = subject.gains(index);
+        let inertia = inertia?.max(LEAST) + chosen.armature.unwrap_or(0.0);
+        let or = |chosen: Option<f64>, computed: f64| chosen.unwrap_or_else(|| rounded(computed));
+        Some(match kind {
+            ActuatorKind::Position => Gains {
+                kp: or(chosen.kp, inertia * frequency * frequency),
+                kv: or(chosen.kv, 2.0 * inertia * frequency),
+            },
+            ActuatorKind::Velocity => Gains { kp: 0.0, kv: or(chosen.kv, inertia * frequency) },
+            ActuatorKind::Motor => Gains { kp: 0.0, kv: 0.0 },
+        })
+    };
+    let all = inertias(subject)?.into_iter().enumerate().map(of_joint).collect();
+    let bandwidth = number(bandwidth);
+    let computed = |gains: &str| {
+        format!(
+            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: {gains}. They are not tuned, except those that a person set."
+        )
+    };
+    let said = match kind {
+        ActuatorKind::Position => computed("kp = I w^2, kv = 2 I w"),
+        ActuatorKind::Velocity => computed("kv = I w"),
+        ActuatorKind::Motor => " Actuators take torques and forces, N m and N.".to_owned(),
+    };
+    Ok((all, said))
+}
+
+/// To four significant digits: more would say more than is known.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
 
 /// Number of sampled configurations (SPEC 9.3) in which inertias are computed, besides the default one.
 const SAMPLES: u64 = 32;
@@ -14,7 +76,7 @@ const SAMPLES: u64 = 32;
 /// For each joint that an actuator drives, the inertia about or along its axis: the diagonal entry of the mass
 /// matrix, kg m² or kg, the greatest over the default configuration and [`SAMPLES`] others. Joints that follow it count
 /// with the square of their factor. The other joints do not move.
-pub(super) fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
+fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
     let space = subject.robot.configurations()?;
     let joints = 0..subject.view.joints.len();
     let mut most: Vec<Option<f64>> =

@@ -1,0 +1,58 @@
+//! Masses and inertias of links. USD takes 0 for what is not said, and computes it from shapes: each link says its own.
+
+use super::super::error::Note;
+use super::super::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
+use super::super::subject::Subject;
+use super::prim::Prim;
+use super::value::{float, floats, wxyz};
+use nalgebra::UnitQuaternion;
+
+/// What a link without mass has, kg and kg m²: a ball of 5 cm has these moments.
+const LEAST_MASS: f64 = 1e-6;
+const LEAST_MOMENT: f64 = 1e-9;
+
+const MASSLESS: &str =
+    "no mass: written with 1e-6 kg and 1e-9 kg m2, since USD computes a mass of 0 from the shapes";
+const NO_INERTIA: &str =
+    "a moment of inertia of 0, which USD takes for not given: written as 1e-9 kg m2";
+const BELOW_ZERO: &str = "its mass is negative, and written as 1e-6 kg";
+const WITHOUT: &str =
+    "its inertia has a negative principal moment; the mass stays, and the moments are 1e-9 kg m2";
+const IMPOSSIBLE: &str = "a principal moment of inertia is more than the other two together, which no body has; it is written as it is, and Newton corrects it";
+
+/// Adds the masses to the links, in link order.
+pub(super) fn add(subject: &Subject, links: &mut [Prim], notes: &mut Vec<Note>) {
+    let [mut massless, mut flat] = [Vec::new(), Vec::new()];
+    for (prim, view) in links.iter_mut().zip(&subject.view.links) {
+        let mut said = None;
+        let found = view.inertial.as_ref().and_then(|view| mass(view, &mut said));
+        let what = said.and_then(|said| {
+            let own = [(NEGATIVE, BELOW_ZERO), (INDEFINITE, WITHOUT), (TRIANGLE, IMPOSSIBLE)];
+            own.into_iter().find(|(theirs, _)| *theirs == said).map(|(_, own)| own)
+        });
+        notes.extend(what.map(|what| Note::Inertia { link: view.name.clone(), what }));
+        let mut own = found.unwrap_or(Mass::NONE);
+        if !own.is_enough() {
+            if own.mass <= 0.0 {
+                own.mass = LEAST_MASS;
+                if said != Some(NEGATIVE) {
+                    massless.push(view.name.clone());
+                }
+            } else if said != Some(INDEFINITE) {
+                flat.push(view.name.clone());
+            }
+            own.moments.apply(|moment| *moment = moment.max(LEAST_MOMENT));
+        }
+        let axes = UnitQuaternion::from_rotation_matrix(&own.axes);
+        prim.apply("PhysicsMassAPI");
+        prim.set("float physics:mass", float(own.mass));
+        prim.set("point3f physics:centerOfMass", floats(&own.centre));
+        prim.set("float3 physics:diagonalInertia", floats(own.moments.as_slice()));
+        prim.set("quatf physics:principalAxes", floats(&wxyz(&axes)));
+    }
+    for (links, what) in [(massless, MASSLESS), (flat, NO_INERTIA)] {
+        if !links.is_empty() {
+            notes.push(Note::Links { links, what });
+        }
+    }
+}

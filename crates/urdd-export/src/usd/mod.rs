@@ -1,0 +1,112 @@
+//! USD, for Isaac, Newton and Omniverse: one asset, a robot as rigid bodies under one articulation.
+//!
+//! Links are prims side by side, where they are in the default configuration. Joints say where they are in their two links.
+//! USD has binary32 for these, degrees for angles, and no names but those of [`names`]. Newton's and PhysX' own
+//! attributes say what UsdPhysics has no words for; other programs pass over them.
+
+mod custom;
+mod filters;
+mod joints;
+mod looks;
+mod mass;
+mod names;
+mod prim;
+mod shapes;
+mod surface;
+mod value;
+
+use nalgebra::Isometry3;
+
+use super::error::{ExportError, Note};
+use super::gains::gains;
+use super::meshes::{MeshFiles, looks};
+use super::options::UsdOptions;
+use super::output::Export;
+use super::stand::Stand;
+use super::subject::Subject;
+use filters::Filters;
+use joints::{Drives, Joints};
+use looks::Materials;
+use names::{Paths, last};
+use prim::Prim;
+
+const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";
+const ELSEWHERE: &str = "Bodies are in the default configuration, in which joints are not at 0; `state` of a joint has its position";
+
+pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, ExportError> {
+    if let Some(file) = &options.file
+        && let Some(ending) = [".usdc", ".usdz"].into_iter().find(|of| file.ends_with(of))
+    {
+        return Err(ExportError::Binary { file: file.clone(), ending });
+    }
+    let mut notes = Vec::new();
+    let paths = Paths::new(subject);
+    let filters = Filters::new(subject, &paths);
+    let zero = subject.robot.configurations()?.zero();
+    let stand = Stand::new(subject, false)?;
+    let up = Isometry3::translation(0.0, 0.0, stand.base_height);
+    let poses = subject.robot.link_poses(&zero)?;
+    let mut files = MeshFiles::new(subject, &options.meshes);
+    let mut materials = Materials::new(&format!("/{}", paths.root), &paths.scopes[1]);
+    let mut links: Vec<Prim> = Vec::new();
+    for (link, pose) in poses.iter().enumerate() {
+        let mut prim = Prim::new("Xform", last(&paths.links[link]));
+        prim.show(&subject.links[link]);
+        custom::elements(&mut prim, &subject.urdf.links[link].unknown_elements);
+        prim.apply("PhysicsRigidBodyAPI");
+        shapes::place(&mut prim, &(up * pose), None);
+        if let Some(targets) = filters.targets.get(&paths.links[link]) {
+            prim.apply("PhysicsFilteredPairsAPI");
+            prim.relate("physics:filteredPairs", targets);
+        }
+        links.push(prim);
+    }
+    mass::add(subject, &mut links, &mut notes);
+    looks::add(
+        &looks(subject, &options.meshes, &mut notes)?,
+        &mut links,
+        &mut materials,
+        &mut files,
+    );
+    let contact = subject.friction().map(|friction| materials.contact(friction));
+    let names = (&filters, &paths);
+    shapes::add(subject, &mut links, contact.as_ref(), names, &mut files, &mut notes)?;
+
+    let mut what = format!("Collision geometry: {}.", subject.shapes);
+    let mut drives = None;
+    if let Some(kind) = options.actuators {
+        let (gains, said) = gains(subject, options.bandwidth, kind, &mut notes)?;
+        what += &said;
+        drives = Some(Drives { kind, gains });
+    }
+    let values = joints::values(subject, &zero)?;
+    if values.values().any(|value| *value != 0.0) {
+        notes.push(Note::Robot(ELSEWHERE));
+    }
+    let joints = Joints { subject, paths: &paths, filters: &filters, drives, values };
+    let mut scope = Prim::new("Scope", paths.scopes[0].as_str());
+    if !subject.has_free_base() {
+        scope.push(joints.to_world());
+        if subject.is_floating {
+            notes.push(Note::Robot(WORLD));
+        }
+    }
+    for index in 0..subject.view.joints.len() {
+        scope.push(joints.prim(index, &mut notes));
+    }
+    let is_whole = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
+    notes.extend(subject.notes().into_iter().filter(is_whole));
+    if !paths.mended.is_empty() {
+        notes.push(Note::Mended(paths.mended.clone()));
+    }
+    let mut root = Prim::new("Xform", paths.root.as_str());
+    root.show(&subject.urdf.name);
+    root.describe("kind", "\"component\"");
+    custom::robot(subject, &mut root)?;
+    root = root.applying(&["PhysicsArticulationRootAPI", "NewtonArticulationRootAPI"]);
+    links.into_iter().for_each(|link| root.push(link));
+    root.push_filled(scope);
+    root.push_filled(materials.scope);
+    let text = root.file(&subject.comments(what, &notes)?);
+    Ok(Export::of(text, files.into_files(), notes))
+}

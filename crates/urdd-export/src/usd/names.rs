@@ -1,0 +1,83 @@
+//! Names of prims: letters, digits and `_` of ASCII, no digit first, which every version of USD takes. Prims in one place
+//! have different names.
+
+use std::collections::HashMap;
+
+use super::super::parts::Taken;
+use super::super::subject::Subject;
+
+/// The paths of a robot's prims.
+pub(super) struct Paths {
+    /// The name of the default prim, which holds all others.
+    pub root: String,
+    pub links: Vec<String>,
+    pub joints: Vec<String>,
+    /// The names of what holds joints, and materials.
+    pub scopes: [String; 2],
+    /// What the joint to the world is called.
+    pub world: String,
+    /// Names that are written in another way.
+    pub mended: Vec<String>,
+}
+
+impl Paths {
+    pub fn new(subject: &Subject) -> Self {
+        let mut mended = Vec::new();
+        let root = mend(&subject.urdf.name);
+        if root != subject.urdf.name {
+            mended.push(subject.urdf.name.clone());
+        }
+        let mut taken = Taken::default();
+        let links = names(&subject.links, &mut taken, &mut mended);
+        let scopes = ["Joints", "Looks"].map(|scope| taken.free(scope.to_owned()));
+        let mut taken = Taken::default();
+        let joints = names(&subject.names.joints, &mut taken, &mut mended);
+        let world = taken.free("world_fixed".to_owned());
+        Paths {
+            links: links.iter().map(|link| format!("/{root}/{link}")).collect(),
+            joints: joints.iter().map(|joint| format!("/{root}/{}/{joint}", scopes[0])).collect(),
+            root,
+            scopes,
+            world,
+            mended,
+        }
+    }
+}
+
+/// What holds the shapes of a link.
+pub(super) const COLLISIONS: &str = "collisions";
+
+/// The path of a shape of a link.
+pub(super) fn path_of_shape(link: &str, piece: usize) -> String {
+    format!("{link}/{COLLISIONS}/piece_{piece}")
+}
+
+/// The last name of a path.
+pub(super) fn last(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
+}
+
+/// The names of prims in one place, in order. A name that USD can have stays, so that another one with the same mended
+/// name gets a number.
+fn names(wanted: &[String], taken: &mut Taken, mended: &mut Vec<String>) -> Vec<String> {
+    let is_kept = |name: &&String| mend(name) == **name;
+    let kept: HashMap<&String, String> =
+        wanted.iter().filter(is_kept).map(|name| (name, taken.free(name.clone()))).collect();
+    let name = |name: &String| {
+        kept.get(name).cloned().unwrap_or_else(|| {
+            mended.push(name.clone());
+            taken.free(mend(name))
+        })
+    };
+    wanted.iter().map(name).collect()
+}
+
+/// The nearest name that a prim can have.
+pub fn mend(name: &str) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let mut mended: String = name.chars().map(kept).collect();
+    if mended.is_empty() || mended.starts_with(|c: char| c.is_ascii_digit()) {
+        mended.insert(0, '_');
+    }
+    mended
+}

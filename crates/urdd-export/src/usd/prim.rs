@@ -1,0 +1,131 @@
+//! A small tree of prims, and its text.
+
+use super::value::{array, string};
+
+/// A prim that the file defines.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Prim {
+    kind: &'static str,
+    name: String,
+    schemas: Vec<String>,
+    /// Metadata as `key = value`.
+    metadata: Vec<String>,
+    /// Attributes and relationships as they are written.
+    properties: Vec<String>,
+    children: Vec<Prim>,
+}
+
+impl Prim {
+    pub fn new(kind: &'static str, name: impl Into<String>) -> Self {
+        Prim { kind, name: name.into(), ..Prim::default() }
+    }
+
+    /// Applies a schema, once.
+    pub fn apply(&mut self, schema: impl Into<String>) {
+        let schema = schema.into();
+        if !self.schemas.contains(&schema) {
+            self.schemas.push(schema);
+        }
+    }
+
+    #[must_use]
+    pub fn applying(mut self, schemas: &[&str]) -> Self {
+        schemas.iter().for_each(|schema| self.apply(*schema));
+        self
+    }
+
+    pub fn describe(&mut self, key: &str, value: &str) {
+        self.metadata.push(format!("{key} = {value}"));
+    }
+
+    /// The name that a person gave it, where USD cannot have that name.
+    pub fn show(&mut self, name: &str) {
+        if name != self.name {
+            self.describe("displayName", &string(name));
+        }
+    }
+
+    /// Sets an attribute, which is declared with its type: `float physics:mass`.
+    pub fn set(&mut self, attribute: &str, value: impl AsRef<str>) {
+        self.properties.push(format!("{attribute} = {}", value.as_ref()));
+    }
+
+    /// Declares an attribute without a value.
+    pub fn declare(&mut self, attribute: &str) {
+        self.properties.push(attribute.to_owned());
+    }
+
+    #[must_use]
+    pub fn with(mut self, attribute: &str, value: impl AsRef<str>) -> Self {
+        self.set(attribute, value);
+        self
+    }
+
+    /// Points a relationship at other prims.
+    pub fn relate(&mut self, relationship: &str, paths: &[String]) {
+        let target = |path: &String| format!("<{path}>");
+        let value = match paths {
+            [path] => target(path),
+            _ => array(paths.iter().map(target)),
+        };
+        self.properties.push(format!("rel {relationship} = {value}"));
+    }
+
+    pub fn push(&mut self, child: Prim) {
+        self.children.push(child);
+    }
+
+    #[must_use]
+    pub fn holding(mut self, child: Prim) -> Self {
+        self.push(child);
+        self
+    }
+
+    /// Adds a child, unless nothing is in it.
+    pub fn push_filled(&mut self, child: Prim) {
+        if !child.children.is_empty() || !child.metadata.is_empty() {
+            self.push(child);
+        }
+    }
+
+    fn write(&self, text: &mut String, depth: usize) {
+        let indent = "    ".repeat(depth);
+        let mut line = |line: &str| {
+            *text += &indent;
+            *text += line;
+            text.push('\n');
+        };
+        let schemas = (!self.schemas.is_empty()).then(|| {
+            let names = self.schemas.iter().map(|schema| string(schema));
+            format!("prepend apiSchemas = {}", array(names))
+        });
+        let metadata: Vec<&String> = schemas.iter().chain(&self.metadata).collect();
+        let head = format!("def {} \"{}\"", self.kind, self.name);
+        if metadata.is_empty() {
+            line(&head);
+        } else {
+            line(&format!("{head} ("));
+            metadata.iter().for_each(|one| line(&format!("    {one}")));
+            line(")");
+        }
+        line("{");
+        self.properties.iter().for_each(|property| line(&format!("    {property}")));
+        for child in &self.children {
+            child.write(text, depth + 1);
+        }
+        *text += &indent;
+        *text += "}\n";
+    }
+
+    /// A file in which this prim is the only one, in metres and kilograms, with z up.
+    pub fn file(&self, said: &[String]) -> String {
+        let mut text = String::from("#usda 1.0\n(\n");
+        text += &format!("    defaultPrim = {}\n", string(&self.name));
+        if !said.is_empty() {
+            text += &format!("    doc = {}\n", string(&said.join("\n")));
+        }
+        text += "    kilogramsPerUnit = 1\n    metersPerUnit = 1\n    upAxis = \"Z\"\n)\n\n";
+        self.write(&mut text, 0);
+        text
+    }
+}

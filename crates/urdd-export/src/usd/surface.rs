@@ -1,0 +1,78 @@
+//! Meshes: points and triangles, and what is bound to them.
+
+use super::prim::Prim;
+use super::value::{array, float, floats};
+use urdd_geometry::Mesh;
+use urdd_geometry::read::Texture;
+
+/// Sets the triangles of a mesh, and where they are in its textures.
+pub(super) fn set(prim: &mut Prim, mesh: &Mesh, uv: &[[f64; 2]]) {
+    let corners = mesh.triangles.iter().flatten().map(ToString::to_string);
+    prim.set("int[] faceVertexCounts", array(mesh.triangles.iter().map(|_| "3".to_owned())));
+    prim.set("int[] faceVertexIndices", array(corners));
+    prim.set("point3f[] points", array(mesh.vertices.iter().map(|point| floats(point))));
+    extent(prim, &mesh.vertices);
+    prim.set("uniform token subdivisionScheme", "\"none\"");
+    if !uv.is_empty() {
+        let places = array(uv.iter().map(|place| floats(place)));
+        prim.set("texCoord2f[] primvars:st", format!("{places} (interpolation = \"vertex\")"));
+    }
+}
+
+/// The box around points.
+pub(super) fn extent(prim: &mut Prim, points: &[[f64; 3]]) {
+    let bound = |start: f64, of: fn(f64, f64) -> f64| {
+        [0, 1, 2].map(|k| points.iter().fold(start, |most, point| of(most, point[k])))
+    };
+    let bounds = [bound(f64::INFINITY, f64::min), bound(f64::NEG_INFINITY, f64::max)];
+    prim.set("float3[] extent", array(bounds.iter().map(|bound| floats(bound))));
+}
+
+/// The texture coordinates of a mesh with so many points: those that it has, and (0, 0).
+pub(super) fn coordinates(texture: Option<&Texture>, count: usize) -> Vec<[f64; 2]> {
+    let mut uv = texture.map_or_else(Vec::new, |texture| texture.uv.clone());
+    uv.resize(count, [0.0; 2]);
+    uv
+}
+
+/// The material of a colour or of the texture in a file; its path is that of what holds it and its name.
+pub(super) fn material(path: &str, name: &str, color: [f64; 4], texture: Option<&str>) -> Prim {
+    let mut surface = Prim::new("Shader", "surface");
+    surface.set("uniform token info:id", "\"UsdPreviewSurface\"");
+    match texture {
+        None => surface.set("color3f inputs:diffuseColor", floats(&linear(color))),
+        Some(_) => surface
+            .set("color3f inputs:diffuseColor.connect", format!("<{path}/image.outputs:rgb>")),
+    }
+    surface.set("float inputs:opacity", float(color[3]));
+    surface.set("float inputs:roughness", "0.5");
+    surface.declare("token outputs:surface");
+    let mut material = Prim::new("Material", name);
+    material.set("token outputs:surface.connect", format!("<{path}/surface.outputs:surface>"));
+    material.push(surface);
+    if let Some(file) = texture {
+        let mut image = Prim::new("Shader", "image");
+        image.set("uniform token info:id", "\"UsdUVTexture\"");
+        image.set("asset inputs:file", file);
+        image.set("token inputs:sourceColorSpace", "\"sRGB\"");
+        image.set("float2 inputs:st.connect", format!("<{path}/place.outputs:result>"));
+        image.set("token inputs:wrapS", "\"repeat\"");
+        image.set("token inputs:wrapT", "\"repeat\"");
+        image.declare("float3 outputs:rgb");
+        let mut place = Prim::new("Shader", "place");
+        place.set("uniform token info:id", "\"UsdPrimvarReader_float2\"");
+        place.set("string inputs:varname", "\"st\"");
+        place.declare("float2 outputs:result");
+        material.push(image);
+        material.push(place);
+    }
+    material
+}
+
+/// Red, green and blue as USD has them: URDF's are those of a screen (sRGB).
+fn linear(color: [f64; 4]) -> [f64; 3] {
+    [0, 1, 2].map(|k| match color[k].clamp(0.0, 1.0) {
+        value if value <= 0.04045 => value / 12.92,
+        value => ((value + 0.055) / 1.055).powf(2.4),
+    })
+}
