@@ -299,6 +299,14 @@ export interface ProgramEffect {
   is_usual: boolean;
 }
 
+export interface ImportedFrom {
+  /** `mjcf` or `sdf`. */
+  format: string;
+  otherwise: { what: string; count: number; how: string | null }[];
+  lost: { what: string; count: number; how: string | null }[];
+  notes: string[];
+}
+
 export interface UrddReport {
   /** Whether it is about a URDD, or a URDF by itself. */
   kind: "urdd" | "urdf";
@@ -314,6 +322,8 @@ export interface UrddReport {
   model_not_verified: { codes: string[]; reasons: string[] } | null;
   /** What programs do with a URDF; empty for a URDD. */
   programs: ProgramResult[];
+  /** The MJCF or SDF that the URDF was imported from; null if it was written as a URDF. */
+  imported: ImportedFrom | null;
   modules: { name: string; path: string; version: string | null; profile: string | null }[];
 }
 

@@ -7,6 +7,7 @@ import type { State } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { card } from "./finding_card";
+import { imported } from "./imported";
 import { programs } from "./programs";
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "info"];
@@ -83,6 +84,7 @@ export function findings(app: App): HTMLElement {
     }
     fill(
       list,
+      imported(urdd),
       ...[...groups].flatMap(([key, found]) => [
         h("h2", {}, `${key}: ${sum(found).toLocaleString("en")}, of ${count(found.length, "kind")}`),
         ...found.map((finding) => card(app, finding)),

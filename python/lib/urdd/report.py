@@ -23,6 +23,8 @@ __all__ = [
     "Fix",
     "GeometryDifference",
     "GeometryKind",
+    "ImportedFrom",
+    "ImportedPart",
     "Kind",
     "LinkDifference",
     "LinkNotVerified",
@@ -196,6 +198,9 @@ class Urdd:
 
     programs: list[ProgramResult]
     """What programs do with a URDF, by their readers; empty where none was asked."""
+
+    imported: ImportedFrom | None
+    """The description that the URDF was imported from; null where it was written as a URDF."""
 
 
 @dataclass(frozen=True)
@@ -524,6 +529,37 @@ class ProgramEffect:
 
     is_usual: bool
     """Whether the program does so with every robot, or because of another fault: nothing is wrong there."""
+
+
+@dataclass(frozen=True)
+class ImportedFrom:
+    """What an import made of a description that is no URDF."""
+
+    format: str
+    """The format: `mjcf`, `sdf`."""
+
+    otherwise: list[ImportedPart]
+    """What the URDF has in another way."""
+
+    lost: list[ImportedPart]
+    """What is lost."""
+
+    notes: list[str]
+    """What else was assumed or left out, each with its place."""
+
+
+@dataclass(frozen=True)
+class ImportedPart:
+    """Something that a description has."""
+
+    what: str
+    """What it is."""
+
+    count: int
+    """How many there are."""
+
+    how: str | None
+    """How it is carried otherwise; null where it is lost."""
 
 
 @dataclass(frozen=True)
@@ -858,6 +894,7 @@ def _urdd(v: Any) -> Urdd:
         geometry_not_verified=[_link_not_verified(x) for x in v["geometry_not_verified"]],
         model_not_verified=None if v["model_not_verified"] is None else _model_not_verified(v["model_not_verified"]),
         programs=[_program_result(x) for x in v.get("programs", [])],
+        imported=None if v["imported"] is None else _imported_from(v["imported"]),
     )
 
 
@@ -1017,6 +1054,23 @@ def _program_effect(v: Any) -> ProgramEffect:
         reason=v["reason"],
         makes=v["makes"],
         is_usual=v["is_usual"],
+    )
+
+
+def _imported_from(v: Any) -> ImportedFrom:
+    return ImportedFrom(
+        format=v["format"],
+        otherwise=[_imported_part(x) for x in v["otherwise"]],
+        lost=[_imported_part(x) for x in v["lost"]],
+        notes=v["notes"],
+    )
+
+
+def _imported_part(v: Any) -> ImportedPart:
+    return ImportedPart(
+        what=v["what"],
+        count=int(v["count"]),
+        how=v["how"],
     )
 
 
