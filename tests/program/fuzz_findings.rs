@@ -27,4 +27,4 @@ macro_rules! targets {
     };
 }
 
-targets! { archive json yaml urdf stl obj gltf glb dae settings urdd }
+targets! { archive json yaml urdf import stl obj gltf glb dae settings urdd }

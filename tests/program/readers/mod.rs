@@ -2,6 +2,7 @@
 //! `tests/fuzz_findings.rs`, which replays their seeds and findings.
 
 mod archive;
+mod import;
 mod json;
 mod mesh;
 mod settings;
@@ -11,6 +12,7 @@ mod urdf;
 mod yaml;
 
 pub use archive::archive;
+pub use import::import;
 pub use json::json;
 pub use mesh::{dae, glb, gltf, obj, stl};
 pub use settings::settings;

@@ -310,7 +310,7 @@ fn id_of(path: &Path) -> String {
     let name = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let name = name.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &name;
-    for extension in [".zip", ".xacro", ".xml", ".urdf"] {
+    for extension in [".zip", ".xacro", ".xml", ".urdf", ".sdf"] {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
     let id = portable(stem).replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "_");

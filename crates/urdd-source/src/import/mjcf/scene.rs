@@ -173,7 +173,7 @@ fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, t
     let things = world.geoms.len() + world.frames.len();
     if things > 0 {
         let text = format!(
-            "{things} shapes, sites and cameras of the world itself are left out; `--body world` takes them"
+            "shapes, sites and cameras of the world itself ({things}) are left out; `--body world` takes them"
         );
         tally.remark(world.place, text);
     }
