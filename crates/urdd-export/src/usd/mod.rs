@@ -1,7 +1,7 @@
 //! USD, for Isaac, Newton and Omniverse: one asset, a robot as rigid bodies under one articulation.
 //!
 //! Links are prims side by side, where they are in the default configuration. Joints say where they are in their two links.
-//! USD has binary32 for these, degrees for angles, and no names but those of [`names`]. Newton's and PhysX' own
+//! USD has binary32 for these, degrees for angles, and no names but those of `names`. Newton's and PhysX' own
 //! attributes say what UsdPhysics has no words for; other programs pass over them.
 
 mod custom;
