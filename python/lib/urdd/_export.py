@@ -110,10 +110,10 @@ def export(
         visuals: whether the file has visual geometry; or the largest part of its triangles to keep, such as 0.1, or
             the most to keep in all.
         mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
-        actuators: MJCF and USD: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
-            from the inertia that each joint moves.
-        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By default that
-            of ``setup``, or 10.
+        actuators: MJCF and USD: what the actuators of joints of one DOF are told; by default there are none. Gains are
+            computed from the inertia that each joint moves.
+        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By
+            default that of ``setup``, or 10.
         floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
         scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.

@@ -231,8 +231,8 @@ class Robot(RobotKinematics):
     ) -> NewtonRobot:
         """A Newton model, with shapes of this kind as convex colliders, and the skips as filtered pairs.
 
-        It goes through our USD. For the arguments, see :meth:`to_mujoco`; what drives joints are drives, and a free base is
-        Newton's own free joint.
+        It goes through our USD. For the arguments, see :meth:`to_mujoco`; what drives joints are drives, and a free
+        base is Newton's own free joint.
         """
         from ._newton import to_newton
 

@@ -24,6 +24,7 @@ __all__ = [
     "export",
     "find_urdfs",
     "generate",
+    "import_robot",
     "joint_groups",
     "lint",
     "main",

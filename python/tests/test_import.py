@@ -1,0 +1,48 @@
+"""MJCF and SDF as sources."""
+
+from pathlib import Path
+
+import pytest
+
+import urdd
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def test_an_mjcf_is_written_and_generated(tmp_path: Path) -> None:
+    imported = urdd.import_robot(EXAMPLES / "mjcf" / "arm.xml", tmp_path / "arm")
+    assert imported.urdf == tmp_path / "arm" / "tabletop_arm.urdf"
+    assert all(path.is_file() for path in imported.files)
+    assert {path.name for path in imported.files} >= {"tabletop_arm.srdf", "tabletop_arm.export.toml", "turret.obj"}
+    assert imported.report["format"] == "mjcf"
+    assert any("floor" not in note and "world itself" in note for note in imported.notes)
+    made = urdd.generate(EXAMPLES / "mjcf" / "arm.xml", tmp_path / "robot", modules=["core"])
+    robot = made.load()
+    # The qpos of the keyframe; the right finger follows.
+    assert list(robot.named_configurations["home"]) == [0.0, -0.6, 1.4, 0.8, 0.0, 0.02]
+
+
+def test_files_of_a_person_stay(tmp_path: Path) -> None:
+    urdf = urdd.import_robot(EXAMPLES / "sdf" / "model.sdf", tmp_path, ball="revolute").urdf
+    urdf.write_text("mine")
+    with pytest.raises(FileExistsError, match=r"lift_cart\.urdf"):
+        urdd.import_robot(EXAMPLES / "sdf" / "model.sdf", tmp_path, ball="revolute")
+    assert urdf.read_text() == "mine"
+    urdd.import_robot(EXAMPLES / "sdf" / "model.sdf", tmp_path, ball="revolute", force=True)
+    assert "caster_joint_x" in urdf.read_text()
+
+
+def test_what_is_wrong_has_its_place(tmp_path: Path) -> None:
+    file = tmp_path / "robot.xml"
+    file.write_text('<mujoco>\n <worldbody><body pos="1 2"/></worldbody></mujoco>')
+    with pytest.raises(urdd.GenerateError) as caught:
+        urdd.import_robot(file, tmp_path / "out")
+    ((name, line, _, _),) = caught.value.places
+    assert (name, line) == (str(file), 2)
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(ValueError, match="neither spherical nor revolute"):
+        urdd.import_robot(file, tmp_path / "out", ball="cubic")  # type: ignore[arg-type]
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text('<robot name="r"><link name="a"/></robot>')
+    with pytest.raises(urdd.GenerateError, match="a URDF already"):
+        urdd.import_robot(urdf, tmp_path / "out")
