@@ -38,6 +38,7 @@ PUBLIC = [
     "Frame",
     "GenerateError",
     "Generated",
+    "Imported",
     "InverseSolution",
     "Job",
     "LearnedPair",
@@ -86,6 +87,7 @@ PUBLIC = [
     "find_urdfs",
     "generate",
     "generate_text",
+    "import_robot",
     "lint",
     "load",
     "modules",
@@ -214,7 +216,7 @@ def test_options_are_as_usual() -> None:
     usual = options_of({}, "generate")
     for name in MakingOptions.__annotations__:
         expected: object = shown[name].default
-        found: object = getattr(usual, name)
+        found: object = getattr(usual if hasattr(usual, name) else usual.source, name)
         assert found == (list(expected) if isinstance(expected, tuple) else [] if name == "packages" else expected), (
             name
         )
