@@ -11,7 +11,7 @@ use super::unreachable::Unreachable;
 use crate::files::Files;
 use crate::packages::Packages;
 use crate::resolve::resolve;
-use crate::roots::{Place, Roots};
+use crate::roots::{Place, Roots, is_broad};
 use crate::settings::Settings;
 use urdd_directory::read_error::ReadError;
 
@@ -112,5 +112,6 @@ fn project(folder: &Path, files: &Files) -> Option<PathBuf> {
     let is_marked = |folder: &&Path| MARKS.iter().any(|mark| files.exists(&folder.join(mark)));
     let first = folder.ancestors().find(|above| is_python(above) || is_marked(above))?;
     let python = first.ancestors().take_while(is_python).last();
-    Some(python.unwrap_or(first).to_owned())
+    // A home folder that is kept in Git is no project.
+    Some(python.unwrap_or(first)).filter(|folder| !is_broad(folder)).map(Path::to_owned)
 }
