@@ -60,6 +60,11 @@ impl Roots {
         }
     }
 
+    /// Allows another folder (symbolic links resolved).
+    pub(crate) fn allow(&mut self, folder: PathBuf) {
+        self.allowed.push(folder);
+    }
+
     /// The packages around the URDF's folder.
     pub fn around(&self, urdf_folder: &Path) -> &[Around] {
         self.around.get_or_init(|| around(urdf_folder, &self.files))

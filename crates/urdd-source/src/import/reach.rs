@@ -4,11 +4,12 @@
 //! folder of the description, from the project that it belongs to, and from the folders that the user allows.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::unreachable::Unreachable;
 use crate::files::Files;
+use crate::inspect::{Inspected, inspect};
 use crate::packages::Packages;
 use crate::resolve::resolve;
 use crate::roots::{Place, Roots, is_broad};
@@ -25,9 +26,8 @@ const PYTHON: &str = "__init__.py";
 pub struct Reach {
     roots: Roots,
     packages: Packages,
-    /// The folders of packages from which files were found.
-    opened: RefCell<BTreeSet<PathBuf>>,
-    project: Option<PathBuf>,
+    /// The folders of packages from which files were found, with their names.
+    opened: RefCell<BTreeMap<PathBuf, String>>,
     /// What was read.
     read: RefCell<Vec<PathBuf>>,
 }
@@ -35,12 +35,14 @@ pub struct Reach {
 impl Reach {
     /// The folders for a description in a folder (symbolic links resolved).
     pub fn new(folder: &Path, settings: &Settings) -> Self {
-        let files = &settings.files;
+        let mut roots = Roots::new(folder, settings);
+        if let Some(project) = project(folder, &settings.files) {
+            roots.allow(project);
+        }
         Reach {
-            roots: Roots::new(folder, settings),
+            roots,
             packages: settings.packages.clone(),
             opened: RefCell::default(),
-            project: project(folder, files),
             read: RefCell::default(),
         }
     }
@@ -57,25 +59,37 @@ impl Reach {
     pub fn find(&self, uri: &str, folder: &Path) -> Result<PathBuf, Unreachable> {
         let missing = match resolve(uri, folder, &self.packages, &self.roots) {
             Ok(found) => {
-                if let Place::Package(_, folder) = found.place {
-                    self.opened.borrow_mut().insert(folder);
+                if let Place::Package(name, folder) = found.place {
+                    self.opened.borrow_mut().insert(folder, name);
                 }
                 return Ok(found.file);
             }
             Err(missing) => missing,
         };
         match missing.outside {
-            Some(file) if self.is_allowed(&file) => Ok(file),
+            Some(file) if self.place(&file).is_some() => Ok(file),
             Some(file) => Err(Unreachable::outside(uri, &file)),
             None => Err(Unreachable::Missing(uri.to_owned())),
         }
     }
 
-    /// Whether a file (symbolic links resolved) is in one of the folders.
-    fn is_allowed(&self, file: &Path) -> bool {
-        self.project.as_ref().is_some_and(|folder| file.starts_with(folder))
-            || self.opened.borrow().iter().any(|folder| file.starts_with(folder))
-            || self.roots.place(file, None).is_some()
+    /// The folder that a file (symbolic links resolved) may be read from.
+    fn place(&self, file: &Path) -> Option<Place> {
+        let opened = self.opened.borrow();
+        let package = opened.iter().find(|(folder, _)| file.starts_with(folder));
+        match package {
+            Some((folder, name)) => Some(Place::Package(name.clone(), folder.clone())),
+            None => self.roots.place(file, None),
+        }
+    }
+
+    /// Inspects a mesh that [`Reach::find`] found, and the files that it names, as those of a URDF are.
+    pub fn inspect(&self, mesh: &Path) -> Inspected {
+        let place = self.place(mesh).unwrap_or(Place::Own);
+        let inspected = inspect(mesh, &place, &self.roots);
+        let read = [mesh.to_owned()].into_iter().chain(inspected.side_files.keys().cloned());
+        self.read.borrow_mut().extend(read);
+        inspected
     }
 
     /// The files that were read, with symbolic links resolved.
@@ -92,7 +106,7 @@ impl Reach {
         let Ok(found) = self.files().canonicalize(path) else {
             return Err(Unreachable::Missing(shown()));
         };
-        if !self.is_allowed(&found) {
+        if self.place(&found).is_none() {
             return Err(Unreachable::outside(&shown(), &found));
         }
         match self.files().read(&found, limit) {

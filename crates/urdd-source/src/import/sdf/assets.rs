@@ -10,8 +10,10 @@ use thiserror::Error;
 use super::super::model::Asset;
 use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
+use crate::inspect::Inspected;
+use crate::sniff::is_image;
 
-/// The most bytes of a mesh or image.
+/// The most bytes of an image.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Why there is no file.
@@ -21,6 +23,8 @@ pub enum NoAsset {
     Unreachable(Unreachable),
     #[error("`{file}` cannot be read as a mesh: {reason}")]
     Mesh { file: String, reason: String },
+    #[error("`{file}` is not an image")]
+    Image { file: String },
     #[error("`{file}` has no part `{part}`")]
     Part { file: String, part: String },
 }
@@ -31,7 +35,7 @@ pub struct Assets {
     pub files: Vec<Asset>,
     /// Where each file is in the list, by the file that it was.
     known: BTreeMap<PathBuf, usize>,
-    /// The middle of each mesh.
+    /// The middle of each part of a mesh.
     middles: BTreeMap<usize, Vector3<f64>>,
     /// What each path is taken by, in lower case.
     taken: BTreeMap<String, PathBuf>,
@@ -51,36 +55,45 @@ impl Assets {
         folder: &Path,
         part: Option<&str>,
     ) -> Result<usize, NoAsset> {
-        self.add(reach, uri, folder, part, |bytes, path| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let around = path.parent().unwrap_or(Path::new("/"));
-            let mut fetch = |side: &str| {
-                let read = reach.read(&around.join(side), MAX_BYTES);
-                read.ok().map(|(_, bytes)| bytes)
-            };
-            match urdd_geometry::read::read(bytes, &name, &mut fetch) {
-                Ok(scene) => {
-                    let middle = scene.merged().bounds().map(|bounds| {
-                        (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0
-                    });
-                    Ok((middle, scene.side_files))
-                }
-                Err(error) => {
-                    Err(NoAsset::Mesh { file: uri.to_owned(), reason: error.to_string() })
-                }
-            }
-        })
+        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
+        let source = of_part(&found, part);
+        if let Some(known) = self.known.get(&source) {
+            return Ok(*known);
+        }
+        let Inspected { bytes, side_files, scene, .. } = reach.inspect(&found);
+        let unread = |reason| NoAsset::Mesh { file: uri.to_owned(), reason };
+        scene.map_err(unread)?;
+        let mut bytes = bytes.map_or_else(Vec::new, Arc::unwrap_or_clone);
+        let mut middle = None;
+        if let Some(name) = part {
+            let missing = || NoAsset::Part { file: uri.to_owned(), part: name.to_owned() };
+            bytes = super::part::part(&bytes, name).ok_or_else(missing)?;
+            middle = middle_of(&bytes, &source).map_err(unread)?;
+        }
+        let sides = side_files.into_iter().filter(|(path, _)| *path != found);
+        let sides = sides.map(|(path, side)| (path, Arc::unwrap_or_clone(side.bytes)));
+        let index = self.add([(source, bytes)].into_iter().chain(sides).collect());
+        self.middles.extend(middle.map(|middle| (index, middle)));
+        Ok(index)
     }
 
     /// Adds the image that a URI names.
     ///
     /// # Errors
-    /// If it is not found or may not be read.
+    /// If it is not found, may not be read, or is no image.
     pub fn image(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
-        self.add(reach, uri, folder, None, |_, _| Ok((None, Vec::new())))
+        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
+        if let Some(known) = self.known.get(&found) {
+            return Ok(*known);
+        }
+        let (file, bytes) = reach.read(&found, MAX_BYTES).map_err(NoAsset::Unreachable)?;
+        match is_image(&bytes) {
+            true => Ok(self.add(vec![(file, bytes)])),
+            false => Err(NoAsset::Image { file: uri.to_owned() }),
+        }
     }
 
-    /// The middle of a mesh.
+    /// The middle of a part of a mesh.
     pub fn middle(&self, index: usize) -> Vector3<f64> {
         self.middles.get(&index).copied().unwrap_or_default()
     }
@@ -94,33 +107,8 @@ impl Assets {
         }
     }
 
-    fn add(
-        &mut self,
-        reach: &Reach,
-        uri: &str,
-        folder: &Path,
-        part: Option<&str>,
-        inside: impl FnOnce(&[u8], &Path) -> Result<(Option<Vector3<f64>>, Vec<String>), NoAsset>,
-    ) -> Result<usize, NoAsset> {
-        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
-        if let Some(known) = self.known.get(&of_part(&found, part)) {
-            return Ok(*known);
-        }
-        let read = reach.read(&found, MAX_BYTES).map_err(NoAsset::Unreachable);
-        let (file, mut bytes) = read?;
-        if let Some(name) = part {
-            let missing = || NoAsset::Part { file: uri.to_owned(), part: name.to_owned() };
-            bytes = super::part::part(&bytes, name).ok_or_else(missing)?;
-        }
-        let (middle, sides) = inside(&bytes, &file)?;
-        let around = file.parent().unwrap_or(Path::new("/"));
-        let mut group = vec![(of_part(&file, part), bytes)];
-        for side in sides {
-            // A side file that is not there is missing as it was.
-            if let Ok(side) = reach.read(&around.join(&side), MAX_BYTES) {
-                group.push(side);
-            }
-        }
+    /// Adds a file with those that it names. Gives the place of the first in the list.
+    fn add(&mut self, group: Vec<(PathBuf, Vec<u8>)>) -> usize {
         let top = common(group.iter().map(|(path, _)| path.as_path()));
         let base = self.base(&top, group.iter().map(|(path, _)| path.as_path()));
         let mut first = None;
@@ -131,9 +119,7 @@ impl Assets {
             let index = known.unwrap_or_else(|| self.push(path, written, bytes));
             first.get_or_insert(index);
         }
-        let first = first.unwrap_or_default();
-        self.middles.extend(middle.map(|middle| (first, middle)));
-        Ok(first)
+        first.unwrap_or_default()
     }
 
     /// The folder for files below another, in which no path is taken by another file.
@@ -159,6 +145,14 @@ impl Assets {
         self.files.push(Asset { path, bytes: Arc::from(bytes) });
         index
     }
+}
+
+/// The middle of a mesh in a format that keeps its vertices in one file.
+fn middle_of(bytes: &[u8], file: &Path) -> Result<Option<Vector3<f64>>, String> {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let scene = urdd_geometry::read::read(bytes, &name, &mut |_| None);
+    let bounds = scene.map_err(|error| error.to_string())?.merged().bounds();
+    Ok(bounds.map(|bounds| (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0))
 }
 
 /// The path of a file, or of a part of it, which is beside it.

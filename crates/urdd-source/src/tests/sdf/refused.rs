@@ -59,6 +59,19 @@ fn files_that_are_not_there_or_outside_are_refused() {
 }
 
 #[test]
+fn what_is_no_mesh_and_no_image_is_not_carried() {
+    let text = "<sdf version='1.9'><model name='m'><link name='a'><visual name='v'><geometry><mesh><uri>b.obj</uri>\
+                </mesh></geometry><material><pbr><metal><albedo_map>key.env</albedo_map></metal></pbr></material>\
+                </visual></link></model></sdf>";
+    let mesh = "mtllib key.env\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let model = given(text, &[("b.obj", mesh), ("key.env", "secret")]).expect("a model");
+    let paths: Vec<&str> = model.assets.iter().map(|asset| &*asset.path).collect();
+    assert_eq!(paths, ["meshes/b.obj"]);
+    assert_eq!(model.tally.remarks.len(), 1);
+    assert!(model.tally.remarks[0].text.contains("`key.env` is not an image; it is left out"));
+}
+
+#[test]
 fn depth_is_bounded() {
     let deep = "<model name='n'>".repeat(100) + "<link name='a'/>" + &"</model>".repeat(100);
     refused("1.9", &deep, "nested more than 64 deep");
