@@ -21,8 +21,7 @@ pub fn import_robot<'py>(py: Python<'py>, file: PathBuf, source: Source) -> PyRe
     let settings = source.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| import_whole(&file, &settings, cancellation))?;
     let (imported, _) = outcome.map_err(|error| of_generate(py, &GenerateError::Source(error)))?;
-    let setup = imported.setup.as_ref().map(|text| (imported.setup_name(), text.as_bytes()));
-    let files = imported.files.iter().map(|(name, bytes)| (name.clone(), &**bytes)).chain(setup);
-    let files = files.map(|(name, bytes)| (name, PyBytes::new(py, bytes))).collect();
+    let files = imported.files.iter();
+    let files = files.map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes))).collect();
     Ok((imported.urdf.clone(), files, imported.report.to_json()))
 }

@@ -56,8 +56,6 @@ fn made(arguments: &ImportArguments) -> Result<(), Failure> {
     let all = imported.files.iter().filter(|(name, _)| **name != imported.urdf);
     let mut files: Vec<(PathBuf, &[u8])> =
         all.map(|(name, bytes)| (path(name), &**bytes)).collect();
-    let setup = imported.setup_name();
-    files.extend(imported.setup.as_ref().map(|text| (path(&setup), text.as_bytes())));
     files.extend(report.as_ref().map(|(file, text)| (file.clone(), text.as_bytes())));
     // The file that names the others is last.
     files.push((path(&imported.urdf), imported.text().as_bytes()));

@@ -18,6 +18,7 @@ use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_generate::Settings;
 use urdd_robot::Robot;
+use urdd_source::Files;
 use urdd_source::import::format_of;
 use urdd_source::process;
 use urdd_source::robots::{self, BatchError, Job};
@@ -214,7 +215,7 @@ fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Sto
     let ends = |path: &Path, ending: &str| {
         path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
     };
-    let is_imported = || format_of(path).is_some();
+    let is_imported = || format_of(path, &Files::Disk).is_some();
     let is_source = ends(path, "xacro") || ends(path, "urdf") || is_imported();
     if is_source && path.is_file() {
         let mut jobs = robots::jobs(&[path.to_owned()]).map_err(usage)?;

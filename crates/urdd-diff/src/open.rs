@@ -10,6 +10,7 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_format::report;
+use urdd_source::Files;
 use urdd_source::import::format_of;
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
@@ -28,7 +29,7 @@ impl Side {
             side.validation = validation(options, |settings| validate(&[path], settings))?;
             return Ok(side);
         }
-        if format_of(path).is_some() {
+        if format_of(path, &Files::Disk).is_some() {
             let (mut side, text) = side_urdf::open(path, shown, options)?;
             side.validation = validation(options, |settings| {
                 let examined = vec![examine_urdf(&text, &side.path)];

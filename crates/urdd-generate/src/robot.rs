@@ -77,6 +77,7 @@ pub fn generate(
         let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
         return make(Some(path), &source, Given::default(), target, settings, progress);
     };
+    imported.read.iter().for_each(|file| progress.reads(file));
     let (source, settings) = imported_source(&imported, settings)?;
     let mut made = make(Some(path), &source, given(&imported), target, &settings, progress)?;
     made.notes.extend(setup::write(&imported, target));

@@ -9,14 +9,14 @@ use urdd_source::note::{Note, NoteKind};
 
 /// Writes the file, unless there is one: it may be a person's. Says so then, and where it cannot be written.
 pub(super) fn write(imported: &Imported, target: &Path) -> Option<Note> {
-    let text = imported.setup.as_ref()?;
+    let text = imported.setup()?;
     let mut name = target.file_name()?.to_owned();
     name.push(".export.toml");
     let path = target.with_file_name(name);
-    if std::fs::read(&path).is_ok_and(|there| there == text.as_bytes()) {
+    if std::fs::read(&path).is_ok_and(|there| there == text) {
         return None;
     }
-    let written = File::create_new(&path).and_then(|mut file| file.write_all(text.as_bytes()));
+    let written = File::create_new(&path).and_then(|mut file| file.write_all(text));
     let error = written.err()?;
     let assumed = match error.kind() {
         std::io::ErrorKind::AlreadyExists => {

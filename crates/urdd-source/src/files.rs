@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -82,6 +82,21 @@ impl Files {
             Some(bytes) => Ok(bytes.to_vec()),
             None => Err(ReadError::NotAFile),
         }
+    }
+
+    /// The beginning of a regular file, at most so many bytes.
+    ///
+    /// # Errors
+    /// If there is none, it is no regular file, or it cannot be read.
+    pub(crate) fn head(&self, path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
+        let Files::Disk = self else {
+            let mut bytes = self.read(path, u64::MAX)?;
+            bytes.truncate(usize::try_from(most).unwrap_or(usize::MAX));
+            return Ok(bytes);
+        };
+        let mut head = Vec::new();
+        regular::open(path)?.take(most).read_to_end(&mut head)?;
+        Ok(head)
     }
 
     /// The absolute path of a file or folder, with symbolic links resolved.

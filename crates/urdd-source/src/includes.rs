@@ -1,9 +1,8 @@
-//! The files that a xacro file includes, or from which a description is imported, to notice their changes.
+//! The files that a xacro file includes, to notice their changes.
 
 use std::path::{Path, PathBuf};
 
 use crate::files::Files;
-use crate::import::import;
 use crate::package_index::PackageIndex;
 use crate::settings::Settings;
 use crate::xacro::run;
@@ -14,15 +13,11 @@ const MAX_FILES: usize = 2000;
 /// Files that xacro reads.
 const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
-/// The files that an import reads, or that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
-/// be told apart, the xacro and YAML files of the robot's package. None for a
-/// URDF without macros, or in memory.
+/// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
+/// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros, or in memory.
 pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Vec<PathBuf> {
     if !matches!(settings.files, Files::Disk) {
         return Vec::new();
-    }
-    if let Ok(Some(imported)) = import(file, settings) {
-        return imported.read;
     }
     let is_xacro = file.extension().is_some_and(|ending| ending == "xacro");
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {

@@ -1,7 +1,6 @@
 //! Imports a description: what is written of it, and where what is written came from.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,17 +33,19 @@ use urdd_geometry::read::Part;
 use urdd_geometry::write::obj;
 
 /// How many bytes at the start of a file are searched for its outermost element.
-const HEAD: u64 = 64 << 10;
+const HEAD: u64 = 1 << 20;
+
+/// What is put behind a name for the file that exports read.
+const SETUP: &str = ".export.toml";
 
 /// A description of another format as a URDF and its companions, in memory.
 #[derive(Debug, Clone)]
 pub struct Imported {
     /// The name of the URDF: `NAME.urdf`.
     pub urdf: String,
-    /// The files, by path relative to the folder of the URDF: the URDF, `NAME.srdf`, meshes and images.
+    /// The files, by path relative to the folder of the URDF: the URDF, `NAME.srdf`, `NAME.export.toml`,
+    /// meshes and images.
     pub files: BTreeMap<String, Arc<[u8]>>,
-    /// The text of `NAME.export.toml`: what exports need and a URDF does not say.
-    pub setup: Option<String>,
     /// The named configurations.
     pub configurations: Vec<ConfigurationEdit>,
     /// The pairs of links that are never checked.
@@ -82,9 +83,10 @@ impl Imported {
         Path::new("/").join(&self.urdf)
     }
 
-    /// The name of the file for exports.
-    pub fn setup_name(&self) -> String {
-        format!("{}.export.toml", self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf))
+    /// What exports need and a URDF does not say: the content of `NAME.export.toml`.
+    pub fn setup(&self) -> Option<&[u8]> {
+        let name = self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf);
+        self.files.get(&(name.to_owned() + SETUP)).map(|bytes| &**bytes)
     }
 
     /// The text of the URDF.
@@ -100,15 +102,12 @@ impl Imported {
     }
 }
 
-/// The format of a file by the outermost element in the beginning of it: quick, for a choice of what to do.
-pub fn format_of(path: &Path) -> Option<Format> {
-    let mut head = Vec::new();
-    // Opening a pipe would wait.
-    if !path.is_file() {
-        return None;
-    }
-    std::fs::File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
-    Format::of(&String::from_utf8_lossy(&head))
+/// The format of a file, by the outermost element in the beginning of it; none of a URDF, and of anything else.
+pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
+    let head = files.head(path, HEAD).ok()?;
+    // By its byte order mark, if it has one.
+    let (text, ..) = encoding_rs::UTF_8.decode(&head);
+    Format::of(&text)
 }
 
 /// Imports a description, if it is MJCF or SDF by its content; `None` of anything else, and of what cannot be read.
@@ -117,10 +116,11 @@ pub fn format_of(path: &Path) -> Option<Format> {
 /// If it is refused, with the place.
 pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, SourceError> {
     let options = &settings.import;
+    // A URDF is not read twice.
+    let Some(format) = format_of(path, &settings.files) else { return Ok(None) };
     let shown = path.display().to_string();
     let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
     let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else { return Ok(None) };
-    let Some(format) = Format::of(&text) else { return Ok(None) };
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical
         .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
@@ -180,6 +180,9 @@ fn written(
     if let Some(srdf) = companions::srdf(&model, &tree, &original) {
         files.insert(format!("{base}.srdf"), srdf.into_bytes().into());
     }
+    if let Some(setup) = companions::setup(&model, &tree) {
+        files.insert(base.to_owned() + SETUP, setup.into_bytes().into());
+    }
     let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
     if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
         let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
@@ -196,7 +199,6 @@ fn written(
     let joints = tree.joints.iter().map(|edge| (("joint", edge.name.clone()), edge.place));
     Ok(Imported {
         places: links.chain(joints).collect(),
-        setup: companions::setup(&model, &tree),
         configurations: companions::configurations(&model, &tree),
         skips: companions::skips(&model),
         report: Report::of(&model, format),
