@@ -8,8 +8,7 @@ use super::other_attributes::is_kept;
 use super::output::Export;
 use super::subject::Subject;
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
-use urdd_format::carried::{Part, lists, table};
-use urdd_format::escape;
+use urdd_format::carried::{self, Part, table};
 use urdd_format::urdf::{Joint, JointType, Limit, Link};
 use urdd_xml::other_parts::OtherPart;
 
@@ -255,18 +254,8 @@ pub(super) fn lost(subject: &Subject) -> Option<Note> {
 pub(super) fn report(subject: &Subject, made: &Export) -> String {
     let parts = carried(subject).chain(textures(made));
     let parts: Vec<Part> = parts.map(|(name, count, how)| (name.to_owned(), count, how)).collect();
-    let [carried, otherwise, lost] = lists(&parts);
-    let document = serde_json::json!({
-        "robot": subject.urdf.name,
-        "format": subject.format.name(),
-        "program": urdd_format::registry::PROGRAM_VERSION,
-        "carried": carried,
-        "otherwise": otherwise,
-        "lost": lost,
-        "notes": made.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
-    });
-    let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
-    escape::json(&text).into_owned()
+    let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
+    carried::report(&subject.urdf.name, subject.format.name(), &parts, &notes)
 }
 
 /// The table of docs/export.md, in Markdown.

@@ -4,6 +4,9 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::escape;
+use super::registry::PROGRAM_VERSION;
+
 /// How something is carried from one format to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
@@ -20,8 +23,9 @@ pub enum How {
 /// Something that a robot has: what, how many, and how it is carried.
 pub type Part = (String, usize, How);
 
-/// The lists `carried`, `otherwise` and `lost` of a report, as JSON.
-pub fn lists(parts: &[Part]) -> [Value; 3] {
+/// The report on a robot, as JSON: what is carried, what otherwise, what is lost, and the notes.
+#[must_use]
+pub fn report(robot: &str, format: &str, parts: &[Part], notes: &[String]) -> String {
     let of = |wanted: fn(How) -> bool| -> Value {
         let found = parts.iter().filter(|(_, _, how)| wanted(*how));
         let entry = |(name, count, how): &Part| match how {
@@ -30,11 +34,17 @@ pub fn lists(parts: &[Part]) -> [Value; 3] {
         };
         found.map(entry).collect()
     };
-    [
-        of(|how| how == How::Yes),
-        of(|how| matches!(how, How::Otherwise(_))),
-        of(|how| how == How::No),
-    ]
+    let document = json!({
+        "robot": robot,
+        "format": format,
+        "program": PROGRAM_VERSION,
+        "carried": of(|how| how == How::Yes),
+        "otherwise": of(|how| matches!(how, How::Otherwise(_))),
+        "lost": of(|how| how == How::No),
+        "notes": notes,
+    });
+    let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
+    escape::json(&text).into_owned()
 }
 
 /// A table in Markdown: a column a format, a row a thing, with notes below.

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use crate::examine::examined;
 use crate::settings::LintSettings;
+use crate::written::{named, say_where};
 use urdd_findings::examined::Examined;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
-use urdd_format::report::{ImportedFrom, ImportedPart, Place, StaleIgnore, WrittenAt};
+use urdd_format::report::{ImportedFrom, ImportedPart, StaleIgnore, WrittenAt};
 use urdd_source::SourceError;
 use urdd_source::import::Imported;
 
@@ -24,29 +25,24 @@ pub(crate) fn examined_import(
     let text = imported.text();
     let (mut examined, unused) =
         examined(text, text.as_bytes(), &imported.urdf, Path::new("/"), &settings);
+    say_where(&mut examined.checks, |subject| {
+        let (kind, name) = named(subject)?;
+        let (file, line, column) = imported.place(kind, name)?;
+        Some(WrittenAt {
+            file: file.to_owned(),
+            line: Some(Count(line)),
+            column: Some(Count(column)),
+            macro_name: None,
+        })
+    });
+    // The text is in memory: there is nothing to mend.
     let findings = examined.checks.iter_mut().flat_map(|check| &mut check.findings);
     for place in findings.flat_map(Finding::places_mut) {
-        say_where(imported, place);
-        place.related.iter_mut().for_each(|related| say_where(imported, related));
+        place.fixes.clear();
+        place.related.iter_mut().for_each(|related| related.fixes.clear());
     }
     examined.report.imported = Some(imported_from(imported));
     Ok((examined, unused))
-}
-
-fn say_where(imported: &Imported, place: &mut Place) {
-    // The text is in memory: there is nothing to mend.
-    place.fixes.clear();
-    let Some((kind, quoted)) = place.subject.as_deref().and_then(|of| of.split_once(' ')) else {
-        return;
-    };
-    let name = quoted.strip_prefix('`').and_then(|name| name.strip_suffix('`'));
-    let found = name.and_then(|name| imported.place(kind, name));
-    place.written_at = found.map(|(file, line, column)| WrittenAt {
-        file: file.to_owned(),
-        line: Some(Count(line)),
-        column: Some(Count(column)),
-        macro_name: None,
-    });
 }
 
 fn imported_from(imported: &Imported) -> ImportedFrom {

@@ -55,7 +55,7 @@ use urdd_format::report::{Kind, StaleIgnore};
 use urdd_source::import::import;
 use urdd_source::robots::{BatchError, jobs};
 use urdd_source::{SourceError, SourceText, included, read_source};
-use written::Sources;
+use written::{Sources, say_where};
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -202,7 +202,8 @@ fn of_source(
     if read.is_expanded && checks.any(|check| !check.findings.is_empty()) {
         let mut files = included(path, &settings.source, &settings.report.cancellation);
         files.extend(path.canonicalize());
-        Sources::read(&files, &read.folder).place(&mut examined.checks);
+        let sources = Sources::read(&files, &read.folder);
+        say_where(&mut examined.checks, |subject| sources.find(subject).cloned());
     }
     (examined, unused)
 }

@@ -49,24 +49,9 @@ impl Sources {
         sources
     }
 
-    /// Says of each finding about a link or joint where that is written.
-    pub fn place(&self, checks: &mut [Check]) {
-        let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
-        for place in findings.flat_map(Finding::places_mut) {
-            self.place_one(place);
-            place.related.iter_mut().for_each(|related| self.place_one(related));
-        }
-    }
-
-    fn place_one(&self, place: &mut Place) {
-        let subject = place.subject.as_deref();
-        place.written_at = subject.and_then(|subject| self.find(subject)).cloned();
-    }
-
     /// Where "link `NAME`" is written: the one element whose name fits with the most fixed letters.
     pub fn find(&self, subject: &str) -> Option<&WrittenAt> {
-        let (tag, quoted) = subject.split_once(' ')?;
-        let wanted = quoted.strip_prefix('`')?.strip_suffix('`')?;
+        let (tag, wanted) = named(subject)?;
         let fitting =
             self.elements.iter().filter(|element| element.tag == tag && element.fits(wanted));
         let letters = |element: &Element| element.parts.iter().map(String::len).sum::<usize>();
@@ -74,6 +59,24 @@ impl Sources {
         let mut best = fitting.filter(|element| letters(element) == most);
         let first = best.next()?;
         best.next().is_none().then_some(&first.at)
+    }
+}
+
+/// What "link `NAME`" is about: `link`, and the name.
+pub fn named(subject: &str) -> Option<(&str, &str)> {
+    let (tag, quoted) = subject.split_once(' ')?;
+    Some((tag, quoted.strip_prefix('`')?.strip_suffix('`')?))
+}
+
+/// Says of each finding about a link or joint where that is written, as `find` knows by the subject.
+pub fn say_where(checks: &mut [Check], find: impl Fn(&str) -> Option<WrittenAt>) {
+    let say = |place: &mut Place| {
+        place.written_at = place.subject.as_deref().and_then(&find);
+    };
+    let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
+    for place in findings.flat_map(Finding::places_mut) {
+        say(place);
+        place.related.iter_mut().for_each(say);
     }
 }
 

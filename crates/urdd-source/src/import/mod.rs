@@ -8,6 +8,7 @@ pub mod format;
 mod imported;
 pub mod mjcf;
 pub mod model;
+mod names;
 pub mod options;
 mod origin;
 pub mod place;

@@ -59,6 +59,23 @@ pub struct Body {
     pub place: Place,
 }
 
+impl Body {
+    /// A body without joints, mass and shapes.
+    pub fn new(name: String, parent: Option<usize>, pose: Isometry3<f64>, place: Place) -> Self {
+        Body {
+            name,
+            parent,
+            pose,
+            joints: Vec::new(),
+            fixed_by: None,
+            inertial: None,
+            shapes: Vec::new(),
+            is_frame: false,
+            place,
+        }
+    }
+}
+
 /// Mass, centre of mass and inertia about it, in the body's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inertial {
@@ -116,6 +133,29 @@ pub struct Joint {
     pub armature: Option<f64>,
     /// Where it stands.
     pub place: Place,
+}
+
+impl Joint {
+    /// A joint about or along z, of which nothing else is said.
+    pub fn new(name: String, kind: JointKind, frame: Isometry3<f64>, place: Place) -> Self {
+        Joint {
+            name,
+            kind,
+            frame,
+            axis: Vector3::z(),
+            reference: 0.0,
+            range: None,
+            effort: None,
+            velocity: None,
+            damping: 0.0,
+            friction: 0.0,
+            mimic: None,
+            kp: None,
+            kv: None,
+            armature: None,
+            place,
+        }
+    }
 }
 
 /// `value = multiplier × leader + offset`.

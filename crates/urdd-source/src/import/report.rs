@@ -1,9 +1,6 @@
 //! What an import carried, otherwise, and lost.
 
-use serde_json::json;
-use urdd_format::carried::{How, Part, lists, table};
-use urdd_format::escape;
-use urdd_format::registry::PROGRAM_VERSION;
+use urdd_format::carried::{self, How, Part, table};
 
 use super::features::{ALL, Feature, Remark};
 use super::format::Format;
@@ -87,18 +84,8 @@ impl Report {
     /// As JSON, with the keys of the report of an export.
     #[must_use]
     pub fn to_json(&self) -> String {
-        let [carried, otherwise, lost] = lists(&self.parts);
-        let document = json!({
-            "robot": self.robot,
-            "format": self.format.name(),
-            "program": PROGRAM_VERSION,
-            "carried": carried,
-            "otherwise": otherwise,
-            "lost": lost,
-            "notes": self.remarks.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        });
-        let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
-        escape::json(&text).into_owned()
+        let notes: Vec<String> = self.remarks.iter().map(ToString::to_string).collect();
+        carried::report(&self.robot, self.format.name(), &self.parts, &notes)
     }
 }
 

@@ -1,10 +1,9 @@
 //! A [`Model`] as links and joints of a URDF: a link a body, and a link without mass between two joints of a body.
 
-use std::collections::{BTreeMap, HashSet};
-
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::model::{Body, Joint, JointKind, Mimic, Model};
+use super::names::Names;
 use super::options::ImportOptions;
 use super::place::Place;
 
@@ -50,7 +49,13 @@ pub struct Edge {
 impl Tree {
     /// The links and joints of a model.
     pub fn of(model: &Model, options: &ImportOptions) -> Self {
-        let mut names = Names::of(model);
+        let mut names = Taken::default();
+        for body in &model.bodies {
+            names.links.take(&body.name);
+            body.joints.iter().for_each(|joint| {
+                names.joints.take(&joint.name);
+            });
+        }
         let mut tree = Tree::default();
         for (at, body) in model.bodies.iter().enumerate() {
             let parent = body.parent.and_then(|parent| model.bodies.get(parent));
@@ -68,7 +73,7 @@ impl Tree {
         body: &Body,
         parent: &str,
         options: &ImportOptions,
-        names: &mut Names,
+        names: &mut Taken,
     ) {
         let mut parent = parent.to_owned();
         let mut origin = body.pose;
@@ -85,11 +90,11 @@ impl Tree {
             let is_last = turn + 1 == moves.len() && is_last_at_body;
             let name = match one.suffix {
                 "" => joint.name.clone(),
-                suffix => names.joint(&format!("{}{suffix}", joint.name)),
+                suffix => names.joints.free(&format!("{}{suffix}", joint.name)),
             };
             let child = match is_last {
                 true => body.name.clone(),
-                false => names.link(&format!("{}/{name}", body.name)),
+                false => names.links.free(&format!("{}/{name}", body.name)),
             };
             self.joints.push(Edge {
                 kind: one.kind,
@@ -115,7 +120,7 @@ impl Tree {
             let name = body.fixed_by.clone().filter(|_| moves.is_empty());
             let name = name.unwrap_or_else(|| format!("{}_fixed", body.name));
             self.joints.push(Edge {
-                name: names.joint(&name),
+                name: names.joints.free(&name),
                 kind: "fixed",
                 parent,
                 child: body.name.clone(),
@@ -128,6 +133,13 @@ impl Tree {
             });
         }
     }
+}
+
+/// The names that are taken.
+#[derive(Default)]
+struct Taken {
+    links: Names,
+    joints: Names,
 }
 
 /// A joint of the URDF in the frame of its body.
@@ -173,41 +185,4 @@ fn moves(of: usize, joint: &Joint, options: &ImportOptions) -> Vec<Move> {
 
 fn is_identity(pose: &Isometry3<f64>) -> bool {
     pose.translation.vector.amax() == 0.0 && pose.rotation.angle() == 0.0
-}
-
-/// The names that are taken.
-struct Names {
-    links: HashSet<String>,
-    joints: HashSet<String>,
-    /// The next number to try, by name.
-    next: BTreeMap<String, usize>,
-}
-
-impl Names {
-    fn of(model: &Model) -> Self {
-        let joints = model.bodies.iter().flat_map(|body| &body.joints);
-        Names {
-            links: model.bodies.iter().map(|body| body.name.clone()).collect(),
-            joints: joints.map(|joint| joint.name.clone()).collect(),
-            next: BTreeMap::new(),
-        }
-    }
-
-    fn link(&mut self, wanted: &str) -> String {
-        free(wanted, &mut self.links, &mut self.next)
-    }
-
-    fn joint(&mut self, wanted: &str) -> String {
-        free(wanted, &mut self.joints, &mut self.next)
-    }
-}
-
-fn free(wanted: &str, taken: &mut HashSet<String>, next: &mut BTreeMap<String, usize>) -> String {
-    let mut name = wanted.to_owned();
-    while !taken.insert(name.clone()) {
-        let number = next.entry(wanted.to_owned()).or_insert(1);
-        *number += 1;
-        name = format!("{wanted}_{number}");
-    }
-    name
 }

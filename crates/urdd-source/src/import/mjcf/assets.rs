@@ -7,12 +7,12 @@ use std::sync::Arc;
 use urdd_directory::path::portable;
 
 use super::super::model::Asset;
+use super::super::names::Names;
 use super::super::place::{Place, TextFile};
 use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
 use super::compiler::Compiler;
 use super::document::first;
-use super::names::Names;
 
 /// Where files are looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

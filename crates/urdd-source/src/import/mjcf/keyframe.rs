@@ -7,13 +7,13 @@ use urdd_kinematics::rotation::to_rotation_vector;
 
 use super::super::features::{self, Tally};
 use super::super::model::Configuration;
+use super::super::names::Names;
 use super::at::{Fallible, at};
 use super::body::Bodies;
 use super::document::Element;
 use super::fault::MjcfFault;
 use super::joint::Kind;
 use super::made::Made;
-use super::names::Names;
 use super::orientation::unit;
 use super::reading::list;
 

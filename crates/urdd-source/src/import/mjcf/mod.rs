@@ -22,7 +22,6 @@ mod material;
 mod mesh;
 mod mesh_mass;
 mod msh;
-mod names;
 mod orientation;
 mod principal;
 mod reading;

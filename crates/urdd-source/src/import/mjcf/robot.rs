@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, Translation3};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Geometry, Joint, JointKind, Shape, Use};
+use super::super::names::Names;
 use super::assets::Assets;
 use super::at::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
@@ -19,7 +20,6 @@ use super::joint::{self, RawJoint};
 use super::made::Made;
 use super::material::Materials;
 use super::mesh::Meshes;
-use super::names::Names;
 use super::scene::Robot;
 
 /// What is needed to make bodies.
@@ -56,20 +56,9 @@ impl<'d> Maker<'_, 'd> {
             let index = made.bodies.len();
             let is_world = *raw_index == WORLD;
             let is_empty = is_world && !robot.has_world;
-            let mut body = Body {
-                pose: raw.pose,
-                parent: raw.parent.and_then(|parent| made.index.get(&parent).copied()),
-                joints: Vec::new(),
-                fixed_by: None,
-                inertial: None,
-                shapes: Vec::new(),
-                is_frame: false,
-                place: raw.place,
-                name,
-            };
-            if body.parent.is_none() {
-                body.pose = Isometry3::identity();
-            }
+            let parent = raw.parent.and_then(|parent| made.index.get(&parent).copied());
+            let pose = parent.map_or_else(Isometry3::identity, |_| raw.pose);
+            let mut body = Body::new(name, parent, pose, raw.place);
             self.tally.count(features::BODIES);
             if !is_empty {
                 let fitted = self.fitted(raw)?;
@@ -163,22 +152,17 @@ impl<'d> Maker<'_, 'd> {
             joint::Kind::Slide => (JointKind::Slide, features::SLIDES),
         };
         self.tally.count(feature);
+        let name = raw.name.clone().unwrap_or_else(|| names.free(&format!("{body}_joint")));
+        let frame = Translation3::from(raw.position).into();
         Some(Joint {
-            name: raw.name.clone().unwrap_or_else(|| names.free(&format!("{body}_joint"))),
-            kind,
-            frame: Translation3::from(raw.position).into(),
             axis: raw.axis,
             reference: raw.reference,
             range: raw.range,
             effort: raw.effort,
-            velocity: None,
             damping: raw.damping,
             friction: raw.friction,
-            mimic: None,
-            kp: None,
-            kv: None,
             armature: (raw.armature != 0.0).then_some(raw.armature),
-            place: raw.place,
+            ..Joint::new(name, kind, frame, raw.place)
         })
     }
 
@@ -258,17 +242,8 @@ impl<'d> Maker<'_, 'd> {
                     true => wanted,
                     false => names.free(&format!("{wanted}_{}", frame.kind)),
                 };
-                made.bodies.push(Body {
-                    name,
-                    parent,
-                    pose: frame.pose,
-                    joints: Vec::new(),
-                    fixed_by: None,
-                    inertial: None,
-                    shapes: Vec::new(),
-                    is_frame: true,
-                    place: frame.place,
-                });
+                let body = Body::new(name, parent, frame.pose, frame.place);
+                made.bodies.push(Body { is_frame: true, ..body });
             }
         }
     }

@@ -38,15 +38,13 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
             Some((before, _)) => at[before],
             None => (!made.is_empty()).then_some(0),
         };
-        let mut body = match node {
-            Some(node) => empty(&scene.nodes[node].name, scene.nodes[node].place),
-            None => empty(WORLD, Place::default()),
+        let (name, place) = match node {
+            Some(node) => (scene.nodes[node].name.clone(), scene.nodes[node].place),
+            None => (WORLD.to_owned(), Place::default()),
         };
+        let inside = parent.map(|parent| snapped(poses[parent].inv_mul(&pose)));
+        let mut body = Body::new(name, parent, inside.unwrap_or_default(), place);
         body.is_frame = node.is_none();
-        body.parent = parent;
-        if let Some(parent) = parent {
-            body.pose = snapped(poses[parent].inv_mul(&pose));
-        }
         if let Some((_, joint)) = branch.joint {
             let joint = &scene.joints[joint];
             body.joints = moving(&scene, &frames, joint, node, branch.is_turned, tally)?;
@@ -78,24 +76,10 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
         while !taken.insert(name.clone()) {
             name += "_frame";
         }
-        let body = empty(&name, node.place);
-        made.push(Body { parent: Some(parent), pose, is_frame: true, ..body });
+        let body = Body::new(name, Some(parent), pose, node.place);
+        made.push(Body { is_frame: true, ..body });
     }
     Ok(Bodies { is_held: at[world].is_some(), bodies: made })
-}
-
-fn empty(name: &str, place: Place) -> Body {
-    Body {
-        name: name.to_owned(),
-        parent: None,
-        pose: Isometry3::identity(),
-        joints: Vec::new(),
-        fixed_by: None,
-        inertial: None,
-        shapes: Vec::new(),
-        is_frame: false,
-        place,
-    }
 }
 
 /// A shape in the frame of its link.

@@ -37,17 +37,9 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
     if child == WORLD {
         return Refusal::at(tag.place(), SdfFault::WorldChild(name));
     }
-    let (pose, relative_to) = tag.pose()?;
-    let node = Node {
-        name: whole.clone(),
-        kind: NodeKind::Joint(reader.scene.joints.len()),
-        scope,
-        pose,
-        relative_to,
-        attached_to: Some(child),
-        placement: None,
-        place: tag.place(),
-    };
+    let node_kind = NodeKind::Joint(reader.scene.joints.len());
+    let node = Node::of(tag, whole.clone(), node_kind, scope)?;
+    let node = Node { attached_to: Some(child), ..node };
     let wanted: &[&str] = match kind {
         Kind::Fixed | Kind::Ball | Kind::Gearbox => &[],
         Kind::Two => &["axis", "axis2"],

@@ -37,17 +37,8 @@ pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> 
         return Refusal::at(tag.place(), SdfFault::WorldLink(name));
     }
     let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
-    let (pose, relative_to) = tag.pose()?;
-    let node = Node {
-        name: whole.clone(),
-        kind: NodeKind::Link(reader.scene.links.len()),
-        scope,
-        pose,
-        relative_to,
-        attached_to: None,
-        placement: None,
-        place: tag.place(),
-    };
+    let kind = NodeKind::Link(reader.scene.links.len());
+    let node = Node::of(tag, whole.clone(), kind, scope)?;
     let index = reader.scene.nodes.len();
     if !reader.scene.add(scope, &name, node) {
         return Refusal::at(tag.place(), SdfFault::Twice { kind: "link", name });

@@ -144,17 +144,9 @@ fn enter(
 
 fn frame(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
-    let (pose, relative_to) = tag.pose()?;
-    let node = Node {
-        name: format!("{}{name}", reader.scene.scopes[scope].prefix),
-        kind: NodeKind::Frame,
-        scope,
-        pose,
-        relative_to,
-        attached_to: tag.attribute("attached_to").map(str::to_owned),
-        placement: None,
-        place: tag.place(),
-    };
+    let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
+    let attached_to = tag.attribute("attached_to").map(str::to_owned);
+    let node = Node { attached_to, ..Node::of(tag, whole, NodeKind::Frame, scope)? };
     reader.tally.count(features::FRAMES);
     reader.scene.frames.push(reader.scene.nodes.len());
     tag.unread(&["pose"], &mut reader.tally);

@@ -31,23 +31,7 @@ pub fn moving(
         None => frames.poses[joint.node],
     };
     let sign = if is_turned { -1.0 } else { 1.0 };
-    let base = |name: String, kind: JointKind| Moving {
-        name,
-        kind,
-        frame,
-        axis: Vector3::z(),
-        reference: 0.0,
-        range: None,
-        effort: None,
-        velocity: None,
-        damping: 0.0,
-        friction: 0.0,
-        mimic: None,
-        kp: None,
-        kv: None,
-        armature: None,
-        place: node.place,
-    };
+    let base = |name: String, kind| Moving::new(name, kind, frame, node.place);
     let kind = match joint.kind {
         Kind::Slide => JointKind::Slide,
         Kind::Ball => JointKind::Ball,

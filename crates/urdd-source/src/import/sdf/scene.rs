@@ -7,6 +7,8 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::super::model::{Inertial, Shape};
 use super::super::place::Place;
+use super::refusal::Refusal;
+use super::tag::Tag;
 
 /// The name of the world, as the parent of a joint.
 pub const WORLD: &str = "world";
@@ -58,6 +60,18 @@ pub struct Node {
     /// The frame inside a model that is put at its pose.
     pub placement: Option<String>,
     pub place: Place,
+}
+
+impl Node {
+    /// What a tag says of its frame; it is attached to nothing.
+    ///
+    /// # Errors
+    /// If its pose is none.
+    pub fn of(tag: Tag, name: String, kind: NodeKind, scope: usize) -> Result<Self, Refusal> {
+        let (pose, relative_to) = tag.pose()?;
+        let (attached_to, placement, place) = (None, None, tag.place());
+        Ok(Node { name, kind, scope, pose, relative_to, attached_to, placement, place })
+    }
 }
 
 /// What a node is, by its index.
