@@ -18,7 +18,6 @@ use super::report::Report;
 use super::tree::Tree;
 use super::urdf::{UNIT_SPHERE, urdf};
 use super::{mjcf, sdf};
-use crate::decode::decode;
 use crate::error::SourceError;
 use crate::files::{Files, MAX_SOURCE_BYTES};
 use crate::load::{Source, file_name, load, stem};
@@ -120,14 +119,14 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     let Some(format) = format_of(path, &settings.files) else { return Ok(None) };
     let shown = path.display().to_string();
     let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
-    let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else { return Ok(None) };
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical
         .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
     let reach = Reach::new(folder, settings);
-    let file =
-        TextFile { shown: shown.clone(), path: canonical.clone(), text, bytes: bytes.into() };
+    let Ok(file) = TextFile::new(shown.clone(), canonical.clone(), bytes) else {
+        return Ok(None);
+    };
     let read = match format {
         Format::Mjcf => mjcf::read(file, &reach, options),
         Format::Sdf => sdf::read(file, &reach, options),

@@ -4,16 +4,14 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
-use urdd_directory::position::LineIndex;
-use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS, XmlError};
+use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS};
 
 use super::super::fault::ImportFault;
-use super::super::place::{Place, TextFile};
+use super::super::place::{Place, TextFile, offset_of};
 use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
 use super::fault::MjcfFault;
-use crate::decode::decode;
 use crate::files::MAX_SOURCE_BYTES;
 
 /// An element.
@@ -137,14 +135,10 @@ impl Expansion<'_> {
         let places = [Some(self.folder.join(name)), beside];
         let (path, bytes) = first(self.reach, &places.map(Option::unwrap_or_default), name)
             .map_err(|fault| at(place, ImportFault::File(fault)))?;
-        let shown = path.display().to_string();
-        let decoded = decode(&bytes, &shown, &mut Vec::new());
-        let (text, _) = decoded.map_err(|error| {
-            let reason = error.to_string();
-            at(place, ImportFault::File(Unreachable::Unreadable { file: name.to_owned(), reason }))
-        })?;
-        let file = self.files.len();
-        self.files.push(TextFile { shown, path, text: text.clone(), bytes: bytes.into() });
+        let read = TextFile::included(path, bytes);
+        let read = read.map_err(|fault| at(place, ImportFault::File(fault)))?;
+        let (file, text) = (self.files.len(), read.text.clone());
+        self.files.push(read);
         self.children(parse(&text, file)?.root_element(), file, depth, into)
     }
 }
@@ -173,11 +167,8 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
 }
 
 fn parse(text: &str, file: usize) -> Fallible<roxmltree::Document<'_>> {
-    urdd_xml::parse(text, Kind::Other).map_err(|error: XmlError| {
-        let pos = error.pos();
-        let start = LineIndex::new(text).line_start(pos.row as usize).unwrap_or_default();
-        let before = text[start..].chars().take((pos.col as usize).saturating_sub(1));
-        let offset = start + before.map(char::len_utf8).sum::<usize>();
-        at(Place { file, offset }, ImportFault::NotXml(error.words(text)))
+    urdd_xml::parse(text, Kind::Other).map_err(|error| {
+        let place = Place { file, offset: offset_of(text, &error) };
+        at(place, ImportFault::NotXml(error.words(text)))
     })
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
+use super::super::model::Geometry;
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
@@ -44,6 +45,18 @@ impl Kind {
             Kind::Ellipsoid | Kind::Box => 3,
             Kind::Plane | Kind::HeightField | Kind::Mesh | Kind::DistanceField => 0,
         }
+    }
+
+    /// A primitive of this kind, whose sizes are halves as in MJCF; none of what is no primitive.
+    pub fn solid(self, [a, b, c]: [f64; 3]) -> Option<Geometry> {
+        Some(match self {
+            Kind::Sphere => Geometry::Sphere(a),
+            Kind::Capsule => Geometry::Capsule { radius: a, length: 2.0 * b },
+            Kind::Ellipsoid => Geometry::Ellipsoid([a, b, c]),
+            Kind::Cylinder => Geometry::Cylinder { radius: a, length: 2.0 * b },
+            Kind::Box => Geometry::Box([2.0 * a, 2.0 * b, 2.0 * c]),
+            Kind::Plane | Kind::HeightField | Kind::Mesh | Kind::DistanceField => return None,
+        })
     }
 
     /// Whether its surface is that of a mesh.

@@ -1,9 +1,12 @@
 //! Masses: as a model says them, or from shapes, as MuJoCo's compiler does.
 
-use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
+use super::super::mass::Mass;
 use super::super::model::Inertial;
+
 use super::super::place::Place;
+use super::super::solid::{moments, volume};
 use super::assets::Assets;
 use super::at::{Fallible, at};
 use super::body::RawBody;
@@ -15,20 +18,11 @@ use super::mesh::Meshes;
 use super::orientation::orientation;
 use super::principal::principal;
 use super::reading::View;
-use super::solid::{moments, volume};
 
 /// Masses that are smaller are none.
 const SMALL: f64 = 1e-14;
 /// How far, as a part, moments may break A + B ≥ C where they were computed.
 const ROUNDING: f64 = 1e-9;
-
-/// Mass, centre, and inertia about it along the axes of the body.
-#[derive(Clone, Copy)]
-struct Part {
-    mass: f64,
-    centre: Vector3<f64>,
-    inertia: Matrix3<f64>,
-}
 
 /// The mass of a body, if it has one.
 pub fn inertial(
@@ -52,10 +46,10 @@ pub fn inertial(
                 parts.extend(of_shape(geom, fitted, meshes, assets)?);
             }
         }
-        part = together(&parts).or(part);
+        part = Mass::together(&parts).or(part);
     }
     // MuJoCo puts the least mass of a body that has none where the body is, but in the body's frame.
-    let mut part = part.unwrap_or(Part {
+    let mut part = part.unwrap_or(Mass {
         mass: 0.0,
         centre: body.written_position,
         inertia: Matrix3::zeros(),
@@ -72,7 +66,7 @@ pub fn inertial(
 }
 
 /// `<inertial>`.
-fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Part> {
+fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Mass> {
     let element = view.element;
     let missing = |attribute| {
         at(element.place, MjcfFault::Missing { element: element.tag.clone(), attribute })
@@ -99,7 +93,7 @@ fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Part> {
     if is_negative {
         return Err(at(element.place, MjcfFault::NegativeMass));
     }
-    Ok(Part { mass, centre: centre.into(), inertia })
+    Ok(Mass { mass, centre: centre.into(), inertia })
 }
 
 /// The mass of a shape, if it has one.
@@ -108,7 +102,7 @@ fn of_shape(
     fitted: &Fitted,
     meshes: &mut Meshes<'_>,
     assets: &Assets<'_>,
-) -> Fallible<Option<Part>> {
+) -> Fallible<Option<Mass>> {
     if geom.mass.unwrap_or(geom.density) == 0.0 {
         return Ok(None);
     }
@@ -117,9 +111,11 @@ fn of_shape(
     }
     let mesh = geom.mesh.filter(|_| geom.kind.is_mesh());
     let measures = mesh.map(|mesh| meshes.measures(mesh, geom.place, assets)).transpose()?;
-    let size = match &measures {
-        Some(measures) => measures.volume,
-        None => volume(geom.kind, fitted.size, geom.is_shell),
+    let solid = geom.kind.solid(fitted.size);
+    let size = match (&measures, &solid) {
+        (Some(measures), _) => measures.volume,
+        (None, Some(solid)) => volume(solid, geom.is_shell),
+        (None, None) => 0.0,
     };
     let mass = match geom.mass {
         Some(mass) if size > SMALL => mass,
@@ -129,36 +125,18 @@ fn of_shape(
     if mass <= SMALL {
         return Ok(None);
     }
-    let pose: &Isometry3<f64> = &fitted.pose;
-    let (centre, inertia) = match &measures {
-        Some(measures) => (measures.centre, measures.inertia * (mass / measures.volume)),
-        None => {
-            let moments = moments(geom.kind, fitted.size, geom.is_shell, mass);
-            (Vector3::zeros(), Matrix3::from_diagonal(&moments.into()))
+    let own = match (&measures, &solid) {
+        (Some(measures), _) => Mass {
+            mass,
+            centre: measures.centre,
+            inertia: measures.inertia * (mass / measures.volume),
+        },
+        (None, solid) => {
+            let moments = solid.as_ref().map(|solid| moments(solid, geom.is_shell, mass));
+            Mass::along_axes(mass, Vector3::zeros(), moments.unwrap_or_default())
         }
     };
-    let rotation = pose.rotation.to_rotation_matrix();
-    Ok(Some(Part {
-        mass,
-        centre: (pose * Point3::from(centre)).coords,
-        inertia: rotation.matrix() * inertia * rotation.matrix().transpose(),
-    }))
-}
-
-/// Parts as one; none without parts.
-fn together(parts: &[Part]) -> Option<Part> {
-    if let [only] = parts {
-        return Some(*only);
-    }
-    let mass: f64 = parts.iter().map(|part| part.mass).sum();
-    let weighted: Vector3<f64> = parts.iter().map(|part| part.centre * part.mass).sum();
-    let centre = (!parts.is_empty()).then(|| weighted / mass)?;
-    let inertia = parts.iter().map(|part| {
-        let off = part.centre - centre;
-        let around = Matrix3::identity() * off.norm_squared() - off * off.transpose();
-        part.inertia + around * part.mass
-    });
-    Some(Part { mass, centre, inertia: inertia.sum() })
+    Ok(Some(own.at(&fitted.pose)))
 }
 
 /// An inertia within what the compiler asks of the principal moments.

@@ -28,7 +28,6 @@ mod reading;
 mod robot;
 mod said;
 mod scene;
-mod solid;
 
 use super::features::Tally;
 use super::model::Model;

@@ -204,23 +204,23 @@ impl<'d> Maker<'_, 'd> {
         geom: &Geom<'d>,
         fitted: &Fitted,
     ) -> Fallible<Option<(Geometry, Isometry3<f64>)>> {
-        let [a, b, c] = fitted.size;
-        let (geometry, feature) = match geom.kind {
-            Kind::Plane | Kind::HeightField => {
-                self.tally.count(features::SURFACES);
-                return Ok(None);
-            }
-            Kind::Sphere => (Geometry::Sphere(a), features::BOXES),
-            Kind::Capsule => (Geometry::Capsule { radius: a, length: 2.0 * b }, features::CAPSULES),
-            Kind::Ellipsoid => (Geometry::Ellipsoid([a, b, c]), features::ELLIPSOIDS),
-            Kind::Cylinder => (Geometry::Cylinder { radius: a, length: 2.0 * b }, features::BOXES),
-            Kind::Box => (Geometry::Box([2.0 * a, 2.0 * b, 2.0 * c]), features::BOXES),
-            Kind::Mesh | Kind::DistanceField => {
+        let geometry = match (geom.kind, geom.kind.solid(fitted.size)) {
+            (_, Some(solid)) => solid,
+            (Kind::Mesh | Kind::DistanceField, None) => {
                 let mesh = geom.mesh.unwrap_or_default();
                 self.tally.count(features::MESHES);
                 let shape = self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
                 return shape.map(Some);
             }
+            (_, None) => {
+                self.tally.count(features::SURFACES);
+                return Ok(None);
+            }
+        };
+        let feature = match geometry {
+            Geometry::Capsule { .. } => features::CAPSULES,
+            Geometry::Ellipsoid(_) => features::ELLIPSOIDS,
+            _ => features::BOXES,
         };
         self.tally.count(feature);
         Ok(Some((geometry, Isometry3::identity())))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
-use super::super::place::{Place, TextFile};
+use super::super::place::{Place, TextFile, offset_of};
 use super::super::reach::Reach;
 use super::assets::Assets;
 use super::fault::SdfFault;
@@ -14,7 +14,6 @@ use super::kept::Kept;
 use super::refusal::Refusal;
 use super::scene::Scene;
 use super::tag::Tag;
-use crate::decode::decode;
 use crate::files::MAX_SOURCE_BYTES;
 use urdd_xml::{Kind, MAX_ROBOT_ELEMENTS, XmlError};
 
@@ -79,14 +78,13 @@ impl<'r> Reader<'r> {
             Ok(read) => read,
             Err(why) => return refuse(why),
         };
-        let shown = path.display().to_string();
         if self.open.contains(&path) {
-            return Refusal::at(place, SdfFault::IncludeCircle(shown));
+            return Refusal::at(place, SdfFault::IncludeCircle(path.display().to_string()));
         }
-        let Ok((text, _)) = decode(&bytes, &shown, &mut Vec::new()) else {
-            return Refusal::at(place, ImportFault::NotXml(format!("`{shown}` is not text")));
-        };
-        self.open(TextFile { shown, path, text, bytes: bytes.into() }, then)
+        match TextFile::included(path, bytes) {
+            Ok(file) => self.open(file, then),
+            Err(why) => refuse(why),
+        }
     }
 
     /// Goes on with the outermost element of a file.
@@ -113,7 +111,7 @@ impl<'r> Reader<'r> {
         let document = match urdd_xml::parse(&text, Kind::Other) {
             Ok(document) => document,
             Err(error) => {
-                let place = Place { file: index, offset: offset(&text, &error) };
+                let place = Place { file: index, offset: offset_of(&text, &error) };
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
@@ -183,13 +181,4 @@ fn mended(text: &str) -> (String, isize) {
     }
     let shift = mended.len().wrapping_sub(text.len()).cast_signed();
     (mended, shift)
-}
-
-/// The byte offset of an error.
-fn offset(text: &str, error: &XmlError) -> usize {
-    let at = error.pos();
-    let (row, column) = (at.row.max(1) as usize - 1, at.col.max(1) as usize - 1);
-    let before: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
-    let line = text.get(before..).unwrap_or_default();
-    before + line.char_indices().nth(column).map_or(0, |(at, _)| at)
 }

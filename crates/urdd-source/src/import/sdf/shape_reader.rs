@@ -77,31 +77,40 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
     Ok(Some(Placeable { shape, relative_to }))
 }
 
-fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
-    let (feature, geometry) = match tag.name() {
-        "box" => (features::BOXES, Geometry::Box(lengths(tag, "size")?)),
-        "sphere" => (features::BOXES, Geometry::Sphere(tag.size("radius")?)),
+/// The primitive of a tag; none of another shape.
+///
+/// # Errors
+/// If a size is missing, or none.
+pub fn primitive(tag: Tag) -> Result<Option<Geometry>, Refusal> {
+    Ok(Some(match tag.name() {
+        "box" => Geometry::Box(lengths(tag, "size")?),
+        "sphere" => Geometry::Sphere(tag.size("radius")?),
         "cylinder" => {
-            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
-            (features::BOXES, Geometry::Cylinder { radius, length })
+            Geometry::Cylinder { radius: tag.size("radius")?, length: tag.size("length")? }
         }
-        "capsule" => {
-            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
-            (features::CAPSULES, Geometry::Capsule { radius, length })
-        }
-        "ellipsoid" => (features::ELLIPSOIDS, Geometry::Ellipsoid(lengths(tag, "radii")?)),
-        "cone" => {
+        "capsule" => Geometry::Capsule { radius: tag.size("radius")?, length: tag.size("length")? },
+        "ellipsoid" => Geometry::Ellipsoid(lengths(tag, "radii")?),
+        _ => return Ok(None),
+    }))
+}
+
+fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+    let (feature, geometry) = match (primitive(tag)?, tag.name()) {
+        (Some(capsule @ Geometry::Capsule { .. }), _) => (features::CAPSULES, capsule),
+        (Some(ellipsoid @ Geometry::Ellipsoid(_)), _) => (features::ELLIPSOIDS, ellipsoid),
+        (Some(other), _) => (features::BOXES, other),
+        (None, "cone") => {
             let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             let Some(bytes) = cone() else { return Ok(None) };
             let asset = reader.assets.made("meshes/unit_cone.stl", bytes);
             (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
         }
-        "empty" => return Ok(None),
-        "plane" | "heightmap" => {
+        (None, "empty") => return Ok(None),
+        (None, "plane" | "heightmap") => {
             reader.tally.count(features::SURFACES);
             return Ok(None);
         }
-        name => {
+        (None, name) => {
             reader.tally.unread(format!("`<{name}>` of `<geometry>`"));
             return Ok(None);
         }
