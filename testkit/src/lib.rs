@@ -36,6 +36,7 @@ pub mod fixture;
 pub mod folder;
 pub mod meshes;
 pub mod model;
+pub mod page;
 pub mod requests;
 pub mod robot;
 pub mod robots;

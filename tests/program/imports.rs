@@ -4,25 +4,19 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+use testkit::page::assert_between;
 use testkit::repository;
+use urdd_source::import::report::imported_table;
 
 use crate::program::urdd;
 
-const BEGIN: &str = "<!-- table: what is carried of each format -->\n";
-const END: &str = "<!-- end of table -->";
+const MARKS: [&str; 2] =
+    ["<!-- table: what is carried of each format -->\n", "<!-- end of table -->"];
 
 #[test]
 fn the_page_has_the_table() {
-    let file = repository().join("docs/import.md");
-    let page = fs::read_to_string(&file).expect("a page");
-    let start = page.find(BEGIN).expect("the beginning") + BEGIN.len();
-    let end = page[start..].find(END).expect("the end") + start;
-    let table = urdd_source::import::report::imported_table();
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        fs::write(file, format!("{}{table}{}", &page[..start], &page[end..])).expect("written");
-    } else {
-        assert_eq!(&page[start..end], table, "URDD_UPDATE=1 writes it");
-    }
+    let how = "cargo test --test program imports";
+    assert_between("docs/import.md", MARKS, &imported_table(), how);
 }
 
 fn example(name: &str) -> String {

@@ -1,7 +1,6 @@
 //! What users see, as it was reviewed and approved: the list of rules, and the report on the examples, which
 //! docs/validate.md shows too.
 
-use std::fs;
 
 use urdd_validate::rules;
 
@@ -73,19 +72,8 @@ fn words(command: &mut Vec<String>, lines: &mut Vec<String>) {
 fn the_report_on_the_examples() {
     let report = urdd(&["validate", "examples/urdds"]);
     insta::assert_snapshot!("examples", report);
-    let path = testkit::repository().join("docs/validate.md");
-    let page = fs::read_to_string(&path).expect("docs/validate.md");
-    let (head, rest) = page.split_once(SHOWN).expect("the page shows the report");
-    let (shown, tail) = rest.split_once("\n```").expect("the report ends");
-    let report = report.trim_end();
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        fs::write(&path, format!("{head}{SHOWN}{report}\n```{tail}")).expect("written");
-        return;
-    }
-    assert!(
-        shown == report,
-        "docs/validate.md does not show what `urdd validate examples/urdds` prints; URDD_UPDATE=1 writes it"
-    );
+    let how = "cargo test --test program snapshots";
+    testkit::page::assert_between("docs/validate.md", [SHOWN, "\n```"], report.trim_end(), how);
 }
 
 #[test]

@@ -155,18 +155,7 @@ fn codes_table() -> String {
 #[test]
 fn the_annexes_are_the_schemas_and_the_rules() {
     for (file, mark, expected) in written() {
-        let path = testkit::repository().join(file);
-        let text = fs::read_to_string(&path).expect("an annex");
-        let begin = text.find(mark).expect("the annex begins") + mark.len();
-        let end = begin + text[begin..].find(END).expect("the annex ends");
-        if std::env::var_os("URDD_UPDATE").is_some() {
-            let text = format!("{}{expected}{}", &text[..begin], &text[end..]);
-            fs::write(&path, text).expect("written");
-            continue;
-        }
-        assert!(
-            text[begin..end] == expected,
-            "{file} is not what the files say: run URDD_UPDATE=1 cargo test --test program spec_agrees"
-        );
+        let how = "cargo test --test program spec_agrees";
+        testkit::page::assert_between(file, [mark, END], &expected, how);
     }
 }

@@ -5,23 +5,15 @@ use crate::made::export;
 use urdd_export::{Choices, Format, carried_table};
 use urdd_robot::Robot;
 
+use testkit::page::assert_between;
 use testkit::robots::made_of;
 
-const BEGIN: &str = "<!-- table: what each format carries -->\n";
-const END: &str = "<!-- end of table -->";
+const MARKS: [&str; 2] = ["<!-- table: what each format carries -->\n", "<!-- end of table -->"];
 
 #[test]
 fn the_page_has_the_table() {
-    let file = testkit::repository().join("docs/export.md");
-    let page = std::fs::read_to_string(&file).expect("a page");
-    let start = page.find(BEGIN).expect("the beginning") + BEGIN.len();
-    let end = page[start..].find(END).expect("the end") + start;
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        let text = format!("{}{}{}", &page[..start], carried_table(), &page[end..]);
-        std::fs::write(file, text).expect("written");
-    } else {
-        assert_eq!(&page[start..end], carried_table(), "URDD_UPDATE=1 writes it");
-    }
+    let how = "cargo test --workspace --test export carried";
+    assert_between("docs/export.md", MARKS, &carried_table(), how);
 }
 
 const URDF: &str = r#"<robot name="r"><link name="base"><inertial><mass value="2.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
