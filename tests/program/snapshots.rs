@@ -1,7 +1,6 @@
 //! What users see, as it was reviewed and approved: the list of rules, and the report on the examples, which
 //! docs/validate.md shows too.
 
-
 use urdd_validate::rules;
 
 /// What docs/validate.md shows comes after this line.
