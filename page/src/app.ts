@@ -5,6 +5,7 @@ import { contactsOf } from "./contacts";
 import { Trapped } from "./engine/client";
 import type { Engine } from "./engine/client";
 import type { Dof, Report, RobotSource, ShapeKind } from "./engine/protocol";
+import type { Drafting } from "./here/draft";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import { namedOf } from "./configurations";
@@ -31,6 +32,8 @@ export class App {
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
   /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
+  /** Who takes a changed text, where the robot is made in this page. */
+  drafting: Drafting | null = null;
   private opening = 0;
   /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;

@@ -5,6 +5,7 @@ import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
+import type { Draft } from "./here/draft";
 import type { Entry, Part, RobotModel } from "./model";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -62,6 +63,8 @@ export type Pair = [[number, number], [number, number]];
 
 export interface State {
   entries: Entry[];
+  /** The text that the robot is made of in this page; null for others. */
+  draft: Draft | null;
   robot: RobotModel | null;
   /** The progress of loading. */
   loading: { title?: string; what: string; done: number; of: number } | null;
@@ -141,6 +144,7 @@ export function drawnLayers(state: Readonly<State>): State["layers"] {
 export function initial(): State {
   return {
     entries: [],
+    draft: null,
     robot: null,
     loading: null,
     failure: null,

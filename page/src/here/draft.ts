@@ -1,0 +1,19 @@
+/** The description that this page makes a robot of, as a text that a person may change. */
+
+export interface Draft {
+  /** Its path among the dropped files. */
+  path: string;
+  format: "urdf" | "mjcf" | "sdf";
+  /** The text as it is now. */
+  text: string;
+  /** Whether it differs from what was dropped, or saved last. */
+  isChanged: boolean;
+}
+
+/** What the page does with a changed text. */
+export interface Drafting {
+  /** Takes a text: the findings follow at once, the picture after a pause. */
+  edit(text: string): void;
+  /** The text was saved as a file. */
+  saved(): void;
+}
