@@ -1,10 +1,10 @@
 // Bundles the page into crates/urdd-view/dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
-//     node build.mjs [URDD_WASM ROBOT_WASM LINT_WASM [FOLDER]]
+//     node build.mjs [URDD_WASM ROBOT_WASM MAKE_WASM [FOLDER]]
 //     node build.mjs --current     only says whether crates/urdd-view/dist is of these sources: exit status 0, otherwise 1
 //
 // The modules are those that `.ci/page` makes: URDD_WASM for the page; ROBOT_WASM for a page in one file, without the
-// validator; LINT_WASM for the npm package. FOLDER is crates/urdd-view/dist unless it is given; `URDD_DIST=FOLDER npm test`
+// validator; MAKE_WASM for what is made of descriptions that are dropped, and for the npm package. FOLDER is crates/urdd-view/dist unless it is given; `URDD_DIST=FOLDER npm test`
 // tries what is there.
 
 import { build } from "esbuild";
@@ -45,10 +45,11 @@ const files = {
   "index.html": readFileSync(join(here, "index.html")),
   "app.js": await bundle("src/main.ts", "iife"),
   "worker.js": await bundle("src/engine/worker.ts", "iife"),
+  "make.js": await bundle("src/here/worker.ts", "iife"),
   "style.css": await bundle("src/style.css"),
   "urdd.wasm": wasm(2, "urdd.wasm"),
   "robot.wasm": wasm(3, "robot.wasm"),
-  "lint.wasm": wasm(4, "lint.wasm"),
+  "make.wasm": wasm(4, "make.wasm"),
 };
 
 rmSync(dist, { recursive: true, force: true });
@@ -57,10 +58,10 @@ let page = 0;
 for (const [name, bytes] of Object.entries(files)) {
   const brotli = brotliCompressSync(bytes);
   writeFileSync(join(dist, `${name}.br`), brotli);
-  if (!name.endsWith(".wasm")) page += brotli.length;
+  if (!name.endsWith(".wasm") && name !== "make.js") page += brotli.length;
   console.log(`${name.padEnd(12)} ${bytes.length} bytes, gzip ${gzipSync(bytes).length}, brotli ${brotli.length}`);
 }
-console.log(`the page without robots and wasm: ${page} bytes compressed`);
+console.log(`the page without robots, wasm and what is loaded later: ${page} bytes compressed`);
 writeFileSync(join(dist, "stamp"), `${stamp()}\n`);
 
 /** SHA-256 of all that the bundle is made from. */
@@ -80,7 +81,7 @@ function stamp() {
   ];
   const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
   // What the module is not made of.
-  const without = /^crates\/(urdd-(c|conformance|diff|export|generate|lsp|view)|[^/]+\/tests)\//;
+  const without = /^crates\/(urdd-(c|conformance|diff|lsp|view)|[^/]+\/tests)\//;
   const hash = createHash("sha256");
   for (const name of names.filter((name) => !without.test(name)).sort(byBytes)) {
     const content = createHash("sha256")

@@ -2,9 +2,11 @@
 
 import type { App } from "./app";
 import { message } from "./app";
-import { NEEDS_PROGRAM } from "./drop";
-import type { Dropped, Taken } from "./drop";
+import type { Taken } from "./drop";
 import * as fragment from "./fragment";
+import { missingFrom } from "./here/missing";
+import type { Here } from "./here/here";
+import type { Given } from "./here/protocol";
 import { untilReady } from "./making";
 import { unknown } from "./model";
 import type { Entry } from "./model";
@@ -29,6 +31,8 @@ export class Address {
   constructor(
     private readonly app: App,
     private readonly stage: Stage | null,
+    /** Who makes robots of what is dropped; null in a page in one file. */
+    private readonly here: Here | null,
   ) {
     const later = (): void => {
       clearTimeout(this.timer);
@@ -51,7 +55,8 @@ export class Address {
 
   /** Opens a robot of the list, as a new entry of the history. */
   async open(entry: Entry): Promise<void> {
-    this.put(fragment.write({ ...fragment.read(""), robot: entry.id }), true);
+    // Robots that this page makes have no address: another browser does not have them.
+    this.put(entry.here ? "" : fragment.write({ ...fragment.read(""), robot: entry.id }), true);
     await this.read(entry);
   }
 
@@ -59,30 +64,67 @@ export class Address {
   leave(): void {
     this.turn++;
     this.sending.abort();
+    this.here?.leave();
     this.put("", true);
     this.app.close();
   }
 
-  /** Opens dropped or selected files, which have no address. */
+  /** Opens dropped or selected files, which have no address; or adds those that the open robot lacks. */
   async openFiles(files: () => Promise<Taken>): Promise<void> {
-    this.leave();
-    const { turn } = this;
     const { store } = this.app;
-    store.set({ loading: { what: "files", done: 0, of: 0 } });
+    // During the event: afterwards its files are gone.
+    const taking = files();
+    const { turn } = this;
+    if (store.now.robot === null) store.set({ loading: { what: "files", done: 0, of: 0 }, failure: null });
     try {
-      const source = await files();
+      const source = await taking;
       if (turn !== this.turn) return;
-      if (source.kind === "urdf") await this.send(source.files, turn);
-      else await this.app.open({ ...unknown(source.name), id: "" }, source);
+      const missing = missingFrom(store.now, source);
+      if (missing) {
+        this.here?.add(missing);
+        this.app.note(`${count(missing.length, "file")} added.`);
+        return;
+      }
+      this.leave();
+      await this.showTaken(source, this.turn);
     } catch (error) {
-      if (turn === this.turn) store.set({ loading: null, failure: message(error) });
+      if (store.now.robot) this.app.note(message(error));
+      else store.set({ loading: null, failure: message(error) });
     }
   }
 
-  /** Sends URDFs to `urdd view`, and opens the robot if there is one. */
-  private async send(files: Dropped[], turn: number): Promise<void> {
+  private async showTaken(source: Taken, turn: number): Promise<void> {
+    const { app, here } = this;
+    if (source.kind === "files")
+      throw new Error(
+        "This is no robot: there is no URDF, MJCF or SDF here, and no URDD (a folder with urdd.json or a module such as urdf_module/module.json).",
+      );
+    if (source.kind !== "description") {
+      await app.open({ ...unknown(source.name), id: "" }, source);
+      return;
+    }
+    // xacro files are programs, which only `urdd view` runs.
+    if (app.site.mode === "live" && source.hasXacro) {
+      const { files } = source;
+      await this.send(files instanceof File ? [{ path: files.name, file: files }] : files, turn);
+      return;
+    }
+    if (!here)
+      throw new Error(
+        "This is a robot description, not a URDD, and this page in one file cannot generate one: run `urdd view` with it, or drop it on a page that `urdd view --export` made.",
+      );
+    app.store.set({ loading: { title: "Reading", what: "the files", done: 0, of: 0 } });
+    const entries = await here.take(source.files);
+    if (turn !== this.turn) return;
+    app.store.set({ entries: [...app.store.now.entries, ...entries] });
+    const [one] = entries;
+    if (one && entries.length === 1) await this.open(one);
+    else app.store.set({ loading: null });
+  }
+
+  /** Sends descriptions to `urdd view`, and opens the robot if there is one. */
+  private async send(files: Given[], turn: number): Promise<void> {
     const { store, site } = this.app;
-    if (site.mode !== "live") throw new Error(NEEDS_PROGRAM);
     this.sending = new AbortController();
     const size = bytes(files.reduce((sum, { file }) => sum + file.size, 0));
     store.set({ loading: { title: "Sending", what: `${count(files.length, "file")} (${size})`, done: 0, of: 0 } });
@@ -150,6 +192,9 @@ export class Address {
     const { app, stage } = this;
     try {
       if (!listed.ready) app.close();
+      // It goes on where it was left.
+      if (listed.here) await app.site.revision(listed);
+      else this.here?.leave();
       app.store.set({ failure: null, loading: { what: "the list of files", done: 0, of: 0 } });
       const entry = await untilReady(app, listed, () => turn === this.turn);
       if (!entry) return;
@@ -194,7 +239,7 @@ export class Address {
     const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes, frameSize, compareWith } =
       this.app.store.now;
     // Dropped files have no address.
-    if (!robot || robot.entry.id === "") return "";
+    if (!robot || robot.entry.id === "" || robot.entry.here) return "";
     const link = selected?.kind === "link" ? robot.links[selected.index] : undefined;
     const joint = selected?.kind === "joint" ? robot.joints[selected.index] : undefined;
     const zero = robot.about.zero?.every((value, dof) => value === q[dof]) ?? true;

@@ -2,7 +2,7 @@
 
 import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
-import { Trapped } from "./engine/client";
+import { Trapped } from "./engine/link";
 import type { Engine } from "./engine/client";
 import type { Dof, Report, RobotSource, ShapeKind } from "./engine/protocol";
 import type { Drafting } from "./here/draft";
@@ -143,7 +143,7 @@ export class App {
   /** Reloads the robot after its files changed, or it was saved. */
   async reopen(entry: Entry): Promise<void> {
     const { robot, skips } = this.store.now;
-    if (robot?.source.kind !== "url") return;
+    if (robot?.source.kind !== "url" && !robot?.entry.here) return;
     await this.openNow(entry, robot);
     this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
     if (this.store.now.tab === "Findings") void this.loadReport();

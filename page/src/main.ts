@@ -6,6 +6,8 @@ import { comparing } from "./comparing";
 import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
 import { Hand } from "./hand";
+import { Here } from "./here/here";
+import { savingHere } from "./here/saving";
 import * as inline from "./inline";
 import { keys } from "./keys";
 import { brokenLine, follow, serverLine } from "./live";
@@ -53,7 +55,9 @@ function start(): void {
     });
   }
   comparing(app);
-  const address = new Address(app, stage);
+  const here = mode === "inline" ? null : new Here(app);
+  site.here = here;
+  const address = new Address(app, stage, here);
 
   const failure = h("div", { class: "failure", role: "alert" });
   const back = button("Back", {}, () => address.leave());
@@ -76,6 +80,7 @@ function start(): void {
     if (loading.of > 0) bar.value = loading.done;
     fill(progress, h("p", {}, said(loading)), bar);
   });
+  const choose = (files: File[], folder: boolean): void => void address.openFiles(() => chosen(files, folder));
   const timeline = new Timeline(app);
   const middle = h(
     "main",
@@ -90,16 +95,7 @@ function start(): void {
           `Cannot draw the robot: this browser has no WebGL (${noPicture ?? ""}). The panels still work.`,
         ),
       ),
-    gallery(
-      app,
-      (entry) => void address.open(entry),
-      (files, folder) => {
-        if (files && files.length > 0) {
-          const list = [...files];
-          void address.openFiles(() => chosen(list, folder));
-        }
-      },
-    ),
+    gallery(app, (entry) => void address.open(entry), choose),
     waiting,
     failure,
     timeline.element,
@@ -113,8 +109,11 @@ function start(): void {
     Info: info(app),
   };
   const saving = saveDialog(app);
+  const savingMade = here && savingHere(app, here);
   const actions = {
-    save: saving.open,
+    save: () => (app.store.now.robot?.entry.here ? savingMade?.open() : saving.open()),
+    stop: () => here?.stop(),
+    goOn: () => here?.goOn(),
     share: () => void share(app, address.link()),
     picture: () => void save(app, stage),
     gallery: () => address.leave(),
@@ -127,6 +126,7 @@ function start(): void {
     h("div", { class: "columns" }, tree(app), middle, tabs(app, panels)),
     status(app),
     saving.element,
+    ...(savingMade ? [savingMade.element] : []),
   );
   keys(app, stage);
   app.store.on(["robot"], ({ robot }) => {

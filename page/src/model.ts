@@ -27,6 +27,8 @@ export interface Entry {
   picture: string | null;
   /** Whether a program sends configurations to show. */
   follows?: boolean;
+  /** Whether this page makes it. */
+  here?: boolean;
   /** The paths of its list of files and its report on a site. */
   files?: string;
   report?: string;

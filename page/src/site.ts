@@ -1,6 +1,7 @@
 /** The source of the page's robots: `urdd view`, a static site, or a file with a robot inside. */
 
 import type { Explanation, FileEntry, Report, RobotSource } from "./engine/protocol";
+import type { Keeper } from "./here/keeper";
 import * as inline from "./inline";
 import { unknown } from "./model";
 import { named } from "./named";
@@ -28,6 +29,8 @@ export class Gone extends Error {}
 export class Site {
   /** The token that the server requires; null if it requires none. */
   token: string | null = null;
+  /** The robots that the page makes itself; null where it cannot. */
+  here: Keeper | null = null;
 
   constructor(readonly mode: Mode) {}
 
@@ -50,10 +53,11 @@ export class Site {
   async robots(): Promise<Entry[]> {
     const robots =
       this.mode === "inline" ? inline.robots() : ((await this.json(named("robots.json"), PATIENCE)) as Entry[]);
-    return robots.map((entry) => ({ ...unknown(entry.name), ...entry }));
+    return [...robots.map((entry) => ({ ...unknown(entry.name), ...entry })), ...(this.here?.entries() ?? [])];
   }
 
   async source(entry: Entry): Promise<RobotSource> {
+    if (entry.here && this.here) return this.here.source(entry);
     if (this.mode === "inline") return inline.source(entry);
     const base = `robots/${encodeURIComponent(entry.id)}/`;
     const listed = (await this.json(entry.files ?? `${base}files.json`)) as {
@@ -73,6 +77,7 @@ export class Site {
   }
 
   async report(entry: Entry): Promise<Report> {
+    if (entry.here && this.here) return this.here.report(entry);
     if (this.mode === "inline") return inline.report();
     const path = entry.report ?? `robots/${encodeURIComponent(entry.id)}/report.json`;
     const report = (await this.json(path)) as Report | { error: string };
@@ -102,12 +107,13 @@ export class Site {
    * `urdd view` that this page shows the robot, or waits for it.
    */
   async revision(entry: Entry): Promise<{ revision: string | null; entry: Entry }> {
+    if (entry.here && this.here) return { revision: null, entry: this.here.state(entry) };
     const path = `robots/${encodeURIComponent(entry.id)}/revision.json`;
     return (await this.json(path, PATIENCE)) as { revision: string | null; entry: Entry };
   }
 
   /** Sends URDFs and their meshes to `urdd view`. Returns the ids of their robots. An abort takes the drop back. */
-  async drop(files: { path: string; file: File }[], signal: AbortSignal): Promise<string[]> {
+  async drop(files: { path: string; file: Blob }[], signal: AbortSignal): Promise<string[]> {
     const list = JSON.stringify(files.map(({ path, file }) => ({ path, size: file.size })));
     const body = new Blob([list, "\n", ...files.map(({ file }) => file)]);
     return ((await this.send("drops", body, signal)) as { robots: string[] }).robots;

@@ -32,7 +32,7 @@ test("`npm pack` makes a package that validates, moves a robot and lints, with t
       "README.md",
       "index.d.ts",
       "index.mjs",
-      "lint.wasm",
+      "make.wasm",
       "module.mjs",
       "modules.d.ts",
     ];

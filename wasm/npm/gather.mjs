@@ -12,7 +12,7 @@ const repository = join(here, "../..");
 
 const dist =
   process.env.URDD_DIST ?? join(repository, "crates/urdd-view/dist");
-for (const module of ["urdd.wasm", "lint.wasm"])
+for (const module of ["urdd.wasm", "make.wasm"])
   writeFileSync(
     join(here, module),
     brotliDecompressSync(readFileSync(join(dist, `${module}.br`))),

@@ -23,12 +23,12 @@ export type Source = { name: string } & (
 );
 
 /**
- * Loads the module: from the package itself, or from these bytes. `lintBytes` are those of `urdd/lint.wasm`, where the
- * package's own cannot be fetched.
+ * Loads the module: from the package itself, or from these bytes. `makerBytes` are those of `urdd/make.wasm`, which
+ * lints and generates, where the package's own cannot be fetched.
  */
 export function load(
   bytes?: BufferSource,
-  lintBytes?: BufferSource | Promise<BufferSource>,
+  makerBytes?: BufferSource | Promise<BufferSource>,
 ): Promise<Urdd>;
 
 /** A program that a URDF is for; a distribution of ROS stands for its urdfdom. */
@@ -54,6 +54,113 @@ export type Program =
 /** The files of a folder on disk, for Node. */
 export function folder(path: string): Promise<Source>;
 
+/** A robot description among files. */
+export interface Description {
+  path: string;
+  name: string;
+  format: "urdf" | "xacro" | "mjcf" | "sdf";
+}
+
+/** What is chosen of a description that is no URDF. */
+export interface ImportOptions {
+  /** The body of an MJCF that is the root of the robot. By default it is told by the structure. */
+  body?: string;
+  /** The model of an SDF that has several. */
+  model?: string;
+  /** How a ball joint is written; by default `spherical`. */
+  ball?: "spherical" | "revolute";
+}
+
+/** As the options of `urdd.generate` in Python. */
+export interface GenerateOptions extends ImportOptions {
+  /** The path of the description; it may be left out where there is one alone. */
+  path?: string;
+  /** Modules or classes besides the core class; by default all but the learned model. */
+  modules?: string[];
+  /** The geometry that shapes are computed from; by default `visual`. */
+  geometry?: "visual" | "collision";
+  /** By default all three; the .glb is always written. */
+  mesh_formats?: ("glb" | "stl" | "obj")[];
+  /** Maximum number of convex pieces of a link, 1 to 64; by default 7. */
+  pieces?: number;
+  /** Mean distance from the outside of pieces to the link's surface, metres. */
+  piece_tolerance?: number;
+  /** Sampled configurations of the distance statistics; by default 1000. */
+  samples?: number;
+  /** Refuses a robot of which a mesh is missing, or something has to be assumed. */
+  strict?: boolean;
+}
+
+/** Progress of a long job: `done` of `of` steps are finished. */
+export interface Progress {
+  what: string;
+  done: number;
+  of: number;
+}
+
+/** A generated URDD: its files, what it is, and what was assumed. */
+export interface Generated {
+  name: string;
+  files: Record<string, Uint8Array>;
+  links: number;
+  joints: number;
+  dofs: number;
+  class: string;
+  modules: string[];
+  notes: string[];
+}
+
+/** The files of an imported robot. */
+export interface ImportedRobot {
+  /** The path of the URDF. */
+  urdf: string;
+  files: Record<string, Uint8Array>;
+  /** What was carried, carried otherwise, and lost. */
+  report: Record<string, unknown>;
+}
+
+/** The formats of other programs. */
+export type Format =
+  | "srdf"
+  | "urdf"
+  | "drake"
+  | "mjcf"
+  | "curobo"
+  | "foam"
+  | "spherized"
+  | "moveit"
+  | "sdf"
+  | "usd";
+
+/** As the options of `urdd.export` in Python. */
+export interface ExportOptions {
+  /** The name of the file, after which meshes are named, or of the package; by default `robot`. */
+  output?: string;
+  shapes?: ShapeKind;
+  keep_pairs?: boolean;
+  spheres?: number;
+  total_spheres?: number;
+  samples?: number;
+  /** Whether visual meshes are written; by default they are. */
+  visuals?: boolean;
+  actuators?: "position" | "velocity" | "motor";
+  /** Of position actuators, Hz. */
+  bandwidth?: number;
+  floating_base?: boolean;
+  /** The content of an `export.toml`. */
+  setup?: string;
+}
+
+/** Files for another program. */
+export interface Exported {
+  /** The path of the format's own file. */
+  main: string;
+  files: Record<string, Uint8Array>;
+  notes: string[];
+  /** What was carried, carried otherwise, and lost. */
+  report: Record<string, unknown>;
+}
+
 /** The loaded module. A crash (a `WebAssembly.RuntimeError`) ends it: load it again. */
 export class Urdd {
   private constructor();
@@ -73,6 +180,29 @@ export class Urdd {
       urdf?: string;
     },
   ): Promise<Report>;
+  /** The robot descriptions among files. A xacro file is a program, which has to be expanded first. */
+  descriptions(source: Source): Promise<Description[]>;
+  /**
+   * A URDD of a URDF, MJCF or SDF, as `urdd generate` makes it: a source for `validate`, `robot` and `export`. It takes
+   * seconds to a minute on the calling thread: use a worker. The same description gives the same bytes here, and
+   * within SPEC's tolerances those of the program.
+   */
+  generate(
+    source: string | Uint8Array | Source,
+    options?: GenerateOptions,
+    progress?: (progress: Progress) => void,
+  ): Promise<Generated>;
+  /** The URDF of an MJCF or SDF, with its meshes, an SRDF and an `export.toml`, as `urdd import` writes them. */
+  importRobot(
+    source: Source,
+    options?: ImportOptions & { path?: string },
+  ): Promise<ImportedRobot>;
+  /** The robot of a URDD for another program, as `urdd export` writes it. */
+  export(
+    urdd: Source,
+    format: Format,
+    options?: ExportOptions,
+  ): Promise<Exported>;
   /** Explains a rule, such as `DOF003`; those of `lint` after its first call. */
   explain(code: string): Explanation;
   /** Opens a robot. Close it when it is no longer needed. */

@@ -1,8 +1,9 @@
-// What a program of others calls: URDDs are validated, and robots opened, from files in memory or a zip archive.
+// What a program of others calls: URDDs are validated, and robots opened, from files in memory or a zip archive; and
+// descriptions are linted, made URDDs of, imported, and robots exported, in memory.
 
 import { Urdd as Module } from "./module.mjs";
 
-/** Loads the module: from the package itself, or from these bytes; that of `lint` when it is needed first. */
+/** Loads the module: from the package itself, or from these bytes; that which lints and generates when it is needed first. */
 export async function load(bytes, lintBytes) {
   const url = new URL("./urdd.wasm", import.meta.url);
   return new Urdd(await Module.of(bytes ?? (await own(url))), lintBytes);
@@ -34,43 +35,76 @@ export async function folder(path) {
 
 export class Urdd {
   #module;
-  #lintBytes;
-  #linting = null;
-  #linter = null;
+  #makerBytes;
+  #making = null;
+  #maker = null;
 
-  constructor(module, lintBytes) {
+  constructor(module, makerBytes) {
     this.#module = module;
-    this.#lintBytes = lintBytes;
+    this.#makerBytes = makerBytes;
   }
 
   async lint(source, question = {}) {
-    const linter = await this.#loadLinter();
+    return this.#made(source, (maker, files) => maker.lint(files, question));
+  }
+
+  async descriptions(source) {
+    return this.#made(source, (maker, files) => maker.descriptions(files));
+  }
+
+  async generate(source, options = {}, progress = () => undefined) {
+    return this.#made(source, (maker, files) => {
+      maker.tell = progress;
+      const path = options.path ?? theOnly(maker.descriptions(files)).path;
+      const made = maker.generate(files, { ...options, path });
+      return { ...made, name: made.robot, files: taken(maker, made.files) };
+    });
+  }
+
+  async importRobot(source, options = {}) {
+    return this.#made(source, (maker, files) => {
+      const path = options.path ?? theOnly(maker.descriptions(files)).path;
+      const made = maker.importRobot(files, { ...options, path });
+      return { ...made, files: taken(maker, made.files) };
+    });
+  }
+
+  async export(source, format, options = {}) {
+    return this.#made(source, (maker, files) => {
+      const output = options.output ?? "robot";
+      const made = maker.export(files, { ...options, format, output });
+      return { ...made, files: taken(maker, made.files) };
+    });
+  }
+
+  async #made(source, job) {
+    const maker = await this.#loadMaker();
     const text = typeof source === "string" ? encode(source) : source;
     const given =
       text instanceof Uint8Array
         ? { name: "robot", files: { "robot.urdf": text } }
         : source;
-    const files = filesOf(linter, given);
+    const files = filesOf(maker, given);
     try {
-      return linter.lint(files, question);
+      return job(maker, files);
     } finally {
-      linter.closeFiles(files);
+      maker.closeFiles(files);
     }
   }
 
-  async #loadLinter() {
-    const url = new URL("./lint.wasm", import.meta.url);
+  async #loadMaker() {
+    const url = new URL("./make.wasm", import.meta.url);
     const made = async () =>
-      Module.of((await this.#lintBytes) ?? (await own(url)));
-    this.#linting ??= made();
+      Module.of((await this.#makerBytes) ?? (await own(url)));
+    this.#making ??= made();
     try {
-      this.#linter = await this.#linting;
+      this.#maker = await this.#making;
     } catch (error) {
       // It may be there the next time.
-      this.#linting = null;
+      this.#making = null;
       throw error;
     }
-    return this.#linter;
+    return this.#maker;
   }
 
   validate(source) {
@@ -83,12 +117,31 @@ export class Urdd {
   }
 
   explain(code) {
-    return (this.#linter ?? this.#module).explain(code);
+    return (this.#maker ?? this.#module).explain(code);
   }
 
   robot(source) {
     return new Robot(this.#module, filesOf(this.#module, source));
   }
+}
+
+/** The description that is meant where none is named. */
+function theOnly(found) {
+  const [one, ...more] = found.filter(({ format }) => format !== "xacro");
+  if (!one) throw new Error("there is no URDF, MJCF or SDF among the files");
+  if (more.length > 0)
+    throw new Error(
+      `there are several descriptions, such as \`${one.path}\` and \`${more[0].path}\`: name one as \`path\``,
+    );
+  return one;
+}
+
+/** The content of files of the module, which are closed. */
+function taken(module, handle) {
+  const all = module.list(handle).files;
+  const files = all.map(({ path }) => [path, module.read(handle, path)]);
+  module.closeFiles(handle);
+  return Object.fromEntries(files);
 }
 
 function filesOf(module, source) {

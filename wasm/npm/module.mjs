@@ -1,13 +1,22 @@
 // The module for JavaScript: bytes in, JSON out.
 
 export class Urdd {
+  /** Told of the progress of a long job: an object with `what`, `done` and `of`. */
+  tell = () => undefined;
+
   constructor(instance) {
     this.exports = instance.exports;
   }
 
   static async of(bytes) {
     const module = await WebAssembly.compile(bytes);
-    return new Urdd(await WebAssembly.instantiate(module, {}));
+    // The module that generates imports this one function; the other imports nothing.
+    const progress = (at, length) => urdd.tell(urdd.#text(at, length));
+    const instance = await WebAssembly.instantiate(module, {
+      urdd: { progress },
+    });
+    const urdd = new Urdd(instance);
+    return urdd;
   }
 
   /** The files in a zip archive. */
@@ -99,6 +108,35 @@ export class Urdd {
     );
   }
 
+  /** The descriptions among files. */
+  descriptions(files) {
+    return this.#json(this.exports.urdd_descriptions(files));
+  }
+
+  /** A URDD of a description among files: `files` of the answer is the handle of its files. */
+  generate(files, question) {
+    const bytes = encode(JSON.stringify(question));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_generate(files, 0, at[0], bytes.length)),
+    );
+  }
+
+  /** The URDF of an MJCF or SDF among files, likewise. */
+  importRobot(files, question) {
+    const bytes = encode(JSON.stringify(question));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_import(files, at[0], bytes.length)),
+    );
+  }
+
+  /** The robot of a URDD for another program, likewise. */
+  export(files, question) {
+    const bytes = encode(JSON.stringify(question));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_export(files, at[0], bytes.length)),
+    );
+  }
+
   explain(code) {
     const bytes = encode(code);
     return this.#with([bytes], (at) =>
@@ -134,6 +172,12 @@ export class Urdd {
     return this.#with([bytes], (at) =>
       this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)),
     );
+  }
+
+  #text(pointer, length) {
+    const { buffer } = this.exports.memory;
+    const bytes = new Uint8Array(buffer, pointer >>> 0, length);
+    return JSON.parse(new TextDecoder().decode(bytes));
   }
 
   #with(inputs, call) {

@@ -1,6 +1,6 @@
 //! Explanations of rules.
 
-use serde_json::json;
+use serde_json::{Value, json};
 use urdd_findings::description::Description;
 use urdd_validate::rules;
 
@@ -14,17 +14,20 @@ use crate::{answer, memory};
 pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let code = String::from_utf8_lossy(unsafe { memory::bytes(code, length) });
-    let rule = all().find(|rule| rule.code.as_str() == code);
-    answer::result(match rule {
-        None => Err(format!("there is no rule `{}`", code.escape_debug())),
-        Some(rule) => Ok(json!({
-            "code": rule.code.to_string(),
-            "name": rule.name,
-            "severity": rule.severity.as_str(),
-            "clause": rule.clause,
-            "explanation": rule.explanation(),
-        })),
-    })
+    let unknown = || format!("there is no rule `{}`", code.escape_debug());
+    answer::result(explained(&code).ok_or_else(unknown))
+}
+
+/// What a rule means; none without such a rule.
+pub fn explained(code: &str) -> Option<Value> {
+    let rule = all().find(|rule| rule.code.as_str() == code)?;
+    Some(json!({
+        "code": rule.code.to_string(),
+        "name": rule.name,
+        "severity": rule.severity.as_str(),
+        "clause": rule.clause,
+        "explanation": rule.explanation(),
+    }))
 }
 
 #[cfg(not(feature = "lint"))]

@@ -64,6 +64,31 @@ impl Source for Shared {
 }
 
 impl Files {
+    /// The files of a source.
+    pub fn of(source: impl Source + 'static) -> Self {
+        Files { root: Root::of(source), given: None }
+    }
+
+    /// The address of the open files, for the host.
+    #[cfg(feature = "make")]
+    pub fn into_address(self) -> usize {
+        Box::into_raw(Box::new(self)) as usize
+    }
+
+    /// The bytes of a file, at most `limit`; those that the host gave are shared.
+    #[cfg(feature = "lint")]
+    pub fn bytes(&self, path: &str, limit: u64) -> Result<Arc<[u8]>, String> {
+        if let Some(given) = &self.given {
+            let files = given.files.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some((_, Some(bytes))) = files.get(path)
+                && bytes.len() as u64 <= limit
+            {
+                return Ok(Arc::clone(bytes));
+            }
+        }
+        self.read(path, limit).map(Arc::from)
+    }
+
     /// Reads a file of at most `limit` bytes.
     pub fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, String> {
         let (file, size) = self.root.open(path).map_err(|error| error.to_string())?;
@@ -134,6 +159,29 @@ pub unsafe extern "C" fn urdd_files_give(
     }
 }
 
+/// Sets the content of a file, in place of any that it had.
+///
+/// # Safety
+/// As for [`urdd_files_give`].
+#[cfg(feature = "make")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_files_put(
+    files: *mut Files,
+    path: *const u8,
+    path_length: usize,
+    data: *const u8,
+    length: usize,
+) {
+    // SAFETY: guaranteed by the caller.
+    let (files, path, data) =
+        unsafe { (&*files, memory::bytes(path, path_length), memory::bytes(data, length)) };
+    if let Some(given) = &files.given {
+        let path = String::from_utf8_lossy(path).into_owned();
+        let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
+        known.insert(path, (data.len() as u64, Some(Arc::from(data))));
+    }
+}
+
 /// Opens the files in a zip archive; null if it is not an archive of a URDD ([`urdd_zip_fault`] says why).
 ///
 /// # Safety
@@ -148,9 +196,22 @@ pub unsafe extern "C" fn urdd_files_of_zip(
     // SAFETY: guaranteed by the caller.
     let (name, zip) = unsafe { (memory::bytes(name, name_length), memory::bytes(zip, length)) };
     match Archive::new(&String::from_utf8_lossy(name), Arc::from(zip)) {
-        Ok(archive) => Box::into_raw(Box::new(Files { root: Root::of(archive), given: None })),
+        Ok(archive) => Box::into_raw(Box::new(Files::of(archive))),
         Err(_) => std::ptr::null_mut(),
     }
+}
+
+/// Opens the files in a zip archive, whatever they are: an answer with the address of `files`.
+///
+/// # Safety
+/// The bytes are valid for [`memory::bytes`].
+#[cfg(feature = "make")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_files_of_any_zip(zip: *const u8, length: usize) -> *mut u8 {
+    // SAFETY: guaranteed by the caller.
+    let zip = unsafe { memory::bytes(zip, length) };
+    let archive = Archive::of_any("", Arc::<[u8]>::from(zip)).map_err(|error| error.to_string());
+    answer::result(archive.map(|archive| json!({ "files": Files::of(archive).into_address() })))
 }
 
 /// Why a zip archive is not one of a URDD; null if it is.

@@ -1,4 +1,5 @@
-//! The library as a WebAssembly module without imports: no clock, no files, no random numbers.
+//! The library as a WebAssembly module: no clock, no files, no random numbers. It imports nothing; where it generates, one
+//! function that is told of progress.
 //!
 //! Input bytes are written to memory from `urdd_alloc`. Output is an *answer*: a pointer to a 32-bit length
 //! and that many bytes, to be freed with `urdd_free_answer`. Unless its function states otherwise, an answer
@@ -7,13 +8,23 @@
 #[cfg(feature = "robot")]
 mod about;
 mod answer;
+#[cfg(feature = "lint")]
+mod around;
 #[cfg(feature = "robot")]
 mod bodies;
 #[cfg(feature = "robot")]
 mod collisions;
+#[cfg(feature = "make")]
+mod descriptions;
 #[cfg(any(feature = "validate", feature = "lint"))]
 mod explain;
+#[cfg(feature = "make")]
+mod export;
 mod files;
+#[cfg(feature = "make")]
+mod generate;
+#[cfg(feature = "make")]
+mod import;
 #[cfg(feature = "robot")]
 mod inverse;
 #[cfg(feature = "robot")]
@@ -29,6 +40,8 @@ mod model;
 mod pairs;
 #[cfg(feature = "robot")]
 mod pose;
+#[cfg(feature = "make")]
+mod progress;
 #[cfg(target_arch = "wasm32")]
 mod random;
 #[cfg(feature = "robot")]

@@ -1,31 +1,28 @@
-//! The report of a URDF.
-
-use std::path::Path;
-use std::sync::Arc;
+//! The report of a description.
 
 use serde::Deserialize;
-use urdd_directory::listing::EntryKind;
-use urdd_directory::root::Root;
+use serde_json::Value;
 use urdd_findings::report;
 use urdd_findings::settings::parse_program;
 use urdd_lint::{LintSettings, lint_with_text};
-use urdd_source::{Files as Around, MAX_SOURCE_BYTES};
 
+use crate::around::Given;
+use crate::explain::explained;
 use crate::files::Files;
 use crate::{answer, memory};
-
-/// Maximum size of a mesh file, bytes.
-const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// What is asked.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Question {
-    /// The path of the URDF; it may be left out where there is one alone.
+    /// The path of the URDF, MJCF or SDF; it may be left out where there is one URDF alone.
     urdf: Option<String>,
     /// The programs that it is for.
     #[serde(default, rename = "for")]
     programs: Vec<String>,
+    /// Whether the report also has the `text` that lines refer to, and the `rules` of its findings.
+    #[serde(default)]
+    with_text: bool,
 }
 
 /// The report on a URDF among these files, as `urdd lint --format json` prints it. The question is a [`Question`] as JSON.
@@ -48,41 +45,31 @@ pub unsafe extern "C" fn urdd_lint(
 
 fn lint(files: &Files, question: &[u8]) -> Result<String, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
-    let paths = paths(&files.root)?;
-    let urdf = urdf(&paths, question.urdf)?;
-    let mut settings = LintSettings::default();
+    let given = Given::of(files)?;
+    let path = urdf(given.paths(), question.urdf)?;
+    let mut settings = LintSettings { source: given.settings(&path)?, ..LintSettings::default() };
     for name in &question.programs {
         let known = parse_program(name).map_err(|error| error.to_string())?;
         settings.report.programs.push(known);
     }
-    // In a folder of its name, as on a disk: programs look for packages by the names of folders.
-    let name = files.root.folder_name();
-    let is_plain = !name.is_empty() && !name.contains(['/', '\\']) && !name.starts_with('.');
-    let folder = if is_plain { name.as_str() } else { "robot" };
-    let mut all = Vec::new();
-    for path in &paths {
-        let limit = if *path == urdf { MAX_SOURCE_BYTES } else { MAX_FILE_BYTES };
-        let bytes = files.read(path, limit).map_err(|error| format!("{path}: {error}"))?;
-        all.push((format!("{folder}/{path}"), Arc::from(bytes)));
+    let linted = lint_with_text(&given.place(&path), None, &settings);
+    let (run, text) = linted.map_err(|error| error.to_string())?;
+    let report = report::json(&run.report).map_err(|error| error.to_string())?;
+    if !question.with_text {
+        return Ok(report);
     }
-    settings.source.files = Around::in_memory(all).map_err(|error| error.to_string())?;
-    let linted = lint_with_text(&Path::new("/").join(folder).join(&urdf), None, &settings);
-    let (run, _) = linted.map_err(|error| error.to_string())?;
-    report::json(&run.report).map_err(|error| error.to_string())
-}
-
-fn paths(root: &Root) -> Result<Vec<String>, String> {
-    let listing = root.list().map_err(|error| error.to_string())?;
-    let files = listing.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
-    Ok(files.map(|entry| entry.path).collect())
+    let mut report: Value = serde_json::from_str(&report).map_err(|error| error.to_string())?;
+    let findings = run.report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    let codes: std::collections::BTreeSet<&str> = findings.map(|found| &*found.code).collect();
+    report["rules"] = codes.into_iter().filter_map(explained).collect();
+    report["text"] = text.into();
+    Ok(report.to_string())
 }
 
 /// The URDF that is asked about, or the only one.
 fn urdf(paths: &[String], asked: Option<String>) -> Result<String, String> {
     if let Some(asked) = asked {
-        let is_there = paths.contains(&asked);
-        let missing = || format!("there is no file `{}`", asked.escape_debug());
-        return if is_there { Ok(asked) } else { Err(missing()) };
+        return Ok(asked);
     }
     let mut urdfs = paths.iter().filter(|path| path.ends_with(".urdf"));
     match (urdfs.next(), urdfs.next()) {

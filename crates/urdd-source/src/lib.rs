@@ -7,6 +7,8 @@
 mod around;
 mod cycles;
 mod decode;
+pub mod dropped;
+mod endings;
 mod error;
 pub mod fault;
 mod files;

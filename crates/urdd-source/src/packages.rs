@@ -75,8 +75,13 @@ impl Packages {
             let name = name.to_owned();
             return Err(PackagePathError::NoFolder { name, path });
         }
-        self.given.insert(name.to_owned(), path);
+        self.put(name, path);
         Ok(())
+    }
+
+    /// Adds the folder of a package, which is not looked at.
+    pub fn put(&mut self, name: &str, folder: PathBuf) {
+        self.given.insert(name.to_owned(), folder);
     }
 
     /// The packages named by the user, and their folders.

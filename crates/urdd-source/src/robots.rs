@@ -66,9 +66,13 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
     }
     let mut seen = std::collections::BTreeSet::new();
     sources.retain(|path| seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone())));
+    Ok(named(sources))
+}
+
+/// Names each source as [`jobs`] does.
+pub(crate) fn named(sources: Vec<PathBuf>) -> Vec<Job> {
     let names = names(&sources);
-    let jobs = sources.into_iter().zip(names);
-    Ok(jobs.map(|(source, name)| Job { source, name }).collect())
+    sources.into_iter().zip(names).map(|(source, name)| Job { source, name }).collect()
 }
 
 fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(), BatchError> {

@@ -30,8 +30,10 @@ pub const ASSETS: &[Asset] = &[
     asset!("index.html", "text/html; charset=utf-8"),
     asset!("app.js", "text/javascript; charset=utf-8"),
     asset!("worker.js", "text/javascript; charset=utf-8"),
+    asset!("make.js", "text/javascript; charset=utf-8"),
     asset!("style.css", "text/css; charset=utf-8"),
     asset!("urdd.wasm", "application/wasm"),
+    asset!("make.wasm", "application/wasm"),
 ];
 
 /// The module without the validator, for a page in one file, which includes the report.

@@ -4,7 +4,6 @@
 //! alone stands for the files in it. Everything is hostile: no path leaves the folder, no file replaces another, and
 //! number, sizes and depth have limits.
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Cursor, ErrorKind, Read, Write};
 use std::path::Path;
@@ -15,20 +14,16 @@ use zip::ZipArchive;
 
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
-use crate::endings::Endings;
 use crate::reply::{Failure, Reply};
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::path;
+use urdd_source::dropped::PackageFolders;
 use urdd_source::robots;
 
 /// Maximum size of one drop, bytes.
 pub const MAX_BODY: u64 = 256 << 20;
 /// Maximum number of files of one drop.
 const MAX_FILES: usize = 10_000;
-/// Maximum number of packages of one URDF for which a folder is searched in the drop. URDFs name a few.
-const MAX_PACKAGES: usize = 1000;
-/// The prefix of mesh names in a package.
-const IN_PACKAGE: &str = "package://";
 
 /// A file of a drop.
 #[derive(Debug, Deserialize)]
@@ -190,59 +185,15 @@ fn sources(
         let why = "xacro files are programs: start `urdd view --xacro` to run them";
         return Err((403, why.to_owned()));
     }
-    let dropped = Endings::of(items.iter().map(|item| &*item.path).collect());
+    let dropped = PackageFolders::of(items.iter().map(|item| &*item.path).collect());
     let sources = jobs.into_iter().map(|job| {
         wanted()?;
         let text = fs::read(&job.source).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
-        let packages = packages(&text, &dropped).into_iter();
+        let packages = dropped.of_text(&text).into_iter();
         let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
         let source = Source { file: job.source, packages: packages.collect() };
         Ok((job.name, source))
     });
     sources.collect()
-}
-
-/// The packages that a URDF names and that no dropped folder is called, each with the folder in which its first mesh
-/// that is there is found, as when the content of a package was dropped without its folder.
-fn packages<'a>(text: &'a str, dropped: &Endings<'a>) -> BTreeMap<&'a str, &'a str> {
-    let mut found = BTreeMap::new();
-    for rest in text.split(IN_PACKAGE).skip(1) {
-        let end = rest.find(['"', '\'', '<']).unwrap_or(rest.len());
-        let Some((package, file)) = rest[..end].split_once('/') else {
-            continue;
-        };
-        let is_known = found.contains_key(package) || dropped.has_folder(package);
-        if is_known || path::check(package).is_err() || path::check(file).is_err() {
-            continue;
-        }
-        if let Some(folder) = dropped.folder_with(file) {
-            found.insert(package, folder);
-            if found.len() == MAX_PACKAGES {
-                break;
-            }
-        }
-    }
-    found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn packages_are_where_their_meshes_are_and_their_number_is_bounded() {
-        let paths = ["x/meshes/a.obj", "y/meshes/b.obj", "known/meshes/a.obj"];
-        let dropped = Endings::of(paths.to_vec());
-        let text = "<m f='package://p/meshes/none.obj'/><m f='package://p/meshes/b.obj'/>
-            <m f=\"package://q/meshes/a.obj\"/><m f=\"package://known/meshes/b.obj\"/>
-            <m f='package://../meshes/a.obj'/><m f='package://r/../a.obj'/><m>package://s/meshes/a.obj</m>";
-        let found = packages(text, &dropped);
-        let found: Vec<_> = found.into_iter().collect();
-        assert_eq!(found, [("p", "y"), ("q", "known"), ("s", "known")]);
-        let many: String = (0..2 * MAX_PACKAGES)
-            .map(|k| format!("<m f='package://p{k}/meshes/a.obj'/>"))
-            .collect();
-        assert_eq!(packages(&many, &dropped).len(), MAX_PACKAGES);
-    }
 }

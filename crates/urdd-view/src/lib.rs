@@ -8,7 +8,6 @@ mod collection;
 mod connections;
 mod drop_folder;
 mod drops;
-mod endings;
 mod export;
 mod export_error;
 mod guard;

@@ -1,42 +1,34 @@
-/** The page's side of the worker. */
+/** The page's side of the worker that validates and moves the open robot. */
 
-import type { Answer, CallName, Calls, RobotSource } from "./protocol";
-
-export interface Progress {
-  done: number;
-  of: number;
-  what: string;
-}
-
-interface Waiting {
-  resolve: (value: never) => void;
-  reject: (error: Error) => void;
-  onProgress: ((progress: Progress) => void) | undefined;
-}
-
-/** The module crashed: the worker is replaced, and the robot is reopened. */
-export class Trapped extends Error {}
+import { Link } from "./link";
+import type { Progress } from "./link";
+import type { CallName, Calls, RobotSource } from "./protocol";
 
 export class Engine {
-  private worker: Worker | null = null;
-  private readonly waiting = new Map<number, Waiting>();
-  private next = 1;
-  private ready: Promise<unknown> | null = null;
+  private readonly link: Link<Calls>;
   private source: RobotSource | null = null;
 
   constructor(
     private readonly script: string,
     private readonly wasm: string | ArrayBuffer,
-  ) {}
+  ) {
+    this.link = new Link<Calls>(
+      script,
+      () => ({ wasm }),
+      () => {
+        const { source } = this;
+        if (source) void this.ask("open", { source }).catch(() => undefined);
+      },
+    );
+  }
 
   async ask<K extends CallName>(
     call: K,
     question: Calls[K][0],
     onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
-    await this.start();
     if (call === "open") this.source = (question as Calls["open"][0]).source;
-    return this.send(call, question, onProgress);
+    return this.link.ask(call, question, onProgress);
   }
 
   /** A second worker, for another robot. */
@@ -60,59 +52,6 @@ export class Engine {
   }
 
   end(): void {
-    this.worker?.terminate();
-    this.worker = null;
-    this.ready = null;
-    for (const waiting of this.waiting.values()) waiting.reject(new Error("stopped"));
-    this.waiting.clear();
-  }
-
-  private start(): Promise<unknown> {
-    if (!this.ready) {
-      this.worker = new Worker(this.script);
-      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => this.answered(event.data));
-      this.worker.addEventListener("error", (event) =>
-        this.fail(new Error(event.message || "the worker cannot be started")),
-      );
-      this.ready = this.send("init", { wasm: this.wasm });
-    }
-    return this.ready;
-  }
-
-  private send<K extends CallName>(
-    call: K,
-    question: Calls[K][0],
-    onProgress?: (progress: Progress) => void,
-  ): Promise<Calls[K][1]> {
-    const id = this.next++;
-    return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, onProgress });
-      this.worker?.postMessage({ id, call, question });
-    });
-  }
-
-  private answered(answer: Answer): void {
-    const waiting = this.waiting.get(answer.id);
-    if (!waiting) return;
-    if ("progress" in answer) {
-      waiting.onProgress?.(answer.progress);
-      return;
-    }
-    this.waiting.delete(answer.id);
-    if (!("error" in answer)) waiting.resolve(answer.value as never);
-    else if (answer.trapped) {
-      waiting.reject(new Trapped(`the engine stopped: ${answer.error}`));
-      this.fail(new Trapped("the engine stopped and was restarted"));
-      const source = this.source;
-      if (source) void this.ask("open", { source }).catch(() => undefined);
-    } else waiting.reject(new Error(answer.error));
-  }
-
-  private fail(error: Error): void {
-    this.worker?.terminate();
-    this.worker = null;
-    this.ready = null;
-    for (const waiting of this.waiting.values()) waiting.reject(error);
-    this.waiting.clear();
+    this.link.end();
   }
 }

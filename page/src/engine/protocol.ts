@@ -358,7 +358,7 @@ export interface FileEntry {
 /** The source of a robot's files. */
 export type RobotSource =
   | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[]; revision: string | null }
-  | { kind: "local"; name: string; files: { path: string; file: File }[] }
+  | { kind: "local"; name: string; files: { path: string; file: Blob }[] }
   | { kind: "zip"; name: string; bytes: ArrayBuffer };
 
 /** The worker's queries and answers, by name. */
@@ -387,14 +387,3 @@ export interface Calls {
 }
 
 export type CallName = keyof Calls;
-
-export interface Request {
-  id: number;
-  call: CallName;
-  question: unknown;
-}
-
-export type Answer =
-  | { id: number; value: unknown }
-  | { id: number; error: string; trapped: boolean }
-  | { id: number; progress: { done: number; of: number; what: string } };

@@ -34,7 +34,7 @@ export class Store {
   private readonly given = new Set<string>();
   private readonly faults = new Map<string, string>();
   private readonly sizes: Map<string, number>;
-  private readonly local = new Map<string, File>();
+  private readonly local = new Map<string, Blob>();
   /** The path of a file on a site, if it differs from its name. */
   private readonly places = new Map<string, string>();
 

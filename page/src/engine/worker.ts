@@ -2,24 +2,10 @@
 
 import { decompress } from "brotli/decompress";
 import { UrddModule } from "./module";
+import { serve } from "./serve";
+import type { Handlers, OnProgress } from "./serve";
 import { Store } from "./store";
-import type {
-  About,
-  Answer,
-  CallName,
-  Calls,
-  Clearances,
-  CollisionModel,
-  LinkMesh,
-  MeshPaths,
-  Request,
-  ShapeKind,
-} from "./protocol";
-
-const scope = self as unknown as {
-  postMessage(message: Answer, transfer: Transferable[]): void;
-  addEventListener(type: "message", listener: (event: MessageEvent<Request>) => void): void;
-};
+import type { About, Calls, Clearances, CollisionModel, LinkMesh, MeshPaths, ShapeKind } from "./protocol";
 
 let module: UrddModule | null = null;
 let store: Store | null = null;
@@ -42,11 +28,7 @@ function open(): number {
   return robot;
 }
 
-type OnProgress = (done: number, of: number, what: string) => void;
-type Question<K extends CallName> = Calls[K][0];
-type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
-
-const handlers: { [K in CallName]: (question: Question<K>, onProgress: OnProgress) => Result<K> } = {
+const handlers: Handlers<Calls> = {
   async init({ wasm }) {
     module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice());
     return null;
@@ -188,31 +170,5 @@ function triangles(store: Store, link: number, piece: number, path: string | nul
   }
 }
 
-function transfers(value: unknown): Transferable[] {
-  if (value instanceof ArrayBuffer) return [value];
-  if (value instanceof Float64Array) return [value.buffer as ArrayBuffer];
-  if (Array.isArray(value)) {
-    return value.flatMap((item: LinkMesh | null) => (item?.positions ? [item.positions.buffer as ArrayBuffer] : []));
-  }
-  return [];
-}
-
-/** Loading of the module and opening of a robot, which other queries wait for. */
-let opening: Promise<unknown> = Promise.resolve();
-
-async function answer({ id, call, question }: Request): Promise<void> {
-  try {
-    const handler = handlers[call] as (question: unknown, onProgress: OnProgress) => unknown;
-    const onProgress: OnProgress = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
-    const answered = opening.then(() => handler(question, onProgress));
-    if (call === "init" || call === "open") opening = answered.catch(() => undefined);
-    const value = await answered;
-    scope.postMessage({ id, value }, transfers(value));
-  } catch (error) {
-    const trapped = error instanceof WebAssembly.RuntimeError;
-    const message = error instanceof Error ? error.message : String(error);
-    scope.postMessage({ id, error: message, trapped }, []);
-  }
-}
-
-scope.addEventListener("message", (event) => void answer(event.data));
+// Loading of the module and opening of a robot: other queries wait for them.
+serve(handlers, ["init", "open"]);

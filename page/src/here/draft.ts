@@ -1,5 +1,7 @@
 /** The description that this page makes a robot of, as a text that a person may change. */
 
+import type { Given } from "./protocol";
+
 export interface Draft {
   /** Its path among the dropped files. */
   path: string;
@@ -16,4 +18,6 @@ export interface Drafting {
   edit(text: string): void;
   /** The text was saved as a file. */
   saved(): void;
+  /** Takes files that were missing. */
+  add(files: Given[]): void;
 }

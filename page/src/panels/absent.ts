@@ -2,24 +2,38 @@
 
 import { drawnInstead } from "../absent";
 import type { App } from "../app";
-import { button, fill, h } from "../ui/dom";
+import { missingPackages } from "../here/missing";
+import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
+import { picker } from "../ui/picker";
 
 /** Maximum number of meshes that are named. */
 const MAX_NAMED = 40;
 
 export function absent(app: App): HTMLElement {
+  const add = (files: File[]): void =>
+    app.drafting?.add(files.map((file) => ({ path: file.webkitRelativePath || file.name, file })));
   const title = h("summary", {});
   const list = h("ul", {});
   const more = h("p", { class: "hint" });
+  const wanted = h("p", {});
+  const ask = h(
+    "div",
+    { class: "wanted" },
+    wanted,
+    h("div", { class: "actions" }, picker("Choose a folder", true, add), picker("Choose files", false, add)),
+  );
   const away = button("✕", { class: "tiny", "aria-label": "Close the list of missing meshes" }, () => {
     element.hidden = true;
   });
   const details = h("details", {}, title, list, more);
-  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
+  const element = h("div", { class: "absent", role: "status", hidden: true }, h("div", {}, details, ask), away);
   app.store.on(["robot", "absent"], ({ robot, absent }) => {
     element.hidden = !robot || absent.length === 0;
     if (!robot || absent.length === 0) return;
+    ask.hidden = !robot.entry.here;
+    const packages = missingPackages(absent);
+    fill(wanted, ...prose(words(packages)));
     const links = new Set(absent.map(({ link }) => link));
     fill(title, `${count(absent.length, "mesh was", "meshes were")} not found, of ${count(links.size, "link")}`);
     fill(
@@ -41,6 +55,12 @@ export function absent(app: App): HTMLElement {
     more.textContent = absent.length > MAX_NAMED ? `and ${absent.length - MAX_NAMED} more` : "";
   });
   return element;
+}
+
+function words(packages: string[]): string {
+  if (packages.length === 0) return "Drop the missing files here, or choose them.";
+  const named = packages.map((one) => `\`${name(one)}\``).join(", ");
+  return `Drop the folder of ${named} here, or choose it.`;
 }
 
 /** The short form in the header. */

@@ -5,6 +5,7 @@ import { message } from "../app";
 import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
+import { picker } from "../ui/picker";
 
 /** Number of parallel requests. */
 const AT_ONCE = 2;
@@ -18,7 +19,7 @@ interface Card {
 export function gallery(
   app: App,
   open: (entry: Entry) => void,
-  choose: (files: FileList | null, folder: boolean) => void,
+  choose: (files: File[], folder: boolean) => void,
 ): HTMLElement {
   const search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot" });
   const title = h("h2", {}, "Robots");
@@ -76,38 +77,22 @@ function listed(entry: Entry): Partial<Entry> {
   );
 }
 
-function dropHere(isLive: boolean, choose: (files: FileList | null, folder: boolean) => void): HTMLElement {
-  const picker = (folder: boolean, text: string): HTMLElement => {
-    const input = h("input", {
-      type: "file",
-      hidden: true,
-      webkitdirectory: folder,
-      multiple: true,
-    });
-    input.addEventListener("change", () => {
-      choose(input.files, folder);
-      input.value = "";
-    });
-    const click = (): void => input.click();
-    return h("span", {}, button(text, {}, click), input);
-  };
+function dropHere(isLive: boolean, choose: (files: File[], folder: boolean) => void): HTMLElement {
   return h(
     "div",
     { class: "drop" },
     h(
       "p",
       {},
-      isLive
-        ? "Drop the folder of a URDD here, a .zip of it, or a URDF with its meshes, such as the folder of a ROS package."
-        : "Drop the folder of a URDD here, or a .zip of it, to see and validate it.",
+      "Drop a robot here: a URDF, MJCF or SDF with its meshes, such as the folder of a ROS package, or a URDD; as files, as a folder, or as a .zip.",
     ),
-    h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose files")),
+    h("div", { class: "actions" }, picker("Choose a folder", true, choose), picker("Choose files", false, choose)),
     h(
       "p",
       { class: "hint" },
       isLive
-        ? "A URDD stays in this browser. `urdd view` generates a URDF on this machine, in a temporary folder."
-        : "It stays in this browser. Nothing is uploaded. A URDF needs `urdd view`.",
+        ? "It stays in this browser. xacro files, which are programs, go to `urdd view` on this machine, which runs them."
+        : "It stays in this browser: nothing is uploaded.",
     ),
   );
 }
@@ -144,7 +129,7 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
 function words({ ready, making, failure, verdict, findings }: Entry): string {
   if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
   if (failure !== null) return "generation failed";
-  if (!ready) return "URDF: generated when it is opened";
+  if (!ready) return "generated when it is opened";
   if (verdict === null) return "";
   const [errors, warnings] = [findings?.error ?? 0, findings?.warning ?? 0];
   const passes = warnings > 0 ? `passes, ${count(warnings, "warning")}` : "passes";

@@ -2,9 +2,11 @@
 
 import type { App } from "../app";
 import { tally } from "../findings";
+import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
+import type { State } from "../state";
 import { toggleTheme } from "../ui/theme";
 import { Pills } from "../ui/pills";
 import { absentChip } from "./absent";
@@ -15,7 +17,14 @@ const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
 
 export function header(
   app: App,
-  actions: { save: () => void; share: () => void; picture: () => void; gallery: () => void },
+  actions: {
+    save: () => void;
+    stop: () => void;
+    goOn: () => void;
+    share: () => void;
+    picture: () => void;
+    gallery: () => void;
+  },
 ): HTMLElement {
   const title = h("div", { class: "title" });
   const chips = new Pills(app);
@@ -37,7 +46,11 @@ export function header(
     const { overlays } = app.store.now;
     app.store.set({ overlays: { ...overlays, frames: !overlays.frames } });
   });
-  const save = button("Save…", { class: "main", title: "Save the generated URDD into a folder" }, actions.save);
+  const save = button(
+    "Save…",
+    { class: "main", title: "Save the generated URDD, or files for other programs" },
+    actions.save,
+  );
   const share = button("Share", { class: "quiet", title: "Copy a link to this view" }, actions.share);
   const picture = button("Picture", { class: "quiet", title: "Save the picture as PNG" }, actions.picture);
   const links = button("Links", { class: "quiet fold", "aria-expanded": "false", "aria-controls": "links" }, () =>
@@ -102,8 +115,8 @@ export function header(
       chip("error"),
       chip("warning"),
       absentChip(app, robot ? absent.length : 0),
-      robot && making.making && h("span", { class: "chip making" }, progress(making.making)),
-      robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
+      ...(robot ? running(making, robot.entry, actions) : []),
+      robot?.entry.temporary && h("span", { class: "chip", title: kept(robot.entry) }, "not saved"),
       robot &&
         h(
           "span",
@@ -129,6 +142,26 @@ export function header(
     frames.setAttribute("aria-pressed", String(overlays.frames));
   });
   return bar;
+}
+
+/** How far a robot is, and what can be done about it. */
+function running(
+  { making, failure }: State["making"],
+  { here, ready }: Entry,
+  actions: { stop: () => void; goOn: () => void },
+): Node[] {
+  if (making) {
+    const chip = h("span", { class: "chip making" }, progress(making));
+    const stop = button("Stop", { class: "chip", title: "Stop generating; what is there stays" }, actions.stop);
+    return here ? [chip, stop] : [chip];
+  }
+  return here && ready && failure !== null
+    ? [button("Generate the rest", { class: "chip warning", title: failure }, actions.goOn)]
+    : [];
+}
+
+function kept({ here }: Entry): string {
+  return here ? "It is in this page only, and gone when you close it" : "Deleted when `urdd view` ends";
 }
 
 function progress({ done, of }: { done: number; of: number }): string {

@@ -324,9 +324,11 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
       h(
         "p",
         { class: "hint" },
-        robot.entry.temporary
-          ? "This URDD is temporary. Save it with Save… at the top: then edits can be saved in its folder."
-          : "This page cannot write the URDD: it is from a site or an archive.",
+        robot.entry.here
+          ? "Save… at the top writes them into the URDD."
+          : robot.entry.temporary
+            ? "This URDD is temporary. Save it with Save… at the top: then edits can be saved in its folder."
+            : "This page cannot write the URDD: it is from a site or an archive.",
       ),
   ].filter((node) => node !== false);
 }

@@ -13,7 +13,8 @@ import {
 } from "three";
 import type { Material, Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import type { Engine, Progress } from "../engine/client";
+import type { Engine } from "../engine/client";
+import type { Progress } from "../engine/link";
 import type { LinkMesh, ShapeKind, SourceShape, Shape } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { LAYERS } from "../state";

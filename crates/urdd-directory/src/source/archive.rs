@@ -107,9 +107,27 @@ impl Archive {
                 _ => false,
             });
         }
+        let name = if folder.is_empty() { name } else { &folder };
+        Self::of(name, bytes, members)
+    }
+
+    /// Opens an archive of any files, from its bytes. `name` names the root folder.
+    ///
+    /// # Errors
+    /// If it is no archive whose files can all be read.
+    pub fn of_any(
+        name: &str,
+        bytes: impl AsRef<[u8]> + Send + Sync + 'static,
+    ) -> Result<Self, ArchiveFault> {
+        let bytes = Bytes(Arc::new(bytes));
+        let mut members = members(&bytes)?;
+        members.retain(|member| member.path.split('/').next() != Some(MACOS_FOLDER));
+        Self::of(name, bytes, members)
+    }
+
+    fn of(name: &str, bytes: Bytes, members: Vec<Member>) -> Result<Self, ArchiveFault> {
         let tree = Tree::new(members)
             .map_err(|path| entry_fault(path.as_bytes(), EntryFault::Duplicate))?;
-        let name = if folder.is_empty() { name } else { &folder };
         Ok(Archive { name: name.to_owned(), bytes, tree })
     }
 }

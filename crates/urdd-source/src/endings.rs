@@ -1,11 +1,11 @@
-//! Finds the folder of a drop below which a file has a given path.
+//! Finds the folder, of a set of files, below which a file has a given path.
 
 use std::collections::{HashMap, HashSet};
 
-/// All endings of the paths of a drop, such as `meshes/a.obj` of `arm/meshes/a.obj`. Building it takes time and memory
+/// All endings of the paths of a set of files, such as `meshes/a.obj` of `arm/meshes/a.obj`. Building it takes time and memory
 /// proportional to the paths, and each question time proportional to the path that is asked for.
 #[derive(Debug)]
-pub(super) struct Endings<'a> {
+pub(crate) struct Endings<'a> {
     /// The number of the ending that begins one part earlier, by that part and the number of an ending. The empty
     /// ending has number 0.
     longer: HashMap<(usize, &'a str), usize>,
@@ -47,7 +47,7 @@ impl<'a> Endings<'a> {
         self.names.contains(name)
     }
 
-    /// The highest folder below which a file has this path; the empty path is the drop itself.
+    /// The highest folder below which a file has this path; the empty path is that of the whole set.
     pub fn folder_with(&self, file: &str) -> Option<&'a str> {
         let mut parts = file.rsplit('/');
         let ending = parts.try_fold(0, |ending, part| self.longer.get(&(ending, part)).copied())?;

@@ -1,0 +1,183 @@
+//! What a set of files holds that somebody dropped: descriptions, and the folders of the packages that they name.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::endings::Endings;
+use super::files::Files;
+use super::import::format::Format;
+use super::import::format_of;
+use super::robots::{Job, named};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::path;
+
+/// Maximum number of packages of one description for which a folder is searched. Descriptions name a few.
+const MAX_PACKAGES: usize = 1000;
+/// The prefixes of names of files in a package.
+const IN_PACKAGE: [&str; 2] = ["package://", "model://"];
+/// Extensions of files that are an MJCF or SDF, if their content is.
+const OTHERS: [&str; 4] = ["xml", "sdf", "mjcf", "world"];
+
+/// A description in a set of files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dropped {
+    /// Its path, and its unique name.
+    pub job: Job,
+    /// What it is written in.
+    pub kind: Kind,
+}
+
+/// What a description is written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// URDF.
+    Urdf,
+    /// URDF with macros, which a program has to expand.
+    Xacro,
+    /// A format that is imported.
+    Imported(Format),
+}
+
+impl Kind {
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Urdf => "urdf",
+            Kind::Xacro => "xacro",
+            Kind::Imported(format) => format.name(),
+        }
+    }
+}
+
+/// The descriptions among files in memory, in the order of their paths; none of files on a disk. Hidden folders are passed
+/// over, and URDDs, and a `.urdf.xacro` beside its `.urdf`.
+pub fn descriptions(files: &Files) -> Vec<Dropped> {
+    let Files::Memory(all) = files else {
+        return Vec::new();
+    };
+    let is_passed = |file: &Path| {
+        let folder = file.parent().unwrap_or(file);
+        let hidden = |part: &std::ffi::OsStr| part.to_string_lossy().starts_with('.');
+        folder.iter().any(hidden)
+            || folder.ancestors().any(|above| all.contains_key(&above.join(ROOT_METADATA)))
+    };
+    let found = all.keys().filter(|file| !is_passed(file));
+    let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
+    let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.unzip();
+    named(paths).into_iter().zip(kinds).map(|(job, kind)| Dropped { job, kind }).collect()
+}
+
+fn kind(file: &Path, files: &Files) -> Option<Kind> {
+    let name = file.file_name()?.to_string_lossy().to_lowercase();
+    let (stem, extension) = name.rsplit_once('.')?;
+    match extension {
+        "urdf" => Some(Kind::Urdf),
+        "xacro" if stem.ends_with(".urdf") => {
+            (!files.is_file(&file.with_extension(""))).then_some(Kind::Xacro)
+        }
+        _ if OTHERS.contains(&extension) => format_of(file, files).map(Kind::Imported),
+        _ => None,
+    }
+}
+
+/// The folders of a set of files, by which packages are found.
+#[derive(Debug)]
+pub struct PackageFolders<'a>(Endings<'a>);
+
+impl<'a> PackageFolders<'a> {
+    /// Of these paths: relative, with `/` between their parts.
+    pub fn of(paths: Vec<&'a str>) -> Self {
+        PackageFolders(Endings::of(paths))
+    }
+
+    /// The packages that a text names, each with the highest folder of its name in which a file is that the text names; or,
+    /// where no folder has the name, with the folder in which the first file that is there is found, as when the content
+    /// of a package was dropped without its folder.
+    pub fn of_text<'t>(&self, text: &'t str) -> BTreeMap<&'t str, String> {
+        let mut found = BTreeMap::new();
+        let named = IN_PACKAGE.iter().flat_map(|prefix| text.split(prefix).skip(1));
+        for rest in named {
+            let end = rest.find(['"', '\'', '<']).unwrap_or(rest.len());
+            let Some((package, file)) = rest[..end].split_once('/') else {
+                continue;
+            };
+            if found.contains_key(package)
+                || path::check(package).is_err()
+                || path::check(file).is_err()
+            {
+                continue;
+            }
+            let folder = match self.0.folder_with(&format!("{package}/{file}")) {
+                Some("") => Some(package.to_owned()),
+                Some(above) => Some(format!("{above}/{package}")),
+                None if self.0.has_folder(package) => None,
+                None => self.0.folder_with(file).map(str::to_owned),
+            };
+            if let Some(folder) = folder {
+                found.insert(package, folder);
+                if found.len() == MAX_PACKAGES {
+                    break;
+                }
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    #[test]
+    fn packages_are_where_their_meshes_are_and_their_number_is_bounded() {
+        let paths =
+            ["x/meshes/a.obj", "y/meshes/b.obj", "known/meshes/a.obj", "deep/in/known/b.obj"];
+        let dropped = PackageFolders::of(paths.to_vec());
+        let text = "<m f='package://p/meshes/none.obj'/><m f='package://p/meshes/b.obj'/>
+            <m f=\"package://q/meshes/a.obj\"/><m f=\"package://known/meshes/b.obj\"/>
+            <m f='package://../meshes/a.obj'/><m f='package://r/../a.obj'/><m>package://s/meshes/a.obj</m>
+            <m f='package://in/known/b.obj'/><m f='model://deep/in/known/b.obj'/>";
+        let found = dropped.of_text(text);
+        let found: Vec<_> = found.iter().map(|(name, folder)| (*name, &**folder)).collect();
+        let expected =
+            [("deep", "deep"), ("in", "deep/in"), ("p", "y"), ("q", "known"), ("s", "known")];
+        assert_eq!(found, expected);
+        let many: String = (0..2 * MAX_PACKAGES)
+            .map(|k| format!("<m f='package://p{k}/meshes/a.obj'/>"))
+            .collect();
+        assert_eq!(dropped.of_text(&many).len(), MAX_PACKAGES);
+    }
+
+    #[test]
+    fn descriptions_are_told_by_their_names_and_content() {
+        let file = |(path, text): &(&str, &str)| (path.to_string(), Arc::from(text.as_bytes()));
+        let all = [
+            ("a/urdf/arm.urdf", "<robot/>"),
+            ("a/urdf/arm.urdf.xacro", "<robot/>"),
+            ("a/urdf/hand.urdf.xacro", "<robot/>"),
+            ("a/urdf/macros.xacro", "<robot/>"),
+            ("a/.git/old.urdf", "<robot/>"),
+            ("b/robot.xml", "<mujoco/>"),
+            ("b/package.xml", "<package/>"),
+            ("c/model.sdf", "<sdf version='1.7'/>"),
+            ("c/model.config", "<model/>"),
+            ("made/urdd.json", "{}"),
+            ("made/arm.urdf", "<robot/>"),
+        ];
+        let files = Files::in_memory(all.iter().map(file)).expect("files");
+        let found = descriptions(&files);
+        let found: Vec<_> = found
+            .iter()
+            .map(|one| (&*one.job.name, one.job.source.to_string_lossy(), one.kind.name()))
+            .collect();
+        let expected = [
+            ("arm", "/a/urdf/arm.urdf", "urdf"),
+            ("hand", "/a/urdf/hand.urdf.xacro", "xacro"),
+            ("robot", "/b/robot.xml", "mjcf"),
+            ("model", "/c/model.sdf", "sdf"),
+        ];
+        let expected = expected.map(|(name, path, kind)| (name, path.into(), kind));
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,22 @@
+/** The formats of other programs. */
+
+export interface Format {
+  /** As on the command line. */
+  word: string;
+  title: string;
+  /** What the file's name ends with; a folder has none. */
+  ending: string;
+}
+
+export const FORMATS: readonly Format[] = [
+  { word: "mjcf", title: "MuJoCo (MJCF)", ending: ".xml" },
+  { word: "usd", title: "Newton, Isaac, Omniverse (USD)", ending: ".usda" },
+  { word: "sdf", title: "Gazebo (SDF)", ending: ".sdf" },
+  { word: "drake", title: "Drake (URDF)", ending: ".urdf" },
+  { word: "moveit", title: "MoveIt (package)", ending: "" },
+  { word: "srdf", title: "Pairs of links (SRDF)", ending: ".srdf" },
+  { word: "urdf", title: "URDF with our collision shapes", ending: ".urdf" },
+  { word: "curobo", title: "cuRobo (YAML)", ending: ".yml" },
+  { word: "foam", title: "Foam (JSON of spheres)", ending: ".json" },
+  { word: "spherized", title: "URDF with spheres", ending: ".urdf" },
+];

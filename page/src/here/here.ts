@@ -1,0 +1,188 @@
+/** The robots that this page makes of what was dropped, and the text of the one that is open. */
+
+import type { App } from "../app";
+import { message } from "../app";
+import type { Report, RobotSource } from "../engine/protocol";
+import { Latest } from "../latest";
+import type { Entry } from "../model";
+import type { Draft, Drafting } from "./draft";
+import type { Keeper } from "./keeper";
+import { Kit } from "./kit";
+import { MadeRobot } from "./made";
+import type { Given } from "./protocol";
+import { Reader } from "./reader";
+import { Saver } from "./saver";
+
+/** Pauses after a change of the text, before it is examined and before the robot is made again, ms. */
+const SOON = 150;
+const LATER = 500;
+
+export class Here implements Keeper, Drafting {
+  readonly saver: Saver;
+  private readonly kit = new Kit();
+  private robots: MadeRobot[] = [];
+  private count = 0;
+  /** The robot that is open, or waited for. */
+  private current: MadeRobot | null = null;
+  private timers: ReturnType<typeof setTimeout>[] = [];
+  private readonly lints: Latest<MadeRobot>;
+
+  constructor(private readonly app: App) {
+    const open = (): { robot: MadeRobot; draft: Draft | null } => {
+      if (!this.current) throw new Error("No robot is open.");
+      return { robot: this.current, draft: app.store.now.draft };
+    };
+    this.saver = new Saver(this.kit, open, () => this.saved());
+    this.lints = new Latest(async (robot) => {
+      const report = await robot.lint().then(
+        (report) => ({ report, error: null, busy: null }),
+        (error: unknown) => ({ report: null, error: message(error), busy: null }),
+      );
+      if (this.current === robot) app.store.set({ report });
+    });
+    // Decisions on skips kept the page from showing the robot anew.
+    app.store.on(["skips"], ({ skips }) => {
+      if (!skips.dirty) this.show();
+    });
+  }
+
+  /** The descriptions among these files as robots. */
+  async take(given: Given[] | Blob): Promise<Entry[]> {
+    const files = given instanceof Blob ? await this.unzipped(given) : given;
+    const reader = new Reader(this.kit, files);
+    const found = await reader.descriptions();
+    if (found.length === 0) {
+      reader.end();
+      throw new Error(
+        "There is no robot description here: no .urdf, and no .xml or .sdf file that is an MJCF or an SDF by its content.",
+      );
+    }
+    const robots = found.map(
+      (description) =>
+        new MadeRobot(`here.${++this.count}`, description, reader, (robot, hasFiles) => this.changed(robot, hasFiles)),
+    );
+    this.robots.push(...robots);
+    return robots.map(({ entry }) => entry);
+  }
+
+  private async unzipped(zip: Blob): Promise<Given[]> {
+    const { files } = await this.kit.once((maker) => maker.ask("unzip", { zip }));
+    return files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
+  }
+
+  entries(): Entry[] {
+    return this.robots.map(({ entry }) => entry);
+  }
+
+  source(entry: Entry): RobotSource {
+    return this.found(entry).source;
+  }
+
+  report(entry: Entry): Promise<Report> {
+    const robot = this.found(entry);
+    return robot.report ?? robot.lint();
+  }
+
+  state(entry: Entry): Entry {
+    const robot = this.found(entry);
+    if (this.current !== robot) void this.begin(robot);
+    return robot.entry;
+  }
+
+  /** The robot that is open. */
+  get open(): MadeRobot | null {
+    return this.current;
+  }
+
+  /** Makes the robot that is open whole, after it was stopped. */
+  goOn(): void {
+    void this.current?.make();
+  }
+
+  /** Ends the making of the robot that is open. What is there stays. */
+  stop(): void {
+    this.current?.stop("Stopped: the rest of this robot was not made.");
+  }
+
+  /** The page shows something else. */
+  leave(): void {
+    this.timers.forEach(clearTimeout);
+    this.current?.stop(null);
+    this.current = null;
+    this.app.drafting = null;
+    this.app.store.set({ draft: null });
+  }
+
+  /** Adds files that were missing, and makes the robot again. */
+  add(more: Given[]): void {
+    const { current } = this;
+    if (!current) return;
+    current.reader.add(more);
+    this.lints.ask(current);
+    void current.make();
+  }
+
+  edit(text: string): void {
+    const { current } = this;
+    const { draft } = this.app.store.now;
+    if (!current || !draft || draft.text === text) return;
+    this.app.store.set({ draft: { ...draft, text, isChanged: true } });
+    this.timers.forEach(clearTimeout);
+    const examine = (): void => {
+      current.reader.change(draft.path, text);
+      current.stop(null);
+      this.lints.ask(current);
+    };
+    this.timers = [setTimeout(examine, SOON), setTimeout(() => void current.make(), LATER)];
+  }
+
+  saved(): void {
+    const { draft } = this.app.store.now;
+    if (draft) this.app.store.set({ draft: { ...draft, isChanged: false } });
+  }
+
+  private found(entry: Entry): MadeRobot {
+    const found = this.robots.find((robot) => robot.entry.id === entry.id);
+    if (!found) throw new Error("this robot is gone: drop it again");
+    return found;
+  }
+
+  private async begin(robot: MadeRobot): Promise<void> {
+    this.leave();
+    this.current = robot;
+    const { path, format } = robot.description;
+    const text = await robot.reader.text(path);
+    if (this.current !== robot) return;
+    if (format !== "xacro") {
+      const draft: Draft = { path, format, text, isChanged: robot.reader.changed.has(path) };
+      this.app.drafting = this;
+      this.app.store.set({ draft, tab: "Findings" });
+      this.lints.ask(robot);
+    }
+    if (!robot.isWhole) await robot.make();
+  }
+
+  /** A robot got further. */
+  private changed(robot: MadeRobot, hasFiles: boolean): void {
+    const { store } = this.app;
+    const { entry } = robot;
+    store.set({ entries: store.now.entries.map((known) => (known.id === entry.id ? entry : known)) });
+    if (store.now.robot?.entry.id !== entry.id) return;
+    const { making, failure } = entry;
+    store.set({ making: { making, failure } });
+    if (hasFiles) this.show();
+  }
+
+  /** Shows the files of the open robot as they are now, if the page has others. */
+  private show(): void {
+    const { robot, skips } = this.app.store.now;
+    const { current } = this;
+    if (!robot || !current || robot.entry.id !== current.entry.id) return;
+    if (robot.source.kind !== "local" || robot.source.files === current.files) return;
+    if (skips.dirty) {
+      this.app.note("The robot is made anew. Your decisions on skips stay here: take them back to see it.");
+      return;
+    }
+    void this.app.reopen(current.entry);
+  }
+}

@@ -1,0 +1,74 @@
+/** Messages between the page and a worker that makes robots. */
+
+import type { Report } from "../engine/protocol";
+
+/** A file that was dropped, or that was in a .zip. */
+export interface Given {
+  path: string;
+  file: Blob;
+}
+
+/** A file that was made. */
+export interface MadeFile {
+  path: string;
+  bytes: ArrayBuffer;
+}
+
+/** A description among files. */
+export interface Description {
+  path: string;
+  name: string;
+  format: "urdf" | "xacro" | "mjcf" | "sdf";
+}
+
+export interface MakeOptions {
+  modules?: string[];
+}
+
+/** What the module answers of a URDD; `files` is its address there. */
+export interface Made {
+  files: number;
+  robot: string;
+  links: number;
+  joints: number;
+  dofs: number;
+  notes: string[];
+}
+
+export interface Imported {
+  files: number;
+  urdf: string;
+}
+
+export interface Exported {
+  files: number;
+  /** The path of the format's own file. */
+  main: string;
+  notes: string[];
+}
+
+/** The worker's queries and answers, by name. */
+export interface MakerCalls {
+  init: [{ module: WebAssembly.Module }, null];
+  /** The files of a .zip. */
+  unzip: [{ zip: Blob }, { files: MadeFile[] }];
+  /** Takes files, of which only those that a description may name are read. */
+  take: [{ files: Given[] }, null];
+  descriptions: [Record<string, never>, Description[]];
+  /** Sets the content of a file that was taken. */
+  put: [{ path: string; text: string }, null];
+  lint: [{ path: string }, Report];
+  /** A URDD; what did not change is taken from the files of `donor`. */
+  generate: [
+    { path: string; donor: Given[]; options: MakeOptions },
+    { robot: string; links: number; dofs: number; notes: string[]; files: MadeFile[] },
+  ];
+  /** The files of the URDF that an MJCF or SDF becomes. */
+  import: [{ path: string }, { main: string; files: MadeFile[] }];
+  /** Files for another program, of a URDD. */
+  export: [{ urdd: Given[]; format: string; output: string }, { main: string; notes: string[]; files: MadeFile[] }];
+  /** A .zip of files. */
+  zip: [{ files: Given[] }, { bytes: ArrayBuffer }];
+  /** The module's memory, bytes. */
+  memory: [Record<string, never>, number];
+}

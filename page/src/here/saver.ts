@@ -1,0 +1,74 @@
+/** Saves what the page made of a description, by workers of their own. */
+
+import { offer } from "../ui/offer";
+import type { Draft } from "./draft";
+import type { Format } from "./formats";
+import type { Kit } from "./kit";
+import type { MadeRobot } from "./made";
+import type { Given, MadeFile } from "./protocol";
+
+export class Saver {
+  constructor(
+    private readonly kit: Kit,
+    private readonly open: () => { robot: MadeRobot; draft: Draft | null },
+    private readonly textSaved: () => void,
+  ) {}
+
+  /** The URDD as a .zip, with these files in place of its own. */
+  async urdd(edited: readonly { path: string; text: string }[]): Promise<void> {
+    const { robot } = this.open();
+    const { name } = robot.entry;
+    const texts = new Map(edited.map(({ path, text }) => [path, new Blob([text])]));
+    const files = robot.files.map(({ path, file }) => ({ path: `${name}/${path}`, file: texts.get(path) ?? file }));
+    offer(await this.pack(files), `${name}.zip`);
+  }
+
+  /** The text as it is now. */
+  text(): Promise<void> {
+    const { draft } = this.open();
+    if (draft) {
+      offer(new Blob([draft.text], { type: "application/xml" }), draft.path.split("/").pop() ?? draft.path);
+      this.textSaved();
+    }
+    return Promise.resolve();
+  }
+
+  /** The URDF, with meshes, that an MJCF or SDF becomes. */
+  async urdf(): Promise<void> {
+    const { robot } = this.open();
+    const maker = await robot.reader.worker();
+    try {
+      const { files } = await maker.ask("import", { path: robot.description.path });
+      await this.offered(given(files), robot.entry.name);
+    } finally {
+      maker.end();
+    }
+  }
+
+  /** Files for another program. Returns what is otherwise there. */
+  async exported({ word, ending }: Format): Promise<string[]> {
+    const { robot } = this.open();
+    const { name } = robot.entry;
+    const output = (name.replace(/[^\p{L}\p{N}_-]+/gu, "_") || "robot") + ending;
+    const ask = { urdd: robot.files, format: word, output };
+    const made = await this.kit.once((maker) => maker.ask("export", ask));
+    await this.offered(given(made.files), `${name}_${word}`);
+    return made.notes;
+  }
+
+  /** One file as it is, several as a .zip. */
+  private async offered(files: Given[], name: string): Promise<void> {
+    const [one, ...more] = files;
+    if (one && more.length === 0) offer(one.file, one.path);
+    else offer(await this.pack(files), `${name}.zip`);
+  }
+
+  private async pack(files: Given[]): Promise<Blob> {
+    const { bytes } = await this.kit.once((maker) => maker.ask("zip", { files }));
+    return new Blob([bytes], { type: "application/zip" });
+  }
+}
+
+function given(files: MadeFile[]): Given[] {
+  return files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
+}

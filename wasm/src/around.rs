@@ -1,0 +1,83 @@
+//! Files that the host gave as the files around a description.
+
+use std::path::{Path, PathBuf};
+
+use urdd_directory::listing::EntryKind;
+use urdd_source::dropped::PackageFolders;
+use urdd_source::{Files as Around, MAX_SOURCE_BYTES, Packages, Settings};
+
+use crate::files::Files;
+
+/// Maximum size of a mesh file, bytes.
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// The files around descriptions.
+pub struct Given {
+    /// The folder that they are in.
+    folder: String,
+    /// Their paths.
+    paths: Vec<String>,
+    files: Around,
+}
+
+impl Given {
+    /// All of these files.
+    pub fn of(files: &Files) -> Result<Self, String> {
+        let listing = files.root.list().map_err(|error| error.to_string())?;
+        let all = listing.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
+        let paths: Vec<String> = all.map(|entry| entry.path).collect();
+        // In a folder of its name, as on a disk: programs look for packages by the names of folders.
+        let name = files.root.folder_name();
+        let is_plain = !name.is_empty() && !name.contains(['/', '\\']) && !name.starts_with('.');
+        let folder = if is_plain { name } else { "robot".to_owned() };
+        let mut content = Vec::new();
+        for path in &paths {
+            let bytes = files.bytes(path, MAX_FILE_BYTES);
+            let bytes = bytes.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
+            content.push((format!("{folder}/{path}"), bytes));
+        }
+        let files = Around::in_memory(content).map_err(|error| error.to_string())?;
+        Ok(Given { folder, paths, files })
+    }
+
+    /// The path of a file among them, seen from the root.
+    pub fn place(&self, path: &str) -> PathBuf {
+        Path::new("/").join(&self.folder).join(path)
+    }
+
+    /// The paths of the files.
+    pub fn paths(&self) -> &[String] {
+        &self.paths
+    }
+
+    /// The files.
+    #[cfg(feature = "make")]
+    pub fn files(&self) -> &Around {
+        &self.files
+    }
+
+    /// The path of a file among them from its place.
+    #[cfg(feature = "make")]
+    pub fn path(&self, place: &Path) -> String {
+        let path = place.strip_prefix(self.place("")).unwrap_or(place);
+        path.to_string_lossy().into_owned()
+    }
+
+    /// How a description is read that is among them: packages are folders of their names, wherever these are.
+    ///
+    /// # Errors
+    /// If there is no such file.
+    pub fn settings(&self, path: &str) -> Result<Settings, String> {
+        if !self.paths.iter().any(|known| known == path) {
+            return Err(format!("there is no file `{}`", path.escape_debug()));
+        }
+        let text = self.files.read(&self.place(path), MAX_SOURCE_BYTES);
+        let text = text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
+        let folders = PackageFolders::of(self.paths.iter().map(|path| &**path).collect());
+        let mut packages = Packages::none();
+        for (name, folder) in folders.of_text(&String::from_utf8_lossy(&text)) {
+            packages.put(name, self.place(&folder));
+        }
+        Ok(Settings { packages, files: self.files.clone(), ..Settings::default() })
+    }
+}

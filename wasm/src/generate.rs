@@ -1,0 +1,117 @@
+//! A URDD of a description.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use urdd_directory::source::Memory;
+use urdd_format::meshes::GeometryKind;
+use urdd_generate::{Generated, MeshFormats, Selection, Settings, generate_in_memory};
+
+use crate::around::Given;
+use crate::files::Files;
+use crate::import::Ball;
+use crate::progress::Told;
+use crate::{answer, import, memory};
+
+/// What is asked. The options are those of `urdd.generate` in Python.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Question {
+    /// The path of the URDF, MJCF or SDF.
+    path: String,
+    modules: Option<Vec<String>>,
+    geometry: Option<Geometry>,
+    mesh_formats: Option<Vec<Mesh>>,
+    pieces: Option<u8>,
+    piece_tolerance: Option<f64>,
+    samples: Option<u32>,
+    #[serde(default)]
+    strict: bool,
+    body: Option<String>,
+    model: Option<String>,
+    ball: Option<Ball>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Geometry {
+    Visual,
+    Collision,
+}
+
+#[derive(Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+enum Mesh {
+    Glb,
+    Stl,
+    Obj,
+}
+
+/// Generates the URDD of a description among these files. `donor` is null, or the files of a URDD that this function made,
+/// from which what did not change is taken. The question is a [`Question`] as JSON. The answer has the address of `files`,
+/// those of the URDD, its `robot`, `modules`, and `notes`.
+///
+/// # Safety
+/// `files` is open, as is `donor` unless it is null; the question is valid for [`memory::bytes`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_generate(
+    files: *mut Files,
+    donor: *mut Files,
+    question: *const u8,
+    length: usize,
+) -> *mut u8 {
+    // SAFETY: guaranteed by the caller.
+    let (files, donor, question) =
+        unsafe { (&*files, donor.as_ref(), memory::bytes(question, length)) };
+    answer::result(generate(files, donor, question))
+}
+
+fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Value, String> {
+    let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
+    let given = Given::of(files)?;
+    let path = given.place(&question.path);
+    let mut source = given.settings(&question.path)?;
+    source.import = import::options(question.body, question.model, question.ball);
+    let mut settings = Settings {
+        source,
+        strict: question.strict,
+        donors: donor.map(|donor| donor.root.clone()).into_iter().collect(),
+        ..Settings::default()
+    };
+    if let Some(words) = &question.modules {
+        let words = words.iter().map(String::as_str);
+        settings.selection = Selection::parse(words).map_err(|error| error.to_string())?;
+    }
+    settings.preferred_geometry = match question.geometry {
+        Some(Geometry::Collision) => GeometryKind::Collision,
+        Some(Geometry::Visual) | None => GeometryKind::Visual,
+    };
+    if let Some(formats) = question.mesh_formats {
+        let (stl, obj) = (formats.contains(&Mesh::Stl), formats.contains(&Mesh::Obj));
+        settings.mesh_formats = MeshFormats { stl, obj };
+    }
+    settings.pieces.most = question.pieces.unwrap_or(settings.pieces.most);
+    settings.pieces.tolerance = question.piece_tolerance;
+    settings.num_samples = question.samples.unwrap_or(settings.num_samples);
+    let made = generate_in_memory(&path, &settings, &Told);
+    let (made, files) = made.map_err(|error| error.to_string())?;
+    let root = Memory::new(&made.robot_name, files).map_err(|(path, fault)| {
+        // Paths of our own are plain.
+        format!("`{}`: {fault}", path.escape_debug())
+    })?;
+    Ok(said(&made, Files::of(root).into_address()))
+}
+
+fn said(made: &Generated, files: usize) -> Value {
+    let modules: Vec<&str> = made.modules.iter().map(|module| module.kind.name()).collect();
+    let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
+    json!({
+        "files": files,
+        "robot": made.robot_name,
+        "links": made.num_links,
+        "joints": made.num_joints,
+        "dofs": made.num_dofs,
+        "class": made.class,
+        "modules": modules,
+        "notes": notes,
+    })
+}

@@ -1,0 +1,74 @@
+//! A URDF of an MJCF or SDF.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::source::Memory;
+use urdd_source::import::import_whole;
+use urdd_source::import::options::ImportOptions;
+
+use crate::around::Given;
+use crate::files::Files;
+use crate::{answer, memory};
+
+/// How a ball joint is written.
+#[derive(Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Ball {
+    /// As a spherical joint.
+    Spherical,
+    /// As three revolute joints.
+    Revolute,
+}
+
+/// What is chosen of a description that is no URDF, as in `urdd.import_robot` in Python.
+pub fn options(body: Option<String>, model: Option<String>, ball: Option<Ball>) -> ImportOptions {
+    ImportOptions { body, model, has_revolute_balls: ball == Some(Ball::Revolute) }
+}
+
+/// What is asked.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Question {
+    /// The path of the MJCF or SDF.
+    path: String,
+    body: Option<String>,
+    model: Option<String>,
+    ball: Option<Ball>,
+}
+
+/// Imports an MJCF or SDF among these files. The question is a [`Question`] as JSON. The answer has the address of `files`
+/// (the URDF, its meshes, `NAME.srdf`, `NAME.export.toml`), the path of the `urdf` there, and the `report`.
+///
+/// # Safety
+/// `files` is open; the question is valid for [`memory::bytes`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_import(
+    files: *mut Files,
+    question: *const u8,
+    length: usize,
+) -> *mut u8 {
+    // SAFETY: guaranteed by the caller.
+    let (files, question) = unsafe { (&*files, memory::bytes(question, length)) };
+    answer::result(import(files, question))
+}
+
+fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
+    let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
+    let given = Given::of(files)?;
+    let mut settings = given.settings(&question.path)?;
+    settings.import = options(question.body, question.model, question.ball);
+    let path = given.place(&question.path);
+    let imported = import_whole(&path, &settings, &Cancellation::default());
+    let (imported, _) = imported.map_err(|error| error.to_string())?;
+    let report = serde_json::from_str::<Value>(&imported.report.to_json());
+    let report = report.map_err(|error| error.to_string())?;
+    let made: BTreeMap<String, Arc<[u8]>> = imported.files;
+    let root = Memory::new("", made)
+        .map_err(|(path, fault)| format!("`{}`: {fault}", path.escape_debug()))?;
+    let files = Files::of(root).into_address();
+    Ok(json!({ "files": files, "urdf": imported.urdf, "report": report }))
+}
