@@ -115,7 +115,10 @@ export class Address {
       );
     app.store.set({ loading: { title: "Reading", what: "the files", done: 0, of: 0 } });
     const entries = await here.take(source.files);
-    if (turn !== this.turn) return;
+    if (turn !== this.turn) {
+      here.forget(entries);
+      return;
+    }
     app.store.set({ entries: [...app.store.now.entries, ...entries] });
     const [one] = entries;
     if (one && entries.length === 1) await this.open(one);

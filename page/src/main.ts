@@ -61,9 +61,10 @@ function start(): void {
 
   const failure = h("div", { class: "failure", role: "alert" });
   const back = button("Back", {}, () => address.leave());
-  app.store.on(["failure"], ({ failure: text }) => {
+  app.store.on(["failure", "draft"], ({ failure: text, draft }) => {
     failure.hidden = text === null;
-    fill(failure, h("p", {}, text), back);
+    const how = draft && "The findings say what is wrong. Mend the text: the robot is shown as soon as there is one.";
+    fill(failure, h("p", {}, text), how && h("p", { class: "hint" }, how), back);
   });
   const progress = h("div", { role: "status" });
   // It stays while the words change, so that a click is not lost.

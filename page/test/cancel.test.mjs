@@ -9,8 +9,9 @@ import { dropOn, inPage, open, setting, soon, state } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-cancel-"));
 after(() => rmSync(folder, { recursive: true, force: true }));
-const urdf = join(folder, "slow.urdf");
-writeFileSync(urdf, '<robot name="slow"><link name="a"/></robot>');
+// Which only a program expands.
+const xacro = join(folder, "slow.urdf.xacro");
+writeFileSync(xacro, '<robot name="slow"><link name="a"/></robot>');
 const set = setting(["gripper", "welding_arm"]);
 
 inPage(
@@ -19,7 +20,7 @@ inPage(
   async (page) => {
     await page.waitForSelector(".card");
     const ended = page.waitForEvent("requestfailed", { predicate: (request) => request.url().endsWith("/drops") });
-    await dropOn(page, urdf);
+    await dropOn(page, xacro);
     const waiting = page.locator(".waiting");
     await waiting.getByText(/Sending 1 file \(\d+ B\)/).waitFor();
     await waiting.getByRole("button", { name: "Cancel" }).click();

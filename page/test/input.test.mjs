@@ -169,7 +169,7 @@ inPage(set, "a folder without a robot and one of a gigabyte are told what to do"
   const empty = join(folder, "photos");
   mkdirSync(empty);
   writeFileSync(join(empty, "a.txt"), "a");
-  await said(/This is not a URDD/, empty);
+  await said(/This is no robot/, empty);
   cpSync(join(set.made.robots, "gripper"), join(folder, "vast"), { recursive: true });
   hollow(join(folder, "vast/film.bin"), 1_100_000_000);
   await said(/more than 1 GB/, join(folder, "vast"));
@@ -213,15 +213,15 @@ function trapping(name, times) {
   return async (route) => {
     const response = await route.fetch();
     const script = `
-      const real = WebAssembly.instantiateStreaming;
+      const real = WebAssembly.instantiate;
       let left = ${times};
-      WebAssembly.instantiateStreaming = async (...words) => {
-        const { instance } = await real(...words);
+      WebAssembly.instantiate = async (...words) => {
+        const instance = await real(...words);
         const exports = { ...instance.exports, ${name}(...values) {
           if (left-- > 0) throw new WebAssembly.RuntimeError("unreachable");
           return instance.exports.${name}(...values);
         } };
-        return { instance: { exports } };
+        return { exports };
       };\n`;
     await route.fulfill({ response, body: script + (await response.text()) });
   };

@@ -1,43 +1,12 @@
 // The exported site on a plain file server.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { createServer } from "node:net";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, dropOn, inPage, open, run, setting, soon, state, tab } from "./world.mjs";
-
-async function freePort() {
-  const probe = createServer();
-  await new Promise((resolve) => probe.listen(0, "127.0.0.1", resolve));
-  const { port } = probe.address();
-  await new Promise((resolve) => probe.close(resolve));
-  return port;
-}
-
-/** The exported site on a plain file server. */
-async function exported(made) {
-  const site = join(made.folder, "site");
-  const done = run("view", made.robots, "--export", site);
-  assert.equal(done.status, 0, done.stderr);
-  const port = await freePort();
-  const address = `http://127.0.0.1:${port}/`;
-  const server = spawn("python3", ["-m", "http.server", "--bind", "127.0.0.1", "--directory", site, String(port)], {
-    stdio: "ignore",
-  });
-  for (let tries = 0; ; tries++) {
-    try {
-      await fetch(address);
-      break;
-    } catch (error) {
-      if (tries > 100) throw error;
-      await new Promise((resolve) => setTimeout(resolve, 100));
-    }
-  }
-  return { address, site, end: () => server.kill() };
-}
+import { exported } from "./exported.mjs";
+import { drawn, inPage, open, run, setting, soon, state, tab } from "./world.mjs";
 
 const set = setting(["welding_arm", "gripper"], exported);
 
@@ -73,14 +42,6 @@ inPage(set, "the site shows its robots, with their reports, and writes nothing",
   await state(page, "skips", (value) => value.answer !== null);
   assert.equal(await page.getByRole("button", { name: "Save", exact: true }).count(), 0);
   assert.equal(await page.getByRole("button", { name: "Download the files" }).count(), 1);
-});
-
-inPage(set, "a URDF that is dropped on a site: it needs the program", async (page) => {
-  await page.waitForSelector(".card");
-  const urdf = join(set.made.folder, "alone.urdf");
-  writeFileSync(urdf, `<robot name="alone"><link name="a"/></robot>`);
-  await dropOn(page, urdf);
-  await page.getByText(/A page by itself cannot generate a URDD: run `urdd view`/).waitFor();
 });
 
 inPage(set, "a link of the site opens its view in another browser, and Back leads to the gallery", async (page) => {
@@ -121,6 +82,9 @@ test("a page in one file opens from the disk, and a robot moves in it", { timeou
 
 inPage(set, "a second export keeps what a person added, and the site works", async (page) => {
   const { site, address } = set.server;
+  // The files of the site of before go away: the page must have them.
+  await page.waitForSelector(".card");
+  await page.waitForLoadState("networkidle");
   const mine = { CNAME: "robots.example", "robots/notes.txt": "mine", "urdd-site/notes.txt": "mine too" };
   mkdirSync(join(site, "robots"), { recursive: true });
   for (const [name, text] of Object.entries(mine)) writeFileSync(join(site, name), text);

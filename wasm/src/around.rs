@@ -13,7 +13,7 @@ const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// The files around descriptions.
 pub struct Given {
-    /// The folder that they are in.
+    /// The folder that they are in; empty for the root.
     folder: String,
     /// Their paths.
     paths: Vec<String>,
@@ -28,21 +28,21 @@ impl Given {
         let paths: Vec<String> = all.map(|entry| entry.path).collect();
         // In a folder of its name, as on a disk: programs look for packages by the names of folders.
         let name = files.root.folder_name();
-        let is_plain = !name.is_empty() && !name.contains(['/', '\\']) && !name.starts_with('.');
+        let is_plain = !name.contains(['/', '\\']) && !name.starts_with('.');
         let folder = if is_plain { name } else { "robot".to_owned() };
         let mut content = Vec::new();
         for path in &paths {
             let bytes = files.bytes(path, MAX_FILE_BYTES);
             let bytes = bytes.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
-            content.push((format!("{folder}/{path}"), bytes));
+            content.push((place(&folder, path), bytes));
         }
         let files = Around::in_memory(content).map_err(|error| error.to_string())?;
         Ok(Given { folder, paths, files })
     }
 
-    /// The path of a file among them, seen from the root.
+    /// The path of a file among them, seen from the root of all.
     pub fn place(&self, path: &str) -> PathBuf {
-        Path::new("/").join(&self.folder).join(path)
+        place(&self.folder, path).into()
     }
 
     /// The paths of the files.
@@ -59,7 +59,7 @@ impl Given {
     /// The path of a file among them from its place.
     #[cfg(feature = "make")]
     pub fn path(&self, place: &Path) -> String {
-        let path = place.strip_prefix(self.place("")).unwrap_or(place);
+        let path = place.strip_prefix(Path::new("/").join(&self.folder)).unwrap_or(place);
         path.to_string_lossy().into_owned()
     }
 
@@ -80,4 +80,9 @@ impl Given {
         }
         Ok(Settings { packages, files: self.files.clone(), ..Settings::default() })
     }
+}
+
+/// Relative to the root of all, so that messages name a file as a person does.
+fn place(folder: &str, path: &str) -> String {
+    if folder.is_empty() { path.to_owned() } else { format!("{folder}/{path}") }
 }

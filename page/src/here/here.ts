@@ -65,6 +65,13 @@ export class Here implements Keeper, Drafting {
     return robots.map(({ entry }) => entry);
   }
 
+  /** Takes back what was taken when nobody waits for it any more. */
+  forget(entries: Entry[]): void {
+    const gone = new Set(entries.map(({ id }) => id));
+    for (const robot of this.robots) if (gone.has(robot.entry.id)) robot.reader.end();
+    this.robots = this.robots.filter(({ entry }) => !gone.has(entry.id));
+  }
+
   private async unzipped(zip: Blob): Promise<Given[]> {
     const { files } = await this.kit.once((maker) => maker.ask("unzip", { zip }));
     return files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
