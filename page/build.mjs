@@ -44,6 +44,7 @@ const bundle = async (entry, format) => {
 const files = {
   "index.html": readFileSync(join(here, "index.html")),
   "app.js": await bundle("src/main.ts", "iife"),
+  "editor.js": await bundle("src/editor/editor.ts", "esm"),
   "worker.js": await bundle("src/engine/worker.ts", "iife"),
   "style.css": await bundle("src/style.css"),
   "urdd.wasm": wasm(2, "urdd.wasm"),

@@ -20,6 +20,7 @@ import { proximity } from "./panels/proximity";
 import { shapes } from "./panels/shapes";
 import { skips } from "./panels/skips";
 import { said, status } from "./panels/status";
+import { text } from "./panels/text";
 import { Timeline, trajectoryIn } from "./panels/timeline";
 import { tree } from "./panels/tree";
 import { Site } from "./site";
@@ -111,6 +112,7 @@ function start(): void {
     Skips: skips(app),
     Findings: findings(app),
     Info: info(app),
+    Text: text(app),
   };
   const saving = saveDialog(app);
   const actions = {
