@@ -3,7 +3,15 @@
 import { defaultKeymap, history, historyKeymap, indentWithTab, redo, undo } from "@codemirror/commands";
 import { xmlLanguage } from "@codemirror/lang-xml";
 import { bracketMatching, indentUnit } from "@codemirror/language";
-import { forEachDiagnostic, lintGutter, lintKeymap, linter, setDiagnostics } from "@codemirror/lint";
+import {
+  diagnosticCount,
+  forEachDiagnostic,
+  lintGutter,
+  lintKeymap,
+  linter,
+  nextDiagnostic,
+  setDiagnostics,
+} from "@codemirror/lint";
 import { highlightSelectionMatches, openSearchPanel, search, searchKeymap } from "@codemirror/search";
 import { ChangeSet, EditorSelection, EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
 import type { ChangeDesc, Extension } from "@codemirror/state";
@@ -15,6 +23,7 @@ import {
   highlightSpecialChars,
   keymap,
   lineNumbers,
+  tooltips,
 } from "@codemirror/view";
 import type { ViewUpdate } from "@codemirror/view";
 import { Lines, outer, safeChanges } from "../edits";
@@ -63,6 +72,8 @@ export class Editor {
   private ends = new LineEnds("");
   private safe: Change[][] = [];
   private rounds = 0;
+  /** The number of findings without a mark. */
+  private unmarked = 0;
 
   constructor(
     root: ShadowRoot,
@@ -76,11 +87,14 @@ export class Editor {
     this.ends = new LineEnds(text);
     this.safe = [];
     this.rounds = 0;
+    this.unmarked = 0;
     const extensions: Extension[] = [
       this.ends.extension,
       lineNumbers(),
       lintGutter(),
       linter(null),
+      // A tooltip does not cover the buttons above the text.
+      tooltips({ tooltipSpace: ({ dom }) => dom.getBoundingClientRect() }),
       since,
       highlightSpecialChars({ addSpecialChars: /\u200c|\u200d|[\u202a-\u202c\u2060-\u206f]/gu }),
       history(),
@@ -96,6 +110,7 @@ export class Editor {
       keymap.of([...defaultKeymap, ...searchKeymap, ...historyKeymap, ...lintKeymap, indentWithTab]),
       EditorView.contentAttributes.of({
         "aria-label": label,
+        tabindex: "0",
         "aria-description": "Escape, then Tab leaves the text. F8 goes to the next finding.",
       }),
       EditorView.updateListener.of((update) => this.updated(update)),
@@ -140,9 +155,22 @@ export class Editor {
       (file) => !this.isReadOnly && isFile(file),
       (remedy) => this.mend(remedy),
     );
+    this.unmarked = found.length - marks.length;
     this.view.dispatch({ effects: examined.of(null) }, setDiagnostics(state, marks));
     if (this.rounds > 0 && this.safe.length > 0) this.mendSafe();
     else this.rounds = 0;
+  }
+
+  /** The number of findings in the text, and of those that are marked. */
+  get counts(): { all: number; marked: number } {
+    const marked = diagnosticCount(this.view.state);
+    return { all: this.unmarked + marked, marked };
+  }
+
+  /** Goes to the next mark. */
+  next(): void {
+    nextDiagnostic(this.view);
+    this.view.focus();
   }
 
   /** The number of safe fixes. */
@@ -165,12 +193,14 @@ export class Editor {
     if (!this.change([remedy.changes], "fix")) {
       this.owner.note("This part of the text has changed: wait for its findings.");
     }
+    this.view.focus();
   }
 
   /** Makes all safe fixes, and those that the next reports offer for what is then there. */
   fixAll(): void {
     this.rounds = ROUNDS;
     this.mendSafe();
+    this.view.focus();
   }
 
   private mendSafe(): void {

@@ -36,6 +36,9 @@ const theme = EditorView.theme({
     border: "1px solid var(--line)",
     borderRadius: "6px",
   },
+  ".cm-panel.cm-search": { font: "12.5px system-ui, 'DejaVu Sans', sans-serif" },
+  ".cm-panel.cm-search :is(input, button, label)": { fontSize: "inherit" },
+  ":focus-visible": { outline: "2px solid var(--accent)", outlineOffset: "1px" },
   ".cm-panel.cm-search [name=close]": { color: "var(--text)" },
   ".cm-tooltip": {
     maxWidth: "min(420px, 90vw)",
@@ -49,7 +52,8 @@ const theme = EditorView.theme({
   ".cm-diagnostic-error": { borderLeftColor: "var(--error)" },
   ".cm-diagnostic-warning": { borderLeftColor: "var(--warning)" },
   ".cm-diagnostic-info": { borderLeftColor: "var(--info)" },
-  ".cm-diagnosticSource": { opacity: 1, color: "var(--dim)" },
+  ".cm-diagnostic .programs": { color: "var(--dim)" },
+  ".cm-diagnostic code": { fontFamily: 'ui-monospace, "DejaVu Sans Mono", monospace', fontSize: "0.94em" },
   ".cm-diagnosticAction": {
     margin: "4px 4px 0 0",
     padding: "2px 8px",

@@ -3,6 +3,7 @@
 import type { Diagnostic } from "@codemirror/lint";
 import { changesOf } from "../edits";
 import type { Change, Fix, Lines } from "../edits";
+import { h, prose } from "../ui/dom";
 import { name } from "../ui/format";
 
 /** More marks than anybody reads; the worst come first. */
@@ -52,10 +53,23 @@ export function marksOf(
       return changes ? [{ message, is_safe, changes }] : [];
     });
     const { severity, code } = found;
-    const message = [name(found.message), found.programs].filter(Boolean).join("\n");
-    const actions = remedies.map((remedy) => ({ name: `Fix: ${name(remedy.message)}`, apply: () => mend(remedy) }));
-    return [{ from, to, severity, source: code, message, actions, found, remedies }];
+    const actions = remedies.map((remedy) => ({
+      name: `${remedy.is_safe ? "Fix" : "Possible fix"}: ${name(remedy.message).replaceAll("`", "")}`,
+      apply: () => mend(remedy),
+    }));
+    const message = `${code} ${name(found.message)}`;
+    return [{ from, to, severity, message, renderMessage: () => described(found), actions, found, remedies }];
   });
+}
+
+function described({ code, message, programs }: Found): Node {
+  return h(
+    "div",
+    {},
+    h("strong", {}, `${code} `),
+    ...prose(name(message)),
+    programs !== "" && h("div", { class: "programs" }, programs),
+  );
 }
 
 /** Number of characters of the word or tag at a place, to underline. */

@@ -26,8 +26,8 @@ export function text(app: App): HTMLElement {
     editor?.fixAll(),
   );
   const steps = [
-    button("Undo", "Undo (Ctrl-Z)", () => editor?.undo()),
-    button("Redo", "Redo (Ctrl-Shift-Z)", () => editor?.redo()),
+    button("↶", { "aria-label": "Undo", title: "Undo (Ctrl-Z)" }, () => editor?.undo()),
+    button("↷", { "aria-label": "Redo", title: "Redo (Ctrl-Shift-Z)" }, () => editor?.redo()),
     button("Find", "Find and replace (Ctrl-F)", () => editor?.find()),
   ];
   const saving = button("Save", { class: "main", title: "Download the text as a file (Ctrl-S)" }, save);
@@ -38,7 +38,7 @@ export function text(app: App): HTMLElement {
   const panel = h(
     "div",
     { class: "panel text" },
-    h("div", { class: "actions" }, file, changed, h("span", { class: "spring" }), all, ...steps, saving),
+    h("div", { class: "actions" }, file, changed, all, ...steps, saving),
     hint,
     wait,
     host,
@@ -49,6 +49,8 @@ export function text(app: App): HTMLElement {
   /** The draft in the editor. */
   let shown: { path: string; text: string } | null = null;
   let marked: object | null = null;
+  /** What is listed below the text: a button that has the focus stays. */
+  let listed: readonly unknown[] = [];
 
   // Keys in the text are not those of the page.
   host.addEventListener("keydown", (event) => event.stopPropagation());
@@ -136,6 +138,7 @@ export function text(app: App): HTMLElement {
   function tell(draft: Draft): void {
     fill(file, name(fileName(draft)));
     file.title = name(draft.path);
+    saving.textContent = `Save ${draft.format.toUpperCase()}`;
     changed.hidden = !draft.isChanged;
     const n = editor?.safeCount ?? 0;
     all.hidden = n === 0;
@@ -159,10 +162,24 @@ export function text(app: App): HTMLElement {
     const { line, marks } = editor.here();
     const { draft } = app.store.now;
     if (draft) tell(draft);
-    below.hidden = marks.length === 0;
+    const { all, marked } = editor.counts;
+    const where =
+      marks.length > 0
+        ? `Line ${line}: ${count(marks.length, "finding")}`
+        : `${count(all, "finding")}${marked < all ? `, of which the worst ${marked.toLocaleString("en")} are marked` : ""}`;
+    below.hidden = marked === 0;
+    const now = [where, ...marks];
+    if (now.length === listed.length && now.every((each, k) => each === listed[k])) return;
+    listed = now;
     fill(
       below,
-      h("h2", {}, `Line ${line}: ${count(marks.length, "finding")}`),
+      h(
+        "div",
+        { class: "headline" },
+        h("h2", {}, where),
+        h("span", { class: "spring" }),
+        button("Next", { class: "tiny", title: "Go to the next finding (F8)" }, () => editor?.next()),
+      ),
       ...marks.slice(0, LISTED).map((mark) => card(mark)),
       marks.length > LISTED && h("p", { class: "hint" }, `${marks.length - LISTED} more`),
     );
