@@ -1,5 +1,6 @@
 /** The links of findings. */
 
+import type { Fix } from "./edits";
 import type { Finding, Report, Severity } from "./engine/protocol";
 import type { RobotModel } from "./model";
 import type { State } from "./state";
@@ -53,7 +54,7 @@ export interface Place {
   /** For the expansion of a xacro file: where it is written. */
   written_at?: { file: string; line: number | null; macro_name: string | null } | null;
   /** Changes that mend it, the best first. `urdd lint --fix` makes those that are safe. */
-  fixes?: { message: string; is_safe: boolean }[];
+  fixes?: Fix[];
   /** Other places to look at; their message says what is there. */
   related: Place[];
 }

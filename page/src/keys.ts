@@ -3,7 +3,7 @@
 import type { App } from "./app";
 import type { Stage } from "./stage";
 import { undo } from "./skips";
-import { TABS } from "./state";
+import { TABS, hasTab } from "./state";
 
 export function keys(app: App, stage: Stage | null): void {
   addEventListener("keydown", (event) => {
@@ -28,7 +28,7 @@ export function keys(app: App, stage: Stage | null): void {
     if (isField) return;
     const number = Number(event.key);
     const tab = TABS[number - 1];
-    if (tab) {
+    if (tab && hasTab(tab, app.store.now)) {
       app.store.set({ tab, unfolded: "panels" });
     } else if (event.key === "/") {
       event.preventDefault();

@@ -22,6 +22,7 @@ import { proximity } from "./panels/proximity";
 import { shapes } from "./panels/shapes";
 import { skips } from "./panels/skips";
 import { said, status } from "./panels/status";
+import { text } from "./panels/text";
 import { Timeline, trajectoryIn } from "./panels/timeline";
 import { tree } from "./panels/tree";
 import { Site } from "./site";
@@ -108,6 +109,7 @@ function start(): void {
     Skips: skips(app),
     Findings: findings(app),
     Info: info(app),
+    Text: text(app),
   };
   const saving = saveDialog(app);
   const savingMade = here && savingHere(app, here);

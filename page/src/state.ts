@@ -52,8 +52,13 @@ export const OVERLAY_NAMES: Record<OverlayKind, string> = {
   grid: "Ground",
 };
 
-export const TABS = ["Joints", "Shapes", "Proximity", "Skips", "Findings", "Info"] as const;
+export const TABS = ["Joints", "Shapes", "Proximity", "Skips", "Findings", "Info", "Text"] as const;
 export type Tab = (typeof TABS)[number];
+
+/** Whether a tab can be chosen. */
+export function hasTab(tab: Tab, { draft }: Readonly<State>): boolean {
+  return tab !== "Text" || draft !== null;
+}
 
 /** Tabs in which a pair can be selected; other tabs clear the selection. */
 export const CHOOSES_PAIRS: ReadonlySet<Tab> = new Set(["Proximity", "Skips"] as const);
@@ -65,6 +70,8 @@ export interface State {
   entries: Entry[];
   /** The text that the robot is made of in this page; null for others. */
   draft: Draft | null;
+  /** The place of the text to show; a new object each time. */
+  textAt: { line: number; column: number | null } | null;
   robot: RobotModel | null;
   /** The progress of loading. */
   loading: { title?: string; what: string; done: number; of: number } | null;
@@ -145,6 +152,7 @@ export function initial(): State {
   return {
     entries: [],
     draft: null,
+    textAt: null,
     robot: null,
     loading: null,
     failure: null,

@@ -121,7 +121,7 @@ async function fromDist(context) {
   const dist = process.env.URDD_DIST;
   if (!dist) return;
   const types = { js: "text/javascript", css: "text/css", wasm: "application/wasm" };
-  await context.route(/\/(?:app\.js|worker\.js|style\.css|urdd\.wasm)$/, (route) => {
+  await context.route(/\/(?:(?:app|editor|make|worker)\.js|style\.css|(?:make|urdd)\.wasm)$/, (route) => {
     const name = new URL(route.request().url()).pathname.slice(1);
     const body = brotliDecompressSync(readFileSync(join(dist, `${name}.br`)));
     return route.fulfill({ body, contentType: types[name.split(".").pop()] });

@@ -29,6 +29,7 @@ macro_rules! asset {
 pub const ASSETS: &[Asset] = &[
     asset!("index.html", "text/html; charset=utf-8"),
     asset!("app.js", "text/javascript; charset=utf-8"),
+    asset!("editor.js", "text/javascript; charset=utf-8"),
     asset!("worker.js", "text/javascript; charset=utf-8"),
     asset!("make.js", "text/javascript; charset=utf-8"),
     asset!("style.css", "text/css; charset=utf-8"),

@@ -38,7 +38,7 @@ export class Here implements Keeper, Drafting {
         (report) => ({ report, error: null, busy: null }),
         (error: unknown) => ({ report: null, error: message(error), busy: null }),
       );
-      if (this.current === robot) app.store.set({ report });
+      if (this.current === robot) app.store.set({ ...this.decoded(report.report), report });
     });
     // Decisions on skips kept the page from showing the robot anew.
     app.store.on(["skips"], ({ skips }) => {
@@ -146,6 +146,13 @@ export class Here implements Keeper, Drafting {
   saved(): void {
     const { draft } = this.app.store.now;
     if (draft) this.app.store.set({ draft: { ...draft, isChanged: false } });
+  }
+
+  /** The text as the module decoded it: a file may be in another encoding than the page supposed. */
+  private decoded(report: Report | null): { draft?: Draft } {
+    const { draft } = this.app.store.now;
+    const text = report?.text;
+    return draft && !draft.isChanged && typeof text === "string" && text !== draft.text ? { draft: { ...draft, text } } : {};
   }
 
   private found(entry: Entry): MadeRobot {

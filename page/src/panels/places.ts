@@ -5,8 +5,10 @@ import { message } from "../app";
 import { excerpt } from "../excerpt";
 import { linkOf } from "../findings";
 import type { Place } from "../findings";
+import { fixesOf, isDraft, mend } from "../fixes";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
+import { fixButton } from "./fix_button";
 
 /** Number of places shown at first, and added by each click. */
 const SHOWN = 5;
@@ -41,16 +43,20 @@ function placeRow(app: App, place: Place): HTMLElement {
   const { robot } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
   const written = place.written_at;
-  const fix = place.fixes?.[0];
+  const { draft } = app.store.now;
+  const isInDraft = draft !== null && place.line !== null && isDraft(draft, place.file);
+  const fixes = fixesOf(draft, place);
+  const fix = fixes.length === 0 ? place.fixes?.[0] : undefined;
   const where = place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null;
   const texts = [place.subject, where, place.pointer].filter((text): text is string => Boolean(text));
   const text = h("div", { class: "excerpt", hidden: true });
   const label = prose(name(texts[0] ?? "the robot as a whole"));
   const go = button(label, { class: "place", title: texts.map(name).join("\n") }, () => {
     if (link !== null) app.select({ kind: "link", index: link });
-    if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
+    if (isInDraft) app.store.set({ tab: "Text", textAt: { line: place.line ?? 1, column: place.column } });
+    else if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
   });
-  if (place.line !== null) go.setAttribute("aria-expanded", "false");
+  if (place.line !== null && !isInDraft) go.setAttribute("aria-expanded", "false");
   if (link === null && place.line === null) go.disabled = true;
   return h(
     "li",
@@ -65,6 +71,7 @@ function placeRow(app: App, place: Place): HTMLElement {
         { class: "what" },
         ...prose(`Fix: ${name(fix.message)}${fix.is_safe ? "; `urdd lint --fix` does it" : ""}`),
       ),
+    fixes.length > 0 && h("div", { class: "actions" }, ...fixes.map((fix) => fixButton(fix, () => mend(app, fix)))),
     (place.expected ?? place.actual) !== null &&
       h(
         "dl",

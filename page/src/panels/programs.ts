@@ -15,7 +15,7 @@ const LOOKS: Record<Deed | "loads", [look: string, sign: string, words: string]>
   refuses: ["error", "✕", "refuses it"],
   crashes: ["error", "✕", "crashes on it"],
 };
-const DEEDS: Record<Deed, string> = {
+export const DEEDS: Record<Deed, string> = {
   reads: "reads it otherwise",
   drops: "leaves it out",
   refuses: "refuses the robot",

@@ -2,7 +2,7 @@
 
 import type { App } from "../app";
 import { tally } from "../findings";
-import { TABS } from "../state";
+import { TABS, hasTab } from "../state";
 import type { Tab } from "../state";
 import { button, fill, h } from "./dom";
 import { count } from "./format";
@@ -21,11 +21,11 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (step === undefined) return;
     event.preventDefault();
-    const at = TABS.indexOf(app.store.now.tab);
-    const next = (at + step + TABS.length) % TABS.length;
-    const tab = TABS[next];
-    if (tab) app.store.set({ tab, unfolded: "panels" });
-    buttons[next]?.focus();
+    const there = TABS.filter((tab) => hasTab(tab, app.store.now));
+    const tab = there[(there.indexOf(app.store.now.tab) + step + there.length) % there.length];
+    if (!tab) return;
+    app.store.set({ tab, unfolded: "panels" });
+    buttons[TABS.indexOf(tab)]?.focus();
   });
   const bodies = TABS.map((tab) => {
     const body = h("div", {
@@ -45,6 +45,13 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
       const body = bodies[k];
       if (body) body.hidden = name !== tab;
     });
+  });
+  app.store.on(["tab", "draft"], (state) => {
+    TABS.forEach((tab, k) => {
+      const button = buttons[k];
+      if (button) button.hidden = !hasTab(tab, state);
+    });
+    if (!hasTab(state.tab, state)) app.store.set({ tab: "Joints" });
   });
   app.store.on(["report"], ({ report }) => {
     const counts = report.report ? tally(report.report) : null;

@@ -22,7 +22,7 @@ fn the_page_has_a_strict_policy_and_no_robot_in_it() {
     assert_eq!(unsafe_words, ["'wasm-unsafe-eval'"], "{policy}");
     assert_eq!(answer.header("x-content-type-options"), Some("nosniff"));
     assert_eq!(answer.header("cross-origin-resource-policy"), Some("same-origin"));
-    for name in ["app.js", "worker.js", "style.css", "urdd.wasm"] {
+    for name in ["app.js", "editor.js", "worker.js", "style.css", "urdd.wasm"] {
         let line = format!("GET /{name}");
         let plain = server.raw(&line, &[("Host", &*server.host())], b"");
         assert_eq!((plain.status, plain.header("content-encoding")), (200, None), "{name}");
