@@ -52,7 +52,7 @@ export interface Place {
   actual: string | null;
   message: string | null;
   /** For the expansion of a xacro file: where it is written. */
-  written_at?: { file: string; line: number | null; macro_name: string | null } | null;
+  written_at?: { file: string; line: number | null; column?: number | null; macro_name: string | null } | null;
   /** Changes that mend it, the best first. `urdd lint --fix` makes those that are safe. */
   fixes?: Fix[];
   /** Other places to look at; their message says what is there. */

@@ -152,7 +152,9 @@ export class Here implements Keeper, Drafting {
   private decoded(report: Report | null): { draft?: Draft } {
     const { draft } = this.app.store.now;
     const text = report?.text;
-    return draft && !draft.isChanged && typeof text === "string" && text !== draft.text ? { draft: { ...draft, text } } : {};
+    return draft?.format === "urdf" && !draft.isChanged && typeof text === "string" && text !== draft.text
+      ? { draft: { ...draft, text } }
+      : {};
   }
 
   private found(entry: Entry): MadeRobot {

@@ -6,6 +6,7 @@ import type { Progress } from "../engine/link";
 import { unknown } from "../model";
 import type { Entry } from "../model";
 import type { Maker } from "./kit";
+import { inOriginal } from "./original";
 import type { Description, Given, MakeOptions } from "./protocol";
 import type { Reader } from "./reader";
 
@@ -51,8 +52,15 @@ export class MadeRobot {
   }
 
   lint(): Promise<Report> {
-    this.report = this.reader.lint(this.description.path);
+    this.report = this.linted();
     return this.report;
+  }
+
+  private async linted(): Promise<Report> {
+    const { path, format } = this.description;
+    if (format === "urdf") return this.reader.lint(path);
+    const text = await this.reader.text(path);
+    return inOriginal(await this.reader.lint(path), text);
   }
 
   /** Makes all of it, from the beginning. */
