@@ -2,6 +2,7 @@
 
 import type { App } from "./app";
 import { message } from "./app";
+import { beside } from "./drop";
 import type { Taken } from "./drop";
 import * as fragment from "./fragment";
 import { missingFrom } from "./here/missing";
@@ -168,7 +169,8 @@ export class Address {
       keepToken(app.site.token);
       app.store.set({ entries });
       this.put(fragment.write(shared), false);
-      await this.show(shared, turn);
+      if (shared.from === null || !this.here) await this.show(shared, turn);
+      else await this.openFiles(() => beside(shared.from ?? ""));
     } catch (error) {
       if (turn !== this.turn) return;
       // The token is always removed from the address.
@@ -265,6 +267,7 @@ export class Address {
       compareWith,
       camera: camera && this.stage ? [...camera, ...this.stage.view.controls.target.toArray()] : null,
       token: null,
+      from: null,
     });
   }
 

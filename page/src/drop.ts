@@ -44,6 +44,14 @@ export function chosen(files: File[], folder: boolean): Promise<Taken> {
   return Promise.resolve(ofFolder(files.map((file) => ({ path: file.webkitRelativePath || file.name, file }))));
 }
 
+/** A file beside the page. */
+export async function beside(path: string): Promise<Taken> {
+  const response = await fetch(path);
+  if (!response.ok) throw new Error(`${path}: the site answered ${response.status}`);
+  const name = path.split("/").pop() ?? path;
+  return ofFile([new File([await response.blob()], name)]);
+}
+
 async function walk(root: FileSystemEntry): Promise<Given[]> {
   const found: Given[] = [];
   const waiting: { entry: FileSystemEntry; path: string }[] = [{ entry: root, path: root.name }];

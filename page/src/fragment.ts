@@ -25,7 +25,12 @@ export interface Shared {
   /** The id of the robot to compare with. */
   compareWith: string | null;
   token: string | null;
+  /** The path of a description beside the page, which a robot is made of. */
+  from: string | null;
 }
+
+/** A relative path of plain names, so that a link leads to nothing but files beside the page. */
+const BESIDE = /^(?:\.\.\/)?(?:[A-Za-z0-9_][A-Za-z0-9_.-]*\/)*[A-Za-z0-9_][A-Za-z0-9_.-]*\.(?:urdf|xml|sdf|zip)$/;
 
 function numbers(text: string | null): number[] | null {
   if (text === null || text === "") return null;
@@ -96,6 +101,7 @@ export function read(fragment: string): Shared {
     camera: numbers(words.get("c")),
     compareWith: words.get("v"),
     token: words.get("token"),
+    from: BESIDE.test(words.get("from") ?? "") ? words.get("from") : null,
   };
 }
 

@@ -113,11 +113,16 @@ export class Urdd {
     return this.#json(this.exports.urdd_descriptions(files));
   }
 
-  /** A URDD of a description among files: `files` of the answer is the handle of its files. */
-  generate(files, question) {
+  /**
+   * A URDD of a description among files: `files` of the answer is the handle of its files. What did not change is taken
+   * from the files of `donor`, which this made before.
+   */
+  generate(files, question, donor = 0) {
     const bytes = encode(JSON.stringify(question));
     return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_generate(files, 0, at[0], bytes.length)),
+      this.#json(
+        this.exports.urdd_generate(files, donor, at[0], bytes.length),
+      ),
     );
   }
 

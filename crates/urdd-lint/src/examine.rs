@@ -123,7 +123,8 @@ impl<'a> Job<'a> {
     where
         'a: 'd,
     {
-        let subject = Subject::new(self.name, self.folder, document, source.as_ref());
+        let files = &self.settings.source.files;
+        let subject = Subject::new(self.name, self.folder, files, document, source.as_ref());
         subject.without_meshes(self.settings.without_meshes)
     }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use super::subject::Subject;
-use urdd_directory::regular;
+use urdd_source::Files;
 use urdd_xml::XmlError;
 
 /// Maximum size of an SRDF, bytes.
@@ -110,7 +110,7 @@ fn is_of_another_urdf(urdf: &Subject, srdf: &Path) -> bool {
 /// The names of the URDFs in the URDF's folder.
 fn urdfs(urdf: &Subject) -> impl Iterator<Item = String> {
     let is_urdf = |name: &String| [".urdf", ".xacro"].iter().any(|ending| name.ends_with(ending));
-    names(urdf.folder).into_iter().filter(is_urdf)
+    names(urdf.files, urdf.folder).into_iter().filter(is_urdf)
 }
 
 /// A file's name without its endings, in small letters.
@@ -124,15 +124,15 @@ fn stem(path: &Path) -> String {
 fn candidates(urdf: &Subject) -> Vec<Candidate> {
     let wanted = stem(Path::new(urdf.file));
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
-    for (folder, shown, is_own) in folders(urdf.folder) {
-        for name in names(&folder).into_iter().filter(|name| name.ends_with(".srdf")) {
+    for (folder, shown, is_own) in folders(urdf.files, urdf.folder) {
+        for name in names(urdf.files, &folder).into_iter().filter(|name| name.ends_with(".srdf")) {
             let path = folder.join(&name);
             let has_stem = stem(&path) == wanted;
-            let Ok(file) = path.canonicalize() else { continue };
+            let Ok(file) = urdf.files.canonicalize(&path) else { continue };
             if found.len() == MAX_FILES || !seen.insert(file) {
                 continue;
             }
-            let Ok(bytes) = regular::read(&path, MAX_BYTES) else { continue };
+            let Ok(bytes) = urdf.files.read(&path, MAX_BYTES) else { continue };
             let text = String::from_utf8_lossy(&bytes).into_owned();
             let srdf = Srdf { shown: format!("{shown}{name}"), text };
             found.push(Candidate { path, srdf, is_own, has_stem });
@@ -142,7 +142,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
 }
 
 /// The folders that SRDFs are looked for in, each as seen from the URDF's, and whether it is of its own package.
-fn folders(urdf: &Path) -> Vec<(PathBuf, String, bool)> {
+fn folders(files: &Files, urdf: &Path) -> Vec<(PathBuf, String, bool)> {
     let mut folders = vec![(urdf.to_owned(), String::new(), true)];
     for up in ["", "../"] {
         let below = FOLDERS.map(|name| format!("{up}{name}/"));
@@ -150,7 +150,7 @@ fn folders(urdf: &Path) -> Vec<(PathBuf, String, bool)> {
     }
     let mut up = String::new();
     for _ in 0..LEVELS {
-        let packages = names(&urdf.join(&up));
+        let packages = names(files, &urdf.join(&up));
         for package in packages.iter().filter(|name| name.contains(MOVEIT)) {
             let below = FOLDERS.map(|name| format!("{up}{package}/{name}/"));
             folders.extend(below.map(|shown| (urdf.join(&shown), shown, false)));
@@ -161,11 +161,10 @@ fn folders(urdf: &Path) -> Vec<(PathBuf, String, bool)> {
 }
 
 /// The names in a folder, in order.
-fn names(folder: &Path) -> Vec<String> {
+fn names(files: &Files, folder: &Path) -> Vec<String> {
     // The folder of a plain file name.
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let names = files.names(folder).into_iter().filter_map(|name| name.into_string().ok());
     let mut names: Vec<String> = names.collect();
     names.sort();
     names

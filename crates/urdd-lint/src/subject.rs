@@ -26,7 +26,7 @@ use urdd_format::index::Count;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::urdf::JointType;
-use urdd_source::{SourceMesh, SourceMeshes};
+use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::{children, name};
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
@@ -35,6 +35,8 @@ pub struct Subject<'a> {
     pub file: &'a str,
     /// The folder that relative mesh names refer to.
     pub folder: &'a Path,
+    /// Where files are.
+    pub files: &'a Files,
     /// The text: of the file, or what xacro made of it.
     pub text: &'a str,
     /// `<robot>`.
@@ -58,6 +60,7 @@ impl<'a> Subject<'a> {
     pub fn new(
         file: &'a str,
         folder: &'a Path,
+        files: &'a Files,
         document: &'a Document<'a>,
         source: Result<&'a SourceMeshes, &SkipReason>,
     ) -> Self {
@@ -77,6 +80,7 @@ impl<'a> Subject<'a> {
         Subject {
             file,
             folder,
+            files,
             text: document.input_text(),
             root,
             lines: LineIndex::new(document.input_text()),

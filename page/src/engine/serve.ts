@@ -38,7 +38,6 @@ function buffers(value: unknown): Transferable[] {
   if (value instanceof ArrayBuffer) return [value];
   if (ArrayBuffer.isView(value)) return [value.buffer as ArrayBuffer];
   if (Array.isArray(value)) return value.flatMap(buffers);
-  const meshOrFiles = value as { positions?: unknown; files?: unknown; bytes?: unknown } | null;
-  if (typeof meshOrFiles !== "object" || meshOrFiles === null) return [];
-  return [meshOrFiles.positions, meshOrFiles.files, meshOrFiles.bytes].flatMap(buffers);
+  const positions = (value as { positions?: Float32Array } | null)?.positions;
+  return positions ? buffers(positions) : [];
 }

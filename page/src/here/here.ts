@@ -73,8 +73,7 @@ export class Here implements Keeper, Drafting {
   }
 
   private async unzipped(zip: Blob): Promise<Given[]> {
-    const { files } = await this.kit.once((maker) => maker.ask("unzip", { zip }));
-    return files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
+    return (await this.kit.once((maker) => maker.ask("unzip", { zip }))).files;
   }
 
   entries(): Entry[] {

@@ -85,7 +85,7 @@ export class MadeRobot {
         };
         const made = await maker.ask("generate", { path, donor: this.files, options }, tell);
         if (turn !== this.turn) return;
-        this.files = made.files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
+        this.files = made.files;
         this.isWhole = isLast;
         const { links, dofs, notes } = made;
         const making = isLast ? null : { what: "the rest", done: 0, of: 0 };

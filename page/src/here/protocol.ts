@@ -2,16 +2,10 @@
 
 import type { Report } from "../engine/protocol";
 
-/** A file that was dropped, or that was in a .zip. */
+/** A file that was dropped, was in a .zip, or was made. */
 export interface Given {
   path: string;
   file: Blob;
-}
-
-/** A file that was made. */
-export interface MadeFile {
-  path: string;
-  bytes: ArrayBuffer;
 }
 
 /** A description among files. */
@@ -51,7 +45,7 @@ export interface Exported {
 export interface MakerCalls {
   init: [{ module: WebAssembly.Module }, null];
   /** The files of a .zip. */
-  unzip: [{ zip: Blob }, { files: MadeFile[] }];
+  unzip: [{ zip: Blob }, { files: Given[] }];
   /** Takes files, of which only those that a description may name are read. */
   take: [{ files: Given[] }, null];
   descriptions: [Record<string, never>, Description[]];
@@ -61,14 +55,14 @@ export interface MakerCalls {
   /** A URDD; what did not change is taken from the files of `donor`. */
   generate: [
     { path: string; donor: Given[]; options: MakeOptions },
-    { robot: string; links: number; dofs: number; notes: string[]; files: MadeFile[] },
+    { robot: string; links: number; dofs: number; notes: string[]; files: Given[] },
   ];
   /** The files of the URDF that an MJCF or SDF becomes. */
-  import: [{ path: string }, { main: string; files: MadeFile[] }];
+  import: [{ path: string }, { main: string; files: Given[] }];
   /** Files for another program, of a URDD. */
-  export: [{ urdd: Given[]; format: string; output: string }, { main: string; notes: string[]; files: MadeFile[] }];
+  export: [{ urdd: Given[]; format: string; output: string }, { main: string; notes: string[]; files: Given[] }];
   /** A .zip of files. */
-  zip: [{ files: Given[] }, { bytes: ArrayBuffer }];
+  zip: [{ files: Given[] }, Blob];
   /** The module's memory, bytes. */
   memory: [Record<string, never>, number];
 }

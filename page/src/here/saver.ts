@@ -5,7 +5,7 @@ import type { Draft } from "./draft";
 import type { Format } from "./formats";
 import type { Kit } from "./kit";
 import type { MadeRobot } from "./made";
-import type { Given, MadeFile } from "./protocol";
+import type { Given } from "./protocol";
 
 export class Saver {
   constructor(
@@ -39,7 +39,7 @@ export class Saver {
     const maker = await robot.reader.worker();
     try {
       const { files } = await maker.ask("import", { path: robot.description.path });
-      await this.offered(given(files), robot.entry.name);
+      await this.offered(files, robot.entry.name);
     } finally {
       maker.end();
     }
@@ -52,7 +52,7 @@ export class Saver {
     const output = (name.replace(/[^\p{L}\p{N}_-]+/gu, "_") || "robot") + ending;
     const ask = { urdd: robot.files, format: word, output };
     const made = await this.kit.once((maker) => maker.ask("export", ask));
-    await this.offered(given(made.files), `${name}_${word}`);
+    await this.offered(made.files, `${name}_${word}`);
     return made.notes;
   }
 
@@ -63,12 +63,7 @@ export class Saver {
     else offer(await this.pack(files), `${name}.zip`);
   }
 
-  private async pack(files: Given[]): Promise<Blob> {
-    const { bytes } = await this.kit.once((maker) => maker.ask("zip", { files }));
-    return new Blob([bytes], { type: "application/zip" });
+  private pack(files: Given[]): Promise<Blob> {
+    return this.kit.once((maker) => maker.ask("zip", { files }));
   }
-}
-
-function given(files: MadeFile[]): Given[] {
-  return files.map(({ path, bytes }) => ({ path, file: new Blob([bytes]) }));
 }

@@ -5,7 +5,7 @@ import type { OnProgress } from "../engine/serve";
 import { MakeModule } from "./module";
 import { needed } from "./needed";
 import { packed } from "./pack";
-import type { Given, MadeFile, MakerCalls } from "./protocol";
+import type { Given, MakerCalls } from "./protocol";
 
 let module: MakeModule | null = null;
 /** What is told of the job that runs. */
@@ -30,10 +30,10 @@ async function ensure(path: string | null, onProgress: OnProgress): Promise<void
   }
 }
 
-/** The content of files of the module, which are closed. */
-function content(address: number): MadeFile[] {
+/** The content of files of the module, which are closed. The browser keeps it outside of the page's memory. */
+function content(address: number): Given[] {
   const all = maker().list(address).files;
-  const found = all.map(({ path }) => ({ path, bytes: maker().read(address, path).buffer }));
+  const found = all.map(({ path }) => ({ path, file: new Blob([maker().read(address, path)]) }));
   maker().closeFiles(address);
   return found;
 }
@@ -101,8 +101,8 @@ serve<MakerCalls>(
       return { main: made.main, notes: made.notes, files: content(made.files) };
     },
 
-    async zip({ files: all }) {
-      return { bytes: await packed(all) };
+    zip({ files: all }) {
+      return packed(all);
     },
 
     memory() {

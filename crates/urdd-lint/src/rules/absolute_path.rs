@@ -20,7 +20,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let there = file.path().filter(|path| path.is_file());
+        let there = file.path().filter(|path| urdf.files.is_file(path));
         let relative = there
             .and_then(|path| path.strip_prefix(urdf.folder).ok()?.to_str())
             .filter(|relative| !relative.contains(['&', '<', '"', '\'', '\\']));

@@ -1,6 +1,7 @@
 use percent_encoding::percent_decode_str;
 
 use super::prelude::*;
+use urdd_source::Files;
 
 declare_lint! {
     /// A texture of a mesh or of a `<material>`, or the material library of an OBJ, is not there.
@@ -18,7 +19,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         let folder = mesh.file.parent().unwrap_or(Path::new("."));
         for name in &facts.side_files {
-            if !is_there(folder, name) {
+            if !is_there(urdf.files, folder, name) {
                 let message = format!(
                     "the mesh names the file `{}`, which is not there; add it beside the mesh",
                     urdd_format::escape::line(name)
@@ -54,13 +55,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 }
 
 /// Whether a file is there by its name, as it is or as a URI.
-fn is_there(folder: &Path, name: &str) -> bool {
+fn is_there(files: &Files, folder: &Path, name: &str) -> bool {
     let plain = name.strip_prefix("file://").or_else(|| name.strip_prefix("file:")).unwrap_or(name);
     let plain = plain.replace('\\', "/");
     let plain = plain.trim();
     let decoded = percent_decode_str(plain).decode_utf8_lossy();
     plain.is_empty()
         || plain.starts_with("data:")
-        || folder.join(plain).is_file()
-        || folder.join(&*decoded).is_file()
+        || files.is_file(&folder.join(plain))
+        || files.is_file(&folder.join(&*decoded))
 }

@@ -9,6 +9,7 @@ mod cases;
 mod consequences;
 mod fix;
 mod hull;
+mod in_memory;
 mod messages;
 mod programs;
 mod rules_inertia_beyond_geometry;
