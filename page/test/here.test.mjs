@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { exported } from "./exported.mjs";
 import { drawn, dropOn, inPage, repository, run, setting, soon, state } from "./world.mjs";
 
-const set = setting(["gripper"], exported);
+const set = setting(["gripper", "single_link"], exported);
 const robots = join(repository, "conformance/robots");
 
 async function dropped(page, ...paths) {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use serde_json::Value;
+use urdd_format::report::Urdd;
 use urdd_lint::{LintSettings, lint_with_text, rules};
 use urdd_source::Files;
 
@@ -22,11 +22,11 @@ fn below(folder: &Path, at: &str, found: &mut Vec<(String, Arc<[u8]>)>) {
     }
 }
 
-fn report(file: &Path, files: Files) -> Value {
+fn report(file: &Path, files: Files) -> Vec<Urdd> {
     let mut settings = LintSettings::default();
     settings.source.files = files;
     let (run, _) = lint_with_text(file, None, &settings).expect("a report");
-    serde_json::to_value(&run.report.urdds).expect("JSON")
+    run.report.urdds
 }
 
 #[test]
