@@ -10,6 +10,7 @@ use std::fs;
 
 use urdd_findings::code::{Code, RETIRED};
 use urdd_findings::description::Severity;
+use urdd_findings::family::{FAMILIES, Family};
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_validate::rules;
 
@@ -140,7 +141,11 @@ fn written() -> [(&'static str, &'static str, String); 2] {
 
 /// Annex B.
 fn codes_table() -> String {
-    let mut text = "\n| code | severity | clause | name |\n|---|---|---|---|\n".to_owned();
+    let mut text = "\n| family | name | what its rules check |\n|---|---|---|\n".to_owned();
+    for Family { code, name, about } in FAMILIES {
+        text += &format!("| {code} | {name} | {about} |\n");
+    }
+    text += "\n| code | severity | clause | name |\n|---|---|---|---|\n";
     for rule in rules::all() {
         let (severity, clause) = (rule.severity.as_str(), rule.clause.unwrap_or_default());
         text += &format!("| {} | {severity} | {clause} | `{}` |\n", rule.code, rule.name);

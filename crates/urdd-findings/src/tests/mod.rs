@@ -6,6 +6,7 @@
 mod bound;
 mod code;
 mod crash;
+mod family;
 mod finding;
 mod fold;
 mod report_causes;
