@@ -53,8 +53,8 @@ on("the README, for a clone", "clone/", async (page) => {
   await page.getByRole("heading", { level: 1, name: "urdd" }).waitFor();
 });
 
-on("llms.txt", "llms.txt", async (page) => {
-  const text = await page.evaluate(() => document.body.textContent);
+on("llms.txt", "", async (page) => {
+  const text = await (await page.request.get(new URL("llms.txt", page.url()).href)).text();
   assert.match(text, /^# URDD\n\n> .+\n\n[^]*\n## Guide\n\n- \[See a robot\]\(docs\/view\/\): .+\n/);
   const links = [...text.matchAll(/^- \[[^\]]+\]\(([^)]+)\): .+$/gm)].map(([, link]) => link);
   assert.ok(links.length > 30, links.join());

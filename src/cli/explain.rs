@@ -160,9 +160,8 @@ fn items(text: &str) -> Vec<String> {
 fn as_json(explained: &Explained) -> Value {
     let rule = explained.rule;
     let family = Family::of(rule.code);
-    let family = family.map(|family| {
-        json!({ "code": family.code, "name": family.name, "about": family.about })
-    });
+    let family = family
+        .map(|family| json!({ "code": family.code, "name": family.name, "about": family.about }));
     json!({
         "code": rule.code.as_str(),
         "family": family,

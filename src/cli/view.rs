@@ -265,7 +265,8 @@ fn written(
         output::write_file(folder, &page).map_err(usage)?;
         return Ok(0);
     }
-    let stay = export(collection, folder, opens, &signals.cancellation(), &mut tell).map_err(usage)?;
+    let stay =
+        export(collection, folder, opens, &signals.cancellation(), &mut tell).map_err(usage)?;
     for file in stay {
         output::error(&escape::line(&format!(
             "{}: kept, since it was changed after the last export; the site does not need it any more",

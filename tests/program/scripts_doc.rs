@@ -68,10 +68,11 @@ impl Answers<'_> {
         documents.next().and_then(Result::ok).unwrap_or_else(|| panic!("{words:?}: {text}"))
     }
 
-    fn reported(&self, words: &[&str]) -> Value {
-        let done = self.run(&[words, &["--report", "report.json"]].concat());
+    /// The report that a command writes into this file.
+    fn reported(&self, words: &[&str], file: &str) -> Value {
+        let done = self.run(&[words, &["--report", file]].concat());
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-        let text = fs::read_to_string(self.folder.join("report.json")).expect("a report");
+        let text = fs::read_to_string(self.folder.join(file)).expect("a report");
         serde_json::from_str(&text).expect("JSON")
     }
 
@@ -95,12 +96,12 @@ impl Answers<'_> {
             "diff A B --format json" => printed(&["diff", "arm", "gripper"]),
             "check-collisions URDD --format json" => printed(&["check-collisions", "arm"]),
             "export FORMAT … --report FILE" => {
-                Some(self.reported(&["export", "mjcf", "arm", "-o", "arm.xml"]))
+                Some(self.reported(&["export", "mjcf", "arm", "-o", "arm.xml"], "export.json"))
             }
             "import … --report FILE" => {
                 let arm = testkit::repository().join("examples/mjcf/arm.xml");
                 let arm = arm.to_str().expect("text");
-                Some(self.reported(&["import", arm, "-o", "imported"]))
+                Some(self.reported(&["import", arm, "-o", "imported"], "import.json"))
             }
             _ => None,
         }

@@ -76,6 +76,18 @@ fn every_code_in_the_specification_is_a_rule() {
 }
 
 #[test]
+fn each_family_of_rules_has_a_name_in_the_order_of_the_codes() {
+    let mut families: Vec<&str> = Code::ALL.iter().map(|code| code.family()).collect();
+    families.dedup();
+    let named: Vec<&str> = FAMILIES.iter().map(|family| family.code).collect();
+    // That of the rule that only tests have.
+    assert_eq!(families, [&named[..], &["TST"]].concat());
+    for Family { name, about, .. } in FAMILIES {
+        assert!(about.ends_with('.') && !name.is_empty(), "{name}: {about}");
+    }
+}
+
+#[test]
 fn severities_follow_the_words_of_the_specification() {
     let codes = codes_by_clause(&spec());
     for rule in rules::all() {

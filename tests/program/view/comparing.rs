@@ -59,7 +59,7 @@ fn it_takes_two_robots() {
         let text = arm(1.0, r#"<sphere radius="0.3"/>"#);
         fs::write(many.join(name), text).expect("written");
     }
-    for robots in [&[&*urdd] as &[&Path], &[&urdd; 3]] {
+    for robots in [&[&*urdd] as &[&Path], &[&*urdd; 3]] {
         let said = refused(compare(robots));
         let count = robots.len();
         assert!(said.contains("--compare BEFORE AFTER"), "{said}");

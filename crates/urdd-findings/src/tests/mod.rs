@@ -6,7 +6,6 @@
 mod bound;
 mod code;
 mod crash;
-mod family;
 mod finding;
 mod fold;
 mod report_causes;
