@@ -23,10 +23,14 @@ fn is_png(bytes: &[u8]) -> bool {
 
 /// Acts on a server while its robots are drawn, and returns the files that are in the temporary folder then.
 fn drawing(urdfs: &[&Path], act: impl FnOnce(&Running)) -> Vec<String> {
+    drawing_after(Duration::from_millis(50), urdfs, act)
+}
+
+/// As [`drawing`], with a pause between the picture of a robot that is open and the rest of it.
+fn drawing_after(pause: Duration, urdfs: &[&Path], act: impl FnOnce(&Running)) -> Vec<String> {
     let folder = testkit::temporary::folder();
     let settings = Settings::default();
     let collection = Arc::new(of(urdfs));
-    let pause = Duration::from_millis(50);
     let live = Live { folder: folder.path(), settings: &settings, observer: &Quiet, pause };
     thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
@@ -77,7 +81,8 @@ fn a_robot_that_is_open_comes_first() {
     for file in [&urdf, &other] {
         fs::write(file, arm(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
     }
-    drawing(&[&urdf, &other], |server| {
+    // Longer than a card takes.
+    drawing_after(Duration::from_secs(4), &[&urdf, &other], |server| {
         server.until("other", |answer| answer["entry"]["ready"] == true);
         let (card, whole) = thread::scope(|scope| {
             let card = scope.spawn(|| {
