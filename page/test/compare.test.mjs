@@ -105,7 +105,14 @@ test("--compare opens the second robot beside the first", { timeout: 300_000 }, 
 
 test("an exported comparison opens so, once, and the gallery is behind it", { timeout: 300_000 }, async (t) => {
   const site = join(folder, "site");
-  const done = run("view", "--compare", join(set.made.robots, "welding_arm"), join(folder, "after.urdf"), "--export", site);
+  const done = run(
+    "view",
+    "--compare",
+    join(set.made.robots, "welding_arm"),
+    join(folder, "after.urdf"),
+    "--export",
+    site,
+  );
   assert.equal(done.status, 0, done.stderr);
   const server = await serve(site);
   t.after(() => server.end());
