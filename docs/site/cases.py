@@ -1,4 +1,4 @@
-"""The cases of a rule, from conformance/cases and conformance/computed: what is changed, and what the validator must say."""
+"""The cases of a rule, from conformance/cases and conformance/computed: what changes, and what a validator must say."""
 
 from __future__ import annotations
 

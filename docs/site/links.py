@@ -1,11 +1,12 @@
 """Checks the built site: `links.py FOLDER`.
 
-Every link and anchor in every page leads somewhere, and nothing is loaded from another host. The gallery is checked by
-its own tests.
+Every link and anchor in every page, and in llms.txt, leads somewhere, and nothing is loaded from another host. The
+gallery is checked by its own tests.
 """
 
 from __future__ import annotations
 
+import re
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
@@ -56,8 +57,16 @@ def broken(folder: Path) -> list[str]:
                 wrong.append(f"{name}: {link} is not in the site")
             elif aim in pages and unquote(parts.fragment) not in pages[aim].anchors:
                 wrong.append(f"{name}: {link} has an anchor that is not there")
+    wrong += [f"llms.txt: {link} is not in the site" for link in unlisted(folder)]
     print(f"{len(pages)} pages, {sum(len(page.links) for page in pages.values())} links, {len(wrong)} broken")
     return wrong
+
+
+def unlisted(folder: Path) -> list[str]:
+    """The links of llms.txt that lead nowhere."""
+    links = re.findall(r"\]\(([^)]+)\)", (folder / "llms.txt").read_text(encoding="utf-8"))
+    aims = [(link, folder / link) for link in links]
+    return [link for link, aim in aims if not (aim / "index.html" if aim.is_dir() else aim).is_file()]
 
 
 if __name__ == "__main__":

@@ -12,10 +12,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import first
+import llms
 import robots
 import schemas
 import spec
-from pages import BrokenLinkError, Stage
+from pages import PLACES, BrokenLinkError, Stage
 
 import rules
 
@@ -37,13 +39,17 @@ def make(program: Path, made: Path, out: Path) -> None:
         else:
             up = "../" * name.count("/")
             page = spec.with_links(page, set(), codes, "", f"{up}rules/")
-        stage.write(name, page)
+        stage.write(PLACES.get(name, name), page)
+    stage.write("index.md", first.page(stage.page("docs/site/first.md", "index.md"), made / "gallery"))
     for name, page in {**rules.pages(all_rules, known, ROOT), **schemas.pages(ROOT / "schema")}.items():
         stage.write(name, page)
     for schema in sorted((ROOT / "schema").glob("*/*.json")):
         stage.copy(schema.relative_to(ROOT).as_posix())
     stage.write("robots.md", robots.page(made / "robots"))
     shutil.copytree(made / "gallery", out / "gallery")
+    settings = (ROOT / "docs/site/mkdocs.yml").read_text(encoding="utf-8")
+    written = {path.relative_to(out).as_posix(): path.read_text(encoding="utf-8") for path in out.rglob("*.md")}
+    stage.write("llms.txt", llms.text(settings, written))
     for name in ("site.css", "site.svg"):
         shutil.copyfile(Path(__file__).parent / name, out / name)
 

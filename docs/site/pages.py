@@ -33,7 +33,13 @@ PAGES = [
     "tests/figures/geometry/README.md",
 ]
 # Pages that other scripts make, by the folder or file that links name.
-MADE = {"schema": "schema/README.md", "schema/README.md": "schema/README.md"}
+MADE = {
+    "rules/README.md": "rules/README.md",
+    "schema": "schema/README.md",
+    "schema/README.md": "schema/README.md",
+}
+# Where pages of the repository are on the site, if not in the same place: the site has a first page of its own.
+PLACES = {"README.md": "clone.md"}
 LANGUAGES = {".py": "python", ".rs": "rust", ".sh": "bash", ".mjs": "javascript", ".ts": "typescript", ".json": "json"}
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 
@@ -68,18 +74,19 @@ class Stage:
         path.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(self.root / name, path)
 
-    def page(self, name: str) -> str:
-        """A page of the repository, with links that the site has."""
+    def page(self, name: str, place: str | None = None) -> str:
+        """A page of the repository, with links that the site has; for another place of the site, if one is given."""
+        up = "../" * (place or name).count("/")
         lines = []
         for line, text in outside_code(lists(self.root.joinpath(name).read_text(encoding="utf-8"))):
             if text:
-                line = LINK.sub(lambda found: self.link(name, found), line)
+                line = LINK.sub(lambda found: self.link(name, up, found), line)
                 # mkdocs takes `<!` in code for the beginning of a comment, and finds no anchor after it.
                 line = re.sub(r"`([^`]*<![^`]*)`", lambda found: f"<code>{escape(found.group(1))}</code>", line)
             lines.append(line)
         return "\n".join(lines) + "\n"
 
-    def link(self, page: str, found: re.Match[str]) -> str:
+    def link(self, page: str, up: str, found: re.Match[str]) -> str:
         picture, words, target = found.groups()
         if re.match(r"[a-z]+:|#", target):
             return found.group(0)
@@ -91,7 +98,6 @@ class Stage:
         goal = self.goal(aim.relative_to(self.root).as_posix())
         if goal is None:
             return words
-        up = "../" * page.count("/")
         return f"{picture}[{words}]({up}{goal}{'#' + anchor if anchor else ''})"
 
     def goal(self, aim: str) -> str | None:
@@ -103,7 +109,7 @@ class Stage:
             readme = f"{aim}/README.md"
             return readme if readme in self.pages else None
         if aim in self.pages:
-            return aim
+            return PLACES.get(aim, aim)
         if path.suffix not in LANGUAGES:
             self.copy(aim)
             return aim

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,11 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     found = cases.section(root / "conformance", rule["code"])
     head = f"---\ntitle: {rule['code']} {rule['name']}\nsearch:\n  boost: 4\n---\n"
     facts = f"{badge(rule['severity'])} {clause}; since urdd {rule['since']}{effect}"
-    text = f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}\n\n{explanation}\n"
+    family = rule["family"]
+    belongs = f"[{family['code']}, {family['name']}](README.md#{anchor(family)})"
+    text = (
+        f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}; of the family {belongs}\n\n{explanation}\n{trial(rule)}"
+    )
     if found:
         text += (
             "\n## Cases\n\nFrom the [conformance suite](../conformance/README.md): a base, which is a valid URDD, and "
@@ -44,15 +49,33 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     return text
 
 
+def trial(rule: Rule) -> str:
+    """The place of a link that opens the page with a faulty example of this rule; no example is exported yet."""
+    return ""
+
+
+def title(family: dict[str, str]) -> str:
+    """The heading of a family."""
+    name = family["name"]
+    return f"{name[0].upper()}{name[1:]} ({family['code']})"
+
+
+def anchor(family: dict[str, str]) -> str:
+    """That of its heading."""
+    return re.sub(r"[^\w-]", "", title(family).lower().replace(" ", "-"))
+
+
 def index(rules: list[Rule]) -> str:
     parts = [
-        "# Rules\n\nEvery rule of the validator, by family. `urdd explain DOF003` prints the same. A *MUST* that "
-        "fails is an error, a *SHOULD* that fails is a warning.\n"
+        "# Rules\n\nEvery rule of `urdd validate` and `urdd lint`, by family. `urdd explain DOF003` prints the same. A "
+        "*MUST* of the specification that fails is an error, a *SHOULD* that fails is a warning.\n"
     ]
-    for family, members in itertools.groupby(rules, key=lambda rule: rule["code"][:3]):
+    for family, members in itertools.groupby(rules, key=lambda rule: rule["family"]):
         rows = [
             [f"[{rule['code']}]({rule['code']}.md)", badge(rule["severity"]), f"`{rule['name']}`", rule["summary"]]
             for rule in members
         ]
-        parts.append(f"\n## {family}\n\n" + table(["code", "severity", "name", "what"], rows))
+        parts.append(
+            f"\n## {title(family)}\n\n{family['about']}\n\n" + table(["code", "severity", "name", "what"], rows)
+        )
     return "".join(parts)

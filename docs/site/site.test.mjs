@@ -37,8 +37,28 @@ function on(name, path, act, options = { colorScheme: "light" }) {
 }
 
 on("the start page", "", async (page) => {
+  await page.getByRole("heading", { level: 1, name: "What your URDF gets" }).waitFor();
+  const images = page.locator("article img");
+  assert.equal(await images.count(), 4);
+  for (const image of await images.all()) assert.ok(await image.evaluate((image) => image.decode().then(() => image.naturalWidth > 100)));
+  await page.getByRole("link", { name: "Try it here" }).waitFor();
+});
+
+on("a robot of the start page opens", "", async (page) => {
+  await page.getByRole("link", { name: /^quadruped/ }).click();
+  await drawn(page, "quadruped");
+});
+
+on("the README, for a clone", "clone/", async (page) => {
   await page.getByRole("heading", { level: 1, name: "urdd" }).waitFor();
-  assert.equal(await page.locator("article img").evaluate((image) => image.naturalWidth > 100), true);
+});
+
+on("llms.txt", "", async (page) => {
+  const text = await (await page.request.get(new URL("llms.txt", page.url()).href)).text();
+  assert.match(text, /^# URDD\n\n> .+\n\n[^]*\n## Guide\n\n- \[See a robot\]\(docs\/view\/\): .+\n/);
+  const links = [...text.matchAll(/^- \[[^\]]+\]\(([^)]+)\): .+$/gm)].map(([, link]) => link);
+  assert.ok(links.length > 30, links.join());
+  for (const link of links) assert.equal((await page.request.get(new URL(link, page.url()).href)).status(), 200, link);
 });
 
 /** Types into the search field, and opens the first page that is found. */
@@ -77,6 +97,11 @@ on("the specification", "SPEC/#6.2.3", async (page) => {
 on("the rules", "rules/", async (page) => {
   const rules = await page.locator("article table tbody tr").count();
   assert.ok(rules > 150, `${rules} rules`);
+  // Each family is named, in the contents too.
+  const titles = await page.getByRole("heading", { level: 2 }).allTextContents();
+  assert.ok(titles.length > 15);
+  for (const title of titles) assert.match(title, /^\w[\w ]+ \([A-Z]{3}\)/);
+  await page.getByRole("link", { name: "Meshes (MSH)" }).first().waitFor();
 });
 
 on("a schema", "schema/dof_module/", async (page) => {
@@ -90,8 +115,9 @@ on("the gallery opens a robot", "robots/", async (page) => {
   await drawn(page, "welding_arm");
 });
 
-on("a page in a narrow window", "docs/validate/", async (page) => {
-  await page.getByRole("heading", { level: 1 }).waitFor();
-  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
-}, { viewport: { width: 390, height: 800 }, colorScheme: "dark" });
+for (const path of ["", "docs/validate/"])
+  on(`a page in a narrow window: ${path || "the first"}`, path, async (page) => {
+    await page.getByRole("heading", { level: 1 }).waitFor();
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
+  }, { viewport: { width: 390, height: 800 }, colorScheme: "dark" });

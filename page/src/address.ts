@@ -26,6 +26,8 @@ export class Address {
   private shown = "";
   /** Counts navigations, so that only the last one takes effect. */
   private turn = 0;
+  /** The view that a site opens with: of `urdd view --compare --export`. */
+  private first = document.querySelector<HTMLMetaElement>('meta[name="urdd-opens"]')?.content ?? "";
   /** Takes back the drop that is being sent. */
   private sending = new AbortController();
 
@@ -154,7 +156,8 @@ export class Address {
     clearTimeout(this.timer);
     const turn = ++this.turn;
     const { app } = this;
-    const shared = fragment.read(location.hash);
+    const shared = fragment.read(location.hash || this.first);
+    this.first = "";
     const { robot } = app.store.now;
     if (shared.token === null && robot && robot.entry.id !== "" && robot.entry.id === shared.robot) {
       // Another state of the open robot: no request is needed.

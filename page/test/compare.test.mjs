@@ -4,8 +4,9 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after } from "node:test";
-import { drawn, inPage, open, repository, setting, soon, state, view } from "./world.mjs";
+import { after, test } from "node:test";
+import { serve } from "../../docs/site/serve.mjs";
+import { drawn, inPage, open, repository, run, setting, soon, state, tab, view } from "./world.mjs";
 
 const ours = join(repository, "conformance/robots");
 const folder = mkdtempSync(join(tmpdir(), "urdd-compare-"));
@@ -79,6 +80,50 @@ inPage(set, "another robot stands beside this one, with what differs", async (pa
   await page.getByRole("button", { name: "End the comparison" }).click();
   await soon(async () => assert.equal(await page.evaluate(() => globalThis.urdd.stage.beside.scene), null));
   assert.equal(await list.isVisible(), false);
+});
+
+/** That the second robot is open, with the first beside it, and that they differ as they do. */
+async function compared(page) {
+  await drawn(page, "after");
+  const list = page.locator(".compared");
+  await list.waitFor();
+  assert.match(await list.textContent(), /Left: welding_arm.*6 links differ: 1 new, 1 gone, 1 moved, 3 changed/s);
+  const { changes } = await state(page, "compared");
+  assert.equal(changes.find(({ link }) => link === "forearm").change, "moved");
+}
+
+test("--compare opens the second robot beside the first", { timeout: 300_000 }, async () => {
+  const server = await view("--compare", join(ours, "welding_arm.urdf"), join(folder, "after.urdf"));
+  const { page, faults, close } = await tab(set.chrome, server.address);
+  await compared(page);
+  assert.match(new URL(page.url()).hash, /^#r=after&.*v=welding_arm/);
+  assert.doesNotMatch(page.url(), /token/);
+  assert.deepEqual(faults, []);
+  await close();
+  server.end();
+});
+
+test("an exported comparison opens so, once, and the gallery is behind it", { timeout: 300_000 }, async (t) => {
+  const site = join(folder, "site");
+  const done = run(
+    "view",
+    "--compare",
+    join(set.made.robots, "welding_arm"),
+    join(folder, "after.urdf"),
+    "--export",
+    site,
+  );
+  assert.equal(done.status, 0, done.stderr);
+  const server = await serve(site);
+  t.after(() => server.end());
+  const { page, faults, close } = await tab(set.chrome, server.address);
+  await compared(page);
+  await page.getByRole("button", { name: "All robots" }).click();
+  await page.locator(".card").nth(1).waitFor();
+  await open(page, "welding_arm");
+  assert.equal(await page.locator(".compared").isVisible(), false);
+  assert.deepEqual(faults, []);
+  await close();
 });
 
 inPage(set, "the distance of two clicked points, which stay on their links", async (page) => {

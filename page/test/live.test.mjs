@@ -132,6 +132,9 @@ test("a folder of URDFs is a gallery, and each is generated when it is opened", 
   const { page, faults, close } = await tab(set.chrome, server.address);
   await page.locator(".card").nth(1).waitFor();
   assert.equal(await page.getByText("URDF: generated when it is opened").count(), 2);
+  // Each card has a picture before.
+  await page.locator(".card img").nth(1).waitFor();
+  assert.equal(await page.getByText("URDF: generated when it is opened").count(), 2);
   await open(page, "one");
   await state(page, "robot", isWhole);
   await page.getByRole("button", { name: "All robots" }).click();
@@ -144,3 +147,39 @@ test("a folder of URDFs is a gallery, and each is generated when it is opened", 
   await close();
   server.end();
 });
+
+test(
+  "cards are drawn when they become visible, and one that cannot be is as it was",
+  { timeout: 300_000 },
+  async () => {
+    const robots = join(folder, "many");
+    mkdirSync(robots);
+    const names = Array.from({ length: 60 }, (_, k) => `robot_${String(k).padStart(2, "0")}`);
+    for (const name of names) writeFileSync(join(robots, `${name}.urdf`), robot());
+    writeFileSync(join(robots, "robot_00.urdf"), "<robot name=");
+    const server = await view(robots);
+    const { page, faults, close } = await tab(set.chrome, server.address);
+    const of = (name) => page.locator(".card", { has: page.locator(`strong:text-is("${name}")`) });
+    await of("robot_01").locator("img").waitFor();
+    const pictures = page.locator(".card img");
+    // Until all that are visible have one.
+    let count = 0;
+    await soon(async () => {
+      const before = count;
+      count = await pictures.count();
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+      assert.equal(before, count);
+    });
+    assert.ok(count > 3 && count < 55, `${count} pictures`);
+    assert.equal(await of("robot_00").locator("img").count(), 0);
+    await of("robot_00").getByText("URDF: generated when it is opened").waitFor();
+    assert.equal(await of("robot_59").locator("img").count(), 0);
+    await of("robot_59").scrollIntoViewIfNeeded();
+    await of("robot_59").locator("img").waitFor();
+    await of("robot_59").click();
+    await drawn(page, "robot_59");
+    assert.deepEqual(faults, []);
+    await close();
+    server.end();
+  },
+);

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::output::{self, Failure};
 use urdd_findings::description::Description;
+use urdd_findings::family::Family;
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
 use urdd_validate::report;
@@ -88,13 +89,21 @@ fn without_rule(wanted: &str, format: Format) -> Result<String, Failure> {
 fn list(rules: &[Explained]) -> String {
     let lengths = rules.iter().map(|explained| explained.rule.name.len());
     let width = lengths.max().unwrap_or(0);
-    let line = |explained: &Explained| {
-        let rule = explained.rule;
+    let mut text = String::new();
+    let mut above = None;
+    for Explained { rule, .. } in rules {
+        let family = Family::of(rule.code);
+        if above.replace(family) != Some(family)
+            && let Some(Family { code, name, about }) = family
+        {
+            let gap = if text.is_empty() { "" } else { "\n" };
+            text += &format!("{gap}{code}, {name}: {about}\n");
+        }
         let severity = rule.severity.as_str();
         let (code, name, summary) = (rule.code, rule.name, rule.summary());
-        format!("{code}  {severity:7}  {name:width$}  {summary}\n")
-    };
-    rules.iter().map(line).collect()
+        text += &format!("{code}  {severity:7}  {name:width$}  {summary}\n");
+    }
+    text
 }
 
 fn in_full(explained: &Explained) -> String {
@@ -150,8 +159,12 @@ fn items(text: &str) -> Vec<String> {
 
 fn as_json(explained: &Explained) -> Value {
     let rule = explained.rule;
+    let family = Family::of(rule.code);
+    let family = family
+        .map(|family| json!({ "code": family.code, "name": family.name, "about": family.about }));
     json!({
         "code": rule.code.as_str(),
+        "family": family,
         "name": rule.name,
         "severity": rule.severity,
         "clause": rule.clause,

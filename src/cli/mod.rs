@@ -28,6 +28,7 @@ mod signals;
 mod skips;
 mod validate;
 mod view;
+mod viewed;
 mod words;
 mod xacro;
 

@@ -13,18 +13,14 @@ use super::generate_output::{FAILED, Format, Printer};
 use super::output::{self, Failure, one_line};
 use super::packages::PackageArguments;
 use super::signals::Signals;
+use super::viewed;
 use super::xacro::{self, XacroArguments};
-use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_generate::Settings;
 use urdd_robot::Robot;
-use urdd_source::Files;
-use urdd_source::import::format_of;
 use urdd_source::process;
-use urdd_source::robots::{self, BatchError, Job};
 use urdd_view::{
-    Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
-    page_with,
+    Collection, ExportError, Live, Server, Shown, Temporary, export, may_hold_page, page_with,
 };
 
 /// Pause before the rest of a robot is generated.
@@ -35,7 +31,7 @@ const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
 #[command(
     after_help = "The page is served only on 127.0.0.1, and opens only from the printed address. A URDF is shown at once, and again \
     whenever it, a file that its xacro includes, or a mesh changes; its URDD is generated in a temporary folder. Robots of \
-    a folder of URDFs are generated when they are opened.\n\n\
+    a folder of URDFs are generated when they are opened, and drawn on their cards before.\n\n\
     Exit status: 0 after Ctrl-C, or when the site is written; 1 a robot to export could not be generated; 2 usage error, \
     no robot was found, or the server could not start."
 )]
@@ -53,9 +49,13 @@ pub struct ViewArguments {
     #[arg(long)]
     no_open: bool,
 
+    /// Opens the second of two robots with the first beside it, before and after a change: links that differ are coloured.
+    #[arg(long)]
+    compare: bool,
+
     /// Reads configurations from standard input, and shows each as it arrives: lines of CSV or JSON, as those of
     /// `check-collisions`. For one robot.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "compare")]
     follow: bool,
 
     /// Writes the page and the robots into a folder instead, as a site for any web server. A name that ends in `.html`
@@ -95,6 +95,12 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let signals = Signals::listen().map_err(usage)?;
     process::adopt_orphans();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
+    if arguments.compare && paths.len() != 2 {
+        let count = output::counted(paths.len(), "path");
+        return Err(usage(format!(
+            "--compare takes two robots, before and after: `urdd view --compare BEFORE AFTER`; found {count}"
+        )));
+    }
     let settings = Settings {
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(xacro_arguments),
@@ -109,10 +115,12 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let collection = Collection::default()
         .with_drops(drops, arguments.xacro.xacro)
         .with_settings(settings.clone());
-    for path in &paths {
-        add(path, arguments.xacro.xacro, &collection)?;
-    }
+    let counts = viewed::add(&paths, arguments.xacro.xacro, &collection).map_err(usage)?;
     let robots = collection.robots();
+    let opens = match arguments.compare {
+        true => Some(comparison(&paths, &counts, &robots)?),
+        false => None,
+    };
     let live = Live {
         folder: temporary.path(),
         settings: &settings,
@@ -129,11 +137,11 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
                 return Err((FAILED, "there is nothing to show".to_owned()));
             }
         }
-        return written(&collection, folder, &signals);
+        return written(&collection, folder, opens.as_deref(), &signals);
     }
-    // A robot by itself is opened at once; others when somebody chooses them.
-    if let [robot] = robots.as_slice() {
-        robot.see();
+    // A robot by itself is opened at once, as are two that are compared; others when somebody chooses them.
+    if opens.is_some() || robots.len() == 1 {
+        robots.iter().for_each(|robot| robot.see());
     }
     let followed = match (arguments.follow, robots.as_slice()) {
         (false, _) => None,
@@ -155,7 +163,8 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
                 }
             });
         }
-        let address = server.address();
+        let begin = opens.map(|view| format!("&{view}")).unwrap_or_default();
+        let address = format!("{}{begin}", server.address());
         let count = output::counted(robots.len(), "robot");
         let printed = output::print(&format!("{count}: {address}\nCtrl-C stops it.\n"));
         let printed = printed.map_err(usage);
@@ -173,6 +182,22 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         server.run(&signals.cancellation());
         printed.map(|()| 0)
     })
+}
+
+/// The view that shows the second robot beside the first, as the page has it in its address.
+fn comparison(paths: &[PathBuf], counts: &[usize], robots: &[Arc<Shown>]) -> Result<String, Stop> {
+    for (path, count) in paths.iter().zip(counts) {
+        if *count != 1 {
+            let path = path.display();
+            return Err(usage(format!(
+                "{path}: found {count} robots; --compare takes one robot at each path: name one of them"
+            )));
+        }
+    }
+    let [before, after] = robots else {
+        return Err(usage(format!("--compare takes two robots; found {}", robots.len())));
+    };
+    Ok(format!("r={}&v={}", after.id, before.id))
 }
 
 /// Shows the configurations of standard input. A line that is wrong is said, and left out.
@@ -210,68 +235,22 @@ fn follow(shown: &Shown) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Adds the robots at a path: a URDF or xacro file; the URDDs at or below a folder, or else its URDFs.
-fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Stop> {
-    let ends = |path: &Path, ending: &str| {
-        path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
-    };
-    let is_imported = || format_of(path, &Files::Disk).is_some();
-    let is_source = ends(path, "xacro") || ends(path, "urdf") || is_imported();
-    if is_source && path.is_file() {
-        let mut jobs = robots::jobs(&[path.to_owned()]).map_err(usage)?;
-        for job in &mut jobs {
-            // Often the file is `robot.urdf`, and the folder has the robot's name.
-            if job.name == "robot"
-                && let Some(parent) = path.canonicalize().ok().as_deref().and_then(Path::parent)
-                && let Some(parent) = parent.file_name()
-            {
-                job.name = parent.to_string_lossy().into_owned();
-            }
-        }
-        add_jobs(jobs, collection);
-        return Ok(());
-    }
-    match collection.add(path) {
-        Err(DiscoverError::NoUrdd { .. }) if path.is_dir() => {}
-        other => return other.map_err(usage),
-    }
-    let mut jobs = robots::jobs(&[path.to_owned()]).map_err(|error| match error {
-        BatchError::Empty { path } => usage(format!(
-            "{path}: there is no URDD, and no .urdf or .urdf.xacro file, at any depth"
-        )),
-        error => usage(error),
-    })?;
-    let count = jobs.len();
-    if !with_xacro {
-        jobs.retain(|job| !ends(&job.source, "xacro"));
-    }
-    let left = count - jobs.len();
-    if left > 0 {
-        let files = output::counted(left, ".urdf.xacro file");
-        let told = format!("{}: left out {files}; --xacro runs them", path.display());
-        if jobs.is_empty() {
-            return Err(usage(told));
-        }
-        output::error(&escape::line(&told));
-    }
-    add_jobs(jobs, collection);
-    Ok(())
-}
-
-fn add_jobs(jobs: Vec<Job>, collection: &Collection) {
-    for Job { source, name } in jobs {
-        // The working directory may change later.
-        let file = std::path::absolute(&source).unwrap_or(source);
-        collection.add_source(name, Source { file, packages: Vec::new() });
-    }
-}
-
-/// Writes the site.
-fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<u8, Stop> {
+/// Writes the site. `opens` is the view that it shows first.
+fn written(
+    collection: &Collection,
+    folder: &Path,
+    opens: Option<&str>,
+    signals: &Signals,
+) -> Result<u8, Stop> {
     let mut tell = |robot: &Shown| {
         let _ = writeln!(std::io::stderr().lock(), "{}", one_line(&robot.name));
     };
     if folder.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
+        if opens.is_some() {
+            return Err(usage(
+                "a page in one file shows one robot; for a comparison, give --export a folder",
+            ));
+        }
         let robots = collection.robots();
         let [robot] = robots.as_slice() else {
             let count = robots.len();
@@ -286,7 +265,8 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         output::write_file(folder, &page).map_err(usage)?;
         return Ok(0);
     }
-    let stay = export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
+    let stay =
+        export(collection, folder, opens, &signals.cancellation(), &mut tell).map_err(usage)?;
     for file in stay {
         output::error(&escape::line(&format!(
             "{}: kept, since it was changed after the last export; the site does not need it any more",

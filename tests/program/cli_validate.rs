@@ -595,7 +595,17 @@ fn explanations_as_json_and_completions() {
     let family = explained(&["DOF"]);
     let family = family.as_array().expect("a list");
     assert!(family.len() > 5 && family.iter().all(|rule| rule["consequence"] == "wrong-motion"));
-    assert!(explained(&[]).as_array().expect("a list").len() > 100);
+    let all = explained(&[]);
+    let all = all.as_array().expect("a list");
+    assert!(all.len() > 100);
+    for rule in all {
+        let (code, of) = (&rule["code"], &rule["family"]);
+        let letters = of["code"].as_str().expect("a family");
+        assert!(code.as_str().is_some_and(|code| code.starts_with(letters)), "{code}: {of}");
+        for key in ["name", "about"] {
+            assert!(of[key].as_str().is_some_and(|text| !text.is_empty()), "{code}: {of}");
+        }
+    }
     for shell in ["bash", "zsh", "fish"] {
         let script = stdout(&run(&["completions", shell]));
         assert!(script.contains("max-places"), "{shell}");

@@ -32,6 +32,7 @@ mod report_formats;
 mod report_summary;
 mod results;
 mod robot;
+mod scripts_doc;
 mod security_doc;
 mod snapshots;
 mod spec_agrees;

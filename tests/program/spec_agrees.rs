@@ -10,6 +10,7 @@ use std::fs;
 
 use urdd_findings::code::{Code, RETIRED};
 use urdd_findings::description::Severity;
+use urdd_findings::family::{FAMILIES, Family};
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_validate::rules;
 
@@ -71,6 +72,18 @@ fn every_code_in_the_specification_is_a_rule() {
             registered.contains(&code.as_str()),
             "SPEC.md names {code}, and there is no such rule"
         );
+    }
+}
+
+#[test]
+fn each_family_of_rules_has_a_name_in_the_order_of_the_codes() {
+    let mut families: Vec<&str> = Code::ALL.iter().map(|code| code.family()).collect();
+    families.dedup();
+    let named: Vec<&str> = FAMILIES.iter().map(|family| family.code).collect();
+    // That of the rule that only tests have.
+    assert_eq!(families, [&named[..], &["TST"]].concat());
+    for Family { name, about, .. } in FAMILIES {
+        assert!(about.ends_with('.') && !name.is_empty(), "{name}: {about}");
     }
 }
 
@@ -140,7 +153,11 @@ fn written() -> [(&'static str, &'static str, String); 2] {
 
 /// Annex B.
 fn codes_table() -> String {
-    let mut text = "\n| code | severity | clause | name |\n|---|---|---|---|\n".to_owned();
+    let mut text = "\n| family | name | what its rules check |\n|---|---|---|\n".to_owned();
+    for Family { code, name, about } in FAMILIES {
+        text += &format!("| {code} | {name} | {about} |\n");
+    }
+    text += "\n| code | severity | clause | name |\n|---|---|---|---|\n";
     for rule in rules::all() {
         let (severity, clause) = (rule.severity.as_str(), rule.clause.unwrap_or_default());
         text += &format!("| {} | {severity} | {clause} | `{}` |\n", rule.code, rule.name);

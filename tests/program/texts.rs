@@ -163,7 +163,7 @@ fn the_page_of_a_robot_is_our_page() {
         collection.add(&table.path).ok()?;
         let page = page_with(&collection.robots()[0]).ok()?;
         let site = testkit::temporary::folder();
-        export(&collection, site.path(), &Cancellation::default(), &mut |_| {}).ok()?;
+        export(&collection, site.path(), None, &Cancellation::default(), &mut |_| {}).ok()?;
         Some((beside_data(&page), page_of_site(site.path())))
     };
     let ours = made().expect("a page");

@@ -11,6 +11,7 @@ pub mod code;
 pub mod description;
 pub mod effect;
 pub mod examined;
+pub mod family;
 pub mod file_error;
 pub mod finding;
 pub mod fold;

@@ -81,10 +81,10 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
 ///
 /// # Errors
 /// Those of `make`; [`GenerateError::Internal`] for a panic.
-pub fn caught(
+pub fn caught<T>(
     source: &Path,
-    make: impl FnOnce() -> Result<Generated, GenerateError>,
-) -> Result<Generated, GenerateError> {
+    make: impl FnOnce() -> Result<T, GenerateError>,
+) -> Result<T, GenerateError> {
     catch_unwind(AssertUnwindSafe(make)).unwrap_or_else(|crash| {
         let words = crash.downcast_ref::<String>().map(String::as_str);
         let words = words.or_else(|| crash.downcast_ref::<&str>().copied());

@@ -70,8 +70,8 @@ pub fn live_page() -> io::Result<String> {
     ))
 }
 
-/// The page with its files renamed: each name with its replacement path.
-pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
+/// The page with its files renamed: each name with its replacement path; and with the view that it shows first.
+pub fn page_of(page: &str, names: &[(&str, String)], opens: Option<&str>) -> String {
     let mut text = page.to_owned();
     let mut said = String::new();
     for (name, path) in names {
@@ -79,8 +79,16 @@ pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
         said.push_str(&format!("{name} {path} "));
     }
     let mode = r#"<meta name="urdd-mode" content="static" />"#;
-    let files = format!(r#"<meta name="urdd-files" content="{}" />"#, said.trim_end());
-    text.replace(mode, &format!("{mode}\n    {files}"))
+    let mut head = format!("{mode}\n    {}", meta("urdd-files", said.trim_end()));
+    if let Some(view) = opens {
+        head.push_str(&format!("\n    {}", meta("urdd-opens", view)));
+    }
+    text.replace(mode, &head)
+}
+
+fn meta(name: &str, content: &str) -> String {
+    let content = content.replace('&', "&amp;").replace('"', "&quot;");
+    format!(r#"<meta name="{name}" content="{content}" />"#)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use parking_lot::Mutex;
 
+use crate::card::Card;
 use crate::drop_folder::Drops;
 use crate::revision;
 use crate::states::States;
@@ -37,6 +38,8 @@ pub struct Shown {
     pub(super) report: Mutex<Option<(String, String)>>,
     /// The picture, and its revision.
     pub(super) picture: Mutex<Option<(String, Option<Vec<u8>>)>>,
+    /// The picture of its card before it is generated.
+    pub(super) card: Card,
     /// The saves that can be undone: the revision after each, and the files before it.
     pub(super) undo: Mutex<Vec<(String, Files)>>,
 }
@@ -317,6 +320,7 @@ impl Collection {
             seen: Mutex::default(),
             report: Mutex::default(),
             picture: Mutex::default(),
+            card: Card::default(),
             undo: Mutex::default(),
         });
         listed.robots.push(Arc::clone(&shown));

@@ -25,14 +25,16 @@ use urdd_format::hexadecimal::hexadecimal;
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
-/// files that the last export listed, and keeps all others. Calls `tell` after each robot. Returns the files of the
-/// last export that the user changed, which it keeps too.
+/// files that the last export listed, and keeps all others. `opens` is the view that the page shows first, as in its
+/// address (`r=after&v=before`). Calls `tell` after each robot. Returns the files of the last export that the user
+/// changed, which it keeps too.
 ///
 /// # Errors
 /// [`ExportError`].
 pub fn export(
     collection: &Collection,
     folder: &Path,
+    opens: Option<&str>,
     cancellation: &Cancellation,
     tell: &mut dyn FnMut(&Shown),
 ) -> Result<Vec<PathBuf>, ExportError> {
@@ -63,7 +65,7 @@ pub fn export(
     }
     let robots = Value::from(entries).to_string();
     names.push(("robots.json", site.add(robots.as_bytes(), "json")?));
-    site.page(&assets::page_of(&page, &names))?;
+    site.page(&assets::page_of(&page, &names, opens))?;
     let Site { list, .. } = site;
     list.check_places(staging.target(), &before)?;
     list.put(staging.content(), staging.target(), &before)

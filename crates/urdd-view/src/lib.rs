@@ -4,6 +4,8 @@
 //! the printed address can use the server.
 
 mod assets;
+mod card;
+mod cards;
 mod collection;
 mod connections;
 mod drop_folder;

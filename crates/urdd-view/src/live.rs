@@ -2,7 +2,8 @@
 //!
 //! A robot is generated when a page opens it: first a URDD with what the picture, the joints and the sliders need, which
 //! takes less than a second, then all of it. When a file that was read changes while a page shows the robot, both are
-//! generated again; what did not change is taken from the last ones.
+//! generated again; what did not change is taken from the last ones. [`Cards`] has the pictures of robots that nobody has
+//! opened.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -13,7 +14,9 @@ use std::time::{Duration, Instant};
 use parking_lot::Mutex;
 use rayon::ThreadPool;
 
+use crate::cards::Cards;
 use crate::collection::{Collection, Making, Shown, Source};
+use crate::picture;
 use crate::revision;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
@@ -27,8 +30,6 @@ use urdd_source::robots::Job;
 const PAUSE: Duration = Duration::from_millis(200);
 /// A page that has not asked for so long shows another robot, or is closed.
 const FORGOTTEN: Duration = Duration::from_secs(5);
-/// What the picture, the joints and the sliders need, with the core class.
-const PICTURE: &[&str] = &["plain_meshes"];
 
 /// The files that a robot was generated from, and their fingerprints before they were read.
 type Files = BTreeMap<PathBuf, String>;
@@ -78,6 +79,7 @@ impl Live<'_> {
         let mut known: BTreeMap<String, Followed> = BTreeMap::new();
         thread::scope(|scope| {
             let mut running: Option<Run<'_>> = None;
+            let mut cards = Cards::new(self.settings);
             while !self.settings.cancellation.is_cancelled() {
                 for shown in collection.robots() {
                     if !is_watched(&shown) {
@@ -95,6 +97,7 @@ impl Live<'_> {
                     if let Some(run) = &running {
                         run.cancellation.cancel();
                     }
+                    cards.stop();
                     self.picture(robot, pool.as_ref());
                 }
                 running = match running {
@@ -105,8 +108,10 @@ impl Live<'_> {
                     Some(run) => Some(run),
                     None => self.begin(scope, &known),
                 };
+                cards.go_on(scope, collection, running.is_some() || known.values().any(is_due));
                 thread::sleep(PAUSE);
             }
+            cards.stop();
             if let Some(run) = running {
                 run.cancellation.cancel();
             }
@@ -148,7 +153,7 @@ impl Live<'_> {
         let files = Mutex::new(before.collect());
         let target = robot.picture_path();
         let progress = Reading { shown: &robot.shown, files: &files };
-        let made = Selection::parse(PICTURE.iter().copied()).ok();
+        let made = Selection::parse(picture::MODULES.iter().copied()).ok();
         let made = made.map(|selection| {
             let settings = Settings {
                 selection,
@@ -193,8 +198,8 @@ impl Live<'_> {
         scope: &'scope Scope<'scope, 'env>,
         known: &BTreeMap<String, Followed>,
     ) -> Option<Run<'scope>> {
-        let is_due = |since: Instant| since.elapsed() >= self.pause;
-        let waiting = known.iter().filter(|(_, robot)| robot.is_partial_since.is_some_and(is_due));
+        let is_over = |since: Instant| since.elapsed() >= self.pause;
+        let waiting = known.iter().filter(|(_, robot)| robot.is_partial_since.is_some_and(is_over));
         let waiting = waiting.filter(|(_, robot)| is_watched(&robot.shown));
         let (id, robot) = waiting.min_by_key(|(_, robot)| robot.shown.unseen_for())?;
         let cancellation = Cancellation::default();
@@ -231,6 +236,11 @@ impl Live<'_> {
 fn is_watched(shown: &Shown) -> bool {
     let is_seen = shown.unseen_for().is_some_and(|time| time < FORGOTTEN);
     is_seen && shown.is_temporary()
+}
+
+/// Whether somebody watches a robot of which only the picture is generated.
+fn is_due(robot: &Followed) -> bool {
+    robot.is_partial_since.is_some() && is_watched(&robot.shown)
 }
 
 /// Takes the result of a run, unless it was stopped, or the robot has another picture since.

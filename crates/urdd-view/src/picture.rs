@@ -7,6 +7,9 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use urdd_robot::{Robot, RobotError};
 
+/// What the page's first picture, the joints and the sliders need of a URDD, with the core class.
+pub const MODULES: &[&str] = &["plain_meshes"];
+
 /// Size, pixels.
 pub const WIDTH: usize = 320;
 /// Size, pixels.

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
+use crate::cards;
 use crate::collection::{Collection, Shown};
 use crate::connections::{Connection, Connections};
 use crate::drops;
@@ -147,6 +148,9 @@ impl Answers {
         let (all, body) = (&self.collection, &request.body);
         match (&*request.method, Route::of(&request.url)) {
             (method @ ("GET" | "HEAD" | "POST"), Route::Robot(id, asked)) => match all.find(&id) {
+                Some(robot) if asked == Asked::Picture && method != "POST" && !robot.is_ready() => {
+                    cards::answer(&robot, &|| is_gone() || ended.is_cancelled())
+                }
                 Some(robot) => self.about(&robot, (method, &asked), body, ended),
                 None => Reply::failure(404, "there is no such robot\n"),
             },

@@ -1,5 +1,6 @@
 // The extension: starts `urdd lsp`, and shows robots by `urdd view`.
 
+import { statSync } from "node:fs";
 import { homedir } from "node:os";
 import { resolve } from "node:path";
 import {
@@ -18,7 +19,7 @@ import {
   type LanguageClientOptions,
 } from "vscode-languageclient/node";
 import { find, notFound, section, withPackages, type Settings } from "./program";
-import { target, Viewers } from "./viewers";
+import { compared, target, Viewers, type Robots } from "./viewers";
 
 const viewers = new Viewers();
 let client: LanguageClient | undefined;
@@ -32,6 +33,7 @@ export async function activate(context: ExtensionContext): Promise<void> {
     log,
     commands.registerCommand("urdd.restart", restart),
     commands.registerCommand("urdd.show", show),
+    commands.registerCommand("urdd.compare", compare),
     workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration("urdd.path")) void restart();
       else if (change.affectsConfiguration("urdd")) void announce();
@@ -129,7 +131,25 @@ async function show(chosen?: unknown): Promise<void> {
     void window.showErrorMessage("Open a .urdf or .xacro file, or the urdd.json of a URDD: that robot is shown.");
     return;
   }
-  if (/\.xacro$/i.test(robot) && !settings().xacro) {
+  await open([robot]);
+}
+
+/** Opens the page with two selected robots, side by side. */
+async function compare(_chosen?: unknown, selected?: unknown): Promise<void> {
+  const all: unknown[] = Array.isArray(selected) ? selected : [];
+  const files = all.flatMap((uri) => (uri instanceof Uri && uri.scheme === "file" ? [uri.fsPath] : []));
+  const robots = compared(files, (file) => statSync(file, { throwIfNoEntry: false })?.mtimeMs ?? 0);
+  if (robots === null) {
+    void window.showErrorMessage(
+      "Select two robots in the explorer: .urdf or .xacro files, or the urdd.json of URDDs. The older one is drawn left.",
+    );
+    return;
+  }
+  await open(robots);
+}
+
+async function open(robots: Robots): Promise<void> {
+  if (robots.some((robot) => /\.xacro$/i.test(robot)) && !settings().xacro) {
     const why = workspace.isTrusted ? "allow it by `urdd.xacro`" : "trust this workspace, and allow it by `urdd.xacro`";
     void window.showErrorMessage(`xacro runs code that the file contains. To show this robot, ${why}.`);
     return;
@@ -138,7 +158,7 @@ async function show(chosen?: unknown): Promise<void> {
   if (command === null) return;
   const variables = withPackages(settings(), process.env);
   try {
-    const address = await viewers.address(command, robot, variables);
+    const address = await viewers.address(command, robots, variables);
     // On another machine, VS Code forwards the port, and needs the address itself.
     const isHere = env.remoteName === undefined;
     await env.openExternal(isHere ? Uri.file(viewers.page(address)) : Uri.parse(address, true));

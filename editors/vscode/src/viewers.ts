@@ -1,4 +1,4 @@
-// Processes of `urdd view`, one for each robot that is shown. Nothing here needs VS Code.
+// Processes of `urdd view`, one for each robot, or comparison, that is shown. Nothing here needs VS Code.
 
 import { spawn, type ChildProcess } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -11,9 +11,21 @@ export function target(file: string): string | null {
   return /\.(urdf|xacro)$/i.test(file) ? file : null;
 }
 
-/** The arguments of `urdd` that serve a robot's page and print its address. */
-export function viewArguments(robot: string): string[] {
-  return ["view", robot, "--no-open"];
+/** A robot, or two that are compared: before and after a change. */
+export type Robots = readonly [string] | readonly [string, string];
+
+/** The two robots that are compared of files that were selected: the older first. Null if they are not two. */
+export function compared(files: readonly string[], changed: (file: string) => number): Robots | null {
+  const [first, second, ...others] = [...new Set(files)];
+  if (first === undefined || second === undefined || others.length > 0) return null;
+  const [before, after] = changed(second) < changed(first) ? [second, first] : [first, second];
+  const [one, other] = [target(before), target(after)];
+  return one === null || other === null ? null : [one, other];
+}
+
+/** The arguments of `urdd` that serve the page of these robots and print its address. */
+export function viewArguments(robots: Robots): string[] {
+  return ["view", ...(robots.length === 2 ? ["--compare"] : []), ...robots, "--no-open"];
 }
 
 /** The page's address in what the program has printed so far: on this machine alone, and up to the end of its line. */
@@ -48,18 +60,19 @@ export class Viewers {
     return page;
   }
 
-  /** The address of the page with a robot, from a server that runs or is started. */
-  address(program: string, robot: string, env: NodeJS.ProcessEnv): Promise<string> {
-    const running = this.#running.get(robot);
+  /** The address of the page with these robots, from a server that runs or is started. */
+  address(program: string, robots: Robots, env: NodeJS.ProcessEnv): Promise<string> {
+    const key = robots.join("\0");
+    const running = this.#running.get(key);
     if (running) return running.address;
-    const child = spawn(program, viewArguments(robot), {
-      cwd: dirname(robot),
+    const child = spawn(program, viewArguments(robots), {
+      cwd: dirname(robots[0]),
       env,
       stdio: ["ignore", "pipe", "pipe"],
       windowsHide: true,
     });
     const forget = () => {
-      if (this.#running.get(robot)?.child === child) this.#running.delete(robot);
+      if (this.#running.get(key)?.child === child) this.#running.delete(key);
     };
     const found = new Promise<string>((resolve, reject) => {
       let printed = "";
@@ -85,7 +98,7 @@ export class Viewers {
       child.on("error", (error) => ended(error.message));
       child.on("close", (status) => ended(`urdd view ended with status ${status ?? "none"}`));
     });
-    this.#running.set(robot, { child, address: found });
+    this.#running.set(key, { child, address: found });
     return found;
   }
 

@@ -35,6 +35,15 @@ test("a workspace cannot choose the program, nor let xacro run", () => {
   assert.deepEqual(restrictedConfigurations, Object.keys(properties));
 });
 
+test("every command is registered, and a comparison needs two selected files", () => {
+  const source = readFileSync(join(extension, "src/extension.ts"), "utf8");
+  const registered = [...source.matchAll(/registerCommand\("([^"]+)"/g)].map(([, name]) => name);
+  const { commands, menus } = manifest.contributes;
+  assert.deepEqual(registered.sort(), commands.map(({ command }) => command).sort());
+  const [compare] = menus["explorer/context"].filter(({ command }) => command === "urdd.compare");
+  assert.match(compare.when, /^listDoubleSelection && /);
+});
+
 test("the package holds what it needs, and nothing else", (t) => {
   const vsix = join(folder(t), "urdd.vsix");
   execFileSync("npm", ["run", "--silent", "package", "--", "--out", vsix], { cwd: extension, stdio: "pipe" });

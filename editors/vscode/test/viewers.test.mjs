@@ -7,7 +7,7 @@ import { test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import { folder, program, source } from "./world.mjs";
 
-const { address, target, viewArguments, Viewers } = await source("viewers.ts");
+const { address, compared, target, viewArguments, Viewers } = await source("viewers.ts");
 const PAGE = "http://127.0.0.1:8642/#token=1f2e3d";
 
 test("the file that is shown", () => {
@@ -21,7 +21,26 @@ test("the file that is shown", () => {
 });
 
 test("the arguments: no browser is opened by the program", () => {
-  assert.deepEqual(viewArguments("/robots/an arm.urdf"), ["view", "/robots/an arm.urdf", "--no-open"]);
+  assert.deepEqual(viewArguments(["/robots/an arm.urdf"]), ["view", "/robots/an arm.urdf", "--no-open"]);
+  assert.deepEqual(viewArguments(["/old.urdf", "/new.urdf"]), [
+    "view",
+    "--compare",
+    "/old.urdf",
+    "/new.urdf",
+    "--no-open",
+  ]);
+});
+
+test("two robots are compared, the older one first", () => {
+  const times = { "/a.urdf": 2, "/b.urdf": 1, "/b/urdd.json": 3 };
+  const of = (...files) => compared(files, (file) => times[file] ?? 0);
+  assert.deepEqual(of("/a.urdf", "/b.urdf"), ["/b.urdf", "/a.urdf"]);
+  assert.deepEqual(of("/b.urdf", "/a.urdf"), ["/b.urdf", "/a.urdf"]);
+  assert.deepEqual(of("/b/urdd.json", "/a.urdf"), ["/a.urdf", "/b"]);
+  // The order of the selection, where nothing else says it.
+  assert.deepEqual(of("/y.urdf", "/x.xacro"), ["/y.urdf", "/x.xacro"]);
+  for (const files of [[], ["/a.urdf"], ["/a.urdf", "/a.urdf"], ["/a.urdf", "/notes.txt"], Object.keys(times)])
+    assert.equal(of(...files), null, files.join());
 });
 
 test("the address in the output", () => {
@@ -72,15 +91,15 @@ test("a robot has one server, which ends with the extension", async (t) => {
   t.after(() => viewers.stop());
   const robot = join(made, "arm.urdf");
   assert.deepEqual(
-    await Promise.all([viewers.address(urdd, robot, process.env), viewers.address(urdd, robot, process.env)]),
+    await Promise.all([viewers.address(urdd, [robot], process.env), viewers.address(urdd, [robot], process.env)]),
     [PAGE, PAGE],
   );
-  assert.equal(await viewers.address(urdd, robot, process.env), PAGE);
+  assert.equal(await viewers.address(urdd, [robot], process.env), PAGE);
 
   const started = readFileSync(join(made, "log"), "utf8").trim().split("\n");
   assert.equal(started.length, 1);
   const [one, ...words] = started[0].split(" ");
-  assert.deepEqual(words, viewArguments(robot));
+  assert.deepEqual(words, viewArguments([robot]));
   assert.ok(isRunning(Number(one)));
   viewers.stop();
   for (let tries = 0; isRunning(Number(one)) && tries < 100; tries++) await sleep(20);
@@ -94,13 +113,13 @@ test("a robot whose server failed can be shown again, and the message is the pro
   const viewers = new Viewers();
   t.after(() => viewers.stop());
   const robot = join(made, "arm.urdf");
-  await assert.rejects(viewers.address(urdd, robot, process.env), { message: "urdd: arm.urdf: no link" });
+  await assert.rejects(viewers.address(urdd, [robot], process.env), { message: "urdd: arm.urdf: no link" });
   program(urdd, SERVES);
-  assert.equal(await viewers.address(urdd, robot, process.env), PAGE);
+  assert.equal(await viewers.address(urdd, [robot], process.env), PAGE);
 });
 
 test("a program that cannot be started is an error", async (t) => {
   const missing = join(folder(t), "urdd");
   assert.ok(!existsSync(missing));
-  await assert.rejects(new Viewers().address(missing, "/arm.urdf", process.env), /ENOENT/);
+  await assert.rejects(new Viewers().address(missing, ["/arm.urdf"], process.env), /ENOENT/);
 });

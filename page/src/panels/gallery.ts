@@ -144,6 +144,9 @@ function isMade({ ready, making }: Entry): boolean {
 class Asker {
   private readonly waiting: Card[] = [];
   private busy = 0;
+  /** Visible cards of robots that are not generated. */
+  private readonly undrawn = new Set<Card>();
+  private isDrawing = false;
   private readonly seen: IntersectionObserver;
   private readonly cards = new Map<Element, Card>();
 
@@ -154,11 +157,16 @@ class Asker {
     this.seen = new IntersectionObserver((changes) => {
       for (const { isIntersecting, target } of changes) {
         const card = this.cards.get(target);
-        if (!isIntersecting || !card || !isMade(card.entry)) continue;
-        this.seen.unobserve(target);
-        this.waiting.push(card);
+        if (!card) continue;
+        this.undrawn.delete(card);
+        if (!isIntersecting) continue;
+        if (isMade(card.entry)) {
+          this.seen.unobserve(target);
+          this.waiting.push(card);
+        } else if (isUntouched(card.entry)) this.undrawn.add(card);
       }
       void this.work();
+      void this.draw();
     });
     // Data of a robot can be requested once it is generated.
     app.store.on(["entries"], () => {
@@ -197,4 +205,26 @@ class Asker {
       this.busy--;
     }
   }
+
+  /** Asks for the pictures of robots that nobody has opened, one at a time: `urdd view` answers when one is drawn. */
+  private async draw(): Promise<void> {
+    if (this.isDrawing) return;
+    this.isDrawing = true;
+    for (const card of this.undrawn) {
+      this.undrawn.delete(card);
+      if (!isUntouched(card.entry)) continue;
+      try {
+        const picture = await this.app.site.picture(card.entry);
+        if (picture !== null) this.answered({ ...card.entry, picture });
+      } catch (error) {
+        console.info(message(error));
+      }
+    }
+    this.isDrawing = false;
+  }
+}
+
+/** Whether there is no picture of a robot, and nobody has opened it. */
+function isUntouched({ ready, making, failure, picture }: Entry): boolean {
+  return !ready && making === null && failure === null && picture === null;
 }

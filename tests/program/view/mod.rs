@@ -1,4 +1,5 @@
 //! `urdd view` as a process.
 
+mod comparing;
 mod exporting;
 mod serving;

@@ -29,7 +29,7 @@ impl Observer for Quiet {
 }
 
 /// Ends a run when a test ends, or fails.
-struct Ends(Cancellation);
+pub struct Ends(pub Cancellation);
 
 impl Drop for Ends {
     fn drop(&mut self) {
@@ -55,7 +55,7 @@ fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Runni
     });
 }
 
-fn of(urdfs: &[&Path]) -> Collection {
+pub fn of(urdfs: &[&Path]) -> Collection {
     let collection = Collection::default();
     for urdf in urdfs {
         let source = Source { file: urdf.to_path_buf(), packages: Vec::new() };

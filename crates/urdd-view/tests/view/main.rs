@@ -5,6 +5,7 @@
 #![allow(clippy::restriction)]
 
 mod asking;
+mod cards;
 mod dropping;
 mod exporting;
 mod following;

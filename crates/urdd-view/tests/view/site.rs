@@ -19,7 +19,7 @@ pub fn collection(path: &Path) -> Collection {
 }
 
 fn exported(path: &Path, site: &Path) -> Result<Vec<PathBuf>, ExportError> {
-    export(&collection(path), site, &Cancellation::default(), &mut |_| {})
+    export(&collection(path), site, None, &Cancellation::default(), &mut |_| {})
 }
 
 #[test]
