@@ -17,6 +17,7 @@ import llms
 import robots
 import schemas
 import spec
+import trials
 from pages import PLACES, BrokenLinkError, Stage
 
 import rules
@@ -47,6 +48,7 @@ def make(program: Path, made: Path, out: Path) -> None:
         stage.copy(schema.relative_to(ROOT).as_posix())
     stage.write("robots.md", robots.page(made / "robots"))
     shutil.copytree(made / "gallery", out / "gallery")
+    trials.write(ROOT, [rule["code"] for rule in all_rules], out / "gallery")
     settings = (ROOT / "docs/site/mkdocs.yml").read_text(encoding="utf-8")
     written = {path.relative_to(out).as_posix(): path.read_text(encoding="utf-8") for path in out.rglob("*.md")}
     stage.write("llms.txt", llms.text(settings, written))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import cases
+import trials
 from spec import with_links
 from text import table
 
@@ -39,7 +40,7 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     family = rule["family"]
     belongs = f"[{family['code']}, {family['name']}](README.md#{anchor(family)})"
     text = (
-        f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}; of the family {belongs}\n\n{explanation}\n{trial(rule)}"
+        f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}; of the family {belongs}\n\n{explanation}\n{trials.link(root, rule['code'])}"
     )
     if found:
         text += (
@@ -47,11 +48,6 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
             f"what is changed in it.\n\n{found}"
         )
     return text
-
-
-def trial(rule: Rule) -> str:
-    """The place of a link that opens the page with a faulty example of this rule; no example is exported yet."""
-    return ""
 
 
 def title(family: dict[str, str]) -> str:

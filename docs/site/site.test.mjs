@@ -110,6 +110,16 @@ on("a schema", "schema/dof_module/", async (page) => {
   assert.equal(schema.$id, "urn:urdd:schema:dof_module:1.0.0");
 });
 
+on("the page of a rule opens an example with its fault, to mend", "rules/LNT022/", async (page) => {
+  await page.getByRole("link", { name: "Try it in the page" }).click();
+  await page.getByText("LNT022").first().waitFor();
+  await page.waitForFunction(() => globalThis.urdd?.app.store.now.draft !== null);
+  const codes = await page.evaluate(() =>
+    globalThis.urdd.app.store.now.report.report.urdds[0].findings.map(({ code }) => code),
+  );
+  assert.ok(codes.includes("LNT022"), codes.join());
+});
+
 on("the gallery opens a robot", "robots/", async (page) => {
   await page.getByRole("link", { name: /welding_arm/ }).click();
   await drawn(page, "welding_arm");
