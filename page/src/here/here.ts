@@ -40,9 +40,9 @@ export class Here implements Keeper, Drafting {
       );
       if (this.current === robot) app.store.set({ ...this.decoded(report.report), report });
     });
-    // Decisions on skips kept the page from showing the robot anew.
-    app.store.on(["skips"], ({ skips }) => {
-      if (!skips.dirty) this.show();
+    // The robot got further while the page read it, or decisions on skips kept the page from showing it anew.
+    app.store.on(["robot", "skips"], ({ robot, skips }) => {
+      if (robot?.entry.here && !skips.dirty) this.show();
     });
   }
 
@@ -58,8 +58,7 @@ export class Here implements Keeper, Drafting {
       );
     }
     const robots = found.map(
-      (description) =>
-        new MadeRobot(`here.${++this.count}`, description, reader, (robot, hasFiles) => this.changed(robot, hasFiles)),
+      (description) => new MadeRobot(`here.${++this.count}`, description, reader, (robot) => this.changed(robot)),
     );
     this.robots.push(...robots);
     return robots.map(({ entry }) => entry);
@@ -178,14 +177,12 @@ export class Here implements Keeper, Drafting {
   }
 
   /** A robot got further. */
-  private changed(robot: MadeRobot, hasFiles: boolean): void {
+  private changed(robot: MadeRobot): void {
     const { store } = this.app;
     const { entry } = robot;
     store.set({ entries: store.now.entries.map((known) => (known.id === entry.id ? entry : known)) });
     if (store.now.robot?.entry.id !== entry.id) return;
-    const { making, failure } = entry;
-    store.set({ making: { making, failure } });
-    if (hasFiles) this.show();
+    this.show();
   }
 
   /** Shows the files of the open robot as they are now, if the page has others. */
@@ -193,7 +190,12 @@ export class Here implements Keeper, Drafting {
     const { robot, skips } = this.app.store.now;
     const { current } = this;
     if (!robot || !current || robot.entry.id !== current.entry.id) return;
-    if (robot.source.kind !== "local" || robot.source.files === current.files) return;
+    if (robot.source.kind !== "local") return;
+    const { making, failure } = current.entry;
+    this.app.store.set({ making: { making, failure } });
+    // What is not made by now will not be: panels say so.
+    const ended = making === null && failure !== null && robot.entry.making !== null;
+    if (robot.source.files === current.files && !ended) return;
     if (skips.dirty) {
       this.app.note("The robot is made anew. Your decisions on skips stay here: take them back to see it.");
       return;

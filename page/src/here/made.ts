@@ -31,12 +31,12 @@ export class MadeRobot {
   private maker: Maker | null = null;
   private toldAt = -Infinity;
 
-  /** `changed` is called when the entry changed, and whether the files did. */
+  /** `changed` is called when the entry or the files changed. */
   constructor(
     id: string,
     readonly description: Description,
     readonly reader: Reader,
-    private readonly changed: (robot: MadeRobot, hasFiles: boolean) => void,
+    private readonly changed: (robot: MadeRobot) => void,
   ) {
     this.entry = { ...unknown(description.name), id, temporary: true, ready: false, here: true };
     if (description.format === "xacro") this.entry.failure = xacro(description.path);
@@ -69,7 +69,7 @@ export class MadeRobot {
     this.stop(null);
     const turn = this.turn;
     this.isWhole = false;
-    this.set({ making: { what: "files", done: 0, of: 0 }, failure: null }, false);
+    this.set({ making: { what: "files", done: 0, of: 0 }, failure: null });
     try {
       const maker = await this.reader.worker();
       if (turn !== this.turn) {
@@ -89,7 +89,7 @@ export class MadeRobot {
         this.isWhole = isLast;
         const { links, dofs, notes } = made;
         const making = isLast ? null : { what: "the rest", done: 0, of: 0 };
-        this.set({ ready: true, making, failure: null, links, dofs, notes }, true);
+        this.set({ ready: true, making, failure: null, links, dofs, notes });
       }
       this.stop(null);
     } catch (error) {
@@ -102,19 +102,19 @@ export class MadeRobot {
     this.turn++;
     this.maker?.end();
     this.maker = null;
-    if (this.isRunning || failure !== null) this.set({ making: null, failure }, false);
+    if (this.isRunning || failure !== null) this.set({ making: null, failure });
   }
 
   private tell({ what, done, of }: Progress): void {
     const now = performance.now();
     if (now - this.toldAt < PERIOD) return;
     this.toldAt = now;
-    this.set({ making: { what, done, of } }, false);
+    this.set({ making: { what, done, of } });
   }
 
-  private set(change: Partial<Entry>, hasFiles: boolean): void {
+  private set(change: Partial<Entry>): void {
     this.entry = { ...this.entry, ...change };
-    this.changed(this, hasFiles);
+    this.changed(this);
   }
 }
 
