@@ -18,7 +18,7 @@ pub fn joint(name: &str, kind: &str, parent: &str, child: &str, more: &str) -> S
     )
 }
 
-const LIMIT: &str =
+pub const LIMIT: &str =
     "<axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"5\" velocity=\"2\"/>";
 
 #[test]

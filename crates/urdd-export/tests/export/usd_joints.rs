@@ -1,11 +1,12 @@
 //! What joints of a USD have besides frames: limits, drives, mimics, in the units of its schemas.
 
-use testkit::usda::Prim;
+use testkit::usda::{Prim, Value};
 use urdd_export::{ActuatorKind, Choices, Export, Format, Setup};
+use urdd_format::link_shapes_skips::SkippedReason;
 
 use crate::made::{export, exported, robot, urdf};
 use crate::usd::Read;
-use crate::usd_input::{joint, link};
+use crate::usd_input::{LIMIT, joint, link};
 
 /// Degrees of a radian.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -192,4 +193,19 @@ fn axes_that_cannot_move_are_locked_and_said() {
     }
     let said = notes(&made);
     assert!(said.contains("`held`: its limits are equal"), "{said}");
+}
+
+/// The two links of a joint are not checked in USD, unless the joint says so.
+#[test]
+fn links_of_a_joint_are_checked_where_a_person_wants_it() {
+    let parts = link("a", "") + &link("b", "") + &joint("j", "revolute", "a", "b", LIMIT);
+    let (_folder, robot) = robot(&urdf(&parts));
+    let checked = |reasons| {
+        let choices = Choices { reasons, ..Choices::default() };
+        let read = Read::new(&export(&robot, Format::Usd, &choices).expect("an export").text);
+        let joint = read.joint("j");
+        joint.properties.get("physics:collisionEnabled").map(Value::numbers)
+    };
+    assert_eq!(checked(None), None);
+    assert_eq!(checked(Some(vec![SkippedReason::Never])), Some(vec![1.0]));
 }

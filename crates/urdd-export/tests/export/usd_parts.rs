@@ -133,6 +133,11 @@ fn ball() -> String {
 fn a_long_shape_is_a_file_that_the_link_refers_to() {
     let visual = r#"<visual><geometry><mesh filename="ball.obj"/></geometry></visual>"#;
     let (_folder, robot) = robot_of(visual, &[("ball.obj", ball().into())]);
+    let output = Some("x@y.usda".into());
+    let odd = Choices { shapes: ShapeKind::Hulls, output, ..Choices::default() };
+    let odd = export(&robot, Format::Usd, &odd).expect("an export").text;
+    // A path with `@` in it has three around it.
+    assert!(odd.contains("@@@./x@y_meshes/a_piece_0.usda@@@"), "{odd}");
     let (made, read) = with_shapes(&robot, ShapeKind::Hulls);
     let piece = read.links()[0].child("collisions").child("piece_0");
     let path = piece.metadata["references"].text();
