@@ -53,7 +53,7 @@ pub enum ExportError {
     #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
     SpheresOf(ShapeKind),
     /// A binary file, and the format is a text.
-    #[error("`{}` would be binary, and this is a text: write a `.usda`, and make the `{ending}` with `{}`", .file.escape_debug(), binary(.ending))]
+    #[error("`{}` would be binary, and this is a text: write a `.usda`, and make the `{ending}` of it in Python, with usd-core: `{}`", .file.escape_debug(), binary(.ending))]
     Binary {
         /// The file.
         file: String,
@@ -81,7 +81,11 @@ pub(super) fn unknown<'n>(
 
 /// What makes a binary file of a text.
 fn binary(ending: &str) -> &'static str {
-    if ending == ".usdz" { "usdzip -a x.usda x.usdz" } else { "usdcat -o x.usdc x.usda" }
+    if ending == ".usdz" {
+        r#"UsdUtils.CreateNewUsdzPackage("x.usda", "x.usdz")"#
+    } else {
+        r#"Usd.Stage.Open("x.usda").Export("x.usdc")"#
+    }
 }
 
 fn article(what: &str) -> &'static str {

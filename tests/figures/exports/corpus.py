@@ -13,7 +13,8 @@ its own, which is started anew after a crash, after SECONDS, or beyond BYTES.
 A file counts as loaded where its program accepts it, the poses of all links are ours in CONFIGURATIONS configurations, and,
 in MuJoCo, 500 steps stay finite without a warning. Exits with 1 where a file that was written does not load, or we refuse a
 robot, without being in `exceptions.json`; where an exception there is none any more; and where fewer than GOAL load.
-`--write` writes the tables of docs/export.md.
+`--write` writes the tables of docs/export.md, of all robots; with `--exports`, the rows of these, and the line below the
+tables says of which run the others are.
 """
 
 import argparse
@@ -49,6 +50,8 @@ STEPS = 500
 GOAL = 0.99
 # Robots that a row of the tables names.
 MOST = 8
+# Between formats in a cell.
+LIST = ", "
 
 # Spheres are measured in fewer configurations than by default, which takes a fifth of the time.
 FEW = ("--samples", "1000")
@@ -85,6 +88,11 @@ LOADS = {
     "YAML": [("curobo", None)],
     "JSON": [("foam", None)],
 }
+# What PyPI calls the programs that it has.
+PACKAGES = {
+    "MuJoCo": "mujoco", "Newton": "newton", "usd-core": "usd-core", "Pinocchio": "pin", "yourdfpy": "yourdfpy",
+    "PyBullet": "pybullet", "Drake": "drake",
+}  # fmt: skip
 SITE = pathlib.Path(importlib.metadata.distribution("example-robot-data").locate_file(""))
 # Where mesh names of example-robot-data begin.
 ENVIRONMENT = os.environ | {"ROS_PACKAGE_PATH": str(SITE / "cmeel.prefix/share")}
@@ -382,7 +390,7 @@ def measure(urdd, folder, only, exports):
     return results
 
 
-def judge(results, is_whole):
+def judge(results, exports, is_whole):
     """The tables by name, and what is wrong: failures that no exception has, exceptions that are none any more, too many."""
     exceptions = json.loads((HERE / "exceptions.json").read_text())
     wrong, rows, named = [], {}, collections.defaultdict(set)
@@ -413,7 +421,10 @@ def judge(results, is_whole):
             if load["poses"] is not None:
                 row["poses"] = max(row["poses"], load["poses"])
     if is_whole:
-        wrong += [f"not an exception any more: {one}" for at, one in enumerate(exceptions) if at not in named]
+        asked = lambda one: {"urdd", *exports} & {*one["exports"]}
+        wrong += [
+            f"not an exception any more: {one}" for at, one in enumerate(exceptions) if at not in named and asked(one)
+        ]
     written, loaded = (sum(row[key] for row in rows.values()) for key in ("written", "loaded"))
     if loaded < GOAL * written:
         wrong.append(f"{loaded} of {written} loads, fewer than {GOAL}")
@@ -428,7 +439,7 @@ def judge(results, is_whole):
     reasons = [
         [
             one["program"],
-            ", ".join(TITLES[export] for export in one["exports"]),
+            LIST.join(TITLES[export] for export in one["exports"]),
             ", ".join(sorted(named[at])[:MOST])
             + (f" and {len(named[at]) - MOST} more" if len(named[at]) > MOST else ""),
             one["why"],
@@ -446,6 +457,47 @@ def judge(results, is_whole):
     }, wrong
 
 
+def merged(items, before, exports):
+    """The tables of a run of some formats, with the rows that an earlier run has of the others."""
+    ran = {TITLES[name] for name in TITLES if name.removesuffix("-directive") in {"urdd", *exports}}
+    is_of = lambda formats: formats in ran or {*formats.split(LIST)} <= ran
+    order = [*TITLES.values()]
+    all_of = {}
+    for name, formats in (("corpus", 0), ("refused", 0), ("exceptions", 1)):
+        kept = [row for row in before[name]["rows"] if not is_of(row[formats])]
+        rows = [row for row in items[name]["rows"] if row not in kept]
+        all_of[name] = {**items[name], "rows": kept + rows}
+    all_of["corpus"]["rows"].sort(key=lambda row: order.index(row[0]))
+    written, loaded = (
+        sum(int(row[column].replace(",", "")) for row in all_of["corpus"]["rows"]) for column in (2, 3)
+    )
+    return {"robots": items["robots"], "loads": f"{loaded:,} of {written:,}", **all_of}
+
+
+def write(items, exports):
+    sys.path.insert(0, str(HERE.parents[2] / "benches"))
+    import results as pages
+
+    how = f"poses: the greatest difference in {CONFIGURATIONS} configurations"
+    loading = [name for name, files in LOADS.items() if {export for export, _ in files} & {*exports}]
+    versions = [f"{PACKAGES[name]} {importlib.metadata.version(PACKAGES[name])}" for name in loading if name in PACKAGES]
+    if "libsdformat" in loading:
+        versions.append("libsdformat 12.3")
+    if {*exports} != {*EXPORTS}:
+        earlier = json.loads((pages.FOLDER / "exports.json").read_text("utf-8"))
+        made, these = earlier["made"], f"this run: {LIST.join(TITLES[name] for name in exports)}; all else: "
+        origin = f"{made['date']}, commit {made['commit']}"
+        if "this run: " in made["how"]:
+            if these not in made["how"]:
+                sys.exit("the tables have rows of two runs already, of other formats: run all formats")
+            origin = made["how"].partition(these)[2]
+        how = f"{how}; {these}{origin}"
+        items = merged(items, earlier["items"], exports)
+        before = made["programs"].split(", ")
+        versions = before + [version for version in versions if version not in before]
+    pages.write("exports", items, *versions, how=how)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("urdd", type=pathlib.Path)
@@ -461,26 +513,16 @@ def main():
         arguments.only,
         {name: EXPORTS[name] for name in arguments.exports.split(",")},
     )
-    is_whole = not arguments.only and arguments.exports == ",".join(EXPORTS)
-    items, wrong = judge(found, is_whole)
+    exports = arguments.exports.split(",")
+    items, wrong = judge(found, exports, not arguments.only)
     sys.path.insert(0, str(HERE.parents[2] / "benches"))
     import results as pages
 
     for name, item in items.items():
         print(f"\n{name}: {item}" if isinstance(item, str) else f"\n{name}:\n{pages.markdown(item)}")
     print(*(f"\nwrong: {one}" for one in wrong), sep="", flush=True)
-    if arguments.write and is_whole:
-        versions = [
-            f"{name} {importlib.metadata.version(name)}"
-            for name in ("mujoco", "newton", "usd-core", "pin", "yourdfpy", "pybullet", "drake")
-        ]
-        pages.write(
-            "exports",
-            items,
-            *versions,
-            "libsdformat 12.3",
-            how=f"poses: the greatest difference in {CONFIGURATIONS} configurations",
-        )
+    if arguments.write and not arguments.only:
+        write(items, exports)
     sys.exit(bool(wrong))
 
 

@@ -427,7 +427,9 @@ class Newton:
         if self.is_usd:
             from pxr import Usd
 
-            builder.add_usd(str(file))
+            # Newton's own resolver reads no state of joints; PhysX' does.
+            resolvers = [newton.usd.SchemaResolverNewton(), newton.usd.SchemaResolverPhysx()]
+            builder.add_usd(str(file), schema_resolvers=resolvers)
             self.stage = Usd.Stage.Open(str(file))
             links, joints = names_of_usd(self.stage)
             at = lambda prims: {str(prim.GetPath()): name for name, prim in prims.items()}

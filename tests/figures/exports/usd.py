@@ -7,7 +7,8 @@
 For each URDD, with a fixed base:
 
 - Pixar's library takes the file (`programs.Usd`): no error of its validation, each link a body, each joint there; poses.
-- Newton has the URDD's poses in random configurations, masses, centres and inertias, limits, mimics, and after 2 s with
+- Newton has the URDD's poses in random configurations, masses, centres and inertias, limits, mimics, begins in the default
+  configuration, and after 2 s with
   position drives on a processor (`SolverMuJoCo(use_mujoco_cpu=True)`) each joint is near where its drive holds it.
 - Contacts: MuJoCo, as Newton set it up, finds in sampled configurations the pairs of pieces that `urdd check-collisions` finds,
   and none in the default one. What is within BAND of contact is left out, and what MuJoCo does not check by itself: links
@@ -273,6 +274,8 @@ def check(program, root, folder, wrong):
     expect("mimics that are not there", followers - sum(of >= 0 for of in loaded.builder.joint_mimic_joint), 0)
     expect("inertias", loaded.inertias(), RELATIVE)
     expect("limits", loaded.limits(), LIMITS)
+    begins, before = loaded.position(urdd.values(default(urdd))), np.array(loaded.builder.joint_q)
+    expect("joints that do not begin in the default configuration", np.abs(begins - before).max(), LIMITS)
     solver = loaded.solver()
     # What the file itself names as filtered as a whole is lost.
     named = {frozenset(pair) for pair in re.findall(r"links `([^`]*)` and `([^`]*)` are disabled as a whole", done.stderr)}

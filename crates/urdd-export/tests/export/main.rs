@@ -42,4 +42,6 @@ mod there_and_back;
 mod urdf;
 mod usd;
 mod usd_input;
+mod usd_joints;
+mod usd_parts;
 mod yaml;

@@ -86,7 +86,7 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
 }
 
 /// Adds a named configuration with `turn` at 0.5 rad.
-fn name_configuration(robot: &Robot, path: &Path, name: &str) {
+pub fn name_configuration(robot: &Robot, path: &Path, name: &str) {
     let edit = ConfigurationEdit {
         name: ConfigurationName::new(name).expect("a name"),
         positions: vec![DofPosition { dof_name: "turn".to_owned(), position: 0.5 }],

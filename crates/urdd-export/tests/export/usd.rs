@@ -270,7 +270,7 @@ fn filtered(read: &Read) -> BTreeSet<Pair> {
 
 #[test]
 fn the_pairs_are_those_of_the_urdd_by_piece() {
-    let mut count = 0;
+    let [mut count, mut named_in_all] = [0; 2];
     for (name, urdf) in our_robots() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
@@ -313,12 +313,27 @@ fn the_pairs_are_those_of_the_urdd_by_piece() {
                 }
             }
             let options = Choices { shapes: kind, ..Choices::default() };
-            let read = Read::new(&export(&robot, Format::Usd, &options).expect("an export").text);
+            let made = export(&robot, Format::Usd, &options).expect("an export");
+            let read = Read::new(&made.text);
             assert_eq!(filtered(&read), expected, "{name} {kind}");
+            // Each pair of links is named of which that loses pairs that the URDD checks.
+            let is_checked = |a: usize, b: usize| {
+                (0..places.len()).any(|i| {
+                    (0..places.len())
+                        .any(|j| places[i].0 == a && places[j].0 == b && !skips.is_skipped(i, j))
+                })
+            };
+            let lost = (0..links.len()).flat_map(|a| (a + 1..links.len()).map(move |b| (a, b)));
+            let lost = lost.filter(|&(a, b)| is_whole(a, b) && is_checked(a, b)).count();
+            let notes = made.notes.iter().map(ToString::to_string);
+            let named = notes.filter(|note| note.contains("disabled as a whole")).count();
+            assert_eq!(named, lost, "{name} {kind}");
+            named_in_all += named;
             assert!(joints.len() < read.joints().len() + 1);
         }
     }
     assert!(count > 100, "{count}");
+    assert!(named_in_all > 0);
 }
 
 #[test]
