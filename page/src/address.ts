@@ -77,7 +77,7 @@ export class Address {
     const { store } = this.app;
     // During the event: afterwards its files are gone.
     const taking = files();
-    const { turn } = this;
+    let { turn } = this;
     if (store.now.robot === null) store.set({ loading: { what: "files", done: 0, of: 0 }, failure: null });
     try {
       const source = await taking;
@@ -89,8 +89,10 @@ export class Address {
         return;
       }
       this.leave();
-      await this.showTaken(source, this.turn);
+      ({ turn } = this);
+      await this.showTaken(source, turn);
     } catch (error) {
+      if (turn !== this.turn) return;
       if (store.now.robot) this.app.note(message(error));
       else store.set({ loading: null, failure: message(error) });
     }

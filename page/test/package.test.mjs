@@ -78,6 +78,15 @@ test("`npm pack` makes a package that validates, moves a robot and lints, with t
       const meshes = await urdd.lint(around, { urdf: "robots/arm.urdf" });
       const deeds = meshes.urdds[0]?.programs.map(({ program, does }) => program + " " + does);
       if (!deeds?.includes("pybullet null")) throw new Error("deeds: " + deeds?.join());
+      const paths = (await urdd.descriptions(around)).map(({ path }) => path);
+      if (paths.join() !== "robots/arm.urdf,robots/gone.urdf") throw new Error("descriptions: " + paths.join());
+      let steps = 0;
+      const made = await urdd.generate(around, { path: "robots/arm.urdf", samples: 10 }, ({ done, of }) => {
+        if (done <= of) steps++;
+      });
+      const exported = await urdd.export(made, "mjcf", { output: "arm.xml" });
+      const text = new TextDecoder().decode(exported.files[exported.main]);
+      if (urdd.validate(made).urdds[0]?.verdict !== "pass" || steps === 0 || !text.includes("<mujoco")) throw new Error(text);
       const refusals: string[] = [];
       const bad = { urdf: () => urdd.lint(around), for: () => urdd.lint(urdf, { for: ["gazeboo" as Program] }) };
       for (const ask of Object.values(bad)) await ask().catch((error: unknown) => refusals.push(String(error)));
