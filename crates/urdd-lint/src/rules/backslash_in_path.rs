@@ -32,7 +32,8 @@ fn is_there(urdf: &Subject, name: &str) -> bool {
     let source = urdf.source(&mut Findings::default());
     let mut meshes = source.iter().flat_map(|source| &source.meshes);
     let mesh = meshes.find(|mesh| mesh.filename == name);
-    let by_slashes = |path: &Path| urdf.files.is_file(path) && !path.to_string_lossy().contains('\\');
+    let by_slashes =
+        |path: &Path| urdf.files.is_file(path) && !path.to_string_lossy().contains('\\');
     match mesh.map(|mesh| &mesh.file) {
         Some(Ok(file)) => by_slashes(file),
         Some(Err(missing)) => missing.outside.as_deref().is_some_and(by_slashes),

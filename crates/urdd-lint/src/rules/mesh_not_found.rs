@@ -33,7 +33,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         }
         let mut above = urdf.folder.ancestors().skip(1).take(LEVELS);
         let is_plain = !mesh.filename.contains("://");
-        let above = above.find(|folder| is_plain && urdf.files.is_file(&folder.join(&mesh.filename)));
+        let above =
+            above.find(|folder| is_plain && urdf.files.is_file(&folder.join(&mesh.filename)));
         let near = missing.near_package.as_ref().zip(missing.no_package.as_ref());
         let near = near.map(|(near, package)| near.in_words(package));
         let message = near.unwrap_or_else(|| match above {
