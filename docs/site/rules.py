@@ -39,7 +39,8 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     facts = f"{badge(rule['severity'])} {clause}; since urdd {rule['since']}{effect}"
     family = rule["family"]
     belongs = f"[{family['code']}, {family['name']}](README.md#{anchor(family)})"
-    text = f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}; of the family {belongs}\n\n{explanation}\n{trials.link(root, rule['code'])}"
+    what = f"{facts}; of the family {belongs}\n\n{explanation}\n{trials.link(root, rule['code'])}"
+    text = f"{head}\n# {rule['code']} {rule['name']}\n\n{what}"
     if found:
         text += (
             "\n## Cases\n\nFrom the [conformance suite](../conformance/README.md): a base, which is a valid URDD, and "

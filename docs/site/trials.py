@@ -44,6 +44,6 @@ def link(root: Path, code: str) -> str:
     if known is None:
         return ""
     return (
-        f"\n[Try it in the page](../gallery/index.html#from={known[0]}){{ .md-button }} opens an example with this fault: "
-        "its text, to mend, beside the robot.\n"
+        f"\n[Try it in the page](../gallery/index.html#from={known[0]}){{ .md-button }} opens an example with this "
+        "fault: its text, to mend, beside the robot.\n"
     )
