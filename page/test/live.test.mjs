@@ -109,7 +109,7 @@ inPage(set, "a URDF that is dropped with its meshes is shown with them, and alon
   assert.equal(await page.getByRole("button", { name: /not found/ }).count(), 0);
   // The files of the drop that its URDF names, and the folder above it.
   await dropOn(page, join(dropped, "urdf/tool.urdf"), join(dropped, "meshes"));
-  await state(page, "robot", (robot) => isWhole(robot) && robot.entry.id === "tool.2");
+  await state(page, "robot", (robot) => isWhole(robot) && robot.entry.id === "here.2");
   assert.equal(await page.getByRole("button", { name: /not found/ }).count(), 0);
   await dropOn(page, join(dropped, "urdf/tool.urdf"));
   await page.getByRole("button", { name: "1 mesh not found" }).waitFor();
@@ -118,7 +118,7 @@ inPage(set, "a URDF that is dropped with its meshes is shown with them, and alon
   const zip = join(folder, "zipped");
   assert.equal(spawnSync("python3", ["-c", script, zip, folder, "dropped_description"]).status, 0);
   await dropOn(page, `${zip}.zip`);
-  await state(page, "robot", (robot) => isWhole(robot) && robot.entry.id === "tool.4");
+  await state(page, "robot", (robot) => isWhole(robot) && robot.entry.id === "here.4");
   assert.equal(await page.getByRole("button", { name: /not found/ }).count(), 0);
   await page.getByRole("button", { name: "All robots" }).click();
   assert.equal(await page.locator(".card").count(), 5);
@@ -131,10 +131,10 @@ test("a folder of URDFs is a gallery, and each is generated when it is opened", 
   const server = await view(robots);
   const { page, faults, close } = await tab(set.chrome, server.address);
   await page.locator(".card").nth(1).waitFor();
-  assert.equal(await page.getByText("URDF: generated when it is opened").count(), 2);
+  assert.equal(await page.getByText("generated when it is opened").count(), 2);
   // Each card has a picture before.
   await page.locator(".card img").nth(1).waitFor();
-  assert.equal(await page.getByText("URDF: generated when it is opened").count(), 2);
+  assert.equal(await page.getByText("generated when it is opened").count(), 2);
   await open(page, "one");
   await state(page, "robot", isWhole);
   await page.getByRole("button", { name: "All robots" }).click();
@@ -172,7 +172,7 @@ test(
     });
     assert.ok(count > 3 && count < 55, `${count} pictures`);
     assert.equal(await of("robot_00").locator("img").count(), 0);
-    await of("robot_00").getByText("URDF: generated when it is opened").waitFor();
+    await of("robot_00").getByText("generated when it is opened").waitFor();
     assert.equal(await of("robot_59").locator("img").count(), 0);
     await of("robot_59").scrollIntoViewIfNeeded();
     await of("robot_59").locator("img").waitFor();

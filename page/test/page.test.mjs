@@ -315,7 +315,7 @@ describe("the page", { concurrency: false }, () => {
   inPage(set, "a folder that is chosen is validated in the browser, with the program's findings", async (page) => {
     const target = join(set.made.robots, "planar_base_arm");
     await page.waitForSelector(".card");
-    await page.locator('input[type="file"]').first().setInputFiles(target);
+    await page.locator('.drop input[type="file"]').first().setInputFiles(target);
     await drawn(page, "planar_base_arm");
     await page.click("#tab-Findings");
     const { report } = await state(page, "report", (value) => value.report !== null || value.error !== null);
@@ -325,7 +325,7 @@ describe("the page", { concurrency: false }, () => {
 
   inPage(set, "a URDF without a robot, and a .zip without a URDD, are told so", async (page) => {
     await page.waitForSelector(".card");
-    const file = page.locator('input[type="file"]').nth(1);
+    const file = page.locator('.drop input[type="file"]').nth(1);
     await file.setInputFiles({ name: "arm.urdf", mimeType: "text/xml", buffer: Buffer.from("<robot/>") });
     await soon(async () =>
       assert.match(await page.locator(".failure").textContent(), /arm\.urdf.*contains no `<link>`/),

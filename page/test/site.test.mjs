@@ -30,7 +30,7 @@ inPage(set, "the gallery has a picture, links, DOFs and the verdict of each robo
 
 inPage(set, "the site shows its robots, with their reports, and writes nothing", async (page) => {
   await page.waitForSelector(".card");
-  assert.match(await page.locator(".drop").textContent(), /Nothing is uploaded/);
+  assert.match(await page.locator(".drop").textContent(), /nothing is uploaded/);
   await open(page, "welding_arm");
   await page.click("#tab-Findings");
   const { report } = await state(page, "report", (value) => value.report !== null);
