@@ -36,7 +36,10 @@ export function follow(app: App): void {
     const { failure: before } = app.store.now.making;
     if (!same(app.store.now.making, { making, failure })) app.store.set({ making: { making, failure } });
     if (failure !== before) void app.renewReport();
-    if (revision === app.revision || revision === told) return;
+    // The files may have been read with what was said of them before they were whole.
+    const isStale = robot.entry.making !== null && making === null && failure === null;
+    if (revision === app.revision && !isStale) return;
+    if (revision === told && (!isStale || app.store.now.skips.dirty)) return;
     told = revision;
     const { temporary } = robot.entry;
     if (revision === GONE) {

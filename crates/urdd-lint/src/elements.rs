@@ -26,3 +26,17 @@ pub fn numbers<const N: usize>(node: Node, name: &str) -> Option<[f64; N]> {
 pub fn number(node: Node, name: &str) -> Option<f64> {
     numbers::<1>(node, name).map(|[number]| number)
 }
+
+/// The path of an element, with its index among those of the same name.
+pub fn pointer(node: Node) -> String {
+    let mut parts = Vec::new();
+    let inside = |node: &Node| node.parent_element().is_some();
+    for one in node.ancestors().take_while(inside) {
+        let name = one.tag_name().name();
+        let before = one.prev_siblings().skip(1);
+        let before = before.filter(|other| other.is_element() && other.tag_name().name() == name);
+        parts.push(format!("/{name}/{}", before.count()));
+    }
+    parts.reverse();
+    parts.concat()
+}

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
 use super::bodies::Bodies;
-use super::elements::{child, numbers};
+use super::elements::{child, numbers, pointer};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::programs::Left;
@@ -378,20 +378,6 @@ impl<'a> Subject<'a> {
             }],
         }
     }
-}
-
-/// The path of an element, with its index among those of the same name.
-fn pointer(node: Node) -> String {
-    let mut parts = Vec::new();
-    let inside = |node: &Node| node.parent_element().is_some();
-    for one in node.ancestors().take_while(inside) {
-        let name = one.tag_name().name();
-        let before = one.prev_siblings().skip(1);
-        let before = before.filter(|other| other.is_element() && other.tag_name().name() == name);
-        parts.push(format!("/{name}/{}", before.count()));
-    }
-    parts.reverse();
-    parts.concat()
 }
 
 /// The link or joint that an element belongs to.
