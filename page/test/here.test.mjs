@@ -245,3 +245,23 @@ with zipfile.ZipFile(sys.argv[1], "w", zipfile.ZIP_DEFLATED) as zip:
   },
   { faults: [] },
 );
+
+inPage(set, "a link opens a description beside the page, and nothing else", async (page) => {
+  const { site, address } = set.server;
+  mkdirSync(join(site, "examples"), { recursive: true });
+  cpSync(join(robots, "hand.urdf"), join(site, "examples/hand.urdf"));
+  await page.goto(`${address}#from=examples/hand.urdf`);
+  await state(page, "robot", (robot) => robot?.name === "hand");
+  for (const elsewhere of [
+    "//example.org/a.urdf",
+    "https://example.org/a.urdf",
+    "../../a.urdf",
+    "a/../../b.urdf",
+    "robots.json",
+  ]) {
+    await page.goto("about:blank");
+    await page.goto(`${address}#from=${encodeURIComponent(elsewhere)}`);
+    await page.waitForSelector(".card:visible");
+    assert.equal(await page.evaluate(() => globalThis.urdd.app.store.now.draft), null, elsewhere);
+  }
+});

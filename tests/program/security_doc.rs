@@ -33,7 +33,14 @@ fn promises_of_security() -> Vec<Promise> {
     promises
 }
 
-/// Names of all tests in a folder: functions under `#[test]`, including those in macros, and those of pytest.
+/// The name of a test of the page, as one in Rust would have it.
+fn as_identifier(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("_").to_lowercase()
+}
+
+/// Names of all tests in a folder: functions under `#[test]`, including those in macros, those of pytest, and those that
+/// have a page of the browser.
 fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
     for (path, bytes) in testkit::files::below(folder) {
         let text = String::from_utf8_lossy(&bytes);
@@ -47,6 +54,10 @@ fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
             let starts = text.lines().filter_map(|line| line.strip_prefix("def "));
             let functions = starts.filter_map(|rest| rest.split('(').next());
             names.extend(functions.map(ToOwned::to_owned));
+        } else if path.ends_with(".test.mjs") {
+            let named = text.split("inPage(").skip(1);
+            let named = named.filter_map(|rest| rest.split('"').nth(1));
+            names.extend(named.map(|name| as_identifier(name)));
         }
     }
 }
@@ -54,7 +65,7 @@ fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
 fn all_tests() -> BTreeSet<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut tests = BTreeSet::new();
-    for folder in ["src", "crates", "tests", "python/tests"] {
+    for folder in ["src", "crates", "tests", "python/tests", "page/test"] {
         tests_below(&root.join(folder), &mut tests);
     }
     tests
