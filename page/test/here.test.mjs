@@ -251,7 +251,7 @@ inPage(set, "a link opens a description beside the page, and nothing else", asyn
   mkdirSync(join(site, "examples"), { recursive: true });
   cpSync(join(robots, "hand.urdf"), join(site, "examples/hand.urdf"));
   await page.goto(`${address}#from=examples/hand.urdf`);
-  await state(page, "robot", (robot) => robot?.name === "hand");
+  await state(page, "robot", (robot) => robot?.entry.name === "hand");
   for (const elsewhere of [
     "//example.org/a.urdf",
     "https://example.org/a.urdf",

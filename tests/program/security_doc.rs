@@ -57,7 +57,7 @@ fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
         } else if path.ends_with(".test.mjs") {
             let named = text.split("inPage(").skip(1);
             let named = named.filter_map(|rest| rest.split('"').nth(1));
-            names.extend(named.map(|name| as_identifier(name)));
+            names.extend(named.map(as_identifier));
         }
     }
 }
