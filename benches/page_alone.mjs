@@ -51,7 +51,7 @@ async function inPage(address, folder) {
     await dropOn(page, folder);
     const lint = when(() => globalThis.urdd.app.store.now.report.report !== null);
     await page.waitForFunction(() => globalThis.urdd.app.store.now.robot !== null, null, { timeout: 600_000 });
-    await drawn(page, await page.evaluate(() => globalThis.urdd.app.store.now.robot.name));
+    await drawn(page, await page.evaluate(() => globalThis.urdd.app.store.now.robot.entry.name));
     const picture = since();
     const pieces = await when(() => globalThis.urdd.app.store.now.robot?.about.meshes.pieces?.some((all) => all.length > 0));
     const whole = await when(() => globalThis.urdd.app.store.now.robot?.entry.making === null);
@@ -67,7 +67,7 @@ async function inPage(address, folder) {
 function generated(folder, env) {
   const out = mkdtempSync(join(tmpdir(), "urdd-alone-"));
   try {
-    const urdf = readdirSync(folder).find((name) => name.endsWith(".urdf"));
+    const urdf = readdirSync(folder, { recursive: true }).find((name) => name.endsWith(".urdf"));
     const begun = performance.now();
     const words = ["generate", join(folder, urdf), "-o", join(out, "made")];
     const done = spawnSync(program, words, { env: { ...process.env, ...env }, encoding: "utf8" });
