@@ -112,7 +112,7 @@ on("a schema", "schema/dof_module/", async (page) => {
 
 on("the page of a rule opens an example with its fault, to mend", "rules/LNT022/", async (page) => {
   await page.getByRole("link", { name: "Try it in the page" }).click();
-  await page.getByText("LNT022").first().waitFor();
+  await page.locator(".finding strong", { hasText: "LNT022" }).first().waitFor();
   await page.waitForFunction(() => globalThis.urdd?.app.store.now.draft !== null);
   const codes = await page.evaluate(() =>
     globalThis.urdd.app.store.now.report.report.urdds[0].findings.map(({ code }) => code),
