@@ -88,7 +88,8 @@ export class App {
       absent: [],
       // Unsaved edits survive a reload of the same robot.
       skips: old && before.skips.dirty ? before.skips : NO_SKIPS,
-      report: { report: null, error: null, busy: null },
+      // That of a text that this page makes a robot of does not follow from how far the robot is.
+      report: old?.entry.here ? before.report : { report: null, error: null, busy: null },
       sample: null,
     });
     try {
