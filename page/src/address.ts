@@ -77,7 +77,7 @@ export class Address {
     const { store } = this.app;
     // During the event: afterwards its files are gone.
     const taking = files();
-    let { turn } = this;
+    let turn = ++this.turn;
     if (store.now.robot === null) store.set({ loading: { what: "files", done: 0, of: 0 }, failure: null });
     try {
       const source = await taking;
