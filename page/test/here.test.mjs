@@ -74,6 +74,8 @@ inPage(set, "meshes that are missing are asked for by their package, and are tak
   await dropped(page, urdf);
   await drawn(page, "welding_arm");
   await page.getByText("Drop the folder of urdd_robots here, or choose it.").waitFor();
+  // A browser gives no drop to a page that is busy.
+  await whole(page, "welding_arm");
   const found = join(set.made.folder, "urdd_robots");
   cpSync(robots, found, { recursive: true });
   await dropOn(page, found);

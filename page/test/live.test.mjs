@@ -95,6 +95,8 @@ inPage(set, "a URDF that breaks: the page says so, keeps the picture, and goes o
 
 inPage(set, "a URDF that is dropped with its meshes is shown with them, and alone without", async (page) => {
   await drawn(page, "arm");
+  // A browser gives no drop to a page that is busy.
+  await state(page, "robot", isWhole);
   const dropped = join(folder, "dropped_description");
   for (const inside of ["urdf", "meshes"]) mkdirSync(join(dropped, inside), { recursive: true });
   const mesh = `<robot name="tool"><link name="a"><visual><geometry>
