@@ -54,26 +54,33 @@ const NOT_SAID: &[NoteCode] = &[
     NoteCode::WrongNormals,
 ];
 
-/// Inspects a mesh file.
-pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
-    let unusable = |bytes: Option<Vec<u8>>, why: String| Inspected {
-        bytes: bytes.map(Arc::new),
-        side_files: BTreeMap::new(),
-        scene: Err(why),
-        left_out: Vec::new(),
-        remarks: Vec::new(),
-    };
+/// Inspects a mesh file, and the files that it references.
+pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
     let bytes = match roots.files().read(mesh, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
-        Err(why) => return unusable(None, why.to_string()),
+        Err(why) => return Inspected::unusable(None, why.to_string()),
     };
     let name = mesh.file_name().unwrap_or_default().to_string_lossy();
     let beside = Beside { mesh, place, roots, read: RefCell::default() };
-    let mut fetch = |side: &str| {
+    let fetch = |side: &str| {
         let (_, file) = beside.read(side).ok()?;
         Some(file.bytes.as_ref().clone())
     };
-    let scene = match read(&bytes, &name, &mut fetch) {
+    inspect_bytes(bytes, &name, fetch, |side, format| beside.carried(side, format))
+}
+
+/// Inspects the bytes of a mesh of which the files that it references are not wanted.
+pub(crate) fn inspect_alone(bytes: Vec<u8>, name: &str) -> Inspected {
+    inspect_bytes(bytes, name, |_| None, |_, _| Err("which is not read".to_owned()))
+}
+
+fn inspect_bytes(
+    bytes: Vec<u8>,
+    name: &str,
+    mut fetch: impl FnMut(&str) -> Option<Vec<u8>>,
+    carried: impl Fn(&str, Format) -> Found,
+) -> Inspected {
+    let scene = match read(&bytes, name, &mut fetch) {
         Ok(scene) => scene,
         Err(error) => {
             let words = error.to_string();
@@ -81,15 +88,15 @@ pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
             // The caller's message names the file.
             let words = words.strip_prefix(&file).unwrap_or(&words).to_owned();
             let is_mesh = sniff::is_mesh(&bytes, None);
-            return unusable(is_mesh.then_some(bytes), words);
+            return Inspected::unusable(is_mesh.then_some(bytes), words);
         }
     };
     if !sniff::is_mesh(&bytes, Some(&scene)) {
-        return unusable(None, "it holds no mesh".to_owned());
+        return Inspected::unusable(None, "it holds no mesh".to_owned());
     }
     let (mut side_files, mut left_out) = (BTreeMap::new(), Vec::new());
     for side in &scene.side_files {
-        match beside.carried(side, scene.format) {
+        match carried(side, scene.format) {
             Ok((path, file)) => {
                 side_files.insert(path, file);
             }
@@ -104,6 +111,18 @@ pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         false => Err("it holds no triangle with an area".to_owned()),
     };
     Inspected { bytes: Some(Arc::new(bytes)), side_files, scene, left_out, remarks }
+}
+
+impl Inspected {
+    fn unusable(bytes: Option<Vec<u8>>, why: String) -> Self {
+        Inspected {
+            bytes: bytes.map(Arc::new),
+            side_files: BTreeMap::new(),
+            scene: Err(why),
+            left_out: Vec::new(),
+            remarks: Vec::new(),
+        }
+    }
 }
 
 type Found = Result<(PathBuf, SideFile), String>;

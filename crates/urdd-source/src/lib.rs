@@ -12,9 +12,10 @@ mod endings;
 mod error;
 pub mod fault;
 mod files;
+pub mod gate;
 pub mod import;
 mod includes;
-pub mod inspect;
+mod inspect;
 mod load;
 mod meshes;
 mod named;
@@ -24,9 +25,9 @@ mod package_index;
 mod packages;
 pub mod process;
 mod repair;
-pub mod resolve;
+mod resolve;
 pub mod robots;
-pub mod roots;
+mod roots;
 mod settings;
 mod sniff;
 #[cfg(test)]
@@ -39,6 +40,7 @@ pub use cycles::cycles;
 pub use error::SourceError;
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
+pub use inspect::{Inspected, SideFile};
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,
     well_formed,
@@ -46,5 +48,7 @@ pub use load::{
 pub use meshes::{MissingMesh, SourceMesh, SourceMeshes};
 pub use named::{NamedMesh, named};
 pub use packages::{PackagePathError, Packages, package_name};
+pub use resolve::{FoundMesh, NotFound, OtherCase};
+pub use roots::Place;
 pub use settings::Settings;
 pub use xacro::XacroSettings;

@@ -6,13 +6,11 @@ use std::sync::Arc;
 
 use super::around::NearPackage;
 use super::error::SourceError;
+use super::gate::Gate;
 use super::import::import;
-use super::inspect::inspect;
 use super::load::{self, Source};
 use super::named::named;
-use super::packages::Packages;
-use super::resolve::{FoundMesh, NotFound, OtherCase, resolve};
-use super::roots::{Place, Roots};
+use super::resolve::{FoundMesh, NotFound, OtherCase};
 use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
@@ -28,10 +26,8 @@ pub struct SourceMeshes {
     pub meshes: Vec<SourceMesh>,
     /// The text that a URDD carries: the file's, or what xacro made of it, repaired.
     pub text: String,
-    folder: PathBuf,
-    packages: Packages,
-    roots: Roots,
-    places: BTreeMap<PathBuf, Place>,
+    gate: Gate,
+    found: BTreeMap<PathBuf, FoundMesh>,
 }
 
 /// A mesh reference of a URDF.
@@ -128,8 +124,7 @@ impl SourceMeshes {
     /// # Errors
     /// The reason why it has no usable surface.
     pub fn read(&self, file: &Path) -> Result<Arc<Scene>, String> {
-        let place = self.places.get(file).ok_or("the URDF does not name it")?;
-        inspect(file, place, &self.roots).scene
+        self.gate.mesh(self.found.get(file).ok_or("the URDF does not name it")?).scene
     }
 
     /// Finds another file that the URDF names, such as a texture, as meshes are found.
@@ -137,20 +132,17 @@ impl SourceMeshes {
     /// # Errors
     /// The reason why there is none.
     pub fn find(&self, filename: &str) -> Result<PathBuf, MissingMesh> {
-        let found = resolve(filename, &self.folder, &self.packages, &self.roots)?;
-        Ok(found.file)
+        Ok(self.gate.find(filename)?.file)
     }
 }
 
 fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
-    let packages = &settings.packages;
-    let roots = Roots::new(&source.folder, settings);
+    let gate = Gate::new(&source.folder, settings);
     let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
     let mut meshes = Vec::new();
     for mesh in named(&source.reading.robot) {
-        let found = found.entry(mesh.filename).or_insert_with(|| {
-            resolve(mesh.filename, &source.folder, packages, &roots).map_err(MissingMesh::from)
-        });
+        let found = found.entry(mesh.filename);
+        let found = found.or_insert_with(|| gate.find(mesh.filename).map_err(MissingMesh::from));
         meshes.push(SourceMesh {
             link: mesh.link,
             geometry: mesh.geometry,
@@ -159,15 +151,13 @@ fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
             file: found.as_ref().map(|found| found.file.clone()).map_err(Clone::clone),
         });
     }
-    let places = found.into_values().flatten();
-    let places = places.map(|found| (found.file, found.place)).collect();
+    let found = found.into_values().flatten();
+    let found = found.map(|found| (found.file.clone(), found)).collect();
     SourceMeshes {
         text: String::from_utf8_lossy(&source.carried).into_owned(),
         robot: source.reading.robot,
         meshes,
-        folder: source.folder,
-        packages: packages.clone(),
-        roots,
-        places,
+        gate,
+        found,
     }
 }

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
 use urdd_directory::path::portable;
-use urdd_source::roots::Place;
+use urdd_source::Place;
 
 /// File names relative to `meshes/`, with forward slashes.
 pub(crate) struct Layout {

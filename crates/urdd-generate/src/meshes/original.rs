@@ -14,11 +14,9 @@ use urdd_format::index::{ElementIdx, LinkIdx};
 use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::read::Scene;
-use urdd_source::inspect::{Inspected, inspect};
-use urdd_source::named;
+use urdd_source::gate::Gate;
 use urdd_source::note::{Note, NoteKind};
-use urdd_source::resolve::{FoundMesh, NotFound, resolve};
-use urdd_source::roots::{Place, Roots};
+use urdd_source::{FoundMesh, Inspected, NotFound, Place, named};
 
 /// The module, and what later stages use.
 #[derive(Debug)]
@@ -50,26 +48,25 @@ pub struct MeshCount {
 pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
     let Context { source, settings, progress, .. } = *context;
     let named = named(&source.reading.robot);
-    let packages = &settings.source.packages;
-    let roots = Roots::new(&source.folder, &settings.source);
+    let gate = Gate::new(&source.folder, &settings.source);
     let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
     // The distinct names in the order of the URDF, each with its first position.
     let mut names: Vec<(&str, (u32, u32))> = Vec::new();
     for (mesh, place) in named.iter().zip(&source.mesh_places) {
         found_files.entry(mesh.filename).or_insert_with(|| {
             names.push((mesh.filename, *place));
-            resolve(mesh.filename, &source.folder, packages, &roots)
+            gate.find(mesh.filename)
         });
     }
     refuse_outside(&source.shown, &names, &found_files)?;
-    let places: BTreeMap<&PathBuf, &Place> =
-        found_files.values().flatten().map(|found| (&found.file, &found.place)).collect();
-    let places: Vec<_> = places.into_iter().collect();
-    let inspected: BTreeMap<PathBuf, Inspected> = places
+    let found: BTreeMap<&PathBuf, &FoundMesh> =
+        found_files.values().flatten().map(|found| (&found.file, found)).collect();
+    let found: Vec<_> = found.into_iter().collect();
+    let inspected: BTreeMap<PathBuf, Inspected> = found
         .into_par_iter()
-        .map(|(file, place)| {
+        .map(|(file, found)| {
             progress.reads(file);
-            let inside = inspect(file, place, &roots);
+            let inside = gate.mesh(found);
             for side in inside.side_files.keys() {
                 progress.reads(side);
             }
@@ -82,7 +79,7 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
     }
 
     let mut notes =
-        Notes { file: &source.shown, roots: &roots, said: BTreeSet::new(), notes: Vec::new() };
+        Notes { file: &source.shown, gate: &gate, said: BTreeSet::new(), notes: Vec::new() };
     let mut count = MeshCount { named: names.len(), ..MeshCount::default() };
     let mut carried = Vec::new();
     for (name, place) in &names {
@@ -172,7 +169,7 @@ fn refuse_outside(
 
 struct Notes<'a> {
     file: &'a str,
-    roots: &'a Roots,
+    gate: &'a Gate,
     /// Files whose notes are complete.
     said: BTreeSet<&'a Path>,
     notes: Vec<Note>,
@@ -244,13 +241,8 @@ impl<'a> Notes<'a> {
 
     /// Notes a stored file that is outside the robot's own folder.
     fn outside(&mut self, what: String, place: (u32, u32), file: &Path, of: &Place) {
-        if self.roots.is_own(file) {
-            return;
-        }
-        let assumed = match of {
-            Place::Package(name, _) => format!("carried, since it belongs to the package `{name}`"),
-            Place::Own | Place::Allowed => "carried, since --allow-folder allows it".to_owned(),
-        };
+        let Some(why) = self.gate.elsewhere(file, of) else { return };
+        let assumed = format!("carried, {why}");
         let path = file.display();
         let problem = format!("{what} is outside of the URDF's folder and package, at {path}");
         self.note(NoteKind::Outside, place, problem, &assumed);

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_programs::{Mesh, MeshFacts};
-use urdd_source::resolve::resolve;
-use urdd_source::roots::Roots;
+use urdd_source::FoundMesh;
+use urdd_source::gate::Gate;
 
 use crate::settings::LintSettings;
 
@@ -16,7 +16,7 @@ use crate::settings::LintSettings;
 pub struct MeshFiles<'a> {
     folder: PathBuf,
     settings: &'a LintSettings,
-    roots: Roots,
+    gate: Gate,
     by_name: RefCell<HashMap<String, Mesh>>,
     /// By the ending of their names, which says as what a file is read.
     by_file: RefCell<HashMap<(PathBuf, String), Mesh>>,
@@ -26,9 +26,9 @@ impl<'a> MeshFiles<'a> {
     pub fn new(folder: &Path, settings: &'a LintSettings) -> Self {
         let folder = settings.source.files.canonicalize(folder);
         let folder = folder.unwrap_or_else(|_| PathBuf::from("."));
-        let roots = Roots::new(&folder, &settings.source);
+        let gate = Gate::new(&folder, &settings.source);
         let (by_name, by_file) = (RefCell::default(), RefCell::default());
-        MeshFiles { folder, settings, roots, by_name, by_file }
+        MeshFiles { folder, settings, gate, by_name, by_file }
     }
 
     /// What is there under a name. Where packages are missing, or files are outside of those that may be read, nothing is known.
@@ -51,32 +51,30 @@ impl<'a> MeshFiles<'a> {
 
     /// A path from the URDF's folder. Most of those that programs try are not there.
     fn plain(&self, name: &str) -> Mesh {
-        let files = self.roots.files();
         let path = self.folder.join(name);
-        match files.canonicalize(&path).ok().filter(|_| !name.is_empty() && files.is_file(&path)) {
-            Some(file) if self.roots.place(&file, None).is_some() => self.read(&file, name),
-            Some(_) => Mesh::Unknown,
-            None => Mesh::Missing,
+        if name.is_empty() || !self.gate.files().is_file(&path) {
+            return Mesh::Missing;
         }
+        self.gate.at(&path).map_or(Mesh::Unknown, |found| self.read(&found, name))
     }
 
     fn packaged(&self, name: &str) -> Mesh {
-        match resolve(name, &self.folder, &self.settings.source.packages, &self.roots) {
+        match self.gate.find(name) {
             // Other programs take names as they are written.
             Ok(found) if found.assumed.is_some() || name.trim() != name => Mesh::Missing,
-            Ok(found) => self.read(&found.file, name),
+            Ok(found) => self.read(&found, name),
             Err(why) if why.no_package.is_some() || why.outside.is_some() => Mesh::Unknown,
             Err(_) => Mesh::Missing,
         }
     }
 
-    fn read(&self, file: &Path, name: &str) -> Mesh {
+    fn read(&self, found: &FoundMesh, name: &str) -> Mesh {
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
-        let key = (file.to_owned(), ending);
+        let key = (found.file.clone(), ending);
         if let Some(known) = self.by_file.borrow().get(&key) {
             return known.clone();
         }
-        let bytes = self.roots.files().read(file, MAX_DOCUMENT_BYTES);
+        let bytes = self.gate.bytes(found, MAX_DOCUMENT_BYTES);
         let facts = bytes.map(|bytes| Arc::new(MeshFacts::of(name, &bytes)));
         let mesh = facts.map_or(Mesh::Unknown, Mesh::Found);
         self.by_file.borrow_mut().insert(key, mesh.clone());

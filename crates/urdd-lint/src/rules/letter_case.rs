@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use super::prelude::*;
 use urdd_findings::description::Severity;
-use urdd_source::resolve::OtherCase;
+use urdd_source::OtherCase;
 
 declare_lint! {
     /// A mesh or texture is not there, but a file whose path differs in the case of letters is.

@@ -26,22 +26,24 @@ fn movable(tree: &Tree) -> impl Iterator<Item = &Edge> {
 
 /// The values of the joints of the URDF in a configuration, by joint.
 fn values<'t>(model: &Model, tree: &'t Tree, at: usize) -> Vec<(&'t str, Vec<f64>)> {
-    let configuration = &model.configurations[at];
+    let configuration = &model.configurations[at].values;
+    let by_joint: HashMap<(usize, usize), &[f64]> =
+        configuration.iter().map(|value| (value.joint, &*value.values)).collect();
     let mut turns: HashMap<(usize, usize), usize> = HashMap::new();
     let mut all = Vec::new();
     for edge in movable(tree) {
         let Some((body, place)) = edge.joint else { continue };
         let joint = &model.bodies[body].joints[place];
-        let Some(values) = configuration.values.get(&joint.name) else { continue };
+        let Some(values) = by_joint.get(&(body, place)) else { continue };
         let is_split = joint.kind == JointKind::Ball && edge.kind != "spherical";
-        let own = match (is_split, &values[..]) {
+        let own = match (is_split, values) {
             (true, [x, y, z]) => {
                 let turn = turns.entry((body, place)).or_default();
                 let angles = in_turn([*x, *y, *z]);
                 *turn += 1;
                 vec![angles[(*turn - 1).min(2)]]
             }
-            _ => values.clone(),
+            _ => values.to_vec(),
         };
         all.push((&*edge.name, own));
     }

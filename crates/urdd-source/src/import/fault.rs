@@ -1,6 +1,7 @@
 //! Why a description of another format is refused.
 
 use thiserror::Error;
+use urdd_directory::account::Overdrawn;
 
 use super::mjcf::fault::MjcfFault;
 use super::sdf::fault::SdfFault;
@@ -13,12 +14,12 @@ use super::unreachable::Unreachable;
 pub enum ImportFault {
     #[error("not well-formed XML: {0}")]
     NotXml(String),
-    #[error("{0}")]
-    File(Unreachable),
+    #[error(transparent)]
+    File(#[from] Unreachable),
     #[error("`{attribute}` of `<{element}>` is `{value}`, which is not {wanted}")]
     Value { element: String, attribute: String, value: String, wanted: &'static str },
-    #[error("the files have more than {0} elements in all; a robot has fewer")]
-    TooMany(usize),
+    #[error(transparent)]
+    TooMuch(#[from] Overdrawn),
     #[error(transparent)]
     Mjcf(#[from] MjcfFault),
     #[error(transparent)]

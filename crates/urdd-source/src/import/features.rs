@@ -105,6 +105,11 @@ features! {
     KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO;
 }
 
+/// As many remarks of one robot are kept.
+const MOST_REMARKS: usize = 1000;
+/// The characters of one that are kept.
+const LONGEST_REMARK: usize = 1000;
+
 /// Something that a person has to know of one robot: what was assumed, or what is left out beside the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
@@ -135,9 +140,14 @@ impl Tally {
         *self.unread.entry(name.into()).or_default() += 1;
     }
 
-    /// Says what was assumed, or left out.
-    pub fn remark(&mut self, place: Place, text: impl Into<String>) {
-        self.remarks.push(Remark { place, text: text.into() });
+    /// Says what was assumed, or left out. What is beyond the greatest number is counted.
+    pub fn remark(&mut self, place: Place, text: impl AsRef<str>) {
+        if self.remarks.len() == MOST_REMARKS {
+            self.unread("what more remarks would say");
+            return;
+        }
+        let text = text.as_ref().chars().take(LONGEST_REMARK).collect();
+        self.remarks.push(Remark { place, text });
     }
 
     /// How many there are of a feature.

@@ -11,15 +11,15 @@ use super::format::Format;
 use super::model::{Geometry, Model};
 use super::options::ImportOptions;
 use super::origin::origin;
-use super::place::{Place, TextFile};
-use super::placed::{Placed, position};
-use super::reach::Reach;
+use super::place::TextFile;
+use super::placed::{Placed, Positions, placed};
 use super::report::Report;
 use super::tree::Tree;
 use super::urdf::{UNIT_SPHERE, urdf};
 use super::{mjcf, sdf};
 use crate::error::SourceError;
 use crate::files::{Files, MAX_SOURCE_BYTES};
+use crate::gate::Gate;
 use crate::load::{Source, file_name, load, stem};
 use crate::packages::Packages;
 use crate::settings::Settings;
@@ -57,9 +57,8 @@ pub struct Imported {
     pub shown: String,
     /// The other files that were read: what it includes, meshes, images.
     pub read: Vec<PathBuf>,
-    texts: Vec<TextFile>,
-    /// The place of each link and joint in the original, by kind and name.
-    places: BTreeMap<(&'static str, String), Place>,
+    /// The place of each link and joint in the original, by kind and name: file, line, column.
+    places: BTreeMap<(&'static str, String), (Arc<str>, u32, u32)>,
 }
 
 impl Imported {
@@ -97,7 +96,8 @@ impl Imported {
     /// Where a `link` or `joint` of the URDF stands in the original: file, line, column.
     pub fn place(&self, kind: &str, name: &str) -> Option<(&str, u32, u32)> {
         let kind = if kind == "link" { "link" } else { "joint" };
-        position(&self.texts, *self.places.get(&(kind, name.to_owned()))?)
+        let (file, line, column) = self.places.get(&(kind, name.to_owned()))?;
+        Some((file, *line, *column))
     }
 }
 
@@ -123,25 +123,25 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     let canonical = canonical
         .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
-    let reach = Reach::new(folder, settings);
+    let gate = Gate::of_project(folder, settings);
+    gate.account().deposit(bytes.len());
     let Ok(file) = TextFile::new(shown.clone(), canonical.clone(), bytes) else {
         return Ok(None);
     };
     let read = match format {
-        Format::Mjcf => mjcf::read(file, &reach, options),
-        Format::Sdf => sdf::read(file, &reach, options),
+        Format::Mjcf => mjcf::read(file, &gate, options),
+        Format::Sdf => sdf::read(file, &gate, options),
     };
-    let mut model = read.map_err(|Placed { file, line, column, fault }| SourceError::Import {
-        file,
-        line,
-        column,
-        fault: Box::new(fault),
-    })?;
+    let mut model = read.map_err(refused)?;
     if model.name.trim().is_empty() {
         model.name = stem(&canonical);
     }
-    let read = reach.into_read();
-    written(model, format, shown, options).map(|made| Some(Imported { read, ..made }))
+    let made = written(model, format, shown, options, &gate)?;
+    Ok(Some(Imported { read: gate.into_read(), ..made }))
+}
+
+fn refused(Placed { file, line, column, fault }: Placed) -> SourceError {
+    SourceError::Import { file, line, column, fault: Box::new(fault) }
 }
 
 /// As [`import`], and checks that what comes out is a robot.
@@ -168,8 +168,10 @@ fn written(
     format: Format,
     shown: String,
     options: &ImportOptions,
+    gate: &Gate,
 ) -> Result<Imported, SourceError> {
-    let tree = Tree::of(&model, options);
+    let tree = Tree::of(&model, options, gate.account());
+    let tree = tree.map_err(|(place, why)| refused(placed(&model.files, place, why)))?;
     let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
     let name = file_name(model.name.trim_start_matches(['.', '-']));
     let base = name.strip_suffix(".urdf").unwrap_or(&name);
@@ -194,18 +196,23 @@ fn written(
     for asset in &model.assets {
         files.insert(asset.path.clone(), Arc::clone(&asset.bytes));
     }
-    let links = tree.links.iter().map(|link| (("link", link.name.clone()), link.place));
-    let joints = tree.joints.iter().map(|edge| (("joint", edge.name.clone()), edge.place));
+    let links = tree.links.iter().map(|link| ("link", &link.name, link.place));
+    let joints = tree.joints.iter().map(|edge| ("joint", &edge.name, edge.place));
+    let positions = Positions::of(&model.files);
+    let shown_files: Vec<Arc<str>> = model.files.iter().map(|file| (&*file.shown).into()).collect();
+    let places = links.chain(joints).filter_map(|(kind, name, place)| {
+        let (_, line, column) = positions.at(place)?;
+        Some(((kind, name.clone()), (Arc::clone(&shown_files[place.file]), line, column)))
+    });
     Ok(Imported {
-        places: links.chain(joints).collect(),
+        places: places.collect(),
         configurations: companions::configurations(&model, &tree),
         skips: companions::skips(&model),
-        report: Report::of(&model, format),
+        report: Report::of(&model, format, &positions, &gate.all_elsewhere()),
         origin: origin(format, &model.files),
         urdf: name,
         files,
         shown,
         read: Vec::new(),
-        texts: model.files,
     })
 }

@@ -14,7 +14,6 @@ pub mod options;
 mod origin;
 pub mod place;
 pub mod placed;
-pub mod reach;
 pub mod report;
 pub mod sdf;
 mod solid;

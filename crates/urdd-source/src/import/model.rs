@@ -1,12 +1,13 @@
 //! A robot of another format, in the terms of that format: bodies in a tree, each with the joints by which it moves.
 //!
 //! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; the writers of
-//! this room make a URDF and its companions from it.
+//! this room make a URDF and its companions from it. What is in a list was charged to the account of the run, with all
+//! that the writers make of it.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use urdd_directory::account::{Charged, Cost};
 
 use super::features::Tally;
 use super::place::{Place, TextFile};
@@ -19,17 +20,17 @@ pub struct Model {
     /// The files that were read: the description first, then what it includes.
     pub files: Vec<TextFile>,
     /// Its bodies. A parent stands before its children; names are unique and not empty.
-    pub bodies: Vec<Body>,
+    pub bodies: Charged<Body>,
     /// Whether the root moves freely in the world.
     pub is_floating: bool,
     /// The meshes and images that shapes name.
-    pub assets: Vec<Asset>,
+    pub assets: Charged<Asset>,
     /// Named configurations. Joints without a value are at 0.
-    pub configurations: Vec<Configuration>,
+    pub configurations: Charged<Configuration>,
     /// Pairs of bodies that are never checked for collisions, by index.
-    pub apart: Vec<Apart>,
-    /// Complete XML elements that stand in the URDF as they are, such as `<gazebo>` with a plugin.
-    pub elements: Vec<String>,
+    pub apart: Charged<Apart>,
+    /// What stands in the URDF as it is.
+    pub elements: Charged<GazeboElement>,
     /// The coefficient of friction of all shapes, where all have the same.
     pub friction: Option<f64>,
     /// What became of what the description says.
@@ -46,13 +47,13 @@ pub struct Body {
     /// Its frame in its parent's, where each of its joints is at [`Joint::reference`].
     pub pose: Isometry3<f64>,
     /// The joints between it and its parent, the one that moves first. None: it is fixed.
-    pub joints: Vec<Joint>,
+    pub joints: Charged<Joint>,
     /// The name of the fixed joint, if it has no others; `NAME_fixed` otherwise.
     pub fixed_by: Option<String>,
     /// Its mass, if it has one.
     pub inertial: Option<Inertial>,
     /// Its shapes.
-    pub shapes: Vec<Shape>,
+    pub shapes: Charged<Shape>,
     /// Whether it is a frame alone: a site, a camera, a frame of SDF.
     pub is_frame: bool,
     /// Where it stands.
@@ -66,10 +67,10 @@ impl Body {
             name,
             parent,
             pose,
-            joints: Vec::new(),
+            joints: Charged::default(),
             fixed_by: None,
             inertial: None,
-            shapes: Vec::new(),
+            shapes: Charged::default(),
             is_frame: false,
             place,
         }
@@ -242,9 +243,24 @@ pub struct Asset {
 pub struct Configuration {
     /// Its name.
     pub name: String,
-    /// Values by joint, rad or m; of a ball, the components x, y, z of its rotation vector.
-    pub values: BTreeMap<String, Vec<f64>>,
+    /// Values of joints, in the order of bodies and of their joints.
+    pub values: Charged<JointValue>,
 }
+
+/// The value of a joint in a named configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointValue {
+    /// The joint: the index of its body, and its own there.
+    pub joint: (usize, usize),
+    /// Its name.
+    pub name: String,
+    /// In rad or m; of a ball, the components x, y, z of its rotation vector.
+    pub values: Vec<f64>,
+}
+
+/// A complete XML element that stands in the URDF as it is, such as `<gazebo>` with a plugin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GazeboElement(pub String);
 
 /// Two bodies that are never checked for collisions with each other, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -253,4 +269,58 @@ pub struct Apart {
     pub bodies: [usize; 2],
     /// The reason, in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
     pub reason: &'static str,
+}
+
+/// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
+pub const ENTRY: usize = 1500;
+/// The same, of each byte of a name.
+pub const LETTER: usize = 12;
+
+impl Cost for Body {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Joint {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * (self.name.len() + self.mimic.as_ref().map_or(0, |of| of.joint.len()))
+    }
+}
+
+impl Cost for Shape {
+    fn cost(&self) -> usize {
+        let material = self.material.as_ref().and_then(|material| material.name.as_ref());
+        ENTRY + LETTER * self.name.iter().chain(material).map(String::len).sum::<usize>()
+    }
+}
+
+impl Cost for Asset {
+    fn cost(&self) -> usize {
+        self.path.len() + self.bytes.len()
+    }
+}
+
+impl Cost for Configuration {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for JointValue {
+    fn cost(&self) -> usize {
+        ENTRY / 3 + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Apart {
+    fn cost(&self) -> usize {
+        ENTRY / 3
+    }
+}
+
+impl Cost for GazeboElement {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.0.len()
+    }
 }

@@ -6,9 +6,17 @@ use std::sync::Arc;
 use urdd_directory::position::LineIndex;
 use urdd_xml::XmlError;
 
+use super::fault::ImportFault;
 use super::unreachable::Unreachable;
 use crate::decode::decode;
 use crate::error::SourceError;
+use crate::files::MAX_SOURCE_BYTES;
+use crate::gate::Gate;
+use crate::resolve::FoundMesh;
+
+/// What a file costs, bytes, and each byte of its text: bytes, text, document and elements.
+const FILE: usize = 20_000;
+const TEXT: usize = 16;
 
 /// A place in one of the files of a description.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,15 +50,19 @@ impl TextFile {
         Ok(TextFile { shown, path, text, bytes: bytes.into() })
     }
 
-    /// As [`TextFile::new`], of a file that a description includes.
+    /// As [`TextFile::new`], of a file that a description includes. What is made of it is charged each time it is
+    /// included.
     ///
     /// # Errors
-    /// If it is not text.
-    pub fn included(path: PathBuf, bytes: Vec<u8>) -> Result<Self, Unreachable> {
-        let shown = path.display().to_string();
-        TextFile::new(shown.clone(), path, bytes).map_err(|error| {
+    /// If it cannot be read, is not text, or the account of the gate does not have its cost.
+    pub fn included(gate: &Gate, found: &FoundMesh) -> Result<Self, ImportFault> {
+        let shown = found.file.display().to_string();
+        let bytes = gate.bytes(found, MAX_SOURCE_BYTES);
+        let bytes = bytes.map_err(|why| ImportFault::File(Unreachable::unread(&shown, &why)))?;
+        gate.account().charge(FILE + bytes.len() * TEXT)?;
+        TextFile::new(shown.clone(), found.file.clone(), bytes).map_err(|error| {
             let reason = error.to_string();
-            Unreachable::Unreadable { file: shown, reason }
+            ImportFault::File(Unreachable::Unreadable { file: shown, reason })
         })
     }
 }

@@ -19,13 +19,25 @@ pub struct Placed {
 
 /// A fault at a place of one of the files.
 pub fn placed(files: &[TextFile], place: Place, fault: impl Into<ImportFault>) -> Placed {
-    let (file, line, column) = position(files, place).unwrap_or_default();
+    let file = files.get(place.file).map_or(&[][..], std::slice::from_ref);
+    let there = Positions::of(file).at(Place { file: 0, ..place });
+    let (file, line, column) = there.unwrap_or_default();
     Placed { file: file.to_owned(), line, column, fault: fault.into() }
 }
 
-/// The file, line and column of a place.
-pub fn position(files: &[TextFile], place: Place) -> Option<(&str, u32, u32)> {
-    let file = files.get(place.file)?;
-    let at = LineIndex::new(&file.text).position(place.offset);
-    Some((&file.shown, at.line, at.column))
+/// The lines of files, for places in them.
+pub struct Positions<'f>(Vec<(&'f str, LineIndex<'f>)>);
+
+impl<'f> Positions<'f> {
+    /// Finds the lines.
+    pub fn of(files: &'f [TextFile]) -> Self {
+        Positions(files.iter().map(|file| (&*file.shown, LineIndex::new(&file.text))).collect())
+    }
+
+    /// The file, line and column of a place.
+    pub fn at(&self, place: Place) -> Option<(&'f str, u32, u32)> {
+        let (shown, lines) = self.0.get(place.file)?;
+        let at = lines.position(place.offset);
+        Some((shown, at.line, at.column))
+    }
 }

@@ -1,11 +1,15 @@
 //! What an import carried, otherwise, and lost.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
 use urdd_format::carried::{self, How, Part, table};
 
 use super::features::{ALL, Feature, Remark};
 use super::format::Format;
 use super::model::Model;
-use super::placed::position;
+use super::place::Place;
+use super::placed::Positions;
 use crate::note::{Note, NoteKind};
 
 /// What became of a description.
@@ -22,8 +26,13 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report on a model.
-    pub fn of(model: &Model, format: Format) -> Self {
+    /// The report on a model. `elsewhere` names the files that were read from outside of the description's folder.
+    pub fn of(
+        model: &Model,
+        format: Format,
+        positions: &Positions<'_>,
+        elsewhere: &BTreeMap<PathBuf, String>,
+    ) -> Self {
         let counted = ALL.iter().map(|feature| {
             let count = model.tally.number_of(*feature);
             (feature.name.to_owned(), count, how(*feature, format))
@@ -33,7 +42,7 @@ impl Report {
         let unread = model.tally.all_unread().iter();
         parts.extend(unread.map(|(name, count)| (name.clone(), *count, How::No)));
         let note = |remark: &Remark| {
-            let (file, line, column) = position(&model.files, remark.place).unwrap_or_default();
+            let (file, line, column) = positions.at(remark.place).unwrap_or_default();
             let (problem, assumed) = (remark.text.clone(), String::new());
             Note {
                 kind: NoteKind::Otherwise,
@@ -44,7 +53,19 @@ impl Report {
                 assumed,
             }
         };
-        let remarks = model.tally.remarks.iter().map(note).collect();
+        let first = positions.at(Place::default()).map_or("", |(file, ..)| file);
+        let outside = elsewhere.iter().map(|(path, why)| Note {
+            kind: NoteKind::Outside,
+            file: first.to_owned(),
+            line: 0,
+            column: 0,
+            problem: format!(
+                "{} is outside of the description's folder and project",
+                path.display()
+            ),
+            assumed: format!("read, {why}"),
+        });
+        let remarks = model.tally.remarks.iter().map(note).chain(outside).collect();
         Report { robot: model.name.clone(), format, parts, remarks }
     }
 

@@ -1,6 +1,7 @@
 //! A [`Model`] as links and joints of a URDF: a link a body, and a link without mass between two joints of a body.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use urdd_directory::account::{Account, Overdrawn};
 
 use super::model::{Body, Joint, JointKind, Mimic, Model};
 use super::names::Names;
@@ -48,23 +49,32 @@ pub struct Edge {
 
 impl Tree {
     /// The links and joints of a model.
-    pub fn of(model: &Model, options: &ImportOptions) -> Self {
-        let mut names = Taken::default();
+    ///
+    /// # Errors
+    /// If the account does not have what names cost that are made of others; with the place of the body.
+    pub fn of(
+        model: &Model,
+        options: &ImportOptions,
+        account: &Account,
+    ) -> Result<Self, (Place, Overdrawn)> {
+        let mut names = Taken { links: Names::new(account), joints: Names::new(account) };
         for body in &model.bodies {
-            names.links.take(&body.name);
-            body.joints.iter().for_each(|joint| {
-                names.joints.take(&joint.name);
-            });
+            let too_much = |why| (body.place, why);
+            names.links.take(&body.name).map_err(too_much)?;
+            for joint in &body.joints {
+                names.joints.take(&joint.name).map_err(too_much)?;
+            }
         }
         let mut tree = Tree::default();
         for (at, body) in model.bodies.iter().enumerate() {
             let parent = body.parent.and_then(|parent| model.bodies.get(parent));
             if let Some(parent) = parent {
-                tree.connect(at, body, &parent.name, options, &mut names);
+                let connected = tree.connect(at, body, &parent.name, options, &mut names);
+                connected.map_err(|why| (body.place, why))?;
             }
             tree.links.push(Link { name: body.name.clone(), body: Some(at), place: body.place });
         }
-        tree
+        Ok(tree)
     }
 
     fn connect(
@@ -74,7 +84,7 @@ impl Tree {
         parent: &str,
         options: &ImportOptions,
         names: &mut Taken,
-    ) {
+    ) -> Result<(), Overdrawn> {
         let mut parent = parent.to_owned();
         let mut origin = body.pose;
         let mut left: usize = 0;
@@ -90,11 +100,11 @@ impl Tree {
             let is_last = turn + 1 == moves.len() && is_last_at_body;
             let name = match one.suffix {
                 "" => joint.name.clone(),
-                suffix => names.joints.free(&format!("{}{suffix}", joint.name)),
+                suffix => names.joints.free(&format!("{}{suffix}", joint.name))?,
             };
             let child = match is_last {
                 true => body.name.clone(),
-                false => names.links.free(&format!("{}/{name}", body.name)),
+                false => names.links.free(&format!("{}/{name}", body.name))?,
             };
             self.joints.push(Edge {
                 kind: one.kind,
@@ -120,7 +130,7 @@ impl Tree {
             let name = body.fixed_by.clone().filter(|_| moves.is_empty());
             let name = name.unwrap_or_else(|| format!("{}_fixed", body.name));
             self.joints.push(Edge {
-                name: names.joints.free(&name),
+                name: names.joints.free(&name)?,
                 kind: "fixed",
                 parent,
                 child: body.name.clone(),
@@ -132,11 +142,11 @@ impl Tree {
                 place: body.place,
             });
         }
+        Ok(())
     }
 }
 
 /// The names that are taken.
-#[derive(Default)]
 struct Taken {
     links: Names,
     joints: Names,

@@ -1,8 +1,11 @@
 //! Why a file that a description names is not read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use thiserror::Error;
+use urdd_directory::read_error::ReadError;
+
+use crate::resolve::NotFound;
 
 /// Why a file is not read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -16,12 +19,28 @@ pub enum Unreachable {
     Outside { file: String, folder: PathBuf },
     #[error("`{file}` cannot be read: {reason}")]
     Unreadable { file: String, reason: String },
+    #[error("`{file}` cannot be read as a mesh: {reason}")]
+    NotMesh { file: String, reason: String },
+    #[error("`{file}` is not an image")]
+    NotImage { file: String },
+    #[error("`{file}` has no part `{part}`")]
+    NoPart { file: String, part: String },
 }
 
 impl Unreachable {
-    /// Of a file that is outside, under the name that the description has for it.
-    pub fn outside(shown: &str, file: &Path) -> Self {
-        let folder = file.parent().unwrap_or(file).to_owned();
-        Unreachable::Outside { file: shown.to_owned(), folder }
+    /// Of a file that was not found, under the name that the description has for it.
+    pub fn not_found(file: &str, why: NotFound) -> Self {
+        match why.outside {
+            Some(outside) => {
+                let folder = outside.parent().unwrap_or(&outside).to_owned();
+                Unreachable::Outside { file: file.to_owned(), folder }
+            }
+            None => Unreachable::Missing(file.to_owned()),
+        }
+    }
+
+    /// Of a file that was found, and not read.
+    pub fn unread(file: &str, why: &ReadError) -> Self {
+        Unreachable::Unreadable { file: file.to_owned(), reason: why.to_string() }
     }
 }

@@ -31,7 +31,7 @@ pub fn urdf(model: &Model, tree: &Tree, original: &str) -> String {
     }
     robot.extend(edges.map(|edge| joint_element(model, edge)));
     for element in &model.elements {
-        robot.push_raw(element);
+        robot.push_raw(&element.0);
     }
     robot.document(&[format!("`urdd import` made this file from {original}.")])
 }

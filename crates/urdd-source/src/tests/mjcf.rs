@@ -8,12 +8,12 @@ use nalgebra::{
 use serde_json::Value;
 
 use crate::Settings;
+use crate::gate::Gate;
 use crate::import::mjcf;
 use crate::import::model::{Body, Geometry, Joint, JointKind, Model, Shape, Use};
 use crate::import::options::ImportOptions;
 use crate::import::place::TextFile;
 use crate::import::placed::Placed;
-use crate::import::reach::Reach;
 
 const NEAR: f64 = 1e-9;
 /// MuJoCo keeps vertices in 32 bits.
@@ -31,11 +31,11 @@ fn read(name: &str, body: Option<&str>) -> Model {
 
 /// Reads a text as if it were in a file.
 pub fn of_text(path: &Path, text: String, body: Option<&str>) -> Result<Model, Placed> {
-    let reach = Reach::new(path.parent().unwrap(), &Settings::default());
+    let gate = Gate::of_project(path.parent().unwrap(), &Settings::default());
     let bytes = text.as_bytes().into();
     let file = TextFile { shown: "m.xml".to_owned(), path: path.to_owned(), text, bytes };
     let options = ImportOptions { body: body.map(str::to_owned), ..ImportOptions::default() };
-    mjcf::read(file, &reach, &options)
+    mjcf::read(file, &gate, &options)
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -329,7 +329,10 @@ fn keyframes_are_configurations() {
     assert!(model.is_floating);
     let names: Vec<&str> = model.configurations.iter().map(|of| &*of.name).collect();
     assert_eq!(names, ["home", "up", "key_2"]);
-    let value = |at: usize, joint: &str| model.configurations[at].values[joint].clone();
+    let value = |at: usize, joint: &str| {
+        let values = &model.configurations[at].values;
+        values.iter().find(|value| value.name == joint).unwrap().values.clone()
+    };
     assert_near(&value(0, "a"), &[20.0_f64.to_radians()], 1e-15, "a at home");
     assert_near(&value(0, "b"), &[0.0; 3], 0.0, "b at home");
     assert_near(&value(1, "a"), &[0.5], 0.0, "a up");
@@ -341,7 +344,7 @@ fn keyframes_are_configurations() {
 #[test]
 fn the_robot_of_a_scene_is_what_is_driven() {
     let names = |body: Option<&str>| -> Vec<String> {
-        read("scene", body).bodies.into_iter().map(|body| body.name).collect()
+        read("scene", body).bodies.iter().map(|body| body.name.clone()).collect()
     };
     assert_eq!(names(None), ["world", "left", "left_arm", "right", "right_arm"]);
     assert_eq!(names(Some("drawer")), ["world", "drawer", "door", "lid"]);

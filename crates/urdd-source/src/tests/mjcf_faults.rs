@@ -55,7 +55,7 @@ fn what_is_wrong_is_said() {
         ("<replicate count=\"0\"><geom size=\"1\"/></replicate>", "not a number of replicas"),
         (
             "<replicate count=\"1000000000\"><geom size=\"1\"/></replicate>",
-            "more than 500000 elements",
+            "more would be made of the description",
         ),
         ("<attach model=\"x\" prefix=\"y\"/>", "`<attach>` is not supported"),
         ("<include file=\"x.xml\"/>", "`x.xml` was not found"),

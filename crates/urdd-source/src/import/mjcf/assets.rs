@@ -4,15 +4,21 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use urdd_directory::account::Charged;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::portable;
+use urdd_directory::read_error::ReadError;
 
+use super::super::fault::ImportFault;
 use super::super::model::Asset;
 use super::super::names::Names;
 use super::super::place::{Place, TextFile};
-use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
+use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::document::first;
+use crate::gate::Gate;
+use crate::resolve::FoundMesh;
 
 /// Where files are looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,52 +55,76 @@ fn places(
 
 /// The files that the URDF names, and where they are read.
 pub struct Assets<'f> {
-    reach: &'f Reach,
+    gate: &'f Gate,
     compiler: &'f Compiler,
     files: &'f [TextFile],
     by_key: HashMap<String, usize>,
     /// In lower case.
     names: Names,
-    pub all: Vec<Asset>,
+    pub all: Charged<Asset>,
 }
 
 impl<'f> Assets<'f> {
     /// None yet.
-    pub fn new(reach: &'f Reach, compiler: &'f Compiler, files: &'f [TextFile]) -> Self {
-        let (by_key, mut names, all) = (HashMap::new(), Names::default(), Vec::new());
+    pub fn new(gate: &'f Gate, compiler: &'f Compiler, files: &'f [TextFile]) -> Fallible<Self> {
+        let mut names = Names::new(gate.account());
         // That of the mesh of ellipsoids.
-        names.take("meshes/unit_sphere");
-        Assets { reach, compiler, files, by_key, names, all }
+        names.take("meshes/unit_sphere").map_err(|why| at(Place::default(), why))?;
+        let (by_key, all) = (HashMap::new(), Charged::default());
+        Ok(Assets { gate, compiler, files, by_key, names, all })
     }
 
-    /// Reads a file that an element names.
-    pub fn file(
-        &self,
-        file: &str,
-        folder: Folder,
-        place: Place,
-    ) -> Result<(PathBuf, Vec<u8>), Unreachable> {
+    /// Finds a file that an element names.
+    pub fn find(&self, file: &str, folder: Folder, place: Place) -> Fallible<FoundMesh> {
         let folder_of = |file: Option<&'f TextFile>| {
             file.and_then(|file| file.path.parent()).unwrap_or(Path::new("/"))
         };
         let [base, own] = [self.files.first(), self.files.get(place.file)].map(folder_of);
-        first(self.reach, &places(file, self.compiler, folder, base, own), file)
+        let found = first(self.gate, places(file, self.compiler, folder, base, own), file);
+        found.map_err(|why| at(place, ImportFault::File(why)))
+    }
+
+    /// Reads a file that was found, for what is made of it.
+    pub fn bytes(&self, found: &FoundMesh, place: Place) -> Fallible<Vec<u8>> {
+        let unread = |why: ReadError| {
+            let why = Unreachable::unread(&found.file.display().to_string(), &why);
+            at(place, ImportFault::File(why))
+        };
+        self.gate.bytes(found, MAX_DOCUMENT_BYTES).map_err(unread)
+    }
+
+    /// Charges what is made at a place, in bytes.
+    pub fn charge(&self, bytes: usize, place: Place) -> Fallible<()> {
+        self.gate.account().charge(bytes).map_err(|why| at(place, why))
+    }
+
+    /// The index of a file that was added.
+    pub fn known(&self, key: &str) -> Option<usize> {
+        self.by_key.get(key).copied()
     }
 
     /// The index of a file, which is added unless it is there. `key` tells files apart.
-    pub fn add(&mut self, key: &str, path: &str, bytes: Arc<[u8]>) -> usize {
-        if let Some(known) = self.by_key.get(key) {
-            return *known;
+    pub fn add(
+        &mut self,
+        key: &str,
+        path: &str,
+        bytes: Arc<[u8]>,
+        place: Place,
+    ) -> Fallible<usize> {
+        if let Some(known) = self.known(key) {
+            return Ok(known);
         }
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
         let (stem, extension) = file.rsplit_once('.').unwrap_or((file, ""));
         let stem = portable(stem);
+        let too_much = |why| at(place, why);
         let free = self.names.free(&format!("{folder}/{}", stem.to_lowercase()));
+        let free = free.map_err(too_much)?;
         // The number that makes it free, behind the stem as it is written.
         let number = &free[folder.len() + 1 + stem.to_lowercase().len()..];
         let path = format!("{folder}/{stem}{number}.{extension}");
-        self.all.push(Asset { path, bytes });
+        self.all.push(Asset { path, bytes }, self.gate.account()).map_err(too_much)?;
         self.by_key.insert(key.to_owned(), self.all.len() - 1);
-        self.all.len() - 1
+        Ok(self.all.len() - 1)
     }
 }

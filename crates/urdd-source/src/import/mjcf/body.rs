@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
-use urdd_xml::MAX_ROBOT_ELEMENTS;
+use urdd_directory::account::Account;
 
-use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
+use super::super::model::{ENTRY, LETTER};
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
@@ -62,10 +62,11 @@ pub fn bodies<'d>(
     defaults: &'d Defaults<'d>,
     compiler: &'d Compiler,
     tally: &mut Tally,
+    account: &Account,
 ) -> Fallible<Bodies<'d>> {
     let bodies =
         Bodies { all: vec![RawBody::default()], suffixes: HashMap::new(), is_partial: false };
-    let mut builder = Builder { bodies, defaults, compiler, tally, elements: 0 };
+    let mut builder = Builder { bodies, defaults, compiler, tally, account };
     let suffix = String::new();
     for section in root.all("worldbody") {
         builder.bodies.all[WORLD].place = section.place;
@@ -81,7 +82,7 @@ struct Builder<'d, 't> {
     defaults: &'d Defaults<'d>,
     compiler: &'d Compiler,
     tally: &'t mut Tally,
-    elements: usize,
+    account: &'t Account,
 }
 
 /// Where elements are.
@@ -98,7 +99,7 @@ struct Scope<'s> {
 impl<'d> Builder<'d, '_> {
     fn children(&mut self, parent: &'d Element, scope: Scope<'_>) -> Fallible<()> {
         for element in &parent.children {
-            self.count(element)?;
+            self.charge(element, scope)?;
             let is_world = scope.body == WORLD;
             match element.tag.as_str() {
                 "body" => self.body(element, scope)?,
@@ -133,12 +134,10 @@ impl<'d> Builder<'d, '_> {
         Ok(())
     }
 
-    fn count(&mut self, element: &Element) -> Fallible<()> {
-        self.elements += 1;
-        if self.elements > MAX_ROBOT_ELEMENTS {
-            return Err(at(element.place, ImportFault::TooMany(MAX_ROBOT_ELEMENTS)));
-        }
-        Ok(())
+    /// Charges an element, each time that it is replicated, and its name.
+    fn charge(&self, element: &Element, scope: Scope<'_>) -> Fallible<()> {
+        let name = element.text("name").map_or(0, str::len) + scope.suffix.len();
+        self.account.charge(ENTRY / 3 + LETTER * name).map_err(|why| at(element.place, why))
     }
 
     fn name(&mut self, element: &Element, scope: Scope<'_>) -> Option<String> {
@@ -206,8 +205,8 @@ impl<'d> Builder<'d, '_> {
         let width = count.to_string().len();
         let mut position = Vector3::zeros();
         for number in 0..count {
-            self.count(element)?;
-            #[expect(clippy::cast_precision_loss, reason = "as many as elements at most")]
+            self.charge(element, scope)?;
+            #[expect(clippy::cast_precision_loss, reason = "as many as can be charged")]
             let turn = euler(angles.map(|angle| angle * number as f64), self.compiler);
             let at = Isometry3::from_parts(Translation3::from(position), turn);
             position += turn * offset;

@@ -3,9 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
-use super::super::model::Apart;
+use urdd_directory::account::{Account, Charged};
+
+use super::super::model::{Apart, LETTER};
 use super::super::place::Place;
-use super::at::Fallible;
+use super::at::{Fallible, at};
 use super::body::{RawBody, WORLD};
 use super::document::Element;
 use super::geom::{Geom, Kind};
@@ -35,20 +37,20 @@ impl Contacts {
                 "pair" => {
                     tally.count(features::CONTACT_PAIRS);
                     let names = two("geom1", "geom2");
-                    for suffix in lookup.replicas(&names) {
+                    for suffix in lookup.replicas(element, &names)? {
                         let [Some(a), Some(b)] = names else { continue };
-                        let a = lookup.geom(element, a, &suffix)?;
-                        let b = lookup.geom(element, b, &suffix)?;
+                        let a = lookup.geom(element, a, suffix)?;
+                        let b = lookup.geom(element, b, suffix)?;
                         contacts.paired.extend([a, b]);
                         contacts.together.insert(ordered(a.0, b.0));
                     }
                 }
                 "exclude" => {
                     let names = two("body1", "body2");
-                    for suffix in lookup.replicas(&names) {
+                    for suffix in lookup.replicas(element, &names)? {
                         let [Some(a), Some(b)] = names else { continue };
-                        let a = lookup.body(element, a, &suffix)?;
-                        let b = lookup.body(element, b, &suffix)?;
+                        let a = lookup.body(element, a, suffix)?;
+                        let b = lookup.body(element, b, suffix)?;
                         contacts.excluded.insert(ordered(a, b));
                     }
                 }
@@ -64,7 +66,13 @@ impl Contacts {
     }
 
     /// The pairs of bodies of the robot that never collide, though both have shapes that do.
-    pub fn apart(&self, all: &[RawBody<'_>], made: &Made, tally: &mut Tally) -> Vec<Apart> {
+    pub fn apart(
+        &self,
+        all: &[RawBody<'_>],
+        made: &Made,
+        tally: &mut Tally,
+        account: &Account,
+    ) -> Fallible<Charged<Apart>> {
         let welds = welds(all);
         let mut solid: Vec<(usize, usize, [u32; 2])> = Vec::new();
         for (index, body) in all.iter().enumerate() {
@@ -109,13 +117,18 @@ impl Contacts {
                 reasons.entry([*first, *second]).or_insert("User");
             }
         }
-        let mut apart: Vec<Apart> =
-            reasons.into_iter().map(|(bodies, reason)| Apart { bodies, reason }).collect();
-        apart.sort_by_key(|of| of.bodies);
-        for _ in &apart {
+        let mut sorted: Vec<([usize; 2], &'static str)> = reasons.into_iter().collect();
+        sorted.sort_unstable();
+        let mut apart = Charged::default();
+        for (bodies, reason) in sorted {
+            let [first, second] = bodies.map(|body| &made.bodies[body]);
+            let names = LETTER * (first.name.len() + second.name.len());
+            let charged = account.charge(names);
+            let charged = charged.and_then(|()| apart.push(Apart { bodies, reason }, account));
+            charged.map_err(|why| at(second.place, why))?;
             tally.count(features::APART);
         }
-        apart
+        Ok(apart)
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use urdd_directory::account::Account;
+
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::document::Element;
@@ -15,11 +17,14 @@ const MOST: usize = 64;
 const DEEPEST: usize = 32;
 
 /// The classes of a model.
-#[derive(Default)]
 pub struct Defaults<'d> {
     classes: Vec<Class<'d>>,
     by_name: HashMap<&'d str, usize>,
+    account: Account,
 }
+
+/// What looking up the attributes of an element costs for each element of its class that has some.
+const LOOK_UP: usize = 300;
 
 #[derive(Default)]
 struct Class<'d> {
@@ -33,8 +38,9 @@ struct Class<'d> {
 
 impl<'d> Defaults<'d> {
     /// The classes that the `<default>`s of a model define.
-    pub fn of(root: &'d Element) -> Fallible<Self> {
-        let mut defaults = Defaults { classes: vec![Class::default()], ..Self::default() };
+    pub fn of(root: &'d Element, account: &Account) -> Fallible<Self> {
+        let (classes, by_name) = (vec![Class::default()], HashMap::new());
+        let mut defaults = Defaults { classes, by_name, account: account.clone() };
         defaults.by_name.insert("main", MAIN);
         for (number, section) in root.all("default").enumerate() {
             if number == MOST {
@@ -97,8 +103,20 @@ impl<'d> Defaults<'d> {
         self.levels(class).flat_map(move |level| level.of(tag).iter().rev().copied())
     }
 
+    /// Charges what looking up the attributes of an element costs.
+    pub fn charge(&self, element: &Element, class: usize, tag: &str) -> Fallible<()> {
+        let passed: usize = self.levels(class).map(|level| 1 + level.of(tag).len()).sum();
+        self.account.charge(passed * LOOK_UP).map_err(|why| at(element.place, why))
+    }
+
     /// What a class and those around it say of some tags: by class, the outermost first, in the order in which it applies.
-    pub fn applied(&self, class: usize, tags: &[&str]) -> Vec<Vec<&'d Element>> {
+    pub fn applied(
+        &self,
+        element: &Element,
+        class: usize,
+        tags: &[&str],
+    ) -> Fallible<Vec<Vec<&'d Element>>> {
+        tags.iter().try_for_each(|tag| self.charge(element, class, tag))?;
         let own = |level: Level<'_, 'd>| {
             let mut own: Vec<&Element> =
                 tags.iter().flat_map(|tag| level.of(tag)).copied().collect();
@@ -107,7 +125,7 @@ impl<'d> Defaults<'d> {
         };
         let mut applied: Vec<Vec<&Element>> = self.levels(class).map(own).collect();
         applied.reverse();
-        applied
+        Ok(applied)
     }
 
     /// A class and those around it, the innermost first.

@@ -4,21 +4,22 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
-use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS};
+use urdd_xml::{Kind, MAX_LEVELS};
 
 use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile, offset_of};
-use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
 use super::fault::MjcfFault;
-use crate::files::MAX_SOURCE_BYTES;
+use crate::gate::Gate;
+use crate::resolve::FoundMesh;
 
 /// An element.
 #[derive(Debug)]
 pub struct Element {
     pub tag: String,
-    pub attributes: Vec<(String, String)>,
+    /// By name, in order.
+    attributes: Vec<(String, String)>,
     pub children: Vec<Element>,
     pub place: Place,
 }
@@ -26,8 +27,13 @@ pub struct Element {
 impl Element {
     /// The text of an attribute.
     pub fn get(&self, name: &str) -> Option<&str> {
-        let mut attributes = self.attributes.iter();
-        attributes.find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+        let found = self.attributes.binary_search_by(|(key, _)| key.as_str().cmp(name));
+        found.ok().map(|at| self.attributes[at].1.as_str())
+    }
+
+    /// The names of its attributes, in order.
+    pub fn attribute_names(&self) -> impl Iterator<Item = &str> {
+        self.attributes.iter().map(|(name, _)| name.as_str())
     }
 
     /// The text of an attribute, unless it is empty.
@@ -47,17 +53,12 @@ impl Element {
 }
 
 /// Reads a description and what it includes: the files, the description first, and the outermost element.
-pub fn read(file: TextFile, reach: &Reach) -> (Vec<TextFile>, Fallible<Element>) {
+pub fn read(file: TextFile, gate: &Gate) -> (Vec<TextFile>, Fallible<Element>) {
     let folder = file.path.parent().unwrap_or(Path::new("/")).to_owned();
     let name = file.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let text = file.text.clone();
-    let mut expansion = Expansion {
-        files: vec![file],
-        folder,
-        included: HashSet::from([name]),
-        reach,
-        elements: 0,
-    };
+    let mut expansion =
+        Expansion { files: vec![file], folder, included: HashSet::from([name]), gate };
     let root = expansion.root(&text);
     (expansion.files, root)
 }
@@ -68,8 +69,7 @@ struct Expansion<'r> {
     folder: PathBuf,
     /// The names of files, as they are written.
     included: HashSet<String>,
-    reach: &'r Reach,
-    elements: usize,
+    gate: &'r Gate,
 }
 
 impl Expansion<'_> {
@@ -96,10 +96,6 @@ impl Expansion<'_> {
         for node in parent.children().filter(Node::is_element) {
             let place = Place { file, offset: node.range().start };
             let tag = node.tag_name().name();
-            self.elements += 1;
-            if self.elements > MAX_ROBOT_ELEMENTS {
-                return Err(at(place, ImportFault::TooMany(MAX_ROBOT_ELEMENTS)));
-            }
             if depth > MAX_LEVELS {
                 return Err(at(place, MjcfFault::TooDeep(MAX_LEVELS)));
             }
@@ -133,37 +129,41 @@ impl Expansion<'_> {
         }
         let beside = self.files[place.file].path.parent().map(|folder| folder.join(name));
         let places = [Some(self.folder.join(name)), beside];
-        let (path, bytes) = first(self.reach, &places.map(Option::unwrap_or_default), name)
-            .map_err(|fault| at(place, ImportFault::File(fault)))?;
-        let read = TextFile::included(path, bytes);
-        let read = read.map_err(|fault| at(place, ImportFault::File(fault)))?;
+        let unread = |fault| at(place, ImportFault::File(fault));
+        let found = first(self.gate, places.into_iter().flatten(), name).map_err(unread)?;
+        let read = TextFile::included(self.gate, &found).map_err(|fault| at(place, fault))?;
         let (file, text) = (self.files.len(), read.text.clone());
         self.files.push(read);
-        self.children(parse(&text, file)?.root_element(), file, depth, into)
+        self.children(parse(&text, file)?.root_element(), file, depth + 1, into)
     }
 }
 
-/// The first of some places that has a file. `name` is how the description names it.
+/// The first of some places that has a file which may be read. `name` is how the description names it.
 pub fn first(
-    reach: &Reach,
-    places: &[PathBuf],
+    gate: &Gate,
+    places: impl IntoIterator<Item = PathBuf>,
     name: &str,
-) -> Result<(PathBuf, Vec<u8>), Unreachable> {
+) -> Result<FoundMesh, Unreachable> {
     let mut fault = None;
     for place in places {
-        match reach.read(place, MAX_SOURCE_BYTES) {
+        match gate.at(&place) {
             Ok(found) => return Ok(found),
-            Err(Unreachable::Missing(_)) => {}
-            Err(other) => {
-                fault.get_or_insert(other);
+            Err(why) if why.outside.is_some() => {
+                fault.get_or_insert(why);
             }
+            Err(_) => {}
         }
     }
-    Err(fault.unwrap_or_else(|| Unreachable::Missing(name.to_owned())))
+    Err(Unreachable::not_found(name, fault.unwrap_or_default()))
 }
 
 fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
-    node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned())).collect()
+    let each = node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned()));
+    let mut attributes: Vec<_> = each.collect();
+    // Of names that differ in prefixes, the first counts: the order is kept.
+    attributes.sort_by(|one, other| one.0.cmp(&other.0));
+    attributes.dedup_by(|later, first| later.0 == first.0);
+    attributes
 }
 
 fn parse(text: &str, file: usize) -> Fallible<roxmltree::Document<'_>> {

@@ -37,13 +37,13 @@ pub fn drive<'d>(
             Some(class) => defaults.class(class, element.place)?,
             None => MAIN,
         };
-        let actuator = Actuator::of(element, &defaults.applied(class, &TAGS))?;
+        let actuator = Actuator::of(element, &defaults.applied(element, class, &TAGS)?)?;
         let Some(name) = element.text("joint").or(element.text("jointinparent")) else {
             tally.count(features::OTHER_ACTUATORS);
             continue;
         };
-        for suffix in lookup.replicas(&[Some(name)]) {
-            let joint = lookup.joint(element, name, &suffix)?;
+        for suffix in lookup.replicas(element, &[Some(name)])? {
+            let joint = lookup.joint(element, name, suffix)?;
             let Some(at) = made.joints.get(&joint).copied() else { continue };
             if made.bodies[at.0].joints[at.1].kind == JointKind::Ball {
                 tally.count(features::OTHER_ACTUATORS);

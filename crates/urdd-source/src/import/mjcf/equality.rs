@@ -13,6 +13,8 @@ use super::reading::{View, flag};
 
 /// Joints that follow one another; a longer chain is left out.
 const LONGEST: usize = 1000;
+/// What each of these costs.
+const STEP: usize = 50;
 
 /// Gives joints their leaders.
 pub fn equalities<'d>(
@@ -63,10 +65,10 @@ fn couple(
     let [c0, c1, rest @ ..] = view.up_to::<5>("polycoef")?;
     let (c0, c1) = (c0.unwrap_or(0.0), c1.unwrap_or(1.0));
     let is_linear = rest.iter().all(|of| of.unwrap_or(0.0) == 0.0);
-    for suffix in lookup.replicas(&names) {
+    for suffix in lookup.replicas(element, &names)? {
         let Some(first) = names[0] else { continue };
-        let follower = lookup.joint(element, first, &suffix)?;
-        let leader = names[1].map(|name| lookup.joint(element, name, &suffix)).transpose()?;
+        let follower = lookup.joint(element, first, suffix)?;
+        let leader = names[1].map(|name| lookup.joint(element, name, suffix)).transpose()?;
         let Some(&(body, place)) = made.joints.get(&follower) else { continue };
         let raw = |(body, place): (usize, usize)| &all[body].joints[place];
         let leading = leader.and_then(|leader| Some((leader, *made.joints.get(&leader)?)));
@@ -80,10 +82,11 @@ fn couple(
             Some(_) if made.bodies[body].joints[place].mimic.is_some() => {
                 Some("its joint follows another already")
             }
-            Some((_, at)) if leads_back(made, at, (body, place)) => {
-                Some("its joints follow each other in a circle")
+            Some((_, at)) => {
+                let (is_circle, steps) = leads_back(made, at, (body, place));
+                lookup.charge(element, steps * STEP)?;
+                is_circle.then_some("its joints follow each other in a circle")
             }
-            Some(_) => None,
         };
         if let (None, Some((leader, (leading_body, leading_place)))) = (reason, leading) {
             // y - y0 = c0 + c1 (x - x0)
@@ -101,15 +104,15 @@ fn couple(
     Ok(())
 }
 
-/// Whether a joint follows another, over however many.
-fn leads_back(made: &Made, from: (usize, usize), to: (usize, usize)) -> bool {
+/// Whether a joint follows another, over however many; and over how many.
+fn leads_back(made: &Made, from: (usize, usize), to: (usize, usize)) -> (bool, usize) {
     let chain = std::iter::successors(Some(from), |at| made.leaders.get(at).copied());
     let mut number = 0;
     for at in chain {
         number += 1;
         if at == to || number > LONGEST {
-            return true;
+            return (true, number);
         }
     }
-    false
+    (false, number)
 }

@@ -1,12 +1,11 @@
 //! Keyframes, as named configurations.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Quaternion;
+use urdd_directory::account::{Account, Charged};
 use urdd_kinematics::rotation::to_rotation_vector;
 
 use super::super::features::{self, Tally};
-use super::super::model::Configuration;
+use super::super::model::{Configuration, JointValue};
 use super::super::names::Names;
 use super::at::{Fallible, at};
 use super::body::Bodies;
@@ -17,13 +16,17 @@ use super::made::Made;
 use super::orientation::unit;
 use super::reading::list;
 
+/// What passing a joint of the model costs.
+const JOINT: usize = 10;
+
 /// The named configurations of the robot.
 pub fn configurations(
     root: &Element,
     bodies: &Bodies<'_>,
     made: &Made,
     tally: &mut Tally,
-) -> Fallible<Vec<Configuration>> {
+    account: &Account,
+) -> Fallible<Charged<Configuration>> {
     let joints = || {
         let each = bodies.all.iter().enumerate();
         each.flat_map(|(body, raw)| {
@@ -31,7 +34,7 @@ pub fn configurations(
         })
     };
     let expected: usize = joints().map(|(_, joint)| joint.positions()).sum();
-    let (mut configurations, mut names) = (Vec::new(), Names::default());
+    let (mut configurations, mut names) = (Charged::default(), Names::new(account));
     for (number, key) in root.sections("keyframe").filter(|of| of.tag == "key").enumerate() {
         for name in ["qvel", "act", "ctrl"] {
             if key.text(name).is_some() {
@@ -51,7 +54,9 @@ pub fn configurations(
             let fault = MjcfFault::Qpos { found: numbers.len(), expected };
             return Err(at(key.place, fault));
         }
-        let mut values = BTreeMap::new();
+        let too_much = |why| at(key.place, why);
+        account.charge(JOINT * joints().count()).map_err(too_much)?;
+        let mut values = Charged::default();
         let mut rest = &numbers[..];
         for (place, joint) in joints() {
             let (own, after) = rest.split_at(joint.positions().min(rest.len()));
@@ -63,18 +68,21 @@ pub fn configurations(
                 }
                 continue;
             }
-            let Some((body, at)) = made.joints.get(&place) else { continue };
-            let value = match own {
+            let Some(&(body, at)) = made.joints.get(&place) else { continue };
+            let own = match own {
                 [w, x, y, z] => to_rotation_vector(&unit(Quaternion::new(*w, *x, *y, *z))).to_vec(),
                 [] if joint.kind == Kind::Ball => vec![0.0; 3],
                 [] => vec![joint.reference],
                 own => own.to_vec(),
             };
-            values.insert(made.bodies[*body].joints[*at].name.clone(), value);
+            let name = made.bodies[body].joints[at].name.clone();
+            let value = JointValue { joint: (body, at), name, values: own };
+            values.push(value, account).map_err(too_much)?;
         }
         tally.count(features::POSES);
         let name = key.text("name").map_or_else(|| format!("key_{number}"), str::to_owned);
-        configurations.push(Configuration { name: names.free(&name), values });
+        let name = names.free(&name).map_err(too_much)?;
+        configurations.push(Configuration { name, values }, account).map_err(too_much)?;
     }
     Ok(configurations)
 }

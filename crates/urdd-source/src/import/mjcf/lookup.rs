@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use urdd_directory::account::Account;
+
 use super::at::{Fallible, at};
 use super::body::Bodies;
 use super::document::Element;
@@ -14,16 +16,21 @@ pub struct Lookup<'b> {
     joints: HashMap<&'b str, (usize, usize)>,
     geoms: HashMap<&'b str, (usize, usize)>,
     suffixes: &'b HashMap<String, Vec<String>>,
+    account: &'b Account,
 }
+
+/// What an element costs for each replica of what it names, beside the names.
+const REPLICA: usize = 200;
 
 impl<'b> Lookup<'b> {
     /// The names of a model.
-    pub fn of(bodies: &'b Bodies<'_>) -> Self {
+    pub fn of(bodies: &'b Bodies<'_>, account: &'b Account) -> Self {
         let mut lookup = Lookup {
             bodies: HashMap::from([("world", super::body::WORLD)]),
             joints: HashMap::new(),
             geoms: HashMap::new(),
             suffixes: &bodies.suffixes,
+            account,
         };
         for (index, body) in bodies.all.iter().enumerate() {
             lookup.bodies.extend(body.name.as_deref().map(|name| (name, index)));
@@ -40,7 +47,8 @@ impl<'b> Lookup<'b> {
     }
 
     /// What is put behind the names that an element says, once for each replica of what it names.
-    pub fn replicas(&self, names: &[Option<&str>]) -> Vec<String> {
+    pub fn replicas(&self, element: &Element, names: &[Option<&str>]) -> Fallible<&'b [String]> {
+        const ITSELF: &[String] = &[String::new()];
         let is_known = |name: &str| {
             self.joints.contains_key(name)
                 || self.bodies.contains_key(name)
@@ -48,7 +56,16 @@ impl<'b> Lookup<'b> {
         };
         let mut replicated = names.iter().flatten().filter(|name| !is_known(name));
         let suffixes = replicated.find_map(|name| self.suffixes.get(*name));
-        suffixes.cloned().unwrap_or_else(|| vec![String::new()])
+        let suffixes = suffixes.map_or(ITSELF, Vec::as_slice);
+        let each = REPLICA + names.iter().flatten().map(|name| name.len()).sum::<usize>();
+        let charged = self.account.charge(suffixes.len().saturating_mul(each));
+        charged.map_err(|why| at(element.place, why))?;
+        Ok(suffixes)
+    }
+
+    /// Charges work for an element.
+    pub fn charge(&self, element: &Element, work: usize) -> Fallible<()> {
+        self.account.charge(work).map_err(|why| at(element.place, why))
     }
 
     /// The joint that an element names.

@@ -2,12 +2,14 @@
 
 use std::collections::HashMap;
 
+use urdd_directory::account::Charged;
+
 use super::super::model::Body;
 
 /// The bodies of the robot, and what each raw one became.
 #[derive(Default)]
 pub struct Made {
-    pub bodies: Vec<Body>,
+    pub bodies: Charged<Body>,
     /// The index of a raw body's body.
     pub index: HashMap<usize, usize>,
     /// The body and joint of each raw body's joints.

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
 use super::super::model::Material;
 use super::assets::{Assets, Folder};
@@ -13,6 +12,7 @@ use super::fault::MjcfFault;
 use super::geom::Geom;
 use super::mesh::Meshes;
 use super::reading::View;
+use crate::sniff::is_image;
 
 /// The colour of a shape that names none: the material goes before it.
 const GREY: [f64; 4] = [0.5, 0.5, 0.5, 1.0];
@@ -102,19 +102,22 @@ impl<'d> Materials<'d> {
             tally.count(features::MADE_TEXTURES);
             return Ok(None);
         };
-        let (path, bytes) = assets
-            .file(file, Folder::Textures, texture.place)
-            .map_err(|fault| at(texture.place, ImportFault::File(fault)))?;
-        if !bytes.starts_with(PNG) {
+        let found = assets.find(file, Folder::Textures, texture.place)?;
+        let key = format!("image {}", found.file.display());
+        if let Some(known) = assets.known(&key) {
+            tally.count(features::TEXTURES);
+            return Ok(Some(known));
+        }
+        let bytes = assets.bytes(&found, texture.place)?;
+        // What is made of it each time that it is named and not an image.
+        assets.charge(bytes.len(), texture.place)?;
+        if !bytes.starts_with(PNG) || !is_image(&bytes) {
             tally.count(features::MADE_TEXTURES);
             return Ok(None);
         }
         tally.count(features::TEXTURES);
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        Ok(Some(assets.add(
-            &format!("texture {file}"),
-            &format!("textures/{stem}.png"),
-            bytes.into(),
-        )))
+        let stem = found.file.file_stem().unwrap_or_default().to_string_lossy();
+        let path = format!("textures/{stem}.png");
+        assets.add(&key, &path, bytes.into(), texture.place).map(Some)
     }
 }

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
-use urdd_geometry::read::{Part, read};
+use urdd_geometry::read::{Part, Scene};
 use urdd_geometry::write::stl;
 
-use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
 use super::super::model::Geometry;
 use super::super::place::Place;
+use super::super::unreachable::Unreachable;
 use super::assets::{Assets, Folder};
 use super::at::{At, Fallible, at};
 use super::defaults::{Defaults, MAIN};
@@ -22,11 +22,13 @@ use super::mesh_mass::{Measures, Mode, measure};
 use super::msh;
 use super::orientation::quaternion;
 use super::reading::{View, list, wrong};
+use crate::inspect::{Inspected, inspect_alone};
+use crate::resolve::FoundMesh;
 
 /// The meshes of a model. A file is read when a shape needs it.
 pub struct Meshes<'d> {
     by_name: HashMap<String, MeshAsset<'d>>,
-    /// What was read, by file, or by name where it is in the text.
+    /// What was read, by name, and by file.
     read: HashMap<String, Arc<Content>>,
     measured: HashMap<String, Measures>,
 }
@@ -42,13 +44,26 @@ struct MeshAsset<'d> {
 
 /// A mesh file.
 struct Content {
+    /// What tells it from other files.
+    key: String,
     /// Its path below the folder of the URDF, without its extension.
     name: String,
     extension: String,
-    bytes: Arc<[u8]>,
-    /// Its triangles, if it is not a file as robots have it.
-    mesh: Option<Mesh>,
+    /// What is carried; of a file that is not a mesh, why it is not.
+    bytes: Result<Arc<[u8]>, String>,
+    triangles: Triangles,
 }
+
+/// The triangles of a mesh file.
+enum Triangles {
+    /// They are in a file that was made of them: of another format, or of a text.
+    Written(Mesh),
+    /// As they were read from it.
+    Read(Result<Arc<Scene>, String>),
+}
+
+/// What measuring a mesh costs for each of its vertices: its hull.
+const VERTEX: usize = 100;
 
 impl<'d> Meshes<'d> {
     /// The meshes that a model defines.
@@ -104,6 +119,7 @@ impl<'d> Meshes<'d> {
             return Ok(*known);
         }
         let mesh = self.placed(name, place, assets)?;
+        assets.charge(mesh.vertices.len() * VERTEX, place)?;
         let asset = self.asset(name, place)?;
         let measures = measure(&mesh, asset.mode)
             .map_err(|problem| broken(name, asset.view.element.place, problem))?;
@@ -115,24 +131,45 @@ impl<'d> Meshes<'d> {
     pub fn placed(&mut self, name: &str, place: Place, assets: &Assets<'_>) -> Fallible<Mesh> {
         let content = self.content(name, place, assets)?;
         let asset = self.asset(name, place)?;
-        let mut mesh = match &content.mesh {
-            Some(mesh) => mesh.clone(),
-            None => triangles(&content, name, asset.view.element.place)?,
+        let mut mesh = match &content.triangles {
+            Triangles::Written(mesh) => mesh.clone(),
+            Triangles::Read(scene) => {
+                let unread = |why: &String| {
+                    broken(name, asset.view.element.place, &format!("cannot be read: {why}"))
+                };
+                let mut mesh = scene.as_ref().map_err(unread)?.merged();
+                mesh.round_to_f32();
+                mesh.drop_non_finite();
+                mesh
+            }
         };
+        let bytes = size_of_val(&*mesh.vertices) + size_of_val(&*mesh.triangles);
+        assets.charge(bytes, place)?;
         mesh.transform(&asset.matrix());
         Ok(mesh)
     }
 
-    /// A mesh as a shape, and the frame of its file in that of the mesh.
+    /// A mesh as a shape, and the frame of its file in that of the mesh; `None` if the file is not a mesh.
     pub fn shape(
         &mut self,
         name: &str,
         place: Place,
         assets: &mut Assets<'_>,
         tally: &mut Tally,
-    ) -> Fallible<(Geometry, Isometry3<f64>)> {
+    ) -> Fallible<Option<(Geometry, Isometry3<f64>)>> {
         let content = self.content(name, place, assets)?;
         let asset = self.asset(name, place)?;
+        let bytes = match &content.bytes {
+            Ok(bytes) => bytes,
+            Err(reason) => {
+                let file = asset.file.unwrap_or(name).to_owned();
+                let why = Unreachable::NotMesh { file, reason: reason.clone() };
+                tally.count(features::MISSING_MESHES);
+                tally.remark(asset.view.element.place, format!("{why}; it is left out"));
+                return Ok(None);
+            }
+        };
+        tally.count(features::MESHES);
         let [x, y, z] = asset.scale;
         let is_even = x == y && y == z && x > 0.0;
         let own = asset.view.element.place;
@@ -142,43 +179,50 @@ impl<'d> Meshes<'d> {
             let mesh = self.placed(name, place, assets)?;
             let bytes = written(mesh, name, own)?;
             let path = format!("{}_turned.stl", content.name);
-            let index = assets.add(&format!("{name} turned"), &path, bytes);
-            return Ok((Geometry::Mesh { asset: index, scale: [1.0; 3] }, Isometry3::identity()));
+            let asset = assets.add(&format!("{name} turned"), &path, bytes, place)?;
+            let geometry = Geometry::Mesh { asset, scale: [1.0; 3] };
+            return Ok(Some((geometry, Isometry3::identity())));
         }
-        if content.extension == "stl" && content.mesh.is_some() {
+        if matches!(content.triangles, Triangles::Written(_)) {
             tally.count(features::WRITTEN_MESHES);
         }
         let path = format!("{}.{}", content.name, content.extension);
-        let index = assets.add(&asset.key(name), &path, Arc::clone(&content.bytes));
+        let index = assets.add(&content.key, &path, Arc::clone(bytes), place)?;
         let turn = asset.rotation.inverse();
         let moved = -(turn * asset.origin).component_mul(&Vector3::from(asset.scale));
         let frame = Isometry3::from_parts(Translation3::from(moved), turn);
-        Ok((Geometry::Mesh { asset: index, scale: asset.scale }, frame))
+        Ok(Some((Geometry::Mesh { asset: index, scale: asset.scale }, frame)))
     }
 
+    /// Assets of the same file share it, by whatever names.
     fn content(&mut self, name: &str, place: Place, assets: &Assets<'_>) -> Fallible<Arc<Content>> {
-        let asset = self.asset(name, place)?;
-        let key = asset.key(name);
-        if let Some(known) = self.read.get(&key) {
+        let own = format!("name {name}");
+        if let Some(known) = self.read.get(&own) {
             return Ok(Arc::clone(known));
         }
-        let content = Arc::new(asset.read(name, assets)?);
-        self.read.insert(key, Arc::clone(&content));
+        let asset = self.asset(name, place)?;
+        let content = match asset.file {
+            None => Arc::new(asset.written_out(name)?),
+            Some(file) => {
+                let found = assets.find(file, Folder::Meshes, asset.view.element.place)?;
+                let kind = asset.view.text("content_type");
+                let key = format!("file {} {}", found.file.display(), kind.unwrap_or_default());
+                match self.read.get(&key) {
+                    Some(known) => Arc::clone(known),
+                    None => {
+                        let content = Arc::new(asset.read(name, key.clone(), &found, assets)?);
+                        self.read.insert(key, Arc::clone(&content));
+                        content
+                    }
+                }
+            }
+        };
+        self.read.insert(own, Arc::clone(&content));
         Ok(content)
     }
 }
 
 impl MeshAsset<'_> {
-    /// Meshes of the same file share it.
-    fn key(&self, name: &str) -> String {
-        match self.file {
-            Some(file) => {
-                format!("file {file} {}", self.view.text("content_type").unwrap_or_default())
-            }
-            None => format!("text {name}"),
-        }
-    }
-
     /// From the file to the mesh: moved, turned, stretched.
     fn matrix(&self) -> Matrix4<f64> {
         let stretch = Matrix4::new_nonuniform_scaling(&Vector3::from(self.scale));
@@ -186,33 +230,33 @@ impl MeshAsset<'_> {
         stretch * turn * Translation3::from(-self.origin).to_homogeneous()
     }
 
-    fn read(&self, name: &str, assets: &Assets<'_>) -> Fallible<Content> {
-        let element = self.view.element;
-        let place = element.place;
-        let Some(file) = self.file else { return self.written_out(name) };
-        let (path, bytes) = assets
-            .file(file, Folder::Meshes, place)
-            .map_err(|fault| at(place, ImportFault::File(fault)))?;
+    fn read(
+        &self,
+        name: &str,
+        key: String,
+        found: &FoundMesh,
+        assets: &Assets<'_>,
+    ) -> Fallible<Content> {
+        let (place, path) = (self.view.element.place, &found.file);
+        let bytes = assets.bytes(found, place)?;
         let mut extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         if let Some(kind) = self.view.text("content_type") {
             kind.rsplit(['/', '.']).next().unwrap_or_default().clone_into(&mut extension);
         }
         extension.retain(|c| c.is_ascii_alphanumeric());
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let content = |extension: &str, bytes, mesh| Content {
-            name: format!("meshes/{stem}"),
-            extension: extension.to_owned(),
-            bytes,
-            mesh,
-        };
-        Ok(match extension.as_str() {
-            "msh" => {
-                let mesh = msh::read(&bytes).map_err(|problem| broken(name, place, problem))?;
-                content("stl", written(mesh.clone(), name, place)?, Some(mesh))
-            }
-            "obj" => content("obj", without_materials(bytes).into(), None),
-            other => content(other, bytes.into(), None),
-        })
+        let file = format!("meshes/{stem}");
+        if extension == "msh" {
+            let mesh = msh::read(&bytes).map_err(|problem| broken(name, place, problem))?;
+            let bytes = Ok(written(mesh.clone(), name, place)?);
+            let (extension, triangles) = ("stl".to_owned(), Triangles::Written(mesh));
+            return Ok(Content { key, name: file, extension, bytes, triangles });
+        }
+        let bytes = if extension == "obj" { without_materials(bytes) } else { bytes };
+        let Inspected { bytes, scene, .. } = inspect_alone(bytes, &format!("{stem}.{extension}"));
+        let unread = || scene.as_ref().err().cloned().unwrap_or_default();
+        let bytes = bytes.map(|bytes| Arc::unwrap_or_clone(bytes).into()).ok_or_else(unread);
+        Ok(Content { key, name: file, extension, bytes, triangles: Triangles::Read(scene) })
     }
 
     /// The mesh whose vertices are in the text.
@@ -253,20 +297,11 @@ impl MeshAsset<'_> {
                 .map_err(|_| broken(name, element.place, "has no convex hull"))?
                 .into_mesh(),
         };
-        let bytes = written(mesh.clone(), name, element.place)?;
+        let bytes = Ok(written(mesh.clone(), name, element.place)?);
+        let (key, extension) = (format!("text {name}"), "stl".to_owned());
         let name = format!("meshes/{name}");
-        Ok(Content { name, extension: "stl".to_owned(), bytes, mesh: Some(mesh) })
+        Ok(Content { key, name, extension, bytes, triangles: Triangles::Written(mesh) })
     }
-}
-
-fn triangles(content: &Content, name: &str, place: Place) -> Fallible<Mesh> {
-    let file = format!("{}.{}", content.name, content.extension);
-    let scene = read(&content.bytes, &file, &mut |_| None)
-        .map_err(|error| broken(name, place, &format!("cannot be read: {error}")))?;
-    let mut mesh = scene.merged();
-    mesh.round_to_f32();
-    mesh.drop_non_finite();
-    Ok(mesh)
 }
 
 fn written(mesh: Mesh, name: &str, place: Place) -> Fallible<Arc<[u8]>> {

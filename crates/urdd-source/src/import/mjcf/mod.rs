@@ -34,7 +34,7 @@ use super::model::Model;
 use super::options::ImportOptions;
 use super::place::TextFile;
 use super::placed::{Placed, placed};
-use super::reach::Reach;
+use crate::gate::Gate;
 use assets::Assets;
 use at::Fallible;
 use compiler::Compiler;
@@ -50,9 +50,9 @@ use robot::Maker;
 ///
 /// # Errors
 /// If it is refused, with the place.
-pub fn read(file: TextFile, reach: &Reach, options: &ImportOptions) -> Result<Model, Placed> {
-    let (files, root) = document::read(file, reach);
-    match root.and_then(|root| model(&root, &files, reach, options)) {
+pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
+    let (files, root) = document::read(file, gate);
+    match root.and_then(|root| model(&root, &files, gate, options)) {
         Ok(model) => Ok(Model { files, ..model }),
         Err(fault) => Err(placed(&files, fault.place, fault.fault)),
     }
@@ -61,16 +61,16 @@ pub fn read(file: TextFile, reach: &Reach, options: &ImportOptions) -> Result<Mo
 fn model(
     root: &Element,
     files: &[TextFile],
-    reach: &Reach,
+    gate: &Gate,
     options: &ImportOptions,
 ) -> Fallible<Model> {
-    let mut tally = Tally::default();
+    let (mut tally, account) = (Tally::default(), gate.account());
     said::say(root, &mut tally);
-    let defaults = Defaults::of(root)?;
+    let defaults = Defaults::of(root, account)?;
     let compiler = Compiler::of(root)?;
-    let bodies = body::bodies(root, &defaults, &compiler, &mut tally)?;
+    let bodies = body::bodies(root, &defaults, &compiler, &mut tally, account)?;
     let robot = scene::robot(root, &bodies, options.body.as_deref(), &mut tally)?;
-    let lookup = Lookup::of(&bodies);
+    let lookup = Lookup::of(&bodies, account);
     let contacts = Contacts::of(root, &lookup, &mut tally)?;
     let mut maker = Maker {
         bodies: &bodies,
@@ -78,16 +78,17 @@ fn model(
         compiler: &compiler,
         meshes: Meshes::of(root, &defaults)?,
         materials: Materials::of_model(root, &defaults)?,
-        assets: Assets::new(reach, &compiler, files),
+        assets: Assets::new(gate, &compiler, files)?,
         contacts: &contacts,
         tally: &mut tally,
+        account,
     };
     let mut made = maker.make()?;
     let (assets, all) = (maker.assets.all, &bodies.all);
     equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally)?;
     drive::drive(root, &defaults, &compiler, &lookup, &mut made, &mut tally)?;
-    let configurations = keyframe::configurations(root, &bodies, &made, &mut tally)?;
-    let apart = contacts.apart(all, &made, &mut tally);
+    let configurations = keyframe::configurations(root, &bodies, &made, &mut tally, account)?;
+    let apart = contacts.apart(all, &made, &mut tally, account)?;
     let friction = contact::friction(all, &made, &mut tally);
     Ok(Model {
         name: root.text("model").unwrap_or_default().to_owned(),

@@ -21,6 +21,7 @@ impl<'d> View<'d> {
             Some(name) => defaults.class(name, element.place)?,
             None => scope,
         };
+        defaults.charge(element, class, &element.tag)?;
         Ok(View { element, defaults, class })
     }
 

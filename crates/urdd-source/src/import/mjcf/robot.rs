@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3};
+use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Geometry, Joint, JointKind, Shape, Use};
@@ -32,6 +33,7 @@ pub struct Maker<'m, 'd> {
     pub assets: Assets<'m>,
     pub contacts: &'m Contacts,
     pub tally: &'m mut Tally,
+    pub account: &'m Account,
 }
 
 impl<'d> Maker<'_, 'd> {
@@ -39,12 +41,12 @@ impl<'d> Maker<'_, 'd> {
     pub fn make(&mut self) -> Fallible<Made> {
         let scale = self.scale()?;
         let names = self.names()?;
-        let mut joint_names = Names::default();
+        let mut joint_names = Names::new(self.account);
         let (bodies, robot) = (self.bodies, self.robot);
         for raw in &bodies.all {
             for joint in &raw.joints {
                 let Some(name) = joint.name.as_deref() else { continue };
-                if !joint_names.take(name) {
+                if !joint_names.take(name).map_err(|why| at(joint.place, why))? {
                     let fault = MjcfFault::SameName { what: "joints", name: name.to_owned() };
                     return Err(at(joint.place, fault));
                 }
@@ -74,10 +76,12 @@ impl<'d> Maker<'_, 'd> {
             }
             if body.parent.is_some() {
                 for (number, joint) in raw.joints.iter().enumerate() {
-                    if let Some(joint) = self.joint(joint, &body.name, &mut joint_names) {
-                        made.joints.insert((*raw_index, number), (index, body.joints.len()));
-                        body.joints.push(joint);
-                    }
+                    let place = joint.place;
+                    let Some(joint) = self.joint(joint, &body.name, &mut joint_names)? else {
+                        continue;
+                    };
+                    made.joints.insert((*raw_index, number), (index, body.joints.len()));
+                    body.joints.push(joint, self.account).map_err(|why| at(place, why))?;
                 }
                 if body.joints.len() > 1 {
                     self.tally.count(features::MORE_JOINTS);
@@ -86,9 +90,9 @@ impl<'d> Maker<'_, 'd> {
                 self.tally.count(features::FREE);
             }
             made.index.insert(*raw_index, index);
-            made.bodies.push(body);
+            made.bodies.push(body, self.account).map_err(|why| at(raw.place, why))?;
         }
-        self.frames(&mut made, names.1);
+        self.frames(&mut made, names.1)?;
         Ok(made)
     }
 
@@ -119,10 +123,11 @@ impl<'d> Maker<'_, 'd> {
 
     /// A name for each body of the robot, and the names that are left.
     fn names(&self) -> Fallible<(Vec<String>, Names)> {
-        let mut names = Names::default();
+        let mut names = Names::new(self.account);
         let all = &self.bodies.all;
         for body in self.robot.bodies.iter().map(|index| &all[*index]) {
-            if let Some(name) = body.name.as_deref().filter(|name| !names.take(name)) {
+            let Some(name) = body.name.as_deref() else { continue };
+            if !names.take(name).map_err(|why| at(body.place, why))? {
                 let fault = MjcfFault::SameName { what: "bodies", name: name.to_owned() };
                 return Err(at(body.place, fault));
             }
@@ -132,29 +137,36 @@ impl<'d> Maker<'_, 'd> {
         for index in &self.robot.bodies {
             let body = &all[*index];
             let name = match (&body.name, body.parent.and_then(|parent| known.get(&parent))) {
-                (Some(name), _) => name.clone(),
+                (Some(name), _) => Ok(name.clone()),
                 (None, _) if *index == WORLD => names.free("world"),
                 (None, Some(parent)) => names.free(&format!("{parent}_body")),
                 (None, None) => names.free("body"),
             };
+            let name = name.map_err(|why| at(body.place, why))?;
             known.insert(*index, name.clone());
             found.push(name);
         }
         Ok((found, names))
     }
 
-    fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Option<Joint> {
+    fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Fallible<Option<Joint>> {
         let (kind, feature) = match raw.kind {
-            joint::Kind::Free => return None,
+            joint::Kind::Free => return Ok(None),
             joint::Kind::Ball => (JointKind::Ball, features::BALLS),
             joint::Kind::Hinge => (JointKind::Hinge, features::HINGES),
             joint::Kind::Slide if raw.range.is_none() => (JointKind::Slide, features::FREE_SLIDES),
             joint::Kind::Slide => (JointKind::Slide, features::SLIDES),
         };
         self.tally.count(feature);
-        let name = raw.name.clone().unwrap_or_else(|| names.free(&format!("{body}_joint")));
+        let name = match &raw.name {
+            Some(name) => name.clone(),
+            None => {
+                let free = names.free(&format!("{body}_joint"));
+                free.map_err(|why| at(raw.place, why))?
+            }
+        };
         let frame = Translation3::from(raw.position).into();
-        Some(Joint {
+        Ok(Some(Joint {
             axis: raw.axis,
             reference: raw.reference,
             range: raw.range,
@@ -163,11 +175,11 @@ impl<'d> Maker<'_, 'd> {
             friction: raw.friction,
             armature: (raw.armature != 0.0).then_some(raw.armature),
             ..Joint::new(name, kind, frame, raw.place)
-        })
+        }))
     }
 
-    fn shapes(&mut self, body: usize, fitted: &[Fitted]) -> Fallible<Vec<Shape>> {
-        let (mut shapes, contacts) = (Vec::new(), self.contacts);
+    fn shapes(&mut self, body: usize, fitted: &[Fitted]) -> Fallible<Charged<Shape>> {
+        let (mut shapes, contacts) = (Charged::default(), self.contacts);
         let geoms = &self.bodies.all[body].geoms;
         let is_visual = |(place, geom): (usize, &Geom<'_>)| contacts.is_visual(geom, body, place);
         // A body that has shapes only to be seen is seen by these.
@@ -187,14 +199,15 @@ impl<'d> Maker<'_, 'd> {
             };
             let Some((geometry, frame)) = self.geometry(geom, fitted)? else { continue };
             let material = self.materials.of(geom, &self.meshes, &mut self.assets, self.tally)?;
-            shapes.push(Shape {
+            let shape = Shape {
                 name: geom.name.clone(),
                 used,
                 pose: fitted.pose * frame,
                 geometry,
                 material,
                 place: geom.place,
-            });
+            };
+            shapes.push(shape, self.account).map_err(|why| at(geom.place, why))?;
         }
         Ok(shapes)
     }
@@ -208,9 +221,7 @@ impl<'d> Maker<'_, 'd> {
             (_, Some(solid)) => solid,
             (Kind::Mesh | Kind::DistanceField, None) => {
                 let mesh = geom.mesh.unwrap_or_default();
-                self.tally.count(features::MESHES);
-                let shape = self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
-                return shape.map(Some);
+                return self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
             }
             (_, None) => {
                 self.tally.count(features::SURFACES);
@@ -227,24 +238,26 @@ impl<'d> Maker<'_, 'd> {
     }
 
     /// The sites and cameras, as bodies without mass.
-    fn frames(&mut self, made: &mut Made, mut names: Names) {
+    fn frames(&mut self, made: &mut Made, mut names: Names) -> Fallible<()> {
         let (bodies, robot) = (self.bodies, self.robot);
         for raw_index in robot.bodies.iter().filter(|index| **index != WORLD || robot.has_world) {
             let parent = made.index.get(raw_index).copied();
             for frame in &bodies.all[*raw_index].frames {
+                let too_much = |why| at(frame.place, why);
                 self.tally.count(features::FRAMES);
                 let wanted = frame.name.clone().unwrap_or_else(|| {
                     let body = parent.map_or("", |parent| &made.bodies[parent].name);
                     format!("{body}_{}", frame.kind)
                 });
-                let is_free = names.take(&wanted);
-                let name = match is_free {
+                let name = match names.take(&wanted).map_err(too_much)? {
                     true => wanted,
-                    false => names.free(&format!("{wanted}_{}", frame.kind)),
+                    false => names.free(&format!("{wanted}_{}", frame.kind)).map_err(too_much)?,
                 };
                 let body = Body::new(name, parent, frame.pose, frame.place);
-                made.bodies.push(Body { is_frame: true, ..body });
+                let body = Body { is_frame: true, ..body };
+                made.bodies.push(body, self.account).map_err(too_much)?;
             }
         }
+        Ok(())
     }
 }

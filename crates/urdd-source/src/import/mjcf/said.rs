@@ -90,14 +90,15 @@ fn inside(section: &Element, tally: &mut Tally) {
             tag => tally.unread(format!("<{tag}>")),
         }
         for plugin in element.all("plugin").filter(|_| element.tag != "body") {
-            tally.unread(format!("<{}> of <{}>", plugin.tag, element.tag));
+            let tag: String = element.tag.chars().take(60).collect();
+            tally.unread(format!("<{}> of <{tag}>", plugin.tag));
         }
     }
 }
 
 fn attributes(element: &Element, tally: &mut Tally) {
-    for (name, _) in &element.attributes {
-        match name.as_str() {
+    for name in element.attribute_names() {
+        match name {
             "user" => tally.count(features::OWN_DATA),
             "fusestatic" => {}
             name if has(LENS, name) => tally.unread("lenses and targets of cameras"),

@@ -1,40 +1,31 @@
 //! The meshes and images of a robot, with the files that meshes name, under paths below its URDF.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use thiserror::Error;
+use urdd_directory::account::Charged;
 
+use super::super::fault::ImportFault;
 use super::super::model::Asset;
-use super::super::reach::Reach;
 use super::super::unreachable::Unreachable;
+use super::part::Parts;
+use crate::gate::Gate;
 use crate::inspect::Inspected;
-use crate::sniff::is_image;
-
-/// The most bytes of an image.
-const MAX_BYTES: u64 = 1 << 30;
-
-/// Why there is no file.
-#[derive(Debug, Error)]
-pub enum NoAsset {
-    #[error("{0}")]
-    Unreachable(Unreachable),
-    #[error("`{file}` cannot be read as a mesh: {reason}")]
-    Mesh { file: String, reason: String },
-    #[error("`{file}` is not an image")]
-    Image { file: String },
-    #[error("`{file}` has no part `{part}`")]
-    Part { file: String, part: String },
-}
+use crate::resolve::FoundMesh;
 
 /// The files.
 #[derive(Debug, Default)]
 pub struct Assets {
-    pub files: Vec<Asset>,
+    pub files: Charged<Asset>,
     /// Where each file is in the list, by the file that it was.
     known: BTreeMap<PathBuf, usize>,
+    /// Where each mesh is in the list, or a part of it.
+    meshes: BTreeMap<(PathBuf, Option<String>), usize>,
+    /// The mesh files that were read, or why they are none.
+    read: BTreeMap<PathBuf, Result<Whole, String>>,
     /// The middle of each part of a mesh.
     middles: BTreeMap<usize, Vector3<f64>>,
     /// What each path is taken by, in lower case.
@@ -43,53 +34,66 @@ pub struct Assets {
     groups: usize,
 }
 
+/// A mesh file, the files that it names, and its parts, if it has names for them.
+#[derive(Debug)]
+struct Whole {
+    bytes: Arc<[u8]>,
+    sides: Vec<(PathBuf, Arc<[u8]>)>,
+    parts: OnceCell<Option<Parts>>,
+}
+
 impl Assets {
     /// Adds the mesh that a URI names, or a part of it, with the files that it names. Gives its place in the list.
     ///
     /// # Errors
-    /// If it is not found, may not be read, or is no mesh.
+    /// If it is not found, may not be read, is no mesh, or costs too much.
     pub fn mesh(
         &mut self,
-        reach: &Reach,
+        gate: &Gate,
         uri: &str,
         folder: &Path,
         part: Option<&str>,
-    ) -> Result<usize, NoAsset> {
-        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
-        let source = of_part(&found, part);
-        if let Some(known) = self.known.get(&source) {
+    ) -> Result<usize, ImportFault> {
+        let found = find(gate, uri, folder)?;
+        let file = found.file.clone();
+        let key = (file.clone(), part.map(str::to_owned));
+        if let Some(known) = self.meshes.get(&key) {
             return Ok(*known);
         }
-        let Inspected { bytes, side_files, scene, .. } = reach.inspect(&found);
-        let unread = |reason| NoAsset::Mesh { file: uri.to_owned(), reason };
-        scene.map_err(unread)?;
-        let mut bytes = bytes.map_or_else(Vec::new, Arc::unwrap_or_clone);
-        let mut middle = None;
+        let read = self.read.entry(file.clone()).or_insert_with(|| whole(gate.mesh(&found), &file));
+        let no_mesh =
+            |reason: &String| Unreachable::NotMesh { file: uri.to_owned(), reason: reason.clone() };
+        let whole = read.as_ref().map_err(no_mesh)?;
+        let (mut source, mut bytes, mut middle) = (file, Arc::clone(&whole.bytes), None);
         if let Some(name) = part {
-            let missing = || NoAsset::Part { file: uri.to_owned(), part: name.to_owned() };
-            bytes = super::part::part(&bytes, name).ok_or_else(missing)?;
-            middle = middle_of(&bytes, &source).map_err(unread)?;
+            let parts = whole.parts.get_or_init(|| Parts::of(&whole.bytes)).as_ref();
+            gate.account().charge(parts.map_or(0, Parts::cost))?;
+            let missing = || Unreachable::NoPart { file: uri.to_owned(), part: name.to_owned() };
+            let found = parts.and_then(|parts| parts.part(name)).ok_or_else(missing)?;
+            source = of_part(&source, name, |path| self.known.contains_key(path));
+            middle = middle_of(&found, &source).map_err(|reason| no_mesh(&reason))?;
+            bytes = found.into();
         }
-        let sides = side_files.into_iter().filter(|(path, _)| *path != found);
-        let sides = sides.map(|(path, side)| (path, Arc::unwrap_or_clone(side.bytes)));
-        let index = self.add([(source, bytes)].into_iter().chain(sides).collect());
+        let sides = whole.sides.iter().cloned();
+        let group = [(source, bytes)].into_iter().chain(sides).collect();
+        let index = self.add(gate, group)?;
         self.middles.extend(middle.map(|middle| (index, middle)));
+        self.meshes.insert(key, index);
         Ok(index)
     }
 
     /// Adds the image that a URI names.
     ///
     /// # Errors
-    /// If it is not found, may not be read, or is no image.
-    pub fn image(&mut self, reach: &Reach, uri: &str, folder: &Path) -> Result<usize, NoAsset> {
-        let found = reach.find(uri, folder).map_err(NoAsset::Unreachable)?;
-        if let Some(known) = self.known.get(&found) {
+    /// If it is not found, may not be read, is no image, or costs too much.
+    pub fn image(&mut self, gate: &Gate, uri: &str, folder: &Path) -> Result<usize, ImportFault> {
+        let found = find(gate, uri, folder)?;
+        if let Some(known) = self.known.get(&found.file) {
             return Ok(*known);
         }
-        let (file, bytes) = reach.read(&found, MAX_BYTES).map_err(NoAsset::Unreachable)?;
-        match is_image(&bytes) {
-            true => Ok(self.add(vec![(file, bytes)])),
-            false => Err(NoAsset::Image { file: uri.to_owned() }),
+        match gate.image(&found).map_err(|why| Unreachable::unread(uri, &why))? {
+            Some(bytes) => self.add(gate, vec![(found.file, bytes.into())]),
+            None => Err(Unreachable::NotImage { file: uri.to_owned() }.into()),
         }
     }
 
@@ -99,16 +103,19 @@ impl Assets {
     }
 
     /// Adds a file that was made, once.
-    pub fn made(&mut self, path: &str, bytes: Vec<u8>) -> usize {
+    ///
+    /// # Errors
+    /// If it costs too much.
+    pub fn made(&mut self, gate: &Gate, path: &str, bytes: Vec<u8>) -> Result<usize, ImportFault> {
         let source = PathBuf::from(path);
         match self.known.get(&source) {
-            Some(known) => *known,
-            None => self.push(source, path.to_owned(), bytes),
+            Some(known) => Ok(*known),
+            None => self.push(gate, source, path.to_owned(), bytes.into()),
         }
     }
 
     /// Adds a file with those that it names. Gives the place of the first in the list.
-    fn add(&mut self, group: Vec<(PathBuf, Vec<u8>)>) -> usize {
+    fn add(&mut self, gate: &Gate, group: Vec<(PathBuf, Arc<[u8]>)>) -> Result<usize, ImportFault> {
         let top = common(group.iter().map(|(path, _)| path.as_path()));
         let base = self.base(&top, group.iter().map(|(path, _)| path.as_path()));
         let mut first = None;
@@ -116,10 +123,10 @@ impl Assets {
             let written = written(&base, &top, &path);
             let is_there = self.taken.contains_key(&written.to_lowercase());
             let known = self.known.get(&path).copied().filter(|_| is_there);
-            let index = known.unwrap_or_else(|| self.push(path, written, bytes));
+            let index = known.map_or_else(|| self.push(gate, path, written, bytes), Ok)?;
             first.get_or_insert(index);
         }
-        first.unwrap_or_default()
+        Ok(first.unwrap_or_default())
     }
 
     /// The folder for files below another, in which no path is taken by another file.
@@ -138,13 +145,32 @@ impl Assets {
         base
     }
 
-    fn push(&mut self, source: PathBuf, path: String, bytes: Vec<u8>) -> usize {
+    fn push(
+        &mut self,
+        gate: &Gate,
+        source: PathBuf,
+        path: String,
+        bytes: Arc<[u8]>,
+    ) -> Result<usize, ImportFault> {
         let index = self.files.len();
         self.taken.insert(path.to_lowercase(), source.clone());
         self.known.insert(source, index);
-        self.files.push(Asset { path, bytes: Arc::from(bytes) });
-        index
+        self.files.push(Asset { path, bytes }, gate.account())?;
+        Ok(index)
     }
+}
+
+fn find(gate: &Gate, uri: &str, folder: &Path) -> Result<FoundMesh, Unreachable> {
+    gate.find_from(uri, folder).map_err(|why| Unreachable::not_found(uri, why))
+}
+
+fn whole(inspected: Inspected, file: &Path) -> Result<Whole, String> {
+    let Inspected { bytes, side_files, scene, .. } = inspected;
+    scene?;
+    let shared = |bytes: Arc<Vec<u8>>| -> Arc<[u8]> { Arc::unwrap_or_clone(bytes).into() };
+    let sides = side_files.into_iter().filter(|(path, _)| path != file);
+    let sides = sides.map(|(path, side)| (path, shared(side.bytes))).collect();
+    Ok(Whole { bytes: shared(bytes.unwrap_or_default()), sides, parts: OnceCell::new() })
 }
 
 /// The middle of a mesh in a format that keeps its vertices in one file.
@@ -155,14 +181,21 @@ fn middle_of(bytes: &[u8], file: &Path) -> Result<Option<Vector3<f64>>, String> 
     Ok(bounds.map(|bounds| (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0))
 }
 
-/// The path of a file, or of a part of it, which is beside it.
-fn of_part(file: &Path, part: Option<&str>) -> PathBuf {
-    let Some(part) = part else { return file.to_owned() };
+/// The path of a part of a file, which is beside it.
+fn of_part(file: &Path, part: &str, is_taken: impl Fn(&Path) -> bool) -> PathBuf {
     let plain = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_') { c } else { '_' };
     let [stem, extension] = [file.file_stem(), file.extension()]
         .map(|name| name.unwrap_or_default().to_string_lossy().into_owned());
     let part: String = part.chars().map(plain).collect();
-    file.with_file_name(format!("{stem}.{part}.{extension}"))
+    let path = |end: &str| file.with_file_name(format!("{stem}.{part}{end}.{extension}"));
+    let mut free = path("");
+    for number in 2.. {
+        if !is_taken(&free) {
+            break;
+        }
+        free = path(&format!("_{number}"));
+    }
+    free
 }
 
 /// The folder that all files are in.

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use nalgebra::Isometry3;
+use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Shape};
@@ -15,7 +16,7 @@ use super::spanning::branches;
 
 /// The bodies of a scene, and whether they are held by the world.
 pub struct Bodies {
-    pub bodies: Vec<Body>,
+    pub bodies: Charged<Body>,
     pub is_held: bool,
 }
 
@@ -23,12 +24,12 @@ pub struct Bodies {
 ///
 /// # Errors
 /// If a name has no meaning.
-pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
+pub fn bodies(mut scene: Scene, tally: &mut Tally, account: &Account) -> Result<Bodies, Refusal> {
     let frames = Frames::of(&scene)?;
     let tree = branches(&scene, &frames, tally)?;
     let world = scene.links.len();
     let mut at = vec![None; world + 1];
-    let mut made: Vec<Body> = Vec::new();
+    let mut made: Charged<Body> = Charged::default();
     let mut poses: Vec<Isometry3<f64>> = Vec::new();
     for branch in &tree {
         at[branch.link] = Some(made.len());
@@ -47,7 +48,10 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
         body.is_frame = node.is_none();
         if let Some((_, joint)) = branch.joint {
             let joint = &scene.joints[joint];
-            body.joints = moving(&scene, &frames, joint, node, branch.is_turned, tally)?;
+            for moving in moving(&scene, &frames, joint, node, branch.is_turned, tally)? {
+                let charged = body.joints.push(moving, account);
+                charged.or_else(|why| Refusal::at(place, why))?;
+            }
             if joint.kind == Kind::Fixed {
                 body.fixed_by = Some(scene.nodes[joint.node].name.clone());
             } else if branch.is_turned {
@@ -58,13 +62,17 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
             }
         }
         poses.push(pose);
-        made.push(body);
+        made.push(body, account).or_else(|why| Refusal::at(place, why))?;
     }
     for (link, index) in at.iter().enumerate().take(world) {
         let Some(index) = *index else { continue };
         let shapes = std::mem::take(&mut scene.links[link].shapes);
-        let shapes = shapes.into_iter().map(|shape| placed(&scene, &frames, link, shape));
-        made[index].shapes = shapes.collect::<Result<_, _>>()?;
+        for shape in shapes {
+            let shape = placed(&scene, &frames, link, shape)?;
+            let place = shape.place;
+            let charged = made[index].shapes.push(shape, account);
+            charged.or_else(|why| Refusal::at(place, why))?;
+        }
         made[index].inertial = Some(scene.links[link].inertial.clone());
     }
     let mut taken: HashSet<String> = made.iter().map(|body| body.name.clone()).collect();
@@ -77,7 +85,8 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally) -> Result<Bodies, Refusal> {
             name += "_frame";
         }
         let body = Body::new(name, Some(parent), pose, node.place);
-        made.push(Body { is_frame: true, ..body });
+        let charged = made.push(Body { is_frame: true, ..body }, account);
+        charged.or_else(|why| Refusal::at(node.place, why))?;
     }
     Ok(Bodies { is_held: at[world].is_some(), bodies: made })
 }

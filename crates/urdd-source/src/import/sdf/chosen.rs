@@ -5,6 +5,7 @@ use super::super::options::ImportOptions;
 use super::super::place::Place;
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
+use super::kept::keep_plugins;
 use super::models::model;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -56,16 +57,16 @@ pub fn read_chosen(
         let is_static = model(reader, chosen.tag, None, &Overrides::default(), 0)?;
         return Ok((chosen.name.clone(), is_static));
     }
-    let Included { path, overrides } = included(reader, chosen.tag)?;
+    let Included { file, overrides } = included(reader, chosen.tag)?;
     let place: Place = chosen.tag.place();
-    let read = reader.include(&path, place, |reader, root| {
+    let read = reader.include(&file, place, |reader, root| {
         let Some(inside) = root.child("model") else {
-            return Refusal::at(place, SdfFault::IncludesNone(path.display().to_string()));
+            return Refusal::at(place, SdfFault::IncludesNone(file.file.display().to_string()));
         };
         let name = overrides.name.as_deref().or(inside.attribute("name")).unwrap_or_default();
         Ok((name.to_owned(), model(reader, inside, None, &overrides, 0)?))
     })?;
-    reader.kept.plugins(chosen.tag, &mut reader.tally);
+    keep_plugins(reader, chosen.tag)?;
     Ok(read)
 }
 

@@ -51,8 +51,6 @@ pub enum SdfFault {
     IncludesUrdf(String),
     #[error("models are nested more than {0} deep; a robot has fewer")]
     Deep(usize),
-    #[error("the included files have more than {0} MiB in all; a robot has fewer")]
-    Large(u64),
 }
 
 /// The number of models, and their first names.

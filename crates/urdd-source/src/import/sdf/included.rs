@@ -1,15 +1,14 @@
 //! Finds what an `<include>` names.
 
-use std::path::PathBuf;
-
 use nalgebra::Isometry3;
 
-use super::super::fault::ImportFault;
 use super::super::features;
+use super::super::unreachable::Unreachable;
 use super::fault::SdfFault;
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::tag::{Tag, is_true};
+use crate::resolve::FoundMesh;
 
 /// The files that say which file of a folder is the model.
 const MANIFESTS: &[&str] = &["model.config", "manifest.xml"];
@@ -31,7 +30,7 @@ pub struct Overrides {
 
 /// A file, and what is said of the model in it.
 pub struct Included {
-    pub path: PathBuf,
+    pub file: FoundMesh,
     pub overrides: Overrides,
 }
 
@@ -50,7 +49,7 @@ pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
     let pose = tag.child("pose").map(|_| tag.pose()).transpose()?;
     reader.tally.count(features::INCLUDES);
     Ok(Included {
-        path: find(reader, tag, &uri)?,
+        file: find(reader, tag, &uri)?,
         overrides: Overrides {
             name: tag.words("name"),
             pose,
@@ -62,24 +61,30 @@ pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
 }
 
 /// The file of a URI: itself, or the model of the folder that it names.
-fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<PathBuf, Refusal> {
+fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
     let folder = reader.folder(tag.file);
-    let missing = match reader.reach.find(uri, &folder) {
-        Ok(path) => return Ok(path),
+    let gate = reader.gate;
+    // A folder is not a file, but may have a manifest.
+    let missing = match gate.find_from(uri, &folder) {
+        Ok(found) => return Ok(found),
         Err(missing) => missing,
     };
     let trimmed = uri.trim_end_matches('/');
     for manifest in MANIFESTS {
-        let Ok(path) = reader.reach.find(&format!("{trimmed}/{manifest}"), &folder) else {
+        let Ok(manifest) = gate.find_from(&format!("{trimmed}/{manifest}"), &folder) else {
             continue;
         };
-        let Ok((path, bytes)) = reader.reach.read(&path, MAX_MANIFEST) else { continue };
+        let Ok(bytes) = gate.bytes(&manifest, MAX_MANIFEST) else { continue };
+        reader.charge(bytes.len(), tag.place())?;
         let text = String::from_utf8_lossy(&bytes);
-        if let Some((model, folder)) = newest(&text).zip(path.parent()) {
-            return Ok(folder.join(model));
+        if let Some((model, folder)) = newest(&text).zip(manifest.file.parent()) {
+            let path = folder.join(model);
+            let shown = path.display().to_string();
+            let found = gate.at(&path).map_err(|why| Unreachable::not_found(&shown, why));
+            return found.or_else(|why| Refusal::at(tag.place(), why));
         }
     }
-    Refusal::at(tag.place(), ImportFault::File(missing))
+    Refusal::at(tag.place(), Unreachable::not_found(uri, missing))
 }
 
 /// The file of the newest version that a manifest names.

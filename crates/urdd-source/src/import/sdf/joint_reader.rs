@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::super::features;
 use super::fault::SdfFault;
+use super::kept::keep;
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::scene::{Axis, Joint, Kind, Mimic, Node, NodeKind, WORLD};
@@ -31,7 +32,7 @@ const KNOWN: &[&str] = &[
 /// If it is refused.
 pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
-    let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
+    let whole = reader.whole_name(tag, scope, &name)?;
     let kind = kind(tag, &name)?;
     let [parent, child] = [end(tag, "parent")?, end(tag, "child")?];
     if child == WORLD {
@@ -55,7 +56,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
     let axes = axes.collect::<Result<Vec<Axis>, Refusal>>()?;
     for child in tag.children() {
         match child.name() {
-            "sensor" => reader.kept.of(&whole, child, &mut reader.tally),
+            "sensor" => keep(reader, child, Some(&whole))?,
             "physics" => reader.tally.count(features::SETTINGS),
             name if KNOWN.contains(&name) || wanted.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),

@@ -3,6 +3,7 @@
 use super::super::features;
 use super::fault::SdfFault;
 use super::inertial::inertial;
+use super::kept::keep;
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::scene::{Link, Node, NodeKind, WORLD};
@@ -36,7 +37,7 @@ pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> 
     if name == WORLD {
         return Refusal::at(tag.place(), SdfFault::WorldLink(name));
     }
-    let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
+    let whole = reader.whole_name(tag, scope, &name)?;
     let kind = NodeKind::Link(reader.scene.links.len());
     let node = Node::of(tag, whole.clone(), kind, scope)?;
     let index = reader.scene.nodes.len();
@@ -49,7 +50,7 @@ pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> 
         match child.name() {
             "pose" | "inertial" => {}
             "visual" | "collision" => shapes.extend(shape(reader, child)?),
-            name if KEPT.contains(&name) => reader.kept.of(&whole, child, &mut reader.tally),
+            name if KEPT.contains(&name) => keep(reader, child, Some(&whole))?,
             name => reader.tally.unread(format!("`<{name}>` of `<link>`")),
         }
     }

@@ -27,7 +27,7 @@ use super::model::Model;
 use super::options::ImportOptions;
 use super::place::TextFile;
 use super::placed::{Placed, placed};
-use super::reach::Reach;
+use crate::gate::Gate;
 use bodies::bodies;
 use chosen::read_chosen;
 use fault::SdfFault;
@@ -38,8 +38,8 @@ use refusal::Refusal;
 ///
 /// # Errors
 /// If it is refused, with the place.
-pub fn read(file: TextFile, reach: &Reach, options: &ImportOptions) -> Result<Model, Placed> {
-    let mut reader = Reader::new(reach);
+pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
+    let mut reader = Reader::new(gate);
     let made = made(&mut reader, file, options);
     made.map_err(|Refusal { place, fault }| placed(&reader.files, place, fault))
 }
@@ -50,14 +50,14 @@ fn made(reader: &mut Reader, file: TextFile, options: &ImportOptions) -> Result<
     if scene.links.is_empty() {
         return Refusal::at(scene.nodes[0].place, SdfFault::NoLink(name));
     }
-    let made = bodies(scene, &mut reader.tally)?;
+    let made = bodies(scene, &mut reader.tally, reader.gate.account())?;
     Ok(Model {
         name,
         files: std::mem::take(&mut reader.files),
         is_floating: !made.is_held && !is_static,
         bodies: made.bodies,
         assets: std::mem::take(&mut reader.assets.files),
-        elements: std::mem::take(&mut reader.kept.elements),
+        elements: std::mem::take(&mut reader.kept),
         friction: reader.friction.common(&mut reader.tally),
         tally: std::mem::take(&mut reader.tally),
         ..Model::default()

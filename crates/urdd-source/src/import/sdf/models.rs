@@ -3,9 +3,11 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
+use super::super::model::{ENTRY, LETTER};
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
 use super::joint_reader::joint;
+use super::kept::{keep, keep_plugins};
 use super::link_reader::link;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -53,22 +55,22 @@ pub fn model(
                 model(reader, child, Some(scope), &Overrides::default(), depth + 1)?;
             }
             "include" => {
-                let Included { path, overrides } = included(reader, child)?;
-                reader.include(&path, child.place(), |reader, root| {
+                let Included { file, overrides } = included(reader, child)?;
+                reader.include(&file, child.place(), |reader, root| {
                     let Some(inside) = root.child("model") else {
-                        let file = path.display().to_string();
+                        let file = file.file.display().to_string();
                         return Refusal::at(child.place(), SdfFault::IncludesNone(file));
                     };
                     model(reader, inside, Some(scope), &overrides, depth + 1)
                 })?;
-                reader.kept.plugins(child, &mut reader.tally);
+                keep_plugins(reader, child)?;
             }
-            "plugin" | "gripper" => reader.kept.of_model(child, &mut reader.tally),
+            "plugin" | "gripper" => keep(reader, child, None)?,
             name if SETTINGS.contains(&name) && parent.is_none() => {
-                reader.kept.of_model(child, &mut reader.tally);
+                keep(reader, child, None)?;
             }
             name if SETTINGS.contains(&name) => reader.tally.count(features::SETTINGS),
-            "static" if parent.is_none() => reader.kept.of_model(child, &mut reader.tally),
+            "static" if parent.is_none() => keep(reader, child, None)?,
             name if KNOWN.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<model>`")),
         }
@@ -90,10 +92,13 @@ fn enter(
     let (pose, relative_to) = overrides.pose.clone().map_or_else(|| tag.pose(), Ok)?;
     let placement = tag.attribute("placement_frame").map(str::to_owned);
     let placement = overrides.placement.clone().or(placement);
+    let account = reader.gate.account();
     let scene = &mut reader.scene;
     let scope = scene.scopes.len();
     let around = parent.map(|parent| &scene.scopes[parent]);
     let prefix = around.map_or("", |around| &around.prefix);
+    let names = LETTER * (prefix.len() + name.len());
+    account.charge(ENTRY + names).or_else(|why| Refusal::at(tag.place(), why))?;
     let whole = format!("{prefix}{name}");
     let merged_into = parent.filter(|_| overrides.is_merged);
     let (table, inner) = match (around, merged_into) {
@@ -144,7 +149,7 @@ fn enter(
 
 fn frame(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
-    let whole = format!("{}{name}", reader.scene.scopes[scope].prefix);
+    let whole = reader.whole_name(tag, scope, &name)?;
     let attached_to = tag.attribute("attached_to").map(str::to_owned);
     let node = Node { attached_to, ..Node::of(tag, whole, NodeKind::Frame, scope)? };
     reader.tally.count(features::FRAMES);

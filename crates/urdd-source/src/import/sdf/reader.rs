@@ -3,24 +3,22 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use urdd_directory::account::Charged;
+
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
+use super::super::model::{ENTRY, GazeboElement, LETTER};
 use super::super::place::{Place, TextFile, offset_of};
-use super::super::reach::Reach;
 use super::assets::Assets;
 use super::fault::SdfFault;
 use super::friction::Friction;
-use super::kept::Kept;
 use super::refusal::Refusal;
 use super::scene::Scene;
 use super::tag::Tag;
-use crate::files::MAX_SOURCE_BYTES;
-use urdd_xml::{Kind, MAX_ROBOT_ELEMENTS, XmlError};
+use crate::gate::Gate;
+use crate::resolve::FoundMesh;
+use urdd_xml::{Kind, XmlError};
 
-/// The most bytes of all files that are read, each as often as it is included.
-const MAX_BYTES: u64 = 256 << 20;
-/// As many elements as a file counts for beside those in it.
-const ELEMENTS_OF_FILE: usize = 100;
 /// The most undeclared prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
 /// The first minor version of SDF that is read, and the last.
@@ -28,32 +26,28 @@ const VERSIONS: [u32; 2] = [2, 12];
 
 /// What was read so far.
 pub struct Reader<'r> {
-    pub reach: &'r Reach,
+    pub gate: &'r Gate,
     pub files: Vec<TextFile>,
     pub scene: Scene,
     pub tally: Tally,
     pub assets: Assets,
-    pub kept: Kept,
+    pub kept: Charged<GazeboElement>,
     pub friction: Friction,
     /// The files that are being read, the outermost first.
     open: Vec<PathBuf>,
-    elements: usize,
-    bytes: u64,
 }
 
 impl<'r> Reader<'r> {
-    pub fn new(reach: &'r Reach) -> Self {
+    pub fn new(gate: &'r Gate) -> Self {
         Reader {
-            reach,
+            gate,
             files: Vec::new(),
             scene: Scene::default(),
             tally: Tally::default(),
             assets: Assets::default(),
-            kept: Kept::default(),
+            kept: Charged::default(),
             friction: Friction::default(),
             open: Vec::new(),
-            elements: 0,
-            bytes: 0,
         }
     }
 
@@ -69,22 +63,36 @@ impl<'r> Reader<'r> {
     /// If it cannot be read, includes itself, or what is done with it fails.
     pub fn include<T>(
         &mut self,
-        path: &Path,
+        found: &FoundMesh,
         place: Place,
         then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
     ) -> Result<T, Refusal> {
-        let refuse = |why| Refusal::at(place, ImportFault::File(why));
-        let (path, bytes) = match self.reach.read(path, MAX_SOURCE_BYTES) {
-            Ok(read) => read,
-            Err(why) => return refuse(why),
-        };
-        if self.open.contains(&path) {
-            return Refusal::at(place, SdfFault::IncludeCircle(path.display().to_string()));
+        if self.open.contains(&found.file) {
+            let file = found.file.display().to_string();
+            return Refusal::at(place, SdfFault::IncludeCircle(file));
         }
-        match TextFile::included(path, bytes) {
+        match TextFile::included(self.gate, found) {
             Ok(file) => self.open(file, then),
-            Err(why) => refuse(why),
+            Err(why) => Refusal::at(place, why),
         }
+    }
+
+    /// The name of something in a scope, with the models that it is in; it is charged.
+    ///
+    /// # Errors
+    /// If the account does not have its cost.
+    pub fn whole_name(&self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
+        let prefix = &self.scene.scopes[scope].prefix;
+        self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
+        Ok(format!("{prefix}{name}"))
+    }
+
+    /// Charges what is made at a place, in bytes.
+    ///
+    /// # Errors
+    /// If the account does not have them.
+    pub fn charge(&self, bytes: usize, place: Place) -> Result<(), Refusal> {
+        self.gate.account().charge(bytes).or_else(|why| Refusal::at(place, why))
     }
 
     /// Goes on with the outermost element of a file.
@@ -96,16 +104,11 @@ impl<'r> Reader<'r> {
         file: TextFile,
         then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
     ) -> Result<T, Refusal> {
-        self.bytes = self.bytes.saturating_add(file.text.len() as u64);
         let known = self.files.iter().position(|known| known.path == file.path);
         let index = known.unwrap_or(self.files.len());
         let (text, path) = (Arc::<str>::from(&*file.text), file.path.clone());
         if known.is_none() {
             self.files.push(file);
-        }
-        let start = Place { file: index, offset: 0 };
-        if self.bytes > MAX_BYTES {
-            return Refusal::at(start, SdfFault::Large(MAX_BYTES >> 20));
         }
         let (text, shift) = mended(&text);
         let document = match urdd_xml::parse(&text, Kind::Other) {
@@ -115,11 +118,6 @@ impl<'r> Reader<'r> {
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
-        let elements = document.descendants().filter(roxmltree::Node::is_element).count();
-        self.elements += elements + ELEMENTS_OF_FILE;
-        if self.elements > MAX_ROBOT_ELEMENTS {
-            return Refusal::at(start, ImportFault::TooMany(MAX_ROBOT_ELEMENTS));
-        }
         let root = Tag { node: document.root_element(), file: index, shift, version: 0 };
         let root = Tag { version: version(root)?, ..root };
         self.open.push(path);

@@ -6,7 +6,6 @@ use nalgebra::{Translation3, Vector3};
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
 use super::super::unreachable::Unreachable;
-use super::assets::NoAsset;
 use super::cone::cone;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -102,7 +101,8 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
         (None, "cone") => {
             let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             let Some(bytes) = cone() else { return Ok(None) };
-            let asset = reader.assets.made("meshes/unit_cone.stl", bytes);
+            let asset = reader.assets.made(reader.gate, "meshes/unit_cone.stl", bytes);
+            let asset = asset.or_else(|why| Refusal::at(tag.place(), why))?;
             (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
         }
         (None, "empty") => return Ok(None),
@@ -153,7 +153,7 @@ fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)
     let submesh = tag.child("submesh");
     let name = submesh.and_then(|submesh| submesh.words("name"));
     let folder = reader.folder(tag.file);
-    let added = reader.assets.mesh(reader.reach, &uri, &folder, name.as_deref());
+    let added = reader.assets.mesh(reader.gate, &uri, &folder, name.as_deref());
     let Some(asset) = asset(reader, tag, added)? else { return Ok(None) };
     reader.tally.count(if name.is_some() { features::SUBMESHES } else { features::MESHES });
     let is_centred = name.is_some() && submesh.is_some_and(|submesh| submesh.flag("center"));
@@ -164,22 +164,21 @@ fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)
     Ok(Some((Geometry::Mesh { asset, scale }, shift)))
 }
 
-/// What became of a file: refused if a person can allow it, and left out if it is not there, as Gazebo does.
+/// What became of a file.
 fn asset(
     reader: &mut Reader,
     tag: Tag,
-    added: Result<usize, NoAsset>,
+    added: Result<usize, ImportFault>,
 ) -> Result<Option<usize>, Refusal> {
     match added {
         Ok(asset) => Ok(Some(asset)),
-        Err(NoAsset::Unreachable(why @ Unreachable::Outside { .. })) => {
-            Refusal::at(tag.place(), ImportFault::File(why))
-        }
-        Err(why) => {
+        // A file that is not there, or is something else, is left out, as Gazebo does.
+        Err(ImportFault::File(why)) if !matches!(why, Unreachable::Outside { .. }) => {
             reader.tally.count(features::MISSING_MESHES);
             reader.tally.remark(tag.place(), format!("{why}; it is left out"));
             Ok(None)
         }
+        Err(why) => Refusal::at(tag.place(), why),
     }
 }
 
@@ -202,7 +201,7 @@ fn material(reader: &mut Reader, visual: Tag) -> Result<Option<Material>, Refusa
     let mut texture = None;
     if let Some((map, uri)) = map.map(|map| (map, map.text())).filter(|(_, uri)| !uri.is_empty()) {
         let folder = reader.folder(tag.file);
-        let added = reader.assets.image(reader.reach, &uri, &folder);
+        let added = reader.assets.image(reader.gate, &uri, &folder);
         texture = asset(reader, map, added)?;
         if texture.is_some() {
             reader.tally.count(features::TEXTURES);

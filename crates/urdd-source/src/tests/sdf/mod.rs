@@ -15,11 +15,11 @@ use nalgebra::Isometry3;
 
 use crate::Settings;
 use crate::files::Files;
+use crate::gate::Gate;
 use crate::import::model::{Body, Joint, Model};
 use crate::import::options::ImportOptions;
 use crate::import::place::TextFile;
 use crate::import::placed::Placed;
-use crate::import::reach::Reach;
 use crate::import::sdf;
 
 fn folder() -> PathBuf {
@@ -27,11 +27,11 @@ fn folder() -> PathBuf {
 }
 
 fn read(text: &str, folder: &Path, settings: &Settings) -> Result<Model, Placed> {
-    let reach = Reach::new(folder, settings);
+    let gate = Gate::of_project(folder, settings);
     let path = folder.join("robot.sdf");
     let bytes = Arc::from(text.as_bytes());
     let file = TextFile { shown: "robot.sdf".to_owned(), path, text: text.to_owned(), bytes };
-    sdf::read(file, &reach, &ImportOptions::default())
+    sdf::read(file, &gate, &ImportOptions::default())
 }
 
 /// The model of a fixture.

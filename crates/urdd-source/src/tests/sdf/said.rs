@@ -53,9 +53,9 @@ fn what_is_not_known_is_named() {
 fn text_for_gazebo_is_kept() {
     let model = fixture("shapes.sdf");
     assert!(model.elements.iter().any(|element| {
-        element.starts_with("<gazebo>\n  <plugin name=\"p\"") && element.contains("a &amp; b")
+        element.0.starts_with("<gazebo>\n  <plugin name=\"p\"") && element.0.contains("a &amp; b")
     }));
-    let of_link = model.elements.iter().filter(|it| it.starts_with("<gazebo reference=\"a\">"));
+    let of_link = model.elements.iter().filter(|it| it.0.starts_with("<gazebo reference=\"a\">"));
     assert_eq!(of_link.count(), 3);
 }
 
