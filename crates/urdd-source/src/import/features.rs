@@ -95,7 +95,7 @@ features! {
     DEFAULT_MASSES = "masses and inertias that are not given", Elsewhere, DEFAULT;
     AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes;
     CONES = "cones", Elsewhere, CONE;
-    MISSING_MESHES = "meshes and images that are not found or read", Elsewhere, No;
+    MISSING_MESHES = "meshes and images that are not found or read", No, No;
     SUBMESHES = "parts of meshes", Elsewhere, PART;
     LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
     FRICTION = "friction of surfaces, the same of all", SETUP, SETUP;

@@ -3,7 +3,9 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod bounds;
 mod files;
+mod gate;
 mod mjcf;
 mod mjcf_faults;
 mod origin;

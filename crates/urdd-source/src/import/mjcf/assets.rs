@@ -53,6 +53,9 @@ fn places(
     ]
 }
 
+/// What asking for a path costs for each of its bytes.
+const LOOKED_AT: usize = 20;
+
 /// The files that the URDF names, and where they are read.
 pub struct Assets<'f> {
     gate: &'f Gate,
@@ -80,7 +83,10 @@ impl<'f> Assets<'f> {
             file.and_then(|file| file.path.parent()).unwrap_or(Path::new("/"))
         };
         let [base, own] = [self.files.first(), self.files.get(place.file)].map(folder_of);
-        let found = first(self.gate, places(file, self.compiler, folder, base, own), file);
+        let places = places(file, self.compiler, folder, base, own);
+        let bytes: usize = places.iter().map(|place| place.as_os_str().len()).sum();
+        self.charge(LOOKED_AT * bytes, place)?;
+        let found = first(self.gate, places, file);
         found.map_err(|why| at(place, ImportFault::File(why)))
     }
 

@@ -6,17 +6,20 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use urdd_directory::account::Account;
 
 use super::super::features::{self, Tally};
-use super::super::model::{ENTRY, LETTER};
+use super::super::model::LETTER;
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::defaults::{Defaults, MAIN};
+use super::defaults::{Defaults, MAIN, PASSED};
 use super::document::Element;
 use super::fault::MjcfFault;
 use super::geom::{Geom, between};
 use super::joint::{self, RawJoint};
 use super::orientation::{euler, pose};
 use super::reading::{View, integer, numbers, required, wrong};
+
+/// What an element costs beside what the model has of it, bytes.
+const RAW: usize = 1000;
 
 /// The world is the first body.
 pub const WORLD: usize = 0;
@@ -134,10 +137,11 @@ impl<'d> Builder<'d, '_> {
         Ok(())
     }
 
-    /// Charges an element, each time that it is replicated, and its name.
+    /// Charges an element, each time that it is replicated, with its name and other texts.
     fn charge(&self, element: &Element, scope: Scope<'_>) -> Fallible<()> {
         let name = element.text("name").map_or(0, str::len) + scope.suffix.len();
-        self.account.charge(ENTRY / 3 + LETTER * name).map_err(|why| at(element.place, why))
+        let bytes = RAW + LETTER * name + PASSED * element.length();
+        self.account.charge(bytes).map_err(|why| at(element.place, why))
     }
 
     fn name(&mut self, element: &Element, scope: Scope<'_>) -> Option<String> {

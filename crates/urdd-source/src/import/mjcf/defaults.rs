@@ -24,7 +24,9 @@ pub struct Defaults<'d> {
 }
 
 /// What looking up the attributes of an element costs for each element of its class that has some.
-const LOOK_UP: usize = 300;
+const LOOK_UP: usize = 100;
+/// What a byte of these costs each time that it is passed: it is copied, compared, read as a number.
+pub const PASSED: usize = 4;
 
 #[derive(Default)]
 struct Class<'d> {
@@ -105,8 +107,10 @@ impl<'d> Defaults<'d> {
 
     /// Charges what looking up the attributes of an element costs.
     pub fn charge(&self, element: &Element, class: usize, tag: &str) -> Fallible<()> {
-        let passed: usize = self.levels(class).map(|level| 1 + level.of(tag).len()).sum();
-        self.account.charge(passed * LOOK_UP).map_err(|why| at(element.place, why))
+        let own = |of: &&Element| LOOK_UP + PASSED * of.length();
+        let level = |level: Level<'_, 'd>| LOOK_UP + level.of(tag).iter().map(own).sum::<usize>();
+        let passed = self.levels(class).map(level).sum();
+        self.account.charge(passed).map_err(|why| at(element.place, why))
     }
 
     /// What a class and those around it say of some tags: by class, the outermost first, in the order in which it applies.

@@ -31,6 +31,11 @@ impl Element {
         found.ok().map(|at| self.attributes[at].1.as_str())
     }
 
+    /// The bytes of its attributes.
+    pub fn length(&self) -> usize {
+        self.attributes.iter().map(|(name, value)| name.len() + value.len()).sum()
+    }
+
     /// The names of its attributes, in order.
     pub fn attribute_names(&self) -> impl Iterator<Item = &str> {
         self.attributes.iter().map(|(name, _)| name.as_str())

@@ -34,6 +34,9 @@ pub struct Assets {
     groups: usize,
 }
 
+/// What looking for a file costs for each byte of its name and folder.
+const LOOKED_AT: usize = 100;
+
 /// A mesh file, the files that it names, and its parts, if it has names for them.
 #[derive(Debug)]
 struct Whole {
@@ -160,8 +163,9 @@ impl Assets {
     }
 }
 
-fn find(gate: &Gate, uri: &str, folder: &Path) -> Result<FoundMesh, Unreachable> {
-    gate.find_from(uri, folder).map_err(|why| Unreachable::not_found(uri, why))
+fn find(gate: &Gate, uri: &str, folder: &Path) -> Result<FoundMesh, ImportFault> {
+    gate.account().charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()))?;
+    Ok(gate.find_from(uri, folder).map_err(|why| Unreachable::not_found(uri, why))?)
 }
 
 fn whole(inspected: Inspected, file: &Path) -> Result<Whole, String> {

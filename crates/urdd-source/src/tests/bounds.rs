@@ -1,0 +1,239 @@
+//! What a little may ask for: everything that an import makes is charged, and what is beyond the account is refused with
+//! the place. Each of these took gigabytes or minutes.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::error::SourceError;
+use crate::files::Files;
+use crate::import::fault::ImportFault;
+use crate::import::import;
+use crate::settings::Settings;
+
+fn in_memory(files: &[(&str, &[u8])]) -> Settings {
+    let files = files.iter().map(|(path, bytes)| ((*path).to_owned(), Arc::from(*bytes)));
+    let mut settings = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
+    settings.import.body = None;
+    settings
+}
+
+/// The place at which a description is refused because too much would be made of it.
+fn refused(name: &str, settings: &Settings) -> (u32, u32) {
+    match import(&Path::new("/").join(name), settings) {
+        Err(SourceError::Import { line, column, fault, .. }) => {
+            assert!(matches!(*fault, ImportFault::TooMuch(_)), "{fault}");
+            (line, column)
+        }
+        other => panic!("{name} is not refused: {:?}", other.map(|found| found.is_some())),
+    }
+}
+
+fn mjcf(before: &str, body: &str, after: &str) -> String {
+    format!("<mujoco>{before}<worldbody>{body}</worldbody>{after}</mujoco>")
+}
+
+fn long(length: usize) -> String {
+    "n".repeat(length)
+}
+
+#[test]
+fn names_of_mjcf_that_are_made_of_long_ones() {
+    let name = long(300_000);
+    for body in [
+        format!(
+            "<body><geom size=\"1\"/><replicate count=\"20000\"><body name=\"{name}\"/></replicate></body>"
+        ),
+        format!("<body name=\"{name}\"><geom size=\"1\"/>{}</body>", "<site/>".repeat(20_000)),
+        format!("<body name=\"{name}\"><geom size=\"1\"/>{}</body>", "<camera/>".repeat(20_000)),
+        format!("<body name=\"{name}\"><geom size=\"1\"/>{}</body>", "<body/>".repeat(20_000)),
+        format!(
+            "<body name=\"b\"><joint name=\"{name}\" type=\"ball\"/><geom size=\"1\"/><replicate count=\"9000\"><body><joint name=\"{name}\"/></body></replicate></body>"
+        ),
+        format!(
+            "<body><geom size=\"1\"/><replicate count=\"9000\"><geom size=\"1\" type=\"mesh\" mesh=\"{name}\"/></replicate></body>"
+        ),
+    ] {
+        let text = mjcf("", &body, "");
+        let (line, column) = refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+        assert!(line == 1 && column > 1, "{line}:{column}");
+    }
+}
+
+#[test]
+fn values_of_default_classes_that_are_long() {
+    let name = long(100_000);
+    for attribute in ["material", "mesh", "user"] {
+        let defaults = format!("<default><geom {attribute}=\"{name}\"/></default>");
+        let body = format!("<body>{}</body>", "<geom size=\"1\"/>".repeat(20_000));
+        let text = mjcf(&defaults, &body, "");
+        refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+    }
+}
+
+#[test]
+fn products_of_replicas() {
+    let replicas = |count: usize, what: &str| {
+        format!(
+            "<body><geom size=\"1\"/><replicate count=\"{count}\" offset=\"1 0 0\">{what}</replicate></body>"
+        )
+    };
+    let moving = replicas(2000, "<body><joint/><geom size=\"1\" mass=\"1\"/></body>");
+    let named = replicas(5000, "<body name=\"b\"><joint name=\"j\"/></body>");
+    let attributes = (0..250).fold(String::new(), |all, at| all + &format!(" a{at}=\"1\""));
+    let classes: String =
+        (0..30).map(|at| format!("<default class=\"c{at}\"><geom{attributes}/>")).collect();
+    let classes = format!("<default>{classes}{}", "</default>".repeat(31));
+    for (before, body, after) in [
+        ("", &moving, format!("<keyframe>{}</keyframe>", "<key/>".repeat(3000))),
+        (
+            "",
+            &named,
+            format!("<contact>{}</contact>", "<exclude body1=\"b\" body2=\"b\"/>".repeat(10_000)),
+        ),
+        ("", &named, format!("<equality>{}</equality>", "<joint joint1=\"j\"/>".repeat(10_000))),
+        ("", &named, format!("<actuator>{}</actuator>", "<motor joint=\"j\"/>".repeat(10_000))),
+        (
+            "",
+            &replicas(1_000_000, "<replicate count=\"1000000\"><site/></replicate>"),
+            String::new(),
+        ),
+        (
+            &classes,
+            &replicas(90_000, &format!("<geom class=\"c29\" size=\"1\"{attributes}/>")),
+            String::new(),
+        ),
+    ] {
+        let text = mjcf(before, body, &after);
+        refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+    }
+}
+
+#[test]
+fn one_file_by_very_many_names() {
+    let spelled = |at: usize| format!(".{}{}", "/".repeat(at % 40 + 1), "./".repeat(at / 40));
+    let includes: String =
+        (0..6000).map(|at| format!("<include file=\"{}b.xml\"/>", spelled(at))).collect();
+    let text = mjcf("", "<body><geom size=\"1\"/></body>", &includes);
+    let large = format!("<mujoco><!--{}--></mujoco>", long(400_000));
+    refused("r.xml", &in_memory(&[("r.xml", text.as_bytes()), ("b.xml", large.as_bytes())]));
+
+    let mut triangles = vec![0; 80];
+    triangles.extend(10_000_u32.to_le_bytes());
+    for at in 0..30_000_u32 {
+        let corner = [at % 97, at % 89, at % 83];
+        if at % 3 == 0 {
+            triangles.extend([0; 12]);
+        }
+        corner.iter().for_each(|x| triangles.extend((*x as f32).to_le_bytes()));
+        if at % 3 == 2 {
+            triangles.extend([0; 2]);
+        }
+    }
+    // As it is, by many names: it is one file. Turned and stretched, each is another.
+    let meshes = |more: &str| {
+        let (mut assets, mut geoms) = (String::new(), String::new());
+        for at in 0..3000 {
+            let file = spelled(at);
+            write!(assets, "<mesh name=\"m{at}\" file=\"{file}a.stl\" {more}/>").unwrap();
+            write!(geoms, "<geom type=\"mesh\" mesh=\"m{at}\" mass=\"1\"/>").unwrap();
+        }
+        let inertial = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
+        mjcf(&format!("<asset>{assets}</asset>"), &format!("<body>{inertial}{geoms}</body>"), "")
+    };
+    let text = meshes("");
+    let same = in_memory(&[("r.xml", text.as_bytes()), ("a.stl", &triangles)]);
+    let imported = import(Path::new("/r.xml"), &same).unwrap().unwrap();
+    assert_eq!(imported.files.keys().filter(|path| path.ends_with(".stl")).count(), 1);
+    let text = meshes("scale=\"1 1 2\" refquat=\"1 2 3 4\"");
+    refused("r.xml", &in_memory(&[("r.xml", text.as_bytes()), ("a.stl", &triangles)]));
+}
+
+#[test]
+fn includes_in_one_another_are_levels() {
+    let mut files: Vec<(String, String)> = (0..6300)
+        .map(|at| (format!("{at}.xml"), format!("<m><include file=\"{}.xml\"/></m>", at + 1)))
+        .collect();
+    files.push(("6300.xml".to_owned(), "<m/>".to_owned()));
+    files.push(("r.xml".to_owned(), "<mujoco><include file=\"0.xml\"/></mujoco>".to_owned()));
+    let files: Vec<(&str, &[u8])> =
+        files.iter().map(|(path, text)| (path.as_str(), text.as_bytes())).collect();
+    let error = import(Path::new("/r.xml"), &in_memory(&files)).unwrap_err().to_string();
+    assert!(error.contains("nested more than 256 deep"), "{error}");
+}
+
+#[test]
+fn names_of_sdf_that_are_made_of_long_ones() {
+    let name = long(300_000);
+    let links: String = (0..20_000).map(|at| format!("<link name=\"{at}\"/>")).collect();
+    let sensors = "<sensor name=\"x\" type=\"camera\"/>".repeat(15_000);
+    let middle = long(5000);
+    let nested = format!("<model name=\"{middle}\"><link name=\"b\"/>");
+    for inside in [
+        format!("<link name=\"r\"/><model name=\"{name}\">{links}</model>"),
+        format!("<link name=\"{name}\">{sensors}</link>"),
+        format!("{}{links}{}", nested.repeat(60), "</model>".repeat(60)),
+    ] {
+        let text = format!("<sdf version=\"1.10\"><model name=\"m\">{inside}</model></sdf>");
+        let (line, column) = refused("r.sdf", &in_memory(&[("r.sdf", text.as_bytes())]));
+        assert!(line == 1 && column > 1, "{line}:{column}");
+    }
+}
+
+/// A part of a mesh has its own points, and is what it was as a part of the whole.
+#[test]
+fn parts_of_meshes_hold_what_they_need() {
+    let mut obj = String::from("mtllib none.mtl\n");
+    for at in 0..300 {
+        let z = at * 3;
+        writeln!(
+            obj,
+            "o s{at}\nv {at} 0 {z}\nv {at} 1 {z}\nv {at} 0 {}\nvt 0 0\nusemtl m{at}",
+            z + 1
+        )
+        .unwrap();
+        writeln!(obj, "f -3/-1 -2/-1 \\\n-1/-1").unwrap();
+    }
+    let visual = |at: usize| {
+        format!(
+            "<visual name=\"{at}\"><geometry><mesh><uri>a.obj</uri><submesh><name>s{at}</name></submesh></mesh></geometry></visual>"
+        )
+    };
+    let visuals: String = (0..300).map(visual).collect();
+    let text = format!(
+        "<sdf version=\"1.10\"><model name=\"m\"><link name=\"l\">{visuals}</link></model></sdf>"
+    );
+    let settings = in_memory(&[("r.sdf", text.as_bytes()), ("a.obj", obj.as_bytes())]);
+    let imported = import(Path::new("/r.sdf"), &settings).unwrap().unwrap();
+    let parts: Vec<&Arc<[u8]>> =
+        (0..300).map(|at| &imported.files[&format!("meshes/a.s{at}.obj")]).collect();
+    assert_eq!(
+        std::str::from_utf8(parts[7]).unwrap(),
+        "mtllib none.mtl\no s7\nv 7 0 21\nv 7 1 21\nv 7 0 22\nvt 0 0\nusemtl m7\nf 1/1 2/1 3/1\n"
+    );
+    let sum: usize = parts.iter().map(|part| part.len()).sum();
+    assert!(sum < 2 * obj.len(), "{sum} of {}", obj.len());
+}
+
+/// Two names that differ in what file names can have are two parts.
+#[test]
+fn parts_whose_names_are_alike_are_told_apart() {
+    let part =
+        |name: &str, x: u8| format!("o {name}\nv {x} 0 0\nv {x} 1 0\nv {x} 0 1\nf -3 -2 -1\n");
+    let obj = part("a b", 1) + &part("a_b", 2);
+    let visual = |name: &str| {
+        format!(
+            "<visual name=\"{name}\"><geometry><mesh><uri>a.obj</uri><submesh><name>{name}</name></submesh></mesh></geometry></visual>"
+        )
+    };
+    let text = format!(
+        "<sdf version=\"1.10\"><model name=\"m\"><link name=\"l\">{}{}</link></model></sdf>",
+        visual("a b"),
+        visual("a_b")
+    );
+    let settings = in_memory(&[("r.sdf", text.as_bytes()), ("a.obj", obj.as_bytes())]);
+    let imported = import(Path::new("/r.sdf"), &settings).unwrap().unwrap();
+    let parts = imported.files.iter().filter(|(path, _)| path.ends_with(".obj"));
+    let parts: Vec<&[u8]> = parts.map(|(_, bytes)| &**bytes).collect();
+    assert!(parts.len() == 2 && parts[0] != parts[1], "{:?}", imported.files.keys());
+}
