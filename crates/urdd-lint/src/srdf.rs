@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::subject::Subject;
 use urdd_source::Files;

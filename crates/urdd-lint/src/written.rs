@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use urdd_directory::position::LineIndex;
 use urdd_directory::regular;

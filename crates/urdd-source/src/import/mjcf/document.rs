@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use roxmltree::Node;
+use urdd_xml::Node;
 use urdd_xml::{Kind, MAX_LEVELS, MAX_ROBOT_ELEMENTS};
 
 use super::super::fault::ImportFault;
@@ -166,7 +166,7 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
     node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned())).collect()
 }
 
-fn parse(text: &str, file: usize) -> Fallible<roxmltree::Document<'_>> {
+fn parse(text: &str, file: usize) -> Fallible<urdd_xml::Document<'_>> {
     urdd_xml::parse(text, Kind::Other).map_err(|error| {
         let place = Place { file, offset: offset_of(text, &error) };
         at(place, ImportFault::NotXml(error.words(text)))

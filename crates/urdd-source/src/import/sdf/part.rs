@@ -1,6 +1,6 @@
 //! A part of a mesh by its name, as `<submesh>` names it: a node of COLLADA, an object or group of OBJ.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 use urdd_xml::element::{Edit, apply};
 use urdd_xml::{Kind, parse};
 

@@ -115,7 +115,7 @@ impl<'r> Reader<'r> {
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
-        let elements = document.descendants().filter(roxmltree::Node::is_element).count();
+        let elements = document.descendants().filter(urdd_xml::Node::is_element).count();
         self.elements += elements + ELEMENTS_OF_FILE;
         if self.elements > MAX_ROBOT_ELEMENTS {
             return Refusal::at(start, ImportFault::TooMany(MAX_ROBOT_ELEMENTS));
@@ -171,7 +171,7 @@ fn mended(text: &str) -> (String, isize) {
     let trimmed = if trimmed.starts_with("<?xml") { trimmed } else { text };
     let mut mended = with_single_colons(trimmed);
     for _ in 0..MOST_PREFIXES {
-        let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
+        let Err(XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(prefix, _))) =
             urdd_xml::parse(&mended, Kind::Other)
         else {
             break;
