@@ -92,7 +92,7 @@ fn coordinates(text: &str, extension: &str) -> Vec<Range<usize>> {
             }
             start += line.len();
         }
-    } else if let Ok(document) = roxmltree::Document::parse(text) {
+    } else if let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Other) {
         let arrays = document.descendants().filter(|node| node.tag_name().name() == "float_array");
         pieces.extend(arrays.filter_map(|node| Some(node.first_child()?.range())));
     }

@@ -113,13 +113,13 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
 /// The attributes of the text that `urdf_module` represents, by the names of the enclosing elements.
 fn attributes(text: &str) -> BTreeMap<String, Vec<Attribute>> {
     let mut found: BTreeMap<String, Vec<Attribute>> = BTreeMap::new();
-    let Ok(document) = roxmltree::Document::parse(text) else {
+    let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Other) else {
         return found;
     };
-    for node in document.descendants().filter(roxmltree::Node::is_element) {
+    for node in document.descendants().filter(urdd_xml::Node::is_element) {
         let names: Vec<&str> = node
             .ancestors()
-            .filter(roxmltree::Node::is_element)
+            .filter(urdd_xml::Node::is_element)
             .map(|node| node.tag_name().name())
             .collect();
         // Elements that URDF does not define are kept as text with all their contents.

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use urdd_directory::limits::MAX_SRDF_BYTES;
+use urdd_directory::regular;
 use urdd_export::{
     ActuatorKind, Choices, Detail, ExportError, Format, Setup, SetupError, SphereBudget,
     joint_groups_of_srdf,
@@ -121,13 +123,15 @@ pub fn joint_groups(
     let failed = |message: String| raise(py, "ExportError", message, &[]);
     let groups = match file {
         Some(file) if file.extension().is_some_and(|extension| extension == "srdf") => {
-            let text = std::fs::read_to_string(&file).map_err(|error| {
+            std::fs::metadata(&file).map_err(|error| {
                 let code = error.raw_os_error();
                 PyOSError::new_err((code, error.kind().to_string(), file.clone()))
             })?;
             let shown = file.display().to_string();
-            joint_groups_of_srdf(&robot, &text)
-                .map_err(|error| failed(format!("{}: {error}", shown.escape_debug())))?
+            let about = |error: String| failed(format!("{}: {error}", shown.escape_debug()));
+            let bytes = regular::read(&file, MAX_SRDF_BYTES).map_err(|it| about(it.to_string()))?;
+            let text = String::from_utf8(bytes).map_err(|_| about("it is not UTF-8".to_owned()))?;
+            joint_groups_of_srdf(&robot, &text).map_err(|error| about(error.to_string()))?
         }
         file => {
             let setup = Setup::find(file.as_deref(), &path, &robot);

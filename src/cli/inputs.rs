@@ -5,13 +5,11 @@ use std::path::Path;
 use super::foreign;
 use super::output::{Failure, about, one_line};
 use urdd_directory::discover::DiscoverError;
+use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_directory::source::is_archive;
 use urdd_format::escape;
 use urdd_robot::Robot;
-
-/// Maximum size of an SRDF, in bytes.
-const MAX_SRDF_BYTES: u64 = 16 << 20;
 
 /// Opens the robot of a URDD.
 ///

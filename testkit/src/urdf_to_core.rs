@@ -1,15 +1,15 @@
 //! Reads the kinematics of a URDF for tests: strict, small, and independent of the generator.
 
-use roxmltree::{Document, Node};
 use urdd_format::dof::ResolvedMimic;
 use urdd_format::index::DofIdx;
 use urdd_format::urdf::JointType;
+use urdd_xml::Node;
 
 use crate::core_modules::{Joint, dof_count, first_dofs};
 
 /// The names of the links, and the joints, both in the order of the text.
 pub fn read(text: &str) -> (Vec<String>, Vec<Joint>) {
-    let document = Document::parse(text).unwrap();
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).unwrap();
     let robot = document.root_element();
     let named = |tag| children(robot, tag).map(|node| (node.attribute("name").unwrap(), node));
     let links: Vec<String> = named("link").map(|(name, _)| name.to_owned()).collect();

@@ -27,4 +27,6 @@ macro_rules! targets {
     };
 }
 
-targets! { archive json yaml urdf import stl obj gltf glb dae settings urdd }
+targets! {
+    archive archive_names json yaml urdf mjcf sdf programs stl obj gltf glb dae settings urdd
+}

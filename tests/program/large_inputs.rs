@@ -6,6 +6,7 @@
 use std::time::{Duration, Instant};
 
 use urdd_geometry::read::{Fault, MeshError, Scene, read};
+use urdd_programs::MeshFacts;
 use urdd_source::read_urdf;
 use urdd_validate::settings::Settings;
 use urdd_validate::urdf_text;
@@ -152,5 +153,93 @@ fn a_pattern_that_nests_very_deep() {
         let text = format!("[[ignore]]\ncode = \"SRC001\"\npath = \"{pattern}\"\nreason = \"r\"\n");
         let error = Settings::from_toml(&text).unwrap_err().to_string();
         assert!(error.contains("cannot be read"), "{error}");
+    }
+}
+
+/// An element of very many prefixes, and children that have one each: the parser copies all of them for each.
+fn prefixes_times_children(count: usize) -> String {
+    let declared: String = (0..count).map(|n| format!(" xmlns:p{n}=\"u{n}\"")).collect();
+    let children: String = (0..count).map(|n| format!("<c xmlns:q{n}=\"v{n}\"/>")).collect();
+    format!("<x{declared}>{children}</x>")
+}
+
+#[test]
+fn prefixes_times_children_are_counted_wherever_xml_is_read() {
+    let inside = prefixes_times_children(6000);
+    let start = Instant::now();
+    let mesh = MeshFacts::of("m.dae", format!("<COLLADA>{inside}</COLLADA>").as_bytes());
+    assert!(mesh.collada.is_none());
+    // The carried URDF of a URDD, which DIR020 reads if the names of the robot differ.
+    let folder = testkit::temporary::folder();
+    let (source, urdd) = (folder.path().join("r.urdf"), folder.path().join("r"));
+    std::fs::write(&source, "<robot name=\"r\"><link name=\"a\"/></robot>").unwrap();
+    let settings = urdd_generate::Settings::default();
+    urdd_generate::generate(&source, &urdd, &settings, &()).unwrap();
+    let text = format!("<robot name=\"y\"><link name=\"a\"/>{inside}</robot>");
+    std::fs::write(urdd.join("r.urdf"), text).unwrap();
+    let metadata = std::fs::read_to_string(urdd.join("urdd.json")).unwrap();
+    let other = metadata.replace("\"robot_name\": \"r\"", "\"robot_name\": \"z\"");
+    assert_ne!(metadata, other);
+    std::fs::write(urdd.join("urdd.json"), other).unwrap();
+    let run = urdd_validate::validate(&[urdd], &Settings::default()).unwrap();
+    let codes = |code: &str| run.report.urdds[0].findings.iter().any(|of| of.code == code);
+    assert!(codes("DIR020") && codes("URD011"), "{:?}", run.report.urdds[0].findings);
+    let took = start.elapsed();
+    assert!(took < LIMIT, "{took:?}");
+}
+
+#[test]
+fn what_a_mesh_states_is_not_believed() {
+    let stated = u32::MAX.to_le_bytes();
+    let stl = [&[0; 80][..], &stated, &[0; 50]].concat();
+    let glb = [b"glTF\x02\0\0\0", &stated[..], &stated, b"JSON{}"].concat();
+    let collada = |what: &str| {
+        format!("<COLLADA><library_geometries>{what}</library_geometries></COLLADA>").into_bytes()
+    };
+    let arrays = "<geometry id=\"g\"><mesh><source id=\"s\"><float_array count=\"4000000000\">0</float_array>\
+        <technique_common><accessor source=\"#s\" count=\"4000000000\" stride=\"4000000000\"/></technique_common></source>\
+        <triangles count=\"4000000000\"><input semantic=\"POSITION\" source=\"#s\" offset=\"4000000000\"/><p>0</p></triangles></mesh></geometry>";
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4000000000000}],"bufferViews":[{"buffer":0,"byteLength":4000000000000}]}"#;
+    for (name, bytes) in [
+        ("a.stl", stl),
+        ("a.glb", glb),
+        (
+            "a.obj",
+            b"v 0 0 0\nf -1 -9223372036854775808 9223372036854775807\nf 4294967297 1 1\n".to_vec(),
+        ),
+        ("a.obj", b"f -1 -2 -3\n".repeat(200_000)),
+        ("a.dae", collada(arrays)),
+        ("a.gltf", gltf.as_bytes().to_vec()),
+    ] {
+        let start = Instant::now();
+        let _ = read(&bytes, name, &mut |_| None).map(|scene| assert!(scene.triangle_count() < 3));
+        let facts = MeshFacts::of(name, &bytes);
+        assert!(facts.size == bytes.len());
+        let took = start.elapsed();
+        assert!(took < Duration::from_secs(10), "{name}: {took:?}");
+    }
+}
+
+#[test]
+fn toml_takes_time_in_proportion() {
+    let bytes = 1 << 20;
+    let numbered = |piece: &str| -> String {
+        (0..bytes / 16).map(|n| piece.replace('#', &n.to_string())).collect()
+    };
+    for text in [
+        format!("{}a = 1", "a.".repeat(bytes / 2)),
+        format!("[{}a]", "a.".repeat(bytes / 2)),
+        format!("a = {}", "[".repeat(bytes)),
+        format!("a = {}", "{a=".repeat(bytes / 3)),
+        "[[ignore]]\n".repeat(bytes / 11),
+        "a = 1\n".repeat(bytes / 6),
+        numbered("a#.b.c = 1\n"),
+        numbered("[a.b#.c]\n"),
+        "= ] [".repeat(bytes / 5),
+    ] {
+        let start = Instant::now();
+        assert!(Settings::from_toml(&text).is_err(), "{text:.40}");
+        let took = start.elapsed();
+        assert!(took < Duration::from_secs(20), "{text:.40}: {took:?}");
     }
 }

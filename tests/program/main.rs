@@ -22,6 +22,7 @@ mod links;
 mod lint;
 mod lsp;
 mod new_extension;
+mod parsers;
 mod printing;
 mod producers_agree;
 mod program;

@@ -155,12 +155,12 @@ fn junit_counts_what_it_holds() {
         (&["robots/good"], 0, 0),
     ] {
         let xml = text(repository.path(), "junit", arguments);
-        let document = roxmltree::Document::parse(&xml).expect("XML");
+        let document = urdd_xml::parse(&xml, urdd_xml::Kind::Other).expect("XML");
         let root = document.root_element();
-        let of = |node: roxmltree::Node, name: &str| {
+        let of = |node: urdd_xml::Node, name: &str| {
             node.descendants().filter(|n| n.has_tag_name(name)).count()
         };
-        let said = |node: roxmltree::Node, name: &str| -> usize {
+        let said = |node: urdd_xml::Node, name: &str| -> usize {
             node.attribute(name).expect("a total").parse().expect("a number")
         };
         for node in document.descendants().filter(|n| n.has_tag_name("testsuite") || *n == root) {
@@ -182,7 +182,7 @@ fn junit_counts_what_it_holds() {
 fn junit_says_hostile_names_as_far_as_xml_can() {
     let repository = repository();
     let xml = text(repository.path(), "junit", &["robots"]);
-    let document = roxmltree::Document::parse(&xml).expect("XML");
+    let document = urdd_xml::parse(&xml, urdd_xml::Kind::Other).expect("XML");
     let names: BTreeSet<&str> = document
         .descendants()
         .filter(|n| n.has_tag_name("testsuite"))

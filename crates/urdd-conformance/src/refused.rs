@@ -10,6 +10,8 @@ use crate::suite::Suite;
 use crate::tree::{FilePath, Tree, TreeError};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
 use urdd_format::conformance::{RefusedOutcome, RefusedScore, ScoreStatus};
 use urdd_format::report::{Severity, Urdd, Verdict};
 use urdd_format::root_metadata::{ConformanceClass, RootMetadata};
@@ -136,7 +138,7 @@ fn repaired(
     cancellation: &Cancellation,
 ) -> Result<Urdd, Option<String>> {
     let urdd = examine(out, class, cancellation)?;
-    let text = std::fs::read(out.join(ROOT_METADATA)).unwrap_or_default();
+    let text = regular::read(&out.join(ROOT_METADATA), MAX_DOCUMENT_BYTES).unwrap_or_default();
     let metadata = serde_json::from_slice::<RootMetadata>(&text);
     let is_carried = metadata.is_ok_and(|metadata| metadata.source.is_some());
     if urdd.verdict == Verdict::Pass && !is_carried {

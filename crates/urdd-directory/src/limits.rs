@@ -30,3 +30,9 @@ pub const MAX_NAME_BYTES: usize = 4096;
 
 /// Longest part of such a name between slashes, bytes: 255 characters of up to four bytes, the limit of file systems.
 pub const MAX_PART_BYTES: usize = 1020;
+
+/// Largest `VERSION` file of a module, bytes.
+pub const MAX_VERSION_BYTES: u64 = 1024;
+
+/// Largest SRDF, and largest xacro file that is searched for names, bytes.
+pub const MAX_SRDF_BYTES: u64 = 16 << 20;

@@ -11,15 +11,12 @@ use super::draft;
 use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
 use super::schema_check::{self, SchemaViolation};
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_VERSION_BYTES};
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
 use urdd_directory::text_fault::TextFaults;
 use urdd_directory::yaml;
 use urdd_format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use urdd_format::root_metadata::{RootMetadata, Version};
-
-/// Largest `VERSION` file, bytes.
-const MAX_VERSION_BYTES: u64 = 1024;
 
 /// A URDD in memory.
 pub struct Loaded {

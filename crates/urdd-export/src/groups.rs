@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::error::{ExportError, unknown};
 use super::nested::{contains_itself, within};

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::fmt::Display;
 
-use roxmltree::{Document, Node};
 use thiserror::Error;
+use urdd_xml::{Document, Node};
 
 use super::error::ExportError;
 use urdd_directory::position::LineIndex;

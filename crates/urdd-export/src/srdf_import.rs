@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::error::unknown;
 use super::pairs::{ascending, last_edits};

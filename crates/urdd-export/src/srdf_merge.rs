@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::srdf_document::{Srdf, SrdfError};
 

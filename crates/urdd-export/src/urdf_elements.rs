@@ -1,7 +1,7 @@
 //! The elements of a URDF: links with the URDD's shapes, and joints.
 
 use nalgebra::Isometry3;
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::error::{ExportError, Note};
 use super::inertia::held;

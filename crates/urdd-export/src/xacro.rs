@@ -1,7 +1,7 @@
 //! Texts and elements that xacro gives back as they are: MoveIt's launch file expands the URDF and the SRDF by it.
 
-use roxmltree::Node;
 use urdd_xml::Kind;
+use urdd_xml::Node;
 
 use urdd_xml::writer::escaped;
 

@@ -21,6 +21,7 @@ use super::settings::Settings;
 use super::{setup, size, stages};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::regular;
 use urdd_directory::root::Root;
 use urdd_directory::source::Growing;
 use urdd_directory::staging::{Staging, StagingError};
@@ -321,7 +322,8 @@ fn check_target(
 /// Whether the replaced URDD is identical to the byte: its metadata, and each file by its hash. The files of kept modules
 /// were checked before.
 fn is_same(replaced: &Donor, target: &Path, text: &str, made: &[MadeModule]) -> bool {
-    if fs::read(target.join(ROOT_METADATA)).ok().as_deref() != Some(text.as_bytes()) {
+    let there = regular::read(&target.join(ROOT_METADATA), text.len() as u64);
+    if there.ok().as_deref() != Some(text.as_bytes()) {
         return false;
     }
     let source = match &replaced.metadata.source {

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
+use urdd_directory::regular;
 use urdd_source::import::Imported;
 use urdd_source::note::{Note, NoteKind};
 
@@ -13,7 +14,7 @@ pub(super) fn write(imported: &Imported, target: &Path) -> Option<Note> {
     let mut name = target.file_name()?.to_owned();
     name.push(".export.toml");
     let path = target.with_file_name(name);
-    if std::fs::read(&path).is_ok_and(|there| there == text) {
+    if regular::read(&path, text.len() as u64).is_ok_and(|there| there == text) {
         return None;
     }
     let written = File::create_new(&path).and_then(|mut file| file.write_all(text));

@@ -5,7 +5,7 @@
 
 use std::str::FromStr;
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;

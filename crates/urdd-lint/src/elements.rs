@@ -1,6 +1,6 @@
 //! Elements and numbers of a URDF's XML, which may be no robot.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use urdd_xml::element::children;
 

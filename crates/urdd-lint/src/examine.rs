@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use roxmltree::Document;
+use urdd_xml::Document;
 
 use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
@@ -130,8 +130,8 @@ impl<'a> Job<'a> {
 
     /// Asks the programs; not about files beyond the limits of XML.
     fn ask(self) -> Option<Asked> {
-        urdd_xml::check_limits(self.text, urdd_xml::Kind::Robot).ok()?;
-        Some(Asked::about(self.bytes, self.text, self.folder, self.settings))
+        let counted = urdd_xml::Counted::new(self.bytes, urdd_xml::Kind::Robot).ok()?;
+        Some(Asked::about(counted, self.text, self.folder, self.settings))
     }
 
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 /// A file that the URDF names.
 #[derive(Debug, Clone, Copy)]

@@ -18,7 +18,7 @@ const KNOWN: [(&str, &str); 5] = [
 
 /// Adds the fix of a text that is not well-formed for want of the declaration of a known prefix.
 pub fn declare(text: &str, name: &str, checks: &mut [Check]) {
-    let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
+    let Err(XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(prefix, _))) =
         urdd_xml::parse(text, Kind::Robot)
     else {
         return;
@@ -30,7 +30,7 @@ pub fn declare(text: &str, name: &str, checks: &mut [Check]) {
     let declaration = format!(" xmlns:{prefix}=\"{address}\"");
     let mended = [&text[..at], &declaration, &text[at..]].concat();
     let is_left = |error: &XmlError| {
-        let XmlError::Parser(roxmltree::Error::UnknownNamespace(left, _)) = error else {
+        let XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(left, _)) = error else {
             return false;
         };
         *left == prefix

@@ -3,14 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::subject::Subject;
+use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_source::Files;
 use urdd_xml::XmlError;
 
-/// Maximum size of an SRDF, bytes.
-const MAX_BYTES: u64 = 16 << 20;
 /// Maximum number of SRDFs that are read to find those of a robot.
 const MAX_FILES: usize = 100;
 /// How far up from the URDF's folder MoveIt's packages are looked for.
@@ -132,7 +131,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
             if found.len() == MAX_FILES || !seen.insert(file) {
                 continue;
             }
-            let Ok(bytes) = urdf.files.read(&path, MAX_BYTES) else { continue };
+            let Ok(bytes) = urdf.files.read(&path, MAX_SRDF_BYTES) else { continue };
             let text = String::from_utf8_lossy(&bytes).into_owned();
             let srdf = Srdf { shown: format!("{shown}{name}"), text };
             found.push(Candidate { path, srdf, is_own, has_stem });

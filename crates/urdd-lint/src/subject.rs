@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use nalgebra::Vector3;
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::bodies::Bodies;
 use super::elements::{child, numbers, pointer};

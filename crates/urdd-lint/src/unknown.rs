@@ -1,6 +1,6 @@
 //! Elements and attributes that URDF does not define where they are.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::vocabulary::{CLOSED, KNOWN, Known, near, of};
 use urdd_xml::element::children;

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
+use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::position::LineIndex;
 use urdd_directory::regular;
 use urdd_findings::check::Check;
@@ -11,9 +12,6 @@ use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_xml::element::name;
-
-/// Maximum size of a file that is searched, bytes.
-const MAX_BYTES: u64 = 16 << 20;
 
 /// The links and joints in xacro files.
 #[derive(Debug, Default)]
@@ -36,7 +34,7 @@ impl Sources {
     pub fn read(files: &[PathBuf], folder: &Path) -> Self {
         let mut sources = Sources::default();
         for file in files {
-            let bytes = regular::read(file, MAX_BYTES).ok();
+            let bytes = regular::read(file, MAX_SRDF_BYTES).ok();
             let text = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
             let Some(text) = text else { continue };
             if let Ok(document) = urdd_xml::parse(&text, urdd_xml::Kind::Robot) {

@@ -1,12 +1,13 @@
 //! What a document is.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
 use crate::uri;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_VERSION_BYTES;
+use urdd_directory::regular;
 use urdd_document::load::{find_spec, metadata_of};
 use urdd_document::schema_check::{self, SchemaViolation};
 use urdd_format::registry::{ModuleKind, modules};
@@ -88,8 +89,8 @@ impl Schema {
 
     /// The schema of a module in a folder, by its `VERSION`.
     fn of_module(kind: ModuleKind, folder: &Path) -> Option<Schema> {
-        let text = fs::read_to_string(folder.join("VERSION")).unwrap_or_default();
-        let text = text.trim_end();
+        let text = regular::read(&folder.join("VERSION"), MAX_VERSION_BYTES).unwrap_or_default();
+        let text = str::from_utf8(&text).unwrap_or_default().trim_end();
         let (spec, is_newer) = find_spec(kind, Some(text));
         // A module that somebody begins to write.
         let newest = || modules().iter().find(|spec| spec.kind == kind && text.is_empty());

@@ -2,6 +2,8 @@
 
 use std::cell::OnceCell;
 
+use urdd_xml::Counted;
+
 use crate::mesh::Mesh;
 use crate::tinyxml::Document;
 use crate::unknown::{self, Found, Names};
@@ -10,6 +12,7 @@ use crate::unknown::{self, Found, Names};
 pub struct File<'a> {
     /// The file as it is on disk.
     pub(crate) bytes: &'a [u8],
+    pub(crate) counted: Counted<'a>,
     /// What tinyxml2 makes of it, for all programs that read by it.
     pub(crate) document: Document<'a>,
     meshes: &'a dyn Fn(&str) -> Mesh,
@@ -18,8 +21,9 @@ pub struct File<'a> {
 
 impl<'a> File<'a> {
     /// A file as it is on disk. `meshes` says what is there of a mesh, by the name that the URDF gives it.
-    pub fn new(bytes: &'a [u8], meshes: &'a dyn Fn(&str) -> Mesh) -> Self {
-        File { bytes, document: Document::of(bytes), meshes, unknown: Default::default() }
+    pub fn new(counted: Counted<'a>, meshes: &'a dyn Fn(&str) -> Mesh) -> Self {
+        let (bytes, document) = (counted.bytes(), Document::of(counted));
+        File { bytes, counted, document, meshes, unknown: Default::default() }
     }
 
     /// What programs ignore that take such names for those of elements.

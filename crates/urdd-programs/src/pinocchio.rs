@@ -32,7 +32,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let model = urdfdom::model(tree, Release::Six, effects)?;
     let mut reader = Reader { file, effects };
     let is_reached = reader.model(&model)?;
-    effects.parsed(rapidxml::check(file.bytes))?;
+    effects.parsed(rapidxml::check(file.counted))?;
     if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
         return effects.refuse(link, Fault::Missing("name"));
     }

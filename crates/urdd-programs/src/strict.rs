@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use roxmltree::{Document, Error, Node, ParsingOptions, StringStorage, TextPos};
+use urdd_xml::{Kind, Node, ParserError as Error, StringStorage, TextPos, XmlError};
 
-use crate::tree::{Attribute, Element, Malformed, Parsed, Tree};
+use crate::tree::{Attribute, BEYOND, Element, Malformed, Parsed, Tree};
 
 /// How a parser names elements and attributes that have a prefix.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -84,8 +84,7 @@ pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
     if let Some((at, why)) = oddity(text) {
         return Err(Malformed { at, why });
     }
-    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options)
+    let document = urdd_xml::parse(text, Kind::Lenient)
         .map_err(|error| Malformed { at: place_of(text, error.pos()), why: why(&error) })?;
     let mut tree = Tree::default();
     // The element of each node that has one.
@@ -212,7 +211,8 @@ fn place_of(text: &str, pos: TextPos) -> usize {
     line.map(|(at, _)| start + at).nth(pos.col.saturating_sub(1) as usize).unwrap_or(text.len())
 }
 
-fn why(error: &Error) -> &'static str {
+fn why(error: &XmlError) -> &'static str {
+    let XmlError::Parser(error) = error else { return BEYOND };
     match error {
         Error::UnknownNamespace(..) => "a prefix is not declared",
         Error::DuplicatedNamespace(..) | Error::DuplicatedAttribute(..) => {

@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 
+use urdd_xml::Counted;
+
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
 /// Elements that are open at once, from which tinyxml2 refuses, and from which its releases up to 9 do.
@@ -21,7 +23,8 @@ pub(crate) struct Document<'a> {
 
 impl<'a> Document<'a> {
     /// Parses a file.
-    pub fn of(bytes: &'a [u8]) -> Self {
+    pub fn of(file: Counted<'a>) -> Self {
+        let bytes = file.bytes();
         let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
         let (tree, open, depths) = (Tree::default(), Vec::new(), Vec::new());
         let mut parser = Parser { bytes: &bytes[..end], at: 0, tree, open, depths };

@@ -3,11 +3,14 @@
 
 use std::borrow::Cow;
 
+use urdd_xml::Counted;
+
 use crate::number::is_space;
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
 /// Parses a file.
-pub(crate) fn parse(bytes: &[u8]) -> Parsed<Tree<'_>> {
+pub(crate) fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
+    let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
     let encoding = bytes.starts_with(b"\xef\xbb\xbf").then_some(Encoding::Utf8);
     let tree = Tree::default();

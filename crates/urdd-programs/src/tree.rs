@@ -12,6 +12,9 @@ pub(crate) struct Malformed {
 
 pub(crate) type Parsed<T> = Result<T, Malformed>;
 
+/// Why a text is refused that a program makes of a file within the limits, if it is beyond them.
+pub(crate) const BEYOND: &str = "the program's own form of the file is beyond the limits of XML";
+
 /// A document.
 #[derive(Default)]
 pub(crate) struct Tree<'a> {

@@ -96,7 +96,7 @@ pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
 
 /// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
 pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml1::parse(file.bytes))?;
+    let tree = effects.parsed(tinyxml1::parse(file.counted))?;
     model(&tree, Release::Four, effects).map(|_| ())
 }
 

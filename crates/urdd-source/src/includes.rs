@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::Files;
+use crate::files::{Files, MAX_SOURCE_BYTES};
 use crate::package_index::PackageIndex;
 use crate::settings::Settings;
 use crate::xacro::run;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::regular;
 
 /// Maximum number of folders, and of files, that are listed.
 const MAX_FILES: usize = 2000;
@@ -27,7 +28,8 @@ pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -
 }
 
 fn has_macros(file: &Path) -> bool {
-    std::fs::read_to_string(file).is_ok_and(|text| text.contains("<xacro:"))
+    let text = regular::read(file, MAX_SOURCE_BYTES);
+    text.is_ok_and(|text| String::from_utf8_lossy(&text).contains("<xacro:"))
 }
 
 fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {

@@ -1,6 +1,6 @@
 //! Repairs that make the text well-formed.
 
-use roxmltree::Error;
+use urdd_xml::ParserError as Error;
 
 use crate::note::{NoteKind, Remark};
 use urdd_xml::XmlError;

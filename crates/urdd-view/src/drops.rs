@@ -5,18 +5,20 @@
 //! number, sizes and depth have limits.
 
 use std::fs::{self, File};
-use std::io::{Cursor, ErrorKind, Read, Write};
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::json;
-use zip::ZipArchive;
 
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
 use crate::reply::{Failure, Reply};
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
+use urdd_directory::listing::EntryKind;
 use urdd_directory::path;
+use urdd_directory::root::Root;
+use urdd_directory::source::Archive;
 use urdd_source::dropped::PackageFolders;
 use urdd_source::robots;
 
@@ -91,23 +93,19 @@ fn of_zip(
     wanted: &dyn Fn() -> Result<(), Failure>,
 ) -> Result<(Vec<Item>, Vec<u8>), Failure> {
     let bad = |error: &dyn std::fmt::Display| (400, format!("this .zip cannot be read: {error}"));
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| bad(&error))?;
+    let archive = Archive::of_any("", bytes.to_vec()).map_err(|error| bad(&error))?;
+    let root = Root::of(archive);
+    let entries = root.list().map_err(|error| bad(&error))?.entries.into_iter();
+    let files: Vec<_> = entries.filter(|entry| entry.kind == EntryKind::File).collect();
+    if files.iter().map(|file| file.size).sum::<u64>() > MAX_BODY {
+        let why = format!("this .zip has more than {} MiB in it", MAX_BODY >> 20);
+        return Err((413, why));
+    }
     let (mut items, mut content) = (Vec::new(), Vec::new());
-    for k in 0..archive.len() {
+    for file in files {
         wanted()?;
-        let mut file = archive.by_index(k).map_err(|error| bad(&error))?;
-        if file.is_dir() {
-            continue;
-        }
-        let room = MAX_BODY.saturating_sub(content.len() as u64);
-        // The size that the archive states is not believed.
-        let size = (&mut file).take(room + 1).read_to_end(&mut content);
-        let size = size.map_err(|error| bad(&error))? as u64;
-        if size > room {
-            let why = format!("this .zip has more than {} MiB in it", MAX_BODY >> 20);
-            return Err((413, why));
-        }
-        items.push(Item { path: file.name().to_owned(), size });
+        content.extend(root.read(&file.path, file.size).map_err(|error| bad(&error))?);
+        items.push(Item { path: file.path, size: file.size });
     }
     Ok((items, content))
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::error::{XmlError, text_pos};
-use super::limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_PREFIXES};
+use super::limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NAMESPACE_BYTES, MAX_PREFIXES};
 use super::markup::{self, MarkupKind};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
@@ -25,8 +25,12 @@ pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
             }
             MarkupKind::Declaration | MarkupKind::Tag => {}
         }
-        if count_attributes(inside, &mut prefixes) > MAX_ATTRIBUTES {
+        let (attributes, longest) = count_attributes(inside, &mut prefixes);
+        if attributes > MAX_ATTRIBUTES {
             return Err(too_many("attributes of one element", MAX_ATTRIBUTES));
+        }
+        if longest > MAX_NAMESPACE_BYTES {
+            return Err(too_many("bytes in a namespace", MAX_NAMESPACE_BYTES));
         }
         if prefixes.len() > MAX_PREFIXES {
             return Err(too_many("prefixes of namespaces", MAX_PREFIXES));
@@ -50,25 +54,28 @@ pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     Ok(())
 }
 
-/// The number of `=` outside quotes in a tag, at most one more than [`MAX_ATTRIBUTES`]. Adds the names between `xmlns:`
-/// and such a `=` to `prefixes`.
-fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> usize {
-    let mut count = 0;
+/// The number of `=` outside quotes in a tag, at most one more than [`MAX_ATTRIBUTES`], and the length of the longest
+/// namespace. Adds the names between `xmlns:` and such a `=` to `prefixes`.
+fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> (usize, usize) {
+    let (mut count, mut longest) = (0, 0);
     let mut quote = None;
-    // Start of the last word, and whether the word has ended.
+    // Start of the last word or value, and whether the word has ended.
     let (mut word, mut ended) = (1, false);
+    // Whether the last word before a `=` declares a namespace.
+    let mut declares = false;
     for (at, byte) in tag.iter().enumerate().skip(1) {
         match (quote, byte) {
             (Some(open), byte) if *byte == open => {
-                quote = None;
-                ended = true;
+                longest = longest.max(if declares { at - word } else { 0 });
+                (quote, ended) = (None, true);
             }
             (Some(_), _) => {}
-            (None, b'"' | b'\'') => quote = Some(*byte),
+            (None, b'"' | b'\'') => (quote, word) = (Some(*byte), at + 1),
             (None, b'=') => {
                 count += 1;
                 let name = tag[word..at].trim_ascii();
                 prefixes.extend(name.strip_prefix(b"xmlns:"));
+                declares = name == b"xmlns" || name.starts_with(b"xmlns:");
                 ended = true;
             }
             (None, _) if byte.is_ascii_whitespace() => ended = true,
@@ -79,5 +86,5 @@ fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> usiz
             break;
         }
     }
-    count
+    (count, longest)
 }

@@ -2,18 +2,18 @@
 
 use std::ops::Range;
 
-use roxmltree::{Attribute, Document, Node};
+use roxmltree::{Attribute, Node};
 
 use crate::MAX_PREFIXES;
 
 /// The qualified name of an element, including its prefix: `xacro:link` is not `link`, whatever namespace `xacro` has.
 pub fn name<'a>(element: Node<'a, 'a>) -> &'a str {
-    name_at(element.document(), &element.range())
+    name_at(element.document().input_text(), &element.range())
 }
 
-/// The qualified name of the element at a range, as from [`name`].
-pub fn name_at<'a>(document: &'a Document<'a>, range: &Range<usize>) -> &'a str {
-    let text = &document.input_text()[range.clone()];
+/// The qualified name of the element at a range of a text, as from [`name`].
+pub fn name_at<'a>(text: &'a str, range: &Range<usize>) -> &'a str {
+    let text = &text[range.clone()];
     let start = text.strip_prefix('<').unwrap_or(text);
     start
         .split(|c: char| c.is_ascii_whitespace() || c == '>' || c == '/')

@@ -16,6 +16,9 @@ pub const MAX_ATTRIBUTES: usize = 256;
 /// Maximum number of namespace prefixes of a document; real ones have up to 10.
 pub const MAX_PREFIXES: usize = 64;
 
+/// Maximum length of a namespace, bytes as they are written; real ones have up to 100.
+pub const MAX_NAMESPACE_BYTES: usize = 1_024;
+
 /// The kind of document to parse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -24,13 +27,15 @@ pub enum Kind {
     Robot,
     /// Any other document, such as a COLLADA scene. A document type is an error.
     Other,
+    /// A document as another program's parser has it: as [`Kind::Other`], but a document type is skipped.
+    Lenient,
 }
 
 impl Kind {
     pub(super) fn most_elements(self) -> usize {
         match self {
             Kind::Robot => MAX_ROBOT_ELEMENTS,
-            Kind::Other => MAX_NODES,
+            Kind::Other | Kind::Lenient => MAX_NODES,
         }
     }
 }

@@ -35,8 +35,11 @@ pub(super) fn next(text: &str, at: usize) -> Option<Markup> {
         (MarkupKind::Text, until("<![CDATA[", "]]>"))
     } else if rest.starts_with("<?") {
         (MarkupKind::Instruction, until("<?", "?>"))
-    } else if rest.starts_with("<!") {
+    } else if rest.starts_with("<!DOCTYPE") {
         (MarkupKind::Declaration, tag_length(rest, b">["))
+    } else if rest.starts_with("<!") {
+        // The parser knows no quotes in them.
+        (MarkupKind::Declaration, until("<!", ">"))
     } else {
         (MarkupKind::Tag, tag_length(rest, b">"))
     };

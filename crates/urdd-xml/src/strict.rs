@@ -106,9 +106,13 @@ fn is_qualified(name: &str) -> bool {
 /// The first reference to what is no character of XML; `start` is the text's offset.
 fn references(text: &str, start: usize) -> Option<Found> {
     for (at, _) in text.match_indices("&#") {
-        let Some((digits, _)) = text[at + 2..].split_once(';') else {
+        // The parser refuses one that does not end.
+        let rest = &text[at + 2..];
+        let end = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
+        let (digits, rest) = rest.split_at(end);
+        if !rest.starts_with(';') {
             continue;
-        };
+        }
         let number = match digits.strip_prefix('x') {
             Some(digits) => u32::from_str_radix(digits, 16),
             None => digits.parse(),

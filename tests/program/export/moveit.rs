@@ -1,6 +1,5 @@
 //! `urdd export moveit`: the folder is a package that our own readers take, and a person's changes stay.
 
-use roxmltree::Document;
 use urdd_export::{import_srdf, import_states};
 use urdd_robot::Robot;
 
@@ -31,7 +30,7 @@ fn what_is_written_is_read_back() {
         assert_eq!((states.changed, states.already), (0, 1), "{name}");
         let urdf = folder.join(format!("arm_moveit/config/{name}.urdf"));
         let text = std::fs::read_to_string(&urdf).expect("a URDF");
-        let document = Document::parse(&text).expect("well-formed");
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
         let meshes = document.descendants().filter_map(|node| node.attribute("filename"));
         for mesh in meshes {
             let inside = mesh.strip_prefix("package://arm_moveit/").expect("of the package");

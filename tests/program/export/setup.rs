@@ -1,5 +1,3 @@
-use roxmltree::Document;
-
 use crate::program::urdd;
 use testkit::robots::made_of;
 use testkit::urdfs::mobile;
@@ -31,7 +29,7 @@ fn the_file_beside_the_urdd_is_read_and_never_overwritten() {
     let (status, _, said) = run(&["--actuators", "position", "--sensors"]);
     assert_eq!(status, 0, "{said}");
     let text = std::fs::read_to_string(folder.join("m.xml")).expect("a file");
-    let document = Document::parse(&text).expect("well-formed");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     let find = |tag: &str, name: Option<&str>| {
         let mut nodes = document.descendants();
         nodes.find(|node| {

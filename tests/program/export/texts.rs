@@ -6,10 +6,10 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use roxmltree::{Document, Node};
 use serde_json::Value;
 use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Note, Setup, SphereBudget};
 use urdd_robot::Robot;
+use urdd_xml::Node;
 
 use crate::program::urdd;
 use testkit::trials::sample;
@@ -171,7 +171,7 @@ fn replaced(found: &str, place: &str, text: &str) -> String {
         "PlaceData" => text.replace("]]>", "]]]]><![CDATA[>"),
         "PlaceComment" => text.replace("--", "- "),
         "PlaceMarkup" => text.to_owned(),
-        _ => quick_xml::escape::escape(text)
+        _ => urdd_xml::escape(text)
             .replace('\t', "&#9;")
             .replace('\n', "&#10;")
             .replace('\r', "&#13;"),
@@ -235,7 +235,15 @@ fn structure(path: &str, text: &str) -> Vec<String> {
     match path.rsplit('.').next().expect("an ending") {
         "urdf" | "srdf" | "sdf" | "xml" => {
             let document = parsed(text);
-            assert!(document.root().children().all(|node| !node.is_pi()), "{text}");
+            assert!(
+                document
+                    .root_element()
+                    .parent()
+                    .expect("a root")
+                    .children()
+                    .all(|node| !node.is_pi()),
+                "{text}"
+            );
             let elements = document.descendants().filter(Node::is_element);
             elements
                 .map(|node| {
@@ -313,7 +321,7 @@ fn expanded(text: &str) -> Option<String> {
 
 /// The elements of a robot with all of their texts, as `read` gives them; without meshes, which have places of their own.
 fn meant(robot: &str, read: fn(&str) -> Option<String>) -> Vec<String> {
-    let document = Document::parse(robot).expect("XML");
+    let document = urdd_xml::parse(robot, urdd_xml::Kind::Other).expect("XML");
     let elements = document.descendants().filter(Node::is_element);
     let elements = elements.filter(|node| !node.has_tag_name("mesh"));
     let text = |text: &str| read(text).unwrap_or_else(|| panic!("evaluated: {text:?}"));

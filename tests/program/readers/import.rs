@@ -3,16 +3,28 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_source::import::import as imported;
+use urdd_source::import::import;
 use urdd_source::{Files, Settings};
+
+/// A mesh that any name of a description may find.
+const MESH: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+pub fn mjcf(bytes: &[u8]) {
+    imported(bytes, "robot.xml");
+}
+
+pub fn sdf(bytes: &[u8]) {
+    imported(bytes, "model.sdf");
+}
 
 /// An import ends, whatever the bytes are. What it refuses has a reason; what it makes, both readers of URDF read as the
 /// same robot, and it needs no repair.
-pub fn import(bytes: &[u8]) {
-    let file = ("robot.xml".to_owned(), Arc::from(bytes));
-    let files = Files::in_memory([file]).expect("a file");
+fn imported(bytes: &[u8], name: &str) {
+    let files = [(name, bytes), ("mesh.obj", MESH)];
+    let files = files.map(|(name, bytes)| (name.to_owned(), Arc::from(bytes)));
+    let files = Files::in_memory(files).expect("two files");
     let settings = Settings { files, ..Settings::default() };
-    match imported(Path::new("/robot.xml"), &settings) {
+    match import(&Path::new("/").join(name), &settings) {
         Ok(Some(made)) => {
             let read = urdd_source::read_urdf(made.text().as_bytes(), "file");
             if let Ok(read) = read {

@@ -2,9 +2,11 @@
 //! `tests/fuzz_findings.rs`, which replays their seeds and findings.
 
 mod archive;
+mod archive_names;
 mod import;
 mod json;
 mod mesh;
+mod programs;
 mod settings;
 mod text;
 mod urdd;
@@ -12,9 +14,11 @@ mod urdf;
 mod yaml;
 
 pub use archive::archive;
-pub use import::import;
+pub use archive_names::archive_names;
+pub use import::{mjcf, sdf};
 pub use json::json;
 pub use mesh::{dae, glb, gltf, obj, stl};
+pub use programs::programs;
 pub use settings::settings;
 pub use urdd::urdd;
 pub use urdf::urdf;

@@ -1,6 +1,6 @@
 //! Where a change of a URDF's text belongs: a second description of what `urdd diff` names, by the XML alone.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 /// Where an attribute belongs: the list, the part, the field. `None` if it has no meaning of its own.
 pub struct Place {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use roxmltree::{Document, Node};
+use urdd_xml::Node;
 
 use super::by_rules::place;
 use super::{differences, open, places};
@@ -55,7 +55,7 @@ fn another_spelling_makes_no_difference() {
     let shop = Workshop::new();
     for (name, _) in our_robots() {
         let text = shop.text(&name);
-        let document = Document::parse(&text).unwrap();
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).unwrap();
         let mut other = String::from("<?xml version='1.0'?>\n");
         respelled(document.root_element(), &mut other);
         assert_ne!(other, text);
@@ -96,7 +96,7 @@ fn numbers_within_the_tolerance_are_equal() {
 fn the_order_of_links_is_a_note_and_that_of_joints_moves_dofs() {
     let shop = Workshop::new();
     let text = shop.text("six_axis_arm");
-    let document = Document::parse(&text).unwrap();
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).unwrap();
     let write = |tags: [&str; 2], name: &str| {
         let mut other = String::from("<robot name='six_axis_arm'>");
         for tag in tags {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::by_rules::{is_default, place};
 use super::{few, open, places};
@@ -28,7 +28,7 @@ fn each_robot(mut check: impl FnMut(&Workshop, &Side, &str, &Document)) {
     for (name, _) in our_robots() {
         let text = shop.text(&name);
         let before = open(&shop.path(&format!("{name}.urdf")));
-        let document = Document::parse(&text).unwrap();
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).unwrap();
         check(&shop, &before, &text, &document);
     }
 }

@@ -5,6 +5,7 @@ mod end;
 mod keys;
 mod message;
 mod open;
+pub mod places;
 pub mod scalar;
 mod tabs;
 mod tag;

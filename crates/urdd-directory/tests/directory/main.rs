@@ -20,5 +20,6 @@ mod text_arbitrary;
 mod text_bad_input;
 mod text_fault;
 mod text_yaml;
+mod yaml_places;
 mod yaml_scalar;
 mod yaml_transcript;

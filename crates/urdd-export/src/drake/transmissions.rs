@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::super::error::Note;
 use super::super::parts::Taken;

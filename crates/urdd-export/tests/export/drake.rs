@@ -1,9 +1,9 @@
 //! The URDF for Drake, by the rules of its parser: `tests/figures/exports/peers.py` loads it in Drake itself.
 
 use crate::made::export;
-use roxmltree::{Document, Node};
 use urdd_export::{Choices, ExportError, Format, Note};
 use urdd_robot::Robot;
+use urdd_xml::{Document, Node};
 
 use testkit::robots::{made, made_of, our_robots};
 
@@ -63,7 +63,7 @@ fn our_robots_hold_nothing_that_drake_refuses() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         let text = export(&robot, Format::Drake, &Choices::default()).expect("an export").text;
-        let document = Document::parse(&text).expect("well-formed");
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
         assert_eq!(refused(&document), Vec::<String>::new(), "{urdf:?}");
     }
 }
@@ -116,7 +116,7 @@ fn joints_are_as_drake_has_them_and_what_is_left_out_is_said() {
         ),
     ] {
         let (text, said) = exported(&joint(kind, inner));
-        let document = Document::parse(&text).expect("well-formed");
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
         assert!(text.contains(expected), "{kind} {inner}: {text}");
         assert_eq!(said.len(), notes, "{kind} {inner}: {said:?}");
         assert_eq!(refused(&document), Vec::<String>::new());

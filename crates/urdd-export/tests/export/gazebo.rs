@@ -1,8 +1,8 @@
 //! `<gazebo>` elements in SDF, where libsdformat's own converter from URDF has them. `tests/figures/exports` compares the
 //! two on whole robots.
 
-use roxmltree::{Document, Node};
 use urdd_export::Format;
+use urdd_xml::Node;
 
 use crate::made::{exported, robot, urdf};
 
@@ -32,7 +32,7 @@ fn find<'a>(node: Node<'a, 'a>, path: &str) -> Option<Node<'a, 'a>> {
 fn what_gazebo_elements_say_is_where_sdf_has_it() {
     let (_folder, robot) = robot(&urdf(PARTS));
     let made = exported(&robot, Format::Sdf);
-    let document = Document::parse(&made.text).expect("XML");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("XML");
     let model = document.descendants().find(|node| node.has_tag_name("model")).expect("a model");
     let named = |tag: &str, name: &str| {
         let mut nodes = document.descendants().filter(|node| node.has_tag_name(tag));
@@ -121,7 +121,7 @@ fn gazebo_elements_cannot_break_the_file() {
 <gazebo xmlns:q="urn:q" reference="a"><q:x/><turnGravityOff value="true"/><sensor name="s" type="imu"/><sensor name="s" type="imu"/></gazebo>"#;
     let (_folder, robot) = robot(&urdf(parts));
     let made = exported(&robot, Format::Sdf);
-    let document = Document::parse(&made.text).expect("XML");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("XML");
     let count = |tag: &str| document.descendants().filter(|node| node.has_tag_name(tag)).count();
     assert_eq!(["link", "frame", "plugin", "sensor"].map(count), [2, 1, 2, 1]);
     // What would be there twice, and what would load another file.

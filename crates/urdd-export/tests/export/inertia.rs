@@ -1,9 +1,9 @@
 //! Nearly degenerate inertias, as they are written: plates, rods and points, in any direction and of any size.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use roxmltree::{Document, Node};
 use urdd_export::Format;
 use urdd_export::inertia::held;
+use urdd_xml::Node;
 use urdd_xml::number::number;
 
 use crate::made::{exported, robot, urdf};
@@ -79,7 +79,7 @@ fn written_inertias_hold_the_triangle_inequality() {
     let (_folder, robot) = robot(&urdf(&parts));
     let text = exported(&robot, Format::Mjcf).text;
     assert!(!text.contains("balanceinertia"), "what is rounding is not averaged");
-    let document = Document::parse(&text).expect("XML");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("XML");
     let mut seen = 0;
     for node in document.descendants().filter(|node| node.has_tag_name("inertial")) {
         if let Some(moments) = node.attribute("diaginertia").map(numbers) {
@@ -95,7 +95,7 @@ fn written_inertias_hold_the_triangle_inequality() {
     const KEYS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     for format in [Format::Urdf, Format::Drake, Format::Sdf] {
         let made = exported(&robot, format);
-        let document = Document::parse(&made.text).expect("XML");
+        let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("XML");
         let value = |node: Node, key: &str| -> f64 {
             let child = node.children().find(|child| child.has_tag_name(key));
             let text = node.attribute(key).or_else(|| child?.text()).expect("a value");

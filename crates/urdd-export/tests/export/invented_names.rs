@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::made::export;
-use roxmltree::{Document, Node};
 use urdd_export::{Choices, Format, Note};
+use urdd_xml::{Document, Node};
 
 use crate::made::{robot, urdf};
 
@@ -106,7 +106,7 @@ fn invented_names_stay_apart() {
                     ..Choices::default()
                 };
                 let made = export(&robot, format, &options).expect("an export");
-                let document = Document::parse(&made.text).expect("XML");
+                let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("XML");
                 match format {
                     Format::Sdf => check_sdf(&document),
                     _ => check_kinds(&document),

@@ -1,7 +1,6 @@
 //! Joints that their limits hold at one position.
 
 use crate::made::export;
-use roxmltree::Document;
 use urdd_export::{ActuatorKind, Choices, Format};
 
 use crate::made::{robot, urdf};
@@ -20,7 +19,7 @@ fn a_locked_joint_stays_locked_in_mjcf() {
     let actuators = Some(ActuatorKind::Position);
     let options = Choices { actuators, ..Choices::default() };
     let made = export(&robot, Format::Mjcf, &options).expect("an export");
-    let document = Document::parse(&made.text).expect("XML");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("XML");
     let equalities: Vec<_> = document
         .descendants()
         .filter(|node| node.has_tag_name("joint") && node.has_attribute("joint1"))

@@ -2,10 +2,10 @@ use std::collections::HashMap;
 
 use crate::made::export;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
-use roxmltree::{Document, Node};
 use urdd_export::{Choices, Format, Note};
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_robot::{Robot, ShapeKind};
+use urdd_xml::{Document, Node};
 
 use testkit::robots::{made, made_of, our_robots};
 
@@ -99,7 +99,7 @@ fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<
 }
 
 fn assert_moves_alike(robot: &Robot, text: &str, name: &str) {
-    let document = Document::parse(text).expect("well-formed");
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
     let world = document.descendants().find(|n| n.has_tag_name("worldbody")).expect("a world");
     for k in 0..20 {
         let q = robot.configurations().expect("bounds").random(k);
@@ -141,7 +141,7 @@ fn a_root_called_world_is_the_world() {
     );
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Mjcf, &Choices::default()).expect("an export");
-    let document = Document::parse(&made.text).expect("well-formed");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let names: Vec<_> = document
         .descendants()
         .filter(|n| n.has_tag_name("body"))
@@ -163,7 +163,7 @@ fn every_mesh_that_is_named_is_there() {
         let robot = Robot::open(path).expect("a robot");
         for format in [Format::Mjcf, Format::Urdf, Format::Drake] {
             let made = export(&robot, format, &Choices::default()).expect("an export");
-            let document = Document::parse(&made.text).expect("well-formed");
+            let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
             let mut named: Vec<&str> = document
                 .descendants()
                 .filter(|n| n.has_tag_name("mesh"))
@@ -182,7 +182,7 @@ fn every_mesh_that_is_named_is_there() {
 #[test]
 fn masses_stay_whatever_the_inertia() {
     let total = |text: &str| -> f64 {
-        let document = Document::parse(text).expect("well-formed");
+        let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
         let inertials = document.descendants().filter(|n| n.has_tag_name("inertial"));
         inertials.map(|n| numbers(n, "mass").expect("a mass")[0]).sum()
     };

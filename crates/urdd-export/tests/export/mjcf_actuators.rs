@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::made::export;
-use roxmltree::{Document, Node};
 use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::Robot;
+use urdd_xml::{Document, Node};
 
 use testkit::robots::made_of;
 
@@ -56,7 +56,7 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
     let robot = Robot::open(path).expect("a robot");
     let w = TAU * 5.0;
     let text = mjcf(&robot, with(ActuatorKind::Position)).text;
-    let document = Document::parse(&text).expect("well-formed");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     for (name, inertia, range, force) in
         [("turn", 0.6, "-1 2", "-50 50"), ("push", 7.0, "0.1 0.3", "-20 20")]
     {
@@ -75,12 +75,12 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
     let all = document.descendants().filter(|n| n.has_tag_name("position"));
     assert_eq!(all.count(), 2);
     let text = mjcf(&robot, with(ActuatorKind::Velocity)).text;
-    let document = Document::parse(&text).expect("well-formed");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     let actuator = one(&document, "velocity", "turn");
     assert!((number(actuator, "kv") / (0.6 * w) - 1.0).abs() < 1e-3);
     assert_eq!(actuator.attribute("ctrlrange"), Some("-3 3"));
     let text = mjcf(&robot, with(ActuatorKind::Motor)).text;
-    let document = Document::parse(&text).expect("well-formed");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     let actuator = one(&document, "motor", "push");
     assert_eq!(actuator.attribute("ctrlrange"), Some("-20 20"));
 }
@@ -104,7 +104,7 @@ fn named_configurations_are_keyframes() {
     let (_folder, path) = made_of(URDF);
     let key = |robot: &Robot, name: &str| {
         let text = mjcf(robot, with(ActuatorKind::Position)).text;
-        let document = Document::parse(&text).expect("well-formed");
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
         let key = one(&document, "key", name);
         ["qpos", "ctrl"].map(|of| key.attribute(of).expect("numbers").to_owned())
     };
@@ -116,7 +116,7 @@ fn named_configurations_are_keyframes() {
     assert_eq!(key(&robot, "home"), ["0.5 0.1 0.25", "0.5 0.1"]);
     // Without actuators there is nothing to control.
     let plain = mjcf(&robot, Choices::default()).text;
-    let document = Document::parse(&plain).expect("well-formed");
+    let document = urdd_xml::parse(&plain, urdd_xml::Kind::Other).expect("well-formed");
     let home = one(&document, "key", "home");
     assert_eq!((home.attribute("qpos"), home.attribute("ctrl")), (Some("0.5 0.1 0.25"), None));
 }
@@ -127,7 +127,7 @@ fn a_free_base_stands_on_the_floor() {
     let robot = Robot::open(path).expect("a robot");
     let with_scene = Choices { scene: true, ..Choices::default() };
     let made = self::made(&robot, with_scene.clone(), true);
-    let document = Document::parse(&made.text).expect("well-formed");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     // The base's box reaches 0.1 m down.
     assert_eq!(one(&document, "body", "base").attribute("pos"), Some("0 0 0.1"));
     one(&document, "freejoint", "floating_base");
@@ -137,13 +137,14 @@ fn a_free_base_stands_on_the_floor() {
     assert!(made.notes.iter().any(|note| note.to_string().contains("`base`")));
     let (file, scene) = made.files.last().expect("a scene");
     assert_eq!(file, "r_scene.xml");
-    let scene = Document::parse(std::str::from_utf8(scene).expect("text")).expect("well-formed");
+    let scene = urdd_xml::parse(std::str::from_utf8(scene).expect("text"), urdd_xml::Kind::Other)
+        .expect("well-formed");
     let floor = one(&scene, "geom", "floor");
     assert_eq!(floor.attribute("pos"), Some("0 0 0"));
     // Fixed to the world, the box is below z = 0, and so is the floor.
     let made = mjcf(&robot, with_scene);
     let scene = String::from_utf8(made.files.last().expect("a scene").1.clone()).expect("text");
-    let scene = Document::parse(&scene).expect("well-formed");
+    let scene = urdd_xml::parse(&scene, urdd_xml::Kind::Other).expect("well-formed");
     assert_eq!(one(&scene, "geom", "floor").attribute("pos"), Some("0 0 -0.1"));
     assert!(!made.text.contains("freejoint") && !made.text.contains("<key"));
 }
@@ -163,7 +164,8 @@ fn names_of_configurations_come_out_as_they_went_in() {
         match export(&robot, Format::Mjcf, &Choices::default()) {
             Ok(made) => {
                 assert!(is_held, "{name:?}");
-                let document = Document::parse(&made.text).expect("well-formed");
+                let document =
+                    urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
                 one(&document, "key", name);
             }
             Err(ExportError::Name { name: said, what, .. }) => {

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::made::export;
-use roxmltree::Document;
 use serde_json::{Value, json};
 use urdd_export::{Choices, Export, ExportError, Format, Setup};
 use urdd_robot::Robot;
@@ -46,7 +45,7 @@ fn a_package_has_what_moveit_needs() {
         Choices { package: Some("r_config".to_owned()), setup: Some(setup), ..Choices::default() };
     let made = export(&robot, Format::Moveit, &options).expect("an export");
     assert_eq!(made.path.as_deref(), Some("config/r.srdf"));
-    let srdf = Document::parse(&made.text).expect("well-formed");
+    let srdf = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let elements: Vec<String> = srdf
         .root_element()
         .descendants()
@@ -102,7 +101,8 @@ fn a_package_has_what_moveit_needs() {
         assert!(ros2["controller_manager"]["ros__parameters"][name]["type"].is_string());
     }
     // The package is named the same everywhere, and the launch file starts what there is.
-    let package = Document::parse(files["package.xml"]).expect("well-formed");
+    let package =
+        urdd_xml::parse(files["package.xml"], urdd_xml::Kind::Other).expect("well-formed");
     let name = package.descendants().find(|node| node.has_tag_name("name"));
     assert_eq!(name.and_then(|node| node.text()), Some("r_config"));
     assert!(files["CMakeLists.txt"].contains("project(r_config)\n"));
@@ -117,7 +117,7 @@ fn a_package_has_what_moveit_needs() {
     ] {
         assert!(launch.lines().any(|found| found == line), "{line}\n{launch}");
     }
-    let urdf = Document::parse(files["config/r.urdf"]).expect("well-formed");
+    let urdf = urdd_xml::parse(files["config/r.urdf"], urdd_xml::Kind::Other).expect("well-formed");
     let hardware =
         urdf.descendants().find(|node| node.has_tag_name("ros2_control")).expect("hardware");
     let driven = hardware.children().filter(|node| node.has_tag_name("joint"));
@@ -169,7 +169,8 @@ fn names_of_groups_come_out_as_they_went_in() {
             match export(&robot, Format::Moveit, &options) {
                 Ok(made) => {
                     assert!(is_held, "{name:?}");
-                    let srdf = Document::parse(&made.text).expect("well-formed");
+                    let srdf =
+                        urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
                     let tag = if what == "group" { "group" } else { "end_effector" };
                     let found = srdf.descendants().find(|node| node.has_tag_name(tag)).expect("it");
                     assert_eq!(found.attribute("name"), Some(name));
@@ -238,7 +239,7 @@ fn names_of_our_own_are_not_the_robots() {
     let (_folder, path) = made_of(&URDF.replace("name=\"a\"", "name=\"virtual_joint\""));
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Moveit, &Choices::default()).expect("an export");
-    let srdf = Document::parse(&made.text).expect("well-formed");
+    let srdf = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let ours = srdf.descendants().find(|node| node.has_tag_name("virtual_joint"));
     assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_2"));
     let setup = |group: &str| {

@@ -1,6 +1,5 @@
 //! What a URDF has in places where URDF defines nothing: kept in a URDF, or listed as lost.
 
-use roxmltree::Document;
 use urdd_export::{Export, Format};
 
 use crate::made::{exported, robot};
@@ -32,7 +31,7 @@ fn attributes_and_names_are_kept_or_listed_as_lost() {
             }
             _ => made.text.clone(),
         };
-        let document = Document::parse(&text).expect("XML");
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("XML");
         let of = |tag: &str, key: &str| {
             let mut nodes = document.descendants().filter(|node| node.has_tag_name(tag));
             nodes.find_map(|node| node.attribute(key)).map(str::to_owned)

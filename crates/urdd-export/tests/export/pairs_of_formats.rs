@@ -1,7 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::made::export;
-use roxmltree::Document;
 use urdd_export::{Choices, Format, Note};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::SkippedReason;
@@ -13,9 +12,9 @@ use testkit::urdfs::TOWER;
 type Pair = (String, String);
 
 fn pairs_in(text: &str, element: &str, keys: [&str; 2]) -> BTreeSet<Pair> {
-    let document = Document::parse(text).expect("well-formed");
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
     let found = document.descendants().filter(|n| n.has_tag_name(element));
-    let name = |n: roxmltree::Node, key: &str| n.attribute(key).expect("a link").to_owned();
+    let name = |n: urdd_xml::Node, key: &str| n.attribute(key).expect("a link").to_owned();
     found.map(|n| (name(n, keys[0]), name(n, keys[1]))).collect()
 }
 
@@ -67,7 +66,7 @@ type Shapes = BTreeSet<[(String, String); 2]>;
 /// The pairs of shapes that MuJoCo checks, by its documentation: those of all bodies, except bodies without a joint
 /// between them and excluded bodies, plus the explicitly named pairs.
 fn mjcf_checked(text: &str) -> Shapes {
-    let document = Document::parse(text).expect("well-formed");
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
     let mut rigid = BTreeMap::new();
     let mut geoms = Vec::new();
     for body in
@@ -197,16 +196,15 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
 
 /// By Drake's documentation: members of a group do not collide with those of a group that it ignores.
 fn drake_pairs(text: &str) -> BTreeSet<Pair> {
-    let document = Document::parse(text).expect("well-formed");
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
     let groups: Vec<_> = document
         .descendants()
         .filter(|n| n.tag_name().name() == "collision_filter_group")
         .collect();
-    let children =
-        |group: &roxmltree::Node, kind: &'static str, key: &'static str| -> Vec<String> {
-            let found = group.children().filter(|n| n.tag_name().name() == kind);
-            found.map(|n| n.attribute(key).expect("a name").to_owned()).collect()
-        };
+    let children = |group: &urdd_xml::Node, kind: &'static str, key: &'static str| -> Vec<String> {
+        let found = group.children().filter(|n| n.tag_name().name() == kind);
+        found.map(|n| n.attribute(key).expect("a name").to_owned()).collect()
+    };
     let members: BTreeMap<String, Vec<String>> = groups
         .iter()
         .map(|group| {
@@ -281,7 +279,7 @@ fn reasons_are_named_as_moveit_names_them() {
     ];
     let options = Choices { shapes: ShapeKind::Hulls, reasons: Some(all), ..Choices::default() };
     let text = export(&robot, Format::Srdf, &options).expect("an export").text;
-    let document = Document::parse(&text).expect("well-formed");
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     let links = robot.link_names().expect("links");
     let mut seen = 0;
     for pair in document.descendants().filter(|n| n.has_tag_name("disable_collisions")) {

@@ -168,7 +168,7 @@ fn a_spherized_urdf_has_the_same_spheres() {
     let (_, file) = exported(&robot, None);
     let options = Choices { samples: 500, spheres: SphereBudget::PerLink(4), ..Choices::default() };
     let made = export(&robot, Format::Spherized, &options).expect("an export");
-    let document = roxmltree::Document::parse(&made.text).expect("well-formed");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     for (link, list) in file["collision_spheres"].as_object().expect("a map") {
         let mut links = document.descendants().filter(|node| node.has_tag_name("link"));
         let found = links.find(|node| node.attribute("name") == Some(link)).expect("a link");

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use crate::made::export;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
-use roxmltree::{Document, Node};
 use urdd_export::{Choices, Export, Format, Note};
 use urdd_robot::Robot;
+use urdd_xml::{Document, Node};
 
 use testkit::robots::{made, made_of, our_robots};
 
@@ -63,7 +63,7 @@ fn links_are_where_the_urdd_has_them() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         let made = sdf(&robot, false);
-        let document = Document::parse(&made.text).expect("well-formed");
+        let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
         let poses = poses(&document);
         let space = robot.configurations().expect("bounds");
         // The file has each joint at 0, also where a mimic has an offset.
@@ -112,7 +112,7 @@ fn joints_have_limits_dynamics_and_mimics() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
     let made = sdf(&robot, false);
-    let document = Document::parse(&made.text).expect("well-formed");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     assert_eq!(document.root_element().attribute("version"), Some("1.11"), "mimics came with it");
     let joint = |name: &str| {
         let mut joints = document.descendants().filter(|node| node.has_tag_name("joint"));
@@ -170,7 +170,7 @@ fn a_joint_named_like_a_part_of_another_changes_nothing() {
     let (_folder, path) = made_of(urdf);
     let robot = Robot::open(path).expect("a robot");
     let made = sdf(&robot, false);
-    let document = Document::parse(&made.text).expect("well-formed");
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let poses = poses(&document);
     let at = |link: &str| poses[link].translation.vector;
     assert_eq!((at("a").x, at("a").y), (1.0, 0.0));

@@ -1,7 +1,7 @@
 //! An SRDF of a person's, with new pairs of links: every other byte stays.
 
-use roxmltree::{Document, Node};
 use urdd_export::{SrdfError, merge_srdf};
+use urdd_xml::{Document, Node};
 
 const NEW: &str = "<robot name=\"r\">\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";
 
@@ -28,7 +28,7 @@ fn pairs_go_to_the_end_where_there_were_none() {
     let expected = "<robot name=\"r\">\n  <group name=\"arm\"/>\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";
     assert_eq!(merged(old), expected);
     let empty = merged("<robot name=\"r\"/>\n");
-    let parsed = Document::parse(&empty).expect("well-formed");
+    let parsed = urdd_xml::parse(&empty, urdd_xml::Kind::Other).expect("well-formed");
     assert_eq!(disabled(&parsed).len(), 1);
 }
 
@@ -36,7 +36,7 @@ fn pairs_go_to_the_end_where_there_were_none() {
 fn elements_on_one_line_are_replaced() {
     let old = "<robot name=\"r\"><disable_collisions link1=\"x\" link2=\"y\" reason=\"Default\"/><group name=\"g\"/></robot>";
     let merged = merged(old);
-    let parsed = Document::parse(&merged).expect("well-formed");
+    let parsed = urdd_xml::parse(&merged, urdd_xml::Kind::Other).expect("well-formed");
     let pairs = disabled(&parsed);
     assert_eq!(pairs.len(), 1);
     assert_eq!(pairs[0].attribute("link1"), Some("a"));

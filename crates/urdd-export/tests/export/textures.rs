@@ -202,6 +202,37 @@ fn png_of(width: u32, height: u32) -> Vec<u8> {
     bytes
 }
 
+/// A JPEG whose header states another size.
+fn jpeg_of(width: u16, height: u16) -> Vec<u8> {
+    let mut bytes = jpeg();
+    let frame = bytes.windows(2).position(|mark| mark == [0xff, 0xc0]).expect("a frame");
+    let size = [height.to_be_bytes(), width.to_be_bytes()].concat();
+    bytes[frame + 5..frame + 9].copy_from_slice(&size);
+    bytes
+}
+
+/// A colour profile of 256 MB, in a file of 300 kB.
+#[test]
+fn a_profile_that_inflates_without_end_ends() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let mut info = png::Info::with_size(4, 4);
+    info.color_type = png::ColorType::Rgb;
+    info.icc_profile = Some(vec![0; 256 << 20].into());
+    let mut bytes = Vec::new();
+    let encoder = png::Encoder::with_info(&mut bytes, info).expect("an encoder");
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[7; 48]).expect("an image");
+    drop(writer);
+    assert!(bytes.len() < 1 << 20, "{}", bytes.len());
+    write(at.join("a.png"), bytes).expect("written");
+    obj(at, "a", "a.png", true);
+    let robot = robot(at, &["a.obj"]);
+    let start = std::time::Instant::now();
+    export(&robot, Format::Mjcf, &Choices::default()).expect("exported");
+    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
+}
+
 #[test]
 fn what_is_no_texture_leaves_a_plain_colour() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -218,6 +249,8 @@ fn what_is_no_texture_leaves_a_plain_colour() {
         ("flipped", Some(flipped), "broken"),
         ("half", Some(jpeg()[..165].to_vec()), "broken"),
         ("huge", Some(png_of(100_000, 100_000)), "pixels"),
+        ("vast", Some(png_of(i32::MAX.cast_unsigned(), i32::MAX.cast_unsigned())), "pixels"),
+        ("wide", Some(jpeg_of(16_000, 16_000)), "pixels"),
         (
             "bitmap",
             Some(
@@ -253,10 +286,10 @@ fn what_is_no_texture_leaves_a_plain_colour() {
                 made.notes.iter().find(is_it).unwrap_or_else(|| panic!("{name}: {:?}", made.notes));
             assert!(note.to_string().contains(why), "{note}");
         }
-        assert_eq!([report(&made, "carried"), report(&made, "lost")], [Some(1), Some(9)]);
+        assert_eq!([report(&made, "carried"), report(&made, "lost")], [Some(1), Some(11)]);
         // SDF has it as ambient and diffuse, URDF as the name of a material too.
         let each = if format == Format::Mjcf { 1 } else { 2 };
-        assert_eq!(made.text.matches("0.5 0.5 0.5 1").count(), each * 9);
+        assert_eq!(made.text.matches("0.5 0.5 0.5 1").count(), each * 11);
         // All that is plain is one mesh.
         let painted = made.files.iter().filter(|(_, bytes)| bytes.starts_with(b"mtllib")).count();
         assert_eq!(painted, usize::from(format != Format::Mjcf));

@@ -86,7 +86,7 @@ fn an_awkward_robot_moves_as_before() {
     let robot = Robot::open(path).expect("a robot");
     let exported = export(&robot, Format::Urdf, &Choices::default()).expect("an export");
     assert!(!exported.text.contains("quat_xyzw"));
-    let document = roxmltree::Document::parse(&exported.text).expect("well-formed");
+    let document = urdd_xml::parse(&exported.text, urdd_xml::Kind::Other).expect("well-formed");
     let mimics: Vec<_> = document.descendants().filter(|n| n.has_tag_name("mimic")).collect();
     assert_eq!(mimics.len(), 3);
     assert!(mimics.iter().all(|mimic| mimic.attribute("joint") == Some("j1")));
@@ -138,8 +138,8 @@ fn boxes_stand_where_the_module_has_them() {
     let robot = Robot::open(path).expect("a robot");
     let options = Choices { shapes: ShapeKind::Boxes, visuals: None, ..Choices::default() };
     let made = export(&robot, Format::Urdf, &options).expect("an export");
-    let document = roxmltree::Document::parse(&made.text).expect("well-formed");
-    let numbers = |node: roxmltree::Node, key: &str| -> Vec<f64> {
+    let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
+    let numbers = |node: urdd_xml::Node, key: &str| -> Vec<f64> {
         let text = node.attribute(key).expect("an attribute");
         text.split(' ').map(|word| word.parse().expect("a number")).collect()
     };

@@ -347,13 +347,13 @@ fn drives_have_the_gains_of_actuators_of_mjcf_and_limits_are_in_degrees() {
         let options = Choices { actuators: Some(*kind), ..Choices::default() };
         let read = Read::new(&export(&robot, Format::Usd, &options).expect("an export").text);
         let peer = export(&robot, Format::Mjcf, &options).expect("an export").text;
-        let peer = roxmltree::Document::parse(&peer).expect("XML");
+        let peer = urdd_xml::parse(&peer, urdd_xml::Kind::Other).expect("XML");
         let actuators: Vec<_> = peer
             .descendants()
             .find(|node| node.has_tag_name("actuator"))
             .expect("actuators")
             .children()
-            .filter(roxmltree::Node::is_element)
+            .filter(urdd_xml::Node::is_element)
             .collect();
         assert!(actuators.len() > 3);
         for actuator in actuators {

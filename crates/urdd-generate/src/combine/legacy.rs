@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use roxmltree::Document;
+use urdd_xml::Document;
 
 use super::document::document;
 use super::error::PartFault;

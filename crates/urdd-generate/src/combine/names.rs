@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::element::{Edit, attribute, children, name};
@@ -265,5 +265,5 @@ pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) 
 
 /// Escapes text for an attribute or an element.
 pub(super) fn escaped(text: &str) -> String {
-    quick_xml::escape::escape(text).into_owned()
+    urdd_xml::escape(text).into_owned()
 }

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::frozen;
 use super::names::{self, LeftAlone, NamePlace, Named, escaped, mesh_edits};
@@ -74,7 +74,7 @@ impl Rewrite<'_> {
         let mut removed = Vec::new();
         for (range, name) in units.values() {
             edits.push(removal(text, range));
-            let tag = name_at(&document, range);
+            let tag = name_at(text, range);
             removed.push(format!("`<{tag}>` with `{name}`"));
         }
         let namespaces = document.root_element().namespaces().map(|of| {
@@ -95,7 +95,7 @@ impl Rewrite<'_> {
     /// Whether the element around a name is removed with what it names. Links and joints themselves are removed by
     /// `structure`.
     fn goes(&self, document: &Document, place: &NamePlace) -> bool {
-        let tag = name_at(document, &place.top);
+        let tag = name_at(document.input_text(), &place.top);
         if !place.unknown {
             return false;
         }

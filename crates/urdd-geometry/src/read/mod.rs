@@ -38,7 +38,7 @@
 //! 0.11 rejects 85 of 331 real files. `tobj` 4.0 panics on `Kd 1 1`, and rejects `vt` with one number, continued lines
 //! and a missing .mtl. `gltf` 1.4 rejects accessors without bounds, panics on accessors without elements, with a huge
 //! count or with another component type, and reads nothing from accessors without a view. The readers here build on
-//! `roxmltree`, `serde_json`, `base64`, `percent-encoding` and `earcut`.
+//! `urdd-xml`, `serde_json`, `base64`, `percent-encoding` and `earcut`.
 //!
 //! # Resource limits
 //!

@@ -6,6 +6,7 @@ use urdd_directory::position::LineIndex;
 use urdd_format::index::Count;
 use urdd_format::report::{Deed, ProgramEffect, ProgramResult};
 use urdd_programs::{Effects, File, Program};
+use urdd_xml::Counted;
 
 use super::meshes::MeshFiles;
 use super::places::Encoding;
@@ -23,10 +24,10 @@ pub struct Answer {
 }
 
 /// Asks the programs that the settings name, and those that are always asked. Relative names refer to `folder`.
-pub fn ask(bytes: &[u8], folder: &Path, settings: &LintSettings) -> Vec<Answer> {
+pub fn ask(file: Counted<'_>, folder: &Path, settings: &LintSettings) -> Vec<Answer> {
     let meshes = MeshFiles::new(folder, settings);
     let find = |name: &str| meshes.mesh(name);
-    let file = File::new(bytes, &find);
+    let file = File::new(file, &find);
     let mut chosen: Vec<Program> = Vec::new();
     for program in settings.report.programs.iter().filter_map(|name| Program::of_name(name)) {
         if !chosen.contains(&program) {

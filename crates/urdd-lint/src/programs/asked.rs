@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use urdd_format::report::ProgramResult;
+use urdd_xml::Counted;
 
 use super::answers;
 use super::faults::{Faulty, faults};
@@ -22,8 +23,8 @@ pub struct Asked {
 
 impl Asked {
     /// Asks the programs about a file of which `text` is the text. Relative names refer to `folder`.
-    pub fn about(bytes: &[u8], text: &str, folder: &Path, settings: &LintSettings) -> Self {
-        let answers = answers::ask(bytes, folder, settings);
+    pub fn about(file: Counted<'_>, text: &str, folder: &Path, settings: &LintSettings) -> Self {
+        let (bytes, answers) = (file.bytes(), answers::ask(file, folder, settings));
         let encoding = Encoding::of(bytes, text);
         Asked {
             results: answers::results(&answers, &encoding, text),

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use roxmltree::{Node, NodeId};
+use urdd_xml::{Node, NodeId};
 
 use urdd_directory::position::Position;
 use urdd_findings::cause::at;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use urdd_format::report::Fix;
 use urdd_programs::Fault;
@@ -101,7 +101,7 @@ fn equal<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
 }
 
 fn is_equal(one: Node, other: Node) -> bool {
-    let has = |attribute: roxmltree::Attribute| {
+    let has = |attribute: urdd_xml::Attribute| {
         other.attribute(attribute.name()) == Some(attribute.value())
     };
     let text = |node: Node| node.text().unwrap_or_default().trim().to_owned();

@@ -4,7 +4,7 @@ pub(super) use std::collections::{BTreeMap, BTreeSet};
 pub(super) use std::path::Path;
 
 pub(super) use nalgebra::{Point3, Vector3};
-pub(super) use roxmltree::Node;
+pub(super) use urdd_xml::Node;
 
 pub(super) use crate::elements::{ONE_DOF, WITH_AXIS, child, number, numbers};
 pub(super) use crate::geometry::{bounds, diagonal};

@@ -1,4 +1,4 @@
-use roxmltree::Document;
+use urdd_xml::Document;
 
 use super::prelude::*;
 use crate::vocabulary::{hint, near};

@@ -1,18 +1,19 @@
 //! What is wrong with a document of a URDD.
 
-use std::fs;
 use std::ops::Range;
 
 use lsp_types::{Diagnostic, DiagnosticSeverity};
 use serde_json::Value;
 
-use super::yaml;
 use crate::diagnostics::diagnostic;
 use crate::document::Snapshot;
 use crate::kind::Schema;
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::position::{self, Position};
+use urdd_directory::regular;
 use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
-use urdd_directory::{json, yaml as mirror};
+use urdd_directory::yaml::{self as mirror, places};
 use urdd_document::schema_check::SchemaViolation;
 
 /// The faults of a document: of its text, and of its schema.
@@ -39,10 +40,10 @@ fn of_json(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
 
 fn of_yaml(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
     let text = snapshot.text.as_str();
-    let own = yaml::read(text);
+    let own = places::read(text);
     // It is a copy of module.json; without that, at least its form is checked.
     let beside = snapshot.path.as_ref().and_then(|path| {
-        let bytes = fs::read(path.with_file_name("module.json")).ok()?;
+        let bytes = regular::read(&path.with_file_name("module.json"), MAX_DOCUMENT_BYTES).ok()?;
         Some(json::read(&bytes).ok()?.value)
     });
     let value = beside.as_ref().or(own.as_ref().map(|own| &own.value)).unwrap_or(&Value::Null);

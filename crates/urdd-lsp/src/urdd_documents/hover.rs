@@ -3,11 +3,11 @@
 use lsp_types::{Hover, Position};
 use serde_json::Value;
 
-use super::yaml;
 use crate::document::Snapshot;
 use crate::kind::Schema;
 use crate::shown::markdown;
 use urdd_directory::json_scan::pointer_at;
+use urdd_directory::yaml::places;
 use urdd_format::annotations;
 use urdd_format::schema::Variant;
 
@@ -22,7 +22,7 @@ pub fn hover(snapshot: &Snapshot, schema: Schema, is_yaml: bool, at: Position) -
     let text = snapshot.text.as_str();
     let offset = snapshot.text.offset(at);
     let pointer = match is_yaml {
-        true => yaml::read(text)?.pointer_at(offset)?.to_owned(),
+        true => places::read(text)?.pointer_at(offset)?.to_owned(),
         // The token at the cursor counts, also at its start.
         false => pointer_at(text, (offset + 1).min(text.len())),
     };

@@ -3,7 +3,5 @@
 mod check;
 mod hover;
 #[doc(hidden)]
-pub mod yaml;
-
 pub use check::check;
 pub use hover::hover;

@@ -17,6 +17,5 @@ mod navigating;
 mod options;
 mod settings_files;
 mod text;
-mod urdd_documents_yaml;
 mod uri;
 mod xacro_files;

@@ -1,6 +1,6 @@
 //! COLLADA.
 
-use roxmltree::{Document, Node, ParsingOptions};
+use urdd_xml::{Kind, Node};
 
 /// What is in a COLLADA file that is well-formed.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,10 +22,8 @@ pub struct ColladaFacts {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
-    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let text = std::str::from_utf8(bytes).ok()?;
-    let document =
-        Document::parse_with_options(text.trim_start_matches('\u{feff}'), options).ok()?;
+    let document = urdd_xml::parse(text.trim_start_matches('\u{feff}'), Kind::Lenient).ok()?;
     let root = document.root_element();
     let child = |name| root.children().find(|node| node.has_tag_name(name_of(root, name)));
     let asset = child("asset");

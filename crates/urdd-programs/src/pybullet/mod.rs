@@ -8,6 +8,8 @@ mod shapes;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use urdd_xml::{Counted, Kind};
+
 use self::lines::Lines;
 use crate::about::About;
 use crate::effect::{Effects, Reading};
@@ -15,7 +17,7 @@ use crate::fault::{Fault, shortened};
 use crate::file::File;
 use crate::number::{self, is_space, strtod};
 use crate::tinyxml::{Document, OLD_MAX_DEPTH};
-use crate::tree::{Attribute, Malformed, Node};
+use crate::tree::{Attribute, BEYOND, Malformed, Node};
 use crate::unknown::Names;
 
 /// Names up to this long do no harm. All are copied into 1,024 bytes, and the process ends soon above.
@@ -65,7 +67,11 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
 fn read_lines(file: &File, lines: &Lines<'_>, effects: &mut Effects) -> Reading<()> {
     let broken = match &lines.bytes {
         Cow::Borrowed(_) => None,
-        Cow::Owned(bytes) => Some(Document::of(bytes)),
+        Cow::Owned(bytes) => {
+            let counted = Counted::new(bytes, Kind::Robot);
+            let beyond = |_| Malformed { at: 0, why: BEYOND };
+            Some(Document::of(effects.parsed(counted.map_err(beyond))?))
+        }
     };
     let document = broken.as_ref().unwrap_or(&file.document);
     let parsed =

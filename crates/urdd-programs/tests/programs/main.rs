@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use parts::{Claim, are_near, claims, covers};
 use urdd_programs::{Deed, Effects, File, Program};
+use urdd_xml::{Counted, Kind};
 
 /// Of a hundred changes, so many verdicts are the same.
 const VERDICTS: f64 = 99.9;
@@ -30,6 +31,8 @@ struct Score {
 #[test]
 fn readers_do_what_their_programs_do() {
     let (letters, mut rows) = table::read(&table::folder().join("table.txt"));
+    // What is beyond the limits of XML, as two files that declare entities are, no program is asked about.
+    rows.retain(|row| Counted::new(&row.bytes, Kind::Robot).is_ok());
     let chosen = std::env::var("URDD_PROGRAM").ok();
     // A plain `cargo test` takes a fifth of the table, and all of it with URDD_TRIALS=5.
     let trials: usize = std::env::var("URDD_TRIALS").map_or(1, |text| text.parse().unwrap());
@@ -102,7 +105,8 @@ fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
             bytes.splice(at..end, put);
         }
         for program in Program::ALL {
-            for effect in read_bytes(program, &row.base, &bytes).0 {
+            let Some(effects) = read_bytes(program, &row.base, &bytes) else { continue };
+            for effect in effects.0 {
                 let text = String::from_utf8_lossy(&bytes);
                 assert!(effect.at <= bytes.len(), "{}: {effect:?} of {text}", program.id());
             }
@@ -226,9 +230,11 @@ fn judge(
 }
 
 fn read(program: Program, row: &table::Row) -> Effects {
-    read_bytes(program, &row.base, &row.bytes)
+    read_bytes(program, &row.base, &row.bytes).expect("within the limits of XML")
 }
 
-fn read_bytes(program: Program, base: &str, bytes: &[u8]) -> Effects {
-    program.read(&File::new(bytes, &|name| meshes::find(program, base, name)))
+/// Nothing of a file beyond the limits of XML: programs are not asked about it.
+fn read_bytes(program: Program, base: &str, bytes: &[u8]) -> Option<Effects> {
+    let counted = Counted::new(bytes, Kind::Robot).ok()?;
+    Some(program.read(&File::new(counted, &|name| meshes::find(program, base, name))))
 }

@@ -33,3 +33,35 @@ fn what_is_known_by_its_mark_is() {
     assert!(is_mesh(b"# made by\nv 0 0 1e-3\n", None));
     assert!(is_mesh(b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA/>", None));
 }
+
+/// Nothing is decoded, so that neither what a header states nor what follows it costs time.
+#[test]
+fn headers_of_images_take_time_in_proportion() {
+    let marks: [&[u8]; 14] = [
+        b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR",
+        b"\xff\xd8\xff\xe0\0\x10JFIF",
+        b"\xff\xd8",
+        b"GIF89a",
+        b"BM",
+        b"DDS ",
+        b"\x76\x2f\x31\x01\x02\0\0\0",
+        b"#?RADIANCE\n",
+        b"\xabKTX 20\xbb\r\n\x1a\n",
+        b"P6\n",
+        b"II*\0\x08\0\0\0\xff\xff",
+        b"MM\0*\0\0\0\x08\xff\xff",
+        b"RIFF\xff\xff\xff\xffWEBPVP8X",
+        b"\0\0\x02\0\0\0\0\0\0\0\0\0\xff\xff\xff\xff\x18\0",
+    ];
+    let fills: [&[u8]; 7] =
+        [b"\0", b"\xff", b"\xff\xe0\0\x02", b"# \n", b"a\n", b" ", b"\x08\0\0\0"];
+    for mark in marks {
+        for fill in fills {
+            let bytes = [mark, &fill.repeat((4 << 20) / fill.len())].concat();
+            let start = std::time::Instant::now();
+            is_image(&bytes);
+            let took = start.elapsed();
+            assert!(took.as_secs() < 5, "{mark:?} {fill:?}: {took:?}");
+        }
+    }
+}

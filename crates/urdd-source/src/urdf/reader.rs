@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use roxmltree::Document;
+use urdd_xml::Document;
 
 use super::numbers::{self, Numbers};
 use super::reading::Reading;
@@ -89,7 +89,7 @@ impl Reader {
         &mut self,
         element: Element<'a>,
         name: &str,
-    ) -> Option<roxmltree::Attribute<'a, 'a>> {
+    ) -> Option<urdd_xml::Attribute<'a, 'a>> {
         if let Some(found) = xml::attribute(element, name) {
             return Some(found);
         }

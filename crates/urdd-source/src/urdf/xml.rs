@@ -1,6 +1,6 @@
 //! Elements and attributes by qualified name.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use crate::fault::{Fault, PlacedFault};
 use urdd_xml::XmlError;

@@ -1,6 +1,6 @@
 //! Converts the XML tree to the data of `urdf_module`.
 
-use roxmltree::{Document, Node};
+use urdd_xml::{Document, Node};
 
 use super::problem::{Fault, Problem, Repeated};
 use super::reading::Reading;

@@ -1,6 +1,6 @@
 //! Elements of the XML tree by their names as written.
 
-use roxmltree::{Attribute, Node};
+use urdd_xml::{Attribute, Node};
 
 /// The name of an element as written. A name with a prefix (`xacro:link`) is not a URDF name, whatever the prefix
 /// means; a default namespace changes no name.

@@ -3,6 +3,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod growth;
 mod writer;
 
 use urdd_xml::*;

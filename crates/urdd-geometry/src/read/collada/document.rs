@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use percent_encoding::percent_decode_str;
-use roxmltree::Node;
+use urdd_xml::Node;
 
 /// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
 /// files reuse ids across tags.

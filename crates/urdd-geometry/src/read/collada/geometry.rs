@@ -1,6 +1,6 @@
 //! COLLADA geometries: faces and their triangles.
 
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::super::assembly::Picker;
 use super::super::error::{Failure, Fault, NoteCode, Notes};

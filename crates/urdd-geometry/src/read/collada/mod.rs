@@ -57,7 +57,7 @@ fn decode<'a>(
 }
 
 /// Length of one unit of the document, metres.
-fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
+fn unit(root: urdd_xml::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
     let meter = child(root, "asset")
         .and_then(|asset| child(asset, "unit"))
         .and_then(|unit| unit.attribute("meter"));
@@ -79,7 +79,7 @@ fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
     }
 }
 
-fn note_up_axis(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) {
+fn note_up_axis(root: urdd_xml::Node<'_, '_>, assembly: &mut Assembly) {
     let up =
         child(root, "asset").and_then(|asset| child(asset, "up_axis")).and_then(|up| up.text());
     if let Some(up) = up.map(str::trim).filter(|up| *up != "Z_UP") {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Matrix4, Vector3};
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::super::assembly::{Assembly, FIRST_SCENE, Nesting, within};
 use super::super::error::{Failure, NoteCode};
@@ -59,9 +59,9 @@ struct Walker<'a, 'd> {
     assembly: &'d mut Assembly,
     tools: Tools,
     /// Geometries by element, so that each is read once.
-    geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
+    geometries: HashMap<urdd_xml::NodeId, Vec<Primitive<'a>>>,
     looks: Looks,
-    nesting: Nesting<roxmltree::NodeId>,
+    nesting: Nesting<urdd_xml::NodeId>,
     text: usize,
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use roxmltree::{Node, NodeId};
+use urdd_xml::{Node, NodeId};
 
 use super::super::error::{Failure, Fault};
 use super::super::number::{Words, float};

@@ -1,7 +1,7 @@
 //! The transforms of a COLLADA node.
 
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
-use roxmltree::Node;
+use urdd_xml::Node;
 
 use super::super::error::{Failure, Fault};
 use super::super::number::Words;

@@ -3,8 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use roxmltree::Node;
-use urdd_xml::{Kind, MAX_LEVELS};
+use urdd_xml::{Kind, MAX_LEVELS, Node};
 
 use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile, offset_of};
@@ -171,7 +170,7 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
     attributes
 }
 
-fn parse(text: &str, file: usize) -> Fallible<roxmltree::Document<'_>> {
+fn parse(text: &str, file: usize) -> Fallible<urdd_xml::Document<'_>> {
     urdd_xml::parse(text, Kind::Other).map_err(|error| {
         let place = Place { file, offset: offset_of(text, &error) };
         at(place, ImportFault::NotXml(error.words(text)))

@@ -12,8 +12,9 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, &'static str> {
         return Err("has a negative count in its MSH file");
     };
     let sizes = [(vertices, 3), (normals, 3), (places, 2), (faces, 3)];
-    let length: usize = sizes.iter().map(|(count, each)| count * each).sum();
-    if words.len() != 4 + length || !rest_of_word.is_empty() || vertices < 4 {
+    // In a browser, a product of these is more than a `usize` has.
+    let length: u64 = sizes.iter().map(|(count, each)| *count as u64 * each).sum();
+    if words.len() as u64 != 4 + length || !rest_of_word.is_empty() || vertices < 4 {
         return Err("is of another length than its MSH file says");
     }
     let (coordinates, rest) = words[4..].split_at(vertices * 3);
@@ -31,4 +32,28 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, &'static str> {
         return Err("has a vertex that is not finite");
     }
     Ok(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_those_of_the_length() {
+        let file = |counts: [i32; 4], words: usize| -> Vec<u8> {
+            let body = vec![0; 4 * words];
+            counts.iter().flat_map(|count| count.to_le_bytes()).chain(body).collect()
+        };
+        assert!(read(&file([4, 0, 0, 1], 15)).is_ok());
+        for (counts, words) in [
+            ([4, 0, 0, 1], 14),
+            ([4, 0, 0, i32::MAX], 15),
+            // Three times that is 2 more than 32 bits have.
+            ([0x5555_5556, 0, 0, 0], 2),
+            ([0x5555_5556, 0x5555_5556, 0, 1], 7),
+            ([-1, 0, 0, 0], 0),
+        ] {
+            assert!(read(&file(counts, words)).is_err(), "{counts:?}");
+        }
+    }
 }

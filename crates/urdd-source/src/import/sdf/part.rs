@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 
-use roxmltree::Node;
 use urdd_xml::element::{Edit, apply};
-use urdd_xml::{Kind, parse};
+use urdd_xml::{Kind, Node, parse};
 
 /// A mesh of which parts are wanted.
 #[derive(Debug)]

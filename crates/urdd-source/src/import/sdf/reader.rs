@@ -169,7 +169,7 @@ fn mended(text: &str) -> (String, isize) {
     let trimmed = if trimmed.starts_with("<?xml") { trimmed } else { text };
     let mut mended = with_single_colons(trimmed);
     for _ in 0..MOST_PREFIXES {
-        let Err(XmlError::Parser(roxmltree::Error::UnknownNamespace(prefix, _))) =
+        let Err(XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(prefix, _))) =
             urdd_xml::parse(&mended, Kind::Other)
         else {
             break;

@@ -1,7 +1,7 @@
 //! An element of an SDF, and the values in it.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use roxmltree::Node;
+use urdd_xml::Node;
 use urdd_xml::element;
 
 use super::super::fault::ImportFault;

@@ -16,7 +16,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let name = &context.robot()?.name;
     // If the carried URDF agrees with urdd.json, urdf_module is wrong, and URD013 reports it.
     let carried = context.urdf().ok().and_then(|urdf| {
-        let document = roxmltree::Document::parse(&urdf.text).ok()?;
+        let document = urdd_xml::parse(&urdf.text, urdd_xml::Kind::Other).ok()?;
         document.root_element().attribute("name").map(str::to_owned)
     });
     if stated != name && carried.as_ref() != Some(stated) {

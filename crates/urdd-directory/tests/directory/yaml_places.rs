@@ -1,7 +1,7 @@
 //! YAML as a value, with the place of each part.
 
 use serde_json::json;
-use urdd_lsp::urdd_documents::yaml::*;
+use urdd_directory::yaml::places::*;
 
 #[test]
 fn each_part_has_its_value_and_its_place() {
@@ -33,4 +33,14 @@ fn what_is_no_json_is_not_read() {
     for (end, _) in "a:\n - {b: [1, 'x']}\n - |\n  é\n".char_indices() {
         let _ = read(&"a:\n - {b: [1, 'x']}\n - |\n  é\n"[..end]);
     }
+}
+
+/// A key is in the pointer of all that is below it: one of a megabyte took that for each value.
+#[test]
+fn long_keys_are_not_in_every_place() {
+    let key = "k".repeat(1 << 20);
+    let text = |key: &str| format!("{key}:\n{}", "- 1\n".repeat(100_000));
+    assert!(read(&text(&key)).is_none());
+    let document = read(&text("key")).expect("a document");
+    assert_eq!(document.range("/key/99999"), Some(400_003..400_004));
 }

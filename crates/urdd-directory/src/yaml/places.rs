@@ -6,10 +6,14 @@ use std::ops::Range;
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use serde_json::{Map, Number, Value};
 
-use urdd_directory::json_scan::push_segment;
-use urdd_directory::limits::DEPTH_LIMIT;
-use urdd_directory::yaml::scalar::{Reading, classify};
+use super::super::json_scan::push_segment;
+use super::super::limits::DEPTH_LIMIT;
+use super::scalar::{Reading, classify};
 
+/// Bytes of pointers for each byte of a text: long keys are in the pointers of all that is below them.
+const MAX_POINTER_BYTES: usize = 32;
+
+/// A document, and the place of each part.
 pub struct Yaml {
     /// Its value, as YAML 1.2 reads it.
     pub value: Value,
@@ -36,13 +40,15 @@ enum Open {
     Object(Map<String, Value>, Option<String>),
 }
 
-/// Reads a document. `None` if it is not YAML, or has what JSON has not: anchors, keys that are not words.
+/// Reads a document. `None` if it is not YAML, or has what JSON has not: anchors, keys that are not words; or if its keys
+/// are longer than any real ones.
 pub fn read(text: &str) -> Option<Yaml> {
     let mut reader = Reader {
         offsets: Offsets::new(text),
         open: Vec::new(),
         pointer: String::new(),
         places: HashMap::new(),
+        left: (text.len() + 1000) * MAX_POINTER_BYTES,
         value: None,
     };
     let mut parser = Parser::new_from_str(text);
@@ -59,6 +65,8 @@ struct Reader<'t> {
     /// The pointer of the next value.
     pointer: String,
     places: HashMap<String, Range<usize>>,
+    /// The number of bytes that pointers may still have.
+    left: usize,
     value: Option<Value>,
 }
 
@@ -94,10 +102,11 @@ impl Reader<'_> {
                 if let Some(Open::Object(_, key @ None)) = self.open.last_mut() {
                     *key = Some(text.clone().into_owned());
                     push_segment(&mut self.pointer, &text);
+                    self.left = self.left.checked_sub(self.pointer.len())?;
                     self.places.insert(self.pointer.clone(), start..end);
                     return Some(());
                 }
-                self.place(start, end);
+                self.place(start, end)?;
                 let is_plain = style == ScalarStyle::Plain;
                 self.put(scalar(&text, is_plain)?)?;
             }
@@ -113,14 +122,15 @@ impl Reader<'_> {
         {
             return None;
         }
-        self.place(start, start);
-        Some(())
+        self.place(start, start)
     }
 
     /// The place of the value at the pointer. A member's goes from its key to its value, if that is a scalar.
-    fn place(&mut self, start: usize, end: usize) {
+    fn place(&mut self, start: usize, end: usize) -> Option<()> {
+        self.left = self.left.checked_sub(self.pointer.len())?;
         let place = self.places.entry(self.pointer.clone()).or_insert(start..end);
         place.end = place.end.max(end);
+        Some(())
     }
 
     fn leave(&mut self) {
