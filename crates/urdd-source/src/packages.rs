@@ -118,12 +118,14 @@ impl Packages {
         folders
     }
 
-    /// Searches deep below `ROS_PACKAGE_PATH`, as ROS does. Slow, so only used when everything else has failed.
-    pub(super) fn crawl(&self, name: &str, files: &Files) -> Option<PathBuf> {
-        let mut looked = 0;
-        self.ros_package_path
-            .iter()
-            .find_map(|folder| crawl(folder, name, CRAWL_DEPTH, &mut looked, files))
+    /// The packages deep below `ROS_PACKAGE_PATH`, by name, as ROS finds them. Slow, so only used when everything else has
+    /// failed, and once.
+    pub(super) fn crawl(&self, files: &Files) -> BTreeMap<String, PathBuf> {
+        let (mut looked, mut found) = (0, BTreeMap::new());
+        for folder in &self.ros_package_path {
+            crawl(folder, CRAWL_DEPTH, &mut looked, &mut found, files);
+        }
+        found
     }
 }
 
@@ -143,24 +145,25 @@ pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
 
 fn crawl(
     folder: &Path,
-    name: &str,
     depth: usize,
     looked: &mut usize,
+    found: &mut BTreeMap<String, PathBuf>,
     files: &Files,
-) -> Option<PathBuf> {
+) {
     *looked += 1;
     if *looked > MOST_FOLDERS || files.exists(&folder.join("CATKIN_IGNORE")) {
-        return None;
+        return;
     }
-    match package_name(folder, files) {
-        Some(found) if found == name => return Some(folder.to_owned()),
-        // Packages are not nested.
-        Some(_) => return None,
-        None if depth == 0 => return None,
-        None => {}
+    if let Some(name) = package_name(folder, files) {
+        // Packages are not nested. The first of a name counts.
+        found.entry(name).or_insert_with(|| folder.to_owned());
+        return;
+    }
+    if depth == 0 {
+        return;
     }
     let below = files.names(folder).into_iter().map(|name| folder.join(name));
     let mut below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();
     below.sort();
-    below.iter().find_map(|folder| crawl(folder, name, depth - 1, looked, files))
+    below.iter().for_each(|folder| crawl(folder, depth - 1, looked, found, files));
 }

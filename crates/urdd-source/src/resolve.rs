@@ -192,12 +192,12 @@ impl Search<'_> {
                 return found;
             }
         }
-        if let Some(folder) = packages.crawl(package, files) {
-            let found = self.try_file(&folder, rest, Some((package, &folder)));
+        if let Some(folder) = self.roots.crawled(package, packages) {
+            let found = self.try_file(folder, rest, Some((package, folder)));
             if found.is_some() {
                 return found;
             }
-            folders.push(folder);
+            folders.push(folder.to_owned());
         }
         let around = self.roots.around(urdf_folder);
         let beside = around.iter().find(|one| one.has_manifest && one.name == package);

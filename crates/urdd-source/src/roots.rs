@@ -3,12 +3,13 @@
 //! A URDF may come from a stranger, and a URDD gets published. A URDF must not make the user publish arbitrary files of
 //! this machine. Files are therefore read only from the robot's own folders, and from those that the user allows.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use super::around::{Around, around};
 use super::files::Files;
-use super::packages::package_name;
+use super::packages::{Packages, package_name};
 use super::settings::Settings;
 
 /// Names of folders for URDFs, which are siblings of `meshes` in a robot's folder.
@@ -25,6 +26,7 @@ pub struct Roots {
     /// Other folders allowed by the user.
     allowed: Vec<PathBuf>,
     around: OnceLock<Vec<Around>>,
+    crawled: OnceLock<BTreeMap<String, PathBuf>>,
 }
 
 /// The folder from which a file is read.
@@ -57,6 +59,7 @@ impl Roots {
             allowed: allowed.filter_map(|path| files.canonicalize(path).ok()).collect(),
             files: files.clone(),
             around: OnceLock::new(),
+            crawled: OnceLock::new(),
         }
     }
 
@@ -68,6 +71,12 @@ impl Roots {
     /// The packages around the URDF's folder.
     pub fn around(&self, urdf_folder: &Path) -> &[Around] {
         self.around.get_or_init(|| around(urdf_folder, &self.files))
+    }
+
+    /// The folder of a package that is found only by searching deep.
+    pub fn crawled(&self, package: &str, packages: &Packages) -> Option<&Path> {
+        let all = self.crawled.get_or_init(|| packages.crawl(&self.files));
+        all.get(package).map(PathBuf::as_path)
     }
 
     /// Where the files are.
