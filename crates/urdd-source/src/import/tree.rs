@@ -1,9 +1,9 @@
 //! A [`Model`] as links and joints of a URDF: a link a body, and a link without mass between two joints of a body.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::account::{Account, Charged, Cost, Overdrawn};
 
-use super::model::{Body, Joint, JointKind, Mimic, Model};
+use super::model::{Body, Joint, JointKind, LETTER, Mimic, Model, PART};
 use super::names::Names;
 use super::options::ImportOptions;
 use super::place::Place;
@@ -16,9 +16,9 @@ const BALL: [([f64; 3], &str); 3] =
 #[derive(Debug, Default)]
 pub struct Tree {
     /// The root first, each parent before its children.
-    pub links: Vec<Link>,
+    pub links: Charged<Link>,
     /// In the order of their children.
-    pub joints: Vec<Edge>,
+    pub joints: Charged<Edge>,
 }
 
 /// A link.
@@ -47,6 +47,18 @@ pub struct Edge {
     pub place: Place,
 }
 
+impl Cost for Link {
+    fn cost(&self) -> usize {
+        PART + self.name.len()
+    }
+}
+
+impl Cost for Edge {
+    fn cost(&self) -> usize {
+        PART + LETTER * (self.name.len() + self.parent.len() + self.child.len())
+    }
+}
+
 impl Tree {
     /// The links and joints of a model.
     ///
@@ -57,7 +69,8 @@ impl Tree {
         options: &ImportOptions,
         account: &Account,
     ) -> Result<Self, (Place, Overdrawn)> {
-        let mut names = Taken { links: Names::new(account), joints: Names::new(account) };
+        let (links, joints) = (Names::new(account), Names::new(account));
+        let mut names = Taken { links, joints, account };
         for body in &model.bodies {
             let too_much = |why| (body.place, why);
             names.links.take(&body.name).map_err(too_much)?;
@@ -72,7 +85,8 @@ impl Tree {
                 let connected = tree.connect(at, body, &parent.name, options, &mut names);
                 connected.map_err(|why| (body.place, why))?;
             }
-            tree.links.push(Link { name: body.name.clone(), body: Some(at), place: body.place });
+            let link = Link { name: body.name.clone(), body: Some(at), place: body.place };
+            tree.links.push(link, account).map_err(|why| (body.place, why))?;
         }
         Ok(tree)
     }
@@ -83,7 +97,7 @@ impl Tree {
         body: &Body,
         parent: &str,
         options: &ImportOptions,
-        names: &mut Taken,
+        names: &mut Taken<'_>,
     ) -> Result<(), Overdrawn> {
         let mut parent = parent.to_owned();
         let mut origin = body.pose;
@@ -106,7 +120,7 @@ impl Tree {
                 true => body.name.clone(),
                 false => names.links.free(&format!("{}/{name}", body.name))?,
             };
-            self.joints.push(Edge {
+            let edge = Edge {
                 kind: one.kind,
                 parent,
                 child: child.clone(),
@@ -117,19 +131,21 @@ impl Tree {
                 mimic: joint.mimic.clone().filter(|_| one.suffix.is_empty()),
                 place: joint.place,
                 name,
-            });
+            };
+            self.joints.push(edge, names.account)?;
             origin = one.frame.inverse();
             left = turn + 1;
             parent = child;
             if !is_last {
                 let place = joint.place;
-                self.links.push(Link { name: parent.clone(), body: None, place });
+                let link = Link { name: parent.clone(), body: None, place };
+                self.links.push(link, names.account)?;
             }
         }
         if left == 0 || !is_last_at_body {
             let name = body.fixed_by.clone().filter(|_| moves.is_empty());
             let name = name.unwrap_or_else(|| format!("{}_fixed", body.name));
-            self.joints.push(Edge {
+            let edge = Edge {
                 name: names.joints.free(&name)?,
                 kind: "fixed",
                 parent,
@@ -140,16 +156,18 @@ impl Tree {
                 range: None,
                 mimic: None,
                 place: body.place,
-            });
+            };
+            self.joints.push(edge, names.account)?;
         }
         Ok(())
     }
 }
 
 /// The names that are taken.
-struct Taken {
+struct Taken<'a> {
     links: Names,
     joints: Names,
+    account: &'a Account,
 }
 
 /// A joint of the URDF in the frame of its body.
