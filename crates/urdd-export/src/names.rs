@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::error::ExportError;
 use super::format::Format;
+use urdd_directory::path::is_device;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_xml::is_character;
@@ -110,14 +111,6 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
 
 fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -> ExportError {
     ExportError::Name { format, what, name: name.to_owned(), reason }
-}
-
-/// Whether Windows has a device of that name, whatever its extension.
-fn is_device(name: &str) -> bool {
-    let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
-    let numbered = ["com", "lpt"].iter().find_map(|port| stem.strip_prefix(port));
-    matches!(stem.as_str(), "con" | "prn" | "aux" | "nul")
-        || numbered.is_some_and(|number| matches!(number.as_bytes(), [b'0'..=b'9']))
 }
 
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::path::portable;
+use urdd_directory::path::file_name;
 
 use super::super::model::Asset;
 use super::super::names::Names;
@@ -88,7 +88,7 @@ impl<'f> Assets<'f> {
         }
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
         let (stem, extension) = file.rsplit_once('.').unwrap_or((file, ""));
-        let stem = portable(stem);
+        let stem = file_name(stem, "");
         let free = self.names.free(&format!("{folder}/{}", stem.to_lowercase()));
         // The number that makes it free, behind the stem as it is written.
         let number = &free[folder.len() + 1 + stem.to_lowercase().len()..];
