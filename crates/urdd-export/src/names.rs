@@ -77,6 +77,7 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
 }
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
+    let is_robot = what == "robot" && !name.is_empty();
     let is_xml = !matches!(format, Format::Curobo | Format::Foam | Format::Usd);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
@@ -97,6 +98,15 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
             "SDF keeps such names for itself"
         }
         Format::Sdf if name.trim() != name => "SDF drops white space at the ends of a name",
+        Format::Drake | Format::Sdf if what == "link" && name.starts_with(':') => {
+            "Drake reads a colon at its beginning as the end of the name of a model"
+        }
+        Format::Drake | Format::Sdf if is_robot && name.bytes().all(|byte| byte == b':') => {
+            "Drake finds no link of a model of that name"
+        }
+        Format::Drake if is_robot && (name.starts_with("::") || name.ends_with("::")) => {
+            "Drake drops `::` at the ends of the name of a model"
+        }
         Format::Drake if name.is_empty() => "Drake refuses a robot without a name",
         Format::Drake if what == "link" && name.contains("::") => {
             "Drake reads the part before `::` as the name of a model"
