@@ -6,7 +6,7 @@
 //! at 300 links, or at 2,000,000 links in paths: in a line after 180 (SPEC 6.4.6).
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -11,7 +11,7 @@
 //! `tests/figures/kinematics_pinocchio.py` compares these with Pinocchio.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::path::PathBuf;
 use std::time::Instant;

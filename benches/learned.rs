@@ -6,7 +6,7 @@
 //! `conformance/robots/welding_arm.urdf`. `benches/evaluation/learned.py` trains the models and runs it.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

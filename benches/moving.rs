@@ -6,7 +6,7 @@
 //! `target/bench/welding_arm`, which it generates.
 
 // A bench may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::PathBuf;

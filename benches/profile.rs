@@ -8,7 +8,7 @@
 //! files. Links with equal meshes are counted at the first.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::collections::BTreeMap;
 use std::fs;

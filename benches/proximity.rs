@@ -6,7 +6,7 @@
 //! `target/bench/welding_arm`, which it generates.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::path::PathBuf;
 use std::time::Instant;

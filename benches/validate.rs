@@ -5,7 +5,7 @@
 //! that, and MB/s. Times are the minimum of several runs. Compare the ratios: the machine's speed cancels out.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::fs;
 use std::hint::black_box;

@@ -1,7 +1,7 @@
 //! Memory use by input size: the multiples that docs/security.md states, enforced by a system limit.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 #![cfg(target_os = "linux")]
 
 use std::fmt::Write as _;

@@ -1,5 +1,7 @@
 //! The `urdd-kill-rate` program: for the maintainers of `urdd`, not published.
 
+#![allow(clippy::disallowed_methods, reason = "for maintainers")]
+
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;

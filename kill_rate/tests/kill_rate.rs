@@ -1,6 +1,8 @@
 //! Tests of the kill rate measurement: it finds a blind spot, gives the same result for any number of threads, and
 //! leaves its inputs unchanged.
 
+#![allow(clippy::disallowed_methods)]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;

@@ -16,6 +16,7 @@ mod import;
 mod jobs;
 mod lint;
 mod obstacle;
+mod outputs;
 mod page;
 mod parts;
 mod proximity;
@@ -52,6 +53,8 @@ mod _urdd {
     use crate::lint::lint;
     #[pymodule_export]
     use crate::obstacle::Obstacle;
+    #[pymodule_export]
+    use crate::outputs::write_files;
     #[pymodule_export]
     use crate::page::{Page, page_html};
     #[pymodule_export]

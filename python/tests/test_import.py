@@ -1,5 +1,7 @@
 """MJCF and SDF as sources."""
 
+import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -46,3 +48,33 @@ def test_what_is_wrong_has_its_place(tmp_path: Path) -> None:
     urdf.write_text('<robot name="r"><link name="a"/></robot>')
     with pytest.raises(urdd.GenerateError, match="a URDF already"):
         urdd.import_robot(urdf, tmp_path / "out")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a privilege there")
+def test_links_and_pipes_in_the_way_are_refused(tmp_path: Path) -> None:
+    source, out, elsewhere = EXAMPLES / "sdf" / "model.sdf", tmp_path / "out", tmp_path / "elsewhere"
+    urdf = urdd.import_robot(source, out, ball="revolute").urdf
+    robot = urdd.generate(urdf, tmp_path / "robot").load()
+    elsewhere.mkdir()
+    for place in (urdf, tmp_path / "made" / "r.xml", tmp_path / "made" / "r_meshes"):
+        place.parent.mkdir(exist_ok=True)
+        for obstacle in ("link", "pipe"):
+            if place.exists():
+                place.unlink()
+            if obstacle == "link":
+                place.symlink_to(elsewhere)
+            else:
+                os.mkfifo(place)
+            for force in (False, True):
+                with pytest.raises(OSError, match=f"{place.name}: a {obstacle}.* is in the way"):
+                    if place == urdf:
+                        urdd.import_robot(source, out, ball="revolute", force=force)
+                    else:
+                        urdd.export(robot, "mjcf", tmp_path / "made" / "r.xml", force=force)
+            place.unlink()
+            assert list(elsewhere.iterdir()) == []
+    # Meshes may be beside the folder of the file.
+    urdd.export(robot, "mjcf", tmp_path / "made" / "r.xml", mesh_folder="../meshes")
+    assert (tmp_path / "made" / "r.xml").is_file()
+    assert list((tmp_path / "meshes").iterdir()) != []
+    assert not [path for path in tmp_path.rglob(".urdd-*")]

@@ -8,6 +8,7 @@ use clap::Args;
 use super::output::{self, Failure, counted, shown};
 use super::packages::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::outputs::{Output, Target};
 use urdd_source::import::{Imported, import_whole};
 
 /// Maximum number of notes that are printed; the report has all.
@@ -51,25 +52,25 @@ fn made(arguments: &ImportArguments) -> Result<(), Failure> {
     let settings = arguments.packages.settings()?;
     let (imported, source) = import_whole(&arguments.file, &settings, &Cancellation::default())?;
     let robot = &source.reading.robot;
-    let report = arguments.report.as_ref().map(|file| (file.clone(), imported.report.to_json()));
-    let path = |name: &String| arguments.output.join(name);
-    let all = imported.files.iter().filter(|(name, _)| **name != imported.urdf);
-    let mut files: Vec<(PathBuf, &[u8])> =
-        all.map(|(name, bytes)| (path(name), &**bytes)).collect();
-    files.extend(report.as_ref().map(|(file, text)| (file.clone(), text.as_bytes())));
+    let report = arguments.report.as_ref().map(|file| (file, imported.report.to_json()));
+    let files = imported.files.iter();
+    let files = files.map(|(name, bytes)| {
+        let (path, replaces) = (name.into(), arguments.force);
+        Output { path, bytes, replaces }
+    });
+    let mut files: Vec<Output> = files.collect();
     // The file that names the others is last.
-    files.push((path(&imported.urdf), imported.text().as_bytes()));
-    if !arguments.force {
-        output::refuse_others(&files, "")?;
-    }
-    output::write_files(&files)?;
+    files.sort_by_key(|file| file.path.as_os_str() == imported.urdf.as_str());
+    let count = files.len() + usize::from(report.is_some());
+    let report = report.as_ref().map(|(file, text)| (file.as_path(), text.as_bytes()));
+    output::write_files(Target::Folder(&arguments.output), files, report, arguments.force, "")?;
     for note in notes(&imported) {
         output::error(&note);
     }
     let [links, joints] = [(robot.links.len(), "link"), (robot.joints.len(), "joint")]
         .map(|(count, thing)| counted(count, thing));
-    let urdf = shown(&path(&imported.urdf));
-    Ok(output::print(&format!("{urdf}: {links}, {joints}, {}\n", counted(files.len(), "file")))?)
+    let urdf = shown(&arguments.output.join(&imported.urdf));
+    Ok(output::print(&format!("{urdf}: {links}, {joints}, {}\n", counted(count, "file")))?)
 }
 
 /// What is lost, what is otherwise, and what else a person has to know.

@@ -1,17 +1,15 @@
 //! Printing. Escapes all external text. A failed write is an error, except for a pipe that its reader has closed.
 
 use std::fmt::Display;
-use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::ValueEnum;
-use tempfile::TempPath;
 
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::regular;
+use urdd_directory::outputs::{self, Output, OutputError, Target};
+use urdd_directory::staging::StagingError;
 use urdd_format::escape;
 use urdd_validate::report::style::STYLES;
 
@@ -164,33 +162,33 @@ pub fn is_dumb() -> bool {
     std::env::var_os("TERM").is_some_and(|value| value == "dumb")
 }
 
-/// An error if a file exists with different content. `also` is what its message ends with.
+/// Writes files that belong together, and a report on them. If one cannot be written, writes none. `also` is what the
+/// message ends with if a file exists with other content.
 ///
 /// # Errors
 /// A message that names the file.
-pub fn refuse_others<'f>(
-    files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
+pub fn write_files<'f>(
+    target: Target,
+    mut files: Vec<Output<'f>>,
+    report: Option<(&'f Path, &'f [u8])>,
+    force: bool,
     also: &str,
 ) -> Result<(), String> {
-    match files.into_iter().find(|file| is_other(file)) {
-        Some((there, _)) => {
-            Err(format!("{} already exists: --force overwrites it{also}", shown(there)))
+    let mut apart = None;
+    if let Some((file, bytes)) = report {
+        let below = Target::File(file).folder().strip_prefix(target.folder());
+        match below {
+            Ok(below) if !file.is_symlink() && !outputs::is_stream(file) => {
+                let path = below.join(outputs::name_of(file));
+                files.insert(0, Output { path, bytes, replaces: force });
+            }
+            _ => apart = Some((file, bytes)),
         }
-        None => Ok(()),
     }
-}
-
-/// Whether a file exists with different content.
-pub fn is_other((file, bytes): &(PathBuf, &[u8])) -> bool {
-    match fs::metadata(file) {
-        Ok(there) if there.is_file() => {
-            let read = regular::read(file, bytes.len() as u64);
-            !read.is_ok_and(|there| there == *bytes)
-        }
-        // Writing to devices and pipes is allowed.
-        Ok(there) => there.is_dir(),
-        Err(_) => fs::symlink_metadata(file).is_ok(),
-    }
+    let written = (apart.map_or(Ok(()), |(file, bytes)| outputs::check_report(file, bytes, force)))
+        .and_then(|()| outputs::write(target, files))
+        .and_then(|_| apart.map_or(Ok(()), |(file, bytes)| outputs::report(file, bytes, force)));
+    written.map_err(|error| unwritten(error, also))
 }
 
 /// Writes a report to a file, replaced atomically; unchanged on error.
@@ -198,127 +196,30 @@ pub fn is_other((file, bytes): &(PathBuf, &[u8])) -> bool {
 /// # Errors
 /// A message if it cannot be written, or if its name would make its folder a URDD.
 pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
-    check_name(file)?;
-    let failed = |error| cannot_write(file, &error);
-    stage(file, text.as_bytes()).and_then(Staged::put).map_err(failed)
+    outputs::report(file, text.as_bytes(), true).map_err(|error| unwritten(error, ""))
 }
 
-/// Writes files that belong together, and creates their folders. If one cannot be prepared, writes none, and removes
-/// new folders.
+/// Writes a file that a person named. One with other content is replaced with `force` only.
 ///
 /// # Errors
-/// As for [`write_file`].
-pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), String> {
-    let mut folders = NewFolders(Vec::new());
-    let mut staged = Vec::new();
-    for (file, bytes) in files {
-        check_name(file)?;
-        let failed = |error| cannot_write(file, &error);
-        folders.make(folder_of(file)).map_err(failed)?;
-        staged.push((file, stage(file, bytes).map_err(failed)?));
-    }
-    for (file, staged) in staged {
-        staged.put().map_err(|error| cannot_write(file, &error))?;
-    }
-    folders.0.clear();
-    Ok(())
+/// A message that names the file.
+pub fn write_alone(file: &Path, text: &str, force: bool) -> Result<(), String> {
+    let path = outputs::name_of(file).into();
+    let output = Output { path, bytes: text.as_bytes(), replaces: force };
+    write_files(Target::File(file), vec![output], None, force, "")
 }
 
-fn cannot_write(file: &Path, error: &io::Error) -> String {
-    format!("{}: cannot be written: {}", shown(file), reason(error))
-}
-
-/// New folders. Those that are empty are removed when this is dropped.
-struct NewFolders(Vec<PathBuf>);
-
-impl NewFolders {
-    fn make(&mut self, folder: &Path) -> io::Result<()> {
-        let missing = folder.ancestors().take_while(|folder| {
-            !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
-        });
-        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
-        for folder in missing.into_iter().rev() {
-            fs::create_dir(&folder)?;
-            self.0.push(folder);
+fn unwritten(error: OutputError, also: &str) -> String {
+    match error {
+        OutputError::Exists(path) => {
+            format!("{} already exists: --force overwrites it{also}", shown(&path))
         }
-        Ok(())
-    }
-}
-
-impl Drop for NewFolders {
-    fn drop(&mut self) {
-        for folder in self.0.iter().rev() {
-            let _ = fs::remove_dir(folder);
+        OutputError::Write { path, error }
+        | OutputError::Folder(StagingError::Write { path, error }) => {
+            format!("{}: cannot be written: {}", shown(&path), reason(&error))
         }
+        error => error.to_string(),
     }
-}
-
-/// Staged content of a file.
-enum Staged<'a> {
-    /// A new file next to the target that it will replace.
-    Beside(TempPath, PathBuf),
-    /// A device or a pipe, written directly.
-    Device(PathBuf, &'a [u8]),
-}
-
-impl Staged<'_> {
-    fn put(self) -> io::Result<()> {
-        match self {
-            Staged::Beside(path, target) => path.persist(target).map_err(|error| error.error),
-            Staged::Device(file, bytes) => {
-                let mut out = fs::OpenOptions::new().write(true).open(file)?;
-                out.write_all(bytes)
-            }
-        }
-    }
-}
-
-/// Writes the new content next to the file, which remains unchanged.
-fn stage<'a>(file: &Path, bytes: &'a [u8]) -> io::Result<Staged<'a>> {
-    let (target, permissions) = match fs::metadata(file) {
-        Ok(metadata) if metadata.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
-        Ok(metadata) if !metadata.is_file() => return Ok(Staged::Device(file.to_owned(), bytes)),
-        // A symbolic link remains: its target is replaced.
-        Ok(metadata) => (fs::canonicalize(file)?, Some(metadata.permissions())),
-        Err(_) => (file.to_owned(), None),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".urdd-report-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The default permissions of new files, subject to the umask.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut beside = builder.tempfile_in(folder_of(&target))?;
-    beside.write_all(bytes)?;
-    if let Some(permissions) = permissions {
-        beside.as_file().set_permissions(permissions)?;
-    }
-    beside.as_file().sync_all()?;
-    Ok(Staged::Beside(beside.into_temp_path(), target))
-}
-
-fn folder_of(file: &Path) -> &Path {
-    match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
-/// Refuses the file name that marks a folder as a URDD.
-///
-/// # Errors
-/// A message with advice if the file has that name.
-pub fn check_name(file: &Path) -> Result<(), String> {
-    if file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA)) {
-        return Err(format!(
-            "{}: a file with this name makes its folder a URDD, which the next `urdd validate` would examine; \
-             give it another name, such as urdd-report.json",
-            shown(file)
-        ));
-    }
-    Ok(())
 }
 
 /// The operating system's message, without the error number and without the path of a temporary file.

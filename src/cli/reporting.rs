@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::output::{self, Color, Failure};
 use super::words::Level;
+use urdd_directory::outputs::check_name;
 use urdd_format::report::{Report, Severity, Verdict};
 use urdd_validate::Run;
 use urdd_validate::report::place::places;
@@ -111,7 +112,7 @@ impl ReportArguments {
     /// The settings file, with what the command line sets.
     pub(super) fn settings_file(&self) -> Result<SettingsFile, Failure> {
         for file in &self.output {
-            output::check_name(file)?;
+            check_name(file)?;
         }
         let default = PathBuf::from(SETTINGS_FILE);
         let file = match &self.config {

@@ -15,13 +15,12 @@ use super::packages::PackageArguments;
 use super::signals::Signals;
 use super::viewed;
 use super::xacro::{self, XacroArguments};
+use urdd_directory::temporary::Temporary;
 use urdd_format::escape;
 use urdd_generate::Settings;
 use urdd_robot::Robot;
 use urdd_source::process;
-use urdd_view::{
-    Collection, ExportError, Live, Server, Shown, Temporary, export, may_hold_page, page_with,
-};
+use urdd_view::{Collection, ExportError, Live, Server, Shown, export, may_hold_page, page_with};
 
 /// Pause before the rest of a robot is generated.
 const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
@@ -110,7 +109,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         ..Settings::default()
     };
     // Generated URDDs exist as long as this value.
-    let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
+    let temporary = Temporary::begin(&std::env::temp_dir(), "shown").map_err(usage)?;
     let drops = temporary.path().join("dropped");
     let collection = Collection::default()
         .with_drops(drops, arguments.xacro.xacro)
@@ -173,7 +172,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         }
         let _ = std::io::stdout().flush();
         if !arguments.no_open
-            && let Err(error) = temporary.page_to(&address).and_then(open::that_detached)
+            && let Err(error) = page_to(&temporary, &address).and_then(open::that_detached)
         {
             output::error(&format!(
                 "no browser could be opened ({error}); open the address above yourself"
@@ -198,6 +197,16 @@ fn comparison(paths: &[PathBuf], counts: &[usize], robots: &[Arc<Shown>]) -> Res
         return Err(usage(format!("--compare takes two robots; found {}", robots.len())));
     };
     Ok(format!("r={}&v={}", after.id, before.id))
+}
+
+/// Writes a page that only this user can read, and that leads to an address. A browser is given its path: everybody on the
+/// machine can read the arguments of programs, and the address has a token.
+fn page_to(temporary: &Temporary, address: &str) -> std::io::Result<PathBuf> {
+    let text = format!(
+        "<!doctype html>\n<meta charset=\"utf-8\">\n<title>urdd view</title>\n\
+         <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<a href=\"{address}\">The robot</a>\n"
+    );
+    temporary.private("open.html", &text)
 }
 
 /// Shows the configurations of standard input. A line that is wrong is said, and left out.
@@ -262,7 +271,7 @@ fn written(
             return Err(usage(ExportError::InTheWay(vec![folder.to_owned()])));
         }
         let page = page_with(robot).map_err(usage)?;
-        output::write_file(folder, &page).map_err(usage)?;
+        output::write_alone(folder, &page, true).map_err(usage)?;
         return Ok(0);
     }
     let stay =

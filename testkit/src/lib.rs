@@ -25,6 +25,8 @@
 //!
 //! [`robots`] generates URDDs of the project's robots.
 
+#![allow(clippy::disallowed_methods, reason = "for maintainers")]
+
 pub mod core;
 pub mod core_modules;
 pub mod dice;

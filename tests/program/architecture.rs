@@ -61,6 +61,47 @@ fn the_wall_between_generate_and_validate_stands() {
     }
 }
 
+/// Clippy refuses what writes files (`clippy.toml`). Only these files say that they may, and no library makes temporary
+/// files in another way.
+#[test]
+fn files_are_written_by_one_way() {
+    let rooms = [
+        "urdd-directory/src/outputs.rs",
+        "urdd-directory/src/regular.rs",
+        "urdd-directory/src/staging.rs",
+        "urdd-directory/src/staging_among.rs",
+        "urdd-directory/src/take.rs",
+        "urdd-directory/src/target_lock.rs",
+        "urdd-directory/src/temporary.rs",
+        "urdd-directory/src/writer.rs",
+        "urdd-lint/src/target.rs",
+        "urdd-view/src/site_list.rs",
+    ];
+    let mut found = BTreeSet::new();
+    for folder in sources().into_iter().chain([repository().join("python/src")]) {
+        for (file, source) in rust_files(&folder) {
+            let own = source.split("#[cfg(test)]").next().unwrap_or_default();
+            let is_test = file.components().any(|part| part.as_os_str() == "tests");
+            if own.contains("disallowed_methods") && !is_test {
+                found.insert(file);
+            }
+        }
+        let manifest = folder.with_file_name("Cargo.toml");
+        let text = fs::read_to_string(&manifest).expect("a manifest");
+        let (before, _) = text.split_once("[dev-dependencies]").unwrap_or((&text, ""));
+        assert!(!before.contains("tempfile"), "{}: use `temporary`", manifest.display());
+    }
+    let rooms = rooms.map(|file| repository().join("crates").join(file));
+    assert_eq!(found, BTreeSet::from(rooms));
+    let text = fs::read_to_string(repository().join("clippy.toml")).expect("settings");
+    for method in ["fs::write", "fs::rename", "fs::copy", "File::create", "OpenOptions::new"] {
+        assert!(
+            text.contains(&format!("path = \"std::fs::{}\"", method.trim_start_matches("fs::"))),
+            "{method}"
+        );
+    }
+}
+
 /// Where a library has no unit tests, or no examples, its manifest may say so, and Cargo builds nothing for them.
 #[test]
 fn no_test_and_no_example_is_left_out() {

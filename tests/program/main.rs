@@ -1,7 +1,7 @@
 //! The program from outside, and consistency of the repository: SPEC.md, the suite, the page, figures.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod annotations;
 mod architecture;
@@ -22,6 +22,7 @@ mod links;
 mod lint;
 mod lsp;
 mod new_extension;
+mod outputs;
 mod parsers;
 mod printing;
 mod producers_agree;

@@ -1,5 +1,7 @@
 //! Commands for contributors, run by `cargo xtask`: see CONTRIBUTING.md.
 
+#![allow(clippy::disallowed_methods, reason = "for maintainers")]
+
 mod check;
 mod new_lint_rule;
 mod new_module;

@@ -1,5 +1,7 @@
 //! The scaffolds of a rule and of a module, on a copy of the source.
 
+#![allow(clippy::disallowed_methods)]
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -5,7 +5,7 @@
 //! Without a URDD, one is generated of the welding arm.
 
 // A bench may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 use std::ffi::CString;
 use std::hint::black_box;

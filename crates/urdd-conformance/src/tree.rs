@@ -9,6 +9,7 @@ use std::sync::Arc;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Deserialize;
+use urdd_directory::outputs;
 
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
@@ -261,5 +262,5 @@ pub(crate) fn remove_folder(path: &Path) -> Result<(), TreeError> {
 }
 
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), TreeError> {
-    fs::write(path, bytes).map_err(|error| TreeError::Write(path.to_owned(), error))
+    outputs::fresh(path, bytes).map_err(|error| TreeError::Write(path.to_owned(), error))
 }

@@ -3,16 +3,15 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use tempfile::TempDir;
-
 use crate::run_error::RunError;
 use crate::tree::{TreeError, make_folder};
+use urdd_directory::temporary::Temporary;
 
 /// A temporary or a persistent folder.
 pub struct Workplace {
     path: PathBuf,
     /// Removes the folder on drop, if it is temporary.
-    _temporary: Option<TempDir>,
+    _temporary: Option<Temporary>,
 }
 
 impl Workplace {
@@ -22,7 +21,8 @@ impl Workplace {
     /// If it cannot be created, or is not empty.
     pub fn new(keep: Option<&Path>) -> Result<Workplace, RunError> {
         let Some(path) = keep else {
-            let folder = tempfile::tempdir().map_err(RunError::Temporary)?;
+            let folder = Temporary::begin(&std::env::temp_dir(), "conformance");
+            let folder = folder.map_err(RunError::Temporary)?;
             return Ok(Workplace { path: folder.path().to_owned(), _temporary: Some(folder) });
         };
         let failed = |error| TreeError::Read(path.to_owned(), error);

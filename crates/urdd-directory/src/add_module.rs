@@ -14,7 +14,10 @@ use super::limits::MAX_DOCUMENT_BYTES;
 use super::module_entry;
 use super::rehash::{lock, replace};
 use super::root::{ReadError, Root};
+use super::staging::{Staging, StagingError};
 use super::text_fault::UnreadableText;
+use super::writer::Writer;
+use crate::cancellation::Cancellation;
 use urdd_format::registry::ModuleKind;
 
 /// Why a module could not be added. Nothing is changed then.
@@ -35,6 +38,8 @@ pub enum AddModuleError {
     NotAFolder,
     #[error("{}: {error}", path.display())]
     Write { path: PathBuf, error: io::Error },
+    #[error(transparent)]
+    Folder(#[from] StagingError),
 }
 
 /// Writes a folder with these files into `parent`: all of them or none.
@@ -47,23 +52,16 @@ pub fn write_folder(
     files: &[(&str, String)],
 ) -> Result<PathBuf, AddModuleError> {
     let folder = parent.join(name);
-    let failed = |path: &Path| {
-        let path = path.to_owned();
-        move |error| AddModuleError::Write { path, error }
-    };
+    let staging = Staging::begin(&folder, &Cancellation::default())?;
     // Of all that create the folder at once, one succeeds.
-    fs::create_dir(&folder).map_err(|error| match error.kind() {
-        io::ErrorKind::AlreadyExists => AddModuleError::Exists(folder.clone()),
-        _ => failed(&folder)(error),
-    })?;
-    for (name, text) in files {
-        let path = folder.join(name);
-        if let Err(error) = fs::write(&path, text) {
-            // What was written is of no use alone.
-            let _ = fs::remove_dir_all(&folder);
-            return Err(failed(&path)(error));
-        }
+    if fs::symlink_metadata(&folder).is_ok() {
+        return Err(AddModuleError::Exists(folder));
     }
+    let writer = Writer::new(staging.content());
+    for (name, text) in files {
+        writer.file(name, text.as_bytes())?;
+    }
+    staging.commit()?;
     Ok(folder)
 }
 

@@ -68,6 +68,31 @@ pub fn portable(name: &str) -> String {
     }
 }
 
+/// Maximum length of a file name that this program makes, in bytes. File systems take 255.
+pub const LONGEST_NAME: usize = 240;
+
+/// Makes a file name of any name, for every file system: without characters, ends and names of devices that Windows
+/// refuses, and at most [`LONGEST_NAME`] bytes long with its ending, such as `.urdf`.
+pub fn file_name(stem: &str, ending: &str) -> String {
+    let mut name = portable(stem).replace(['<', '>', '"', '|', '?', '*'], "_");
+    while name.len() + ending.len() > LONGEST_NAME && name.pop().is_some() {}
+    name += ending;
+    if name.ends_with(['.', ' ']) {
+        name.pop();
+        name.push('_');
+    }
+    if is_device(&name) { format!("_{name}") } else { name }
+}
+
+/// Whether Windows has a device of that name, whatever its extension.
+pub fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
+    let numbered = ["com", "lpt"].iter().find_map(|port| stem.strip_prefix(port));
+    let is_digit = |number: &str| number.chars().all(|c| matches!(c, '0'..='9' | '¹' | '²' | '³'));
+    matches!(stem.as_str(), "con" | "prn" | "aux" | "nul" | "conin$" | "conout$")
+        || numbered.is_some_and(|number| number.chars().count() == 1 && is_digit(number))
+}
+
 /// The path of a file that a mesh names (SPEC 7.5): from the mesh's own folder, with portable names. `None` if it leads
 /// out of the root.
 pub fn beside(mesh: &str, named: &str) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Updates the sizes and hashes in `urdd.json` to match the files.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use serde_json::Value;
@@ -14,11 +14,10 @@ use super::file_entry;
 use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
 use super::root::{ReadError, Root};
+use super::staging::{Staging, StagingError};
 use super::target_lock::TargetLock;
+use super::writer::Writer;
 use crate::cancellation::Cancellation;
-
-/// Prefix of the temporary file that replaces `urdd.json`.
-const TEMPORARY_PREFIX: &str = ".urdd.json.";
 
 /// Why the hashes could not be updated.
 #[derive(Debug, Error)]
@@ -64,24 +63,15 @@ pub(crate) fn lock(folder: &Path) -> Option<TargetLock> {
     TargetLock::acquire(&place, &Cancellation::default()).ok()
 }
 
-/// Writes a temporary file beside `urdd.json` and renames it, so that readers see either the old or the new one.
-/// Removes the temporary file on failure, and those that crashed runs left behind.
+/// Replaces `urdd.json`, so that readers see either the old or the new one.
 pub(crate) fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
-    let file = folder.join(ROOT_METADATA);
-    for entry in fs::read_dir(folder)?.flatten() {
-        let name = entry.file_name();
-        if name.to_string_lossy().starts_with(TEMPORARY_PREFIX) {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    let mut temporary = tempfile::Builder::new()
-        .prefix(TEMPORARY_PREFIX)
-        .permissions(fs::metadata(&file)?.permissions())
-        .tempfile_in(folder)?;
-    temporary.write_all(text)?;
-    temporary.as_file().sync_all()?;
-    temporary.persist(file)?;
-    Ok(())
+    let file = Path::new(ROOT_METADATA);
+    let staging = Staging::begin_among(&folder.join(file)).map_err(|error| match error {
+        StagingError::Write { error, .. } => error,
+        error => io::Error::other(error),
+    })?;
+    Writer::new(staging.content()).synced(file, text)?;
+    staging.put_among(folder, &[file]).map_err(|(_, error)| error)
 }
 
 fn update(root: &Root, entry: &mut Value, changed: &mut Vec<String>) -> Result<(), RehashError> {

@@ -39,7 +39,13 @@ impl Replacement {
         let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
         take_content(&self.folder, self.staging.content(), &|path| instead.contains(path))?;
         for (path, bytes) in files {
-            writer.file(path, bytes)?;
+            writer.file(path, bytes).map_err(|error| match error {
+                StagingError::Link { path } => {
+                    let below = path.strip_prefix(self.staging.content()).unwrap_or(&path);
+                    StagingError::Link { path: self.folder.join(below) }
+                }
+                error => error,
+            })?;
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::outputs::{self, Output, OutputError, Target};
 use urdd_format::schema::{self, RELEASED_PATH, SchemaError, Subject, Variant};
 
 /// Why the folder of schemas could not be written or read.
@@ -13,6 +14,8 @@ use urdd_format::schema::{self, RELEASED_PATH, SchemaError, Subject, Variant};
 pub enum SchemaFilesError {
     #[error("{}: {source}", path.display())]
     Io { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Output(#[from] OutputError),
     #[error(transparent)]
     Schema(#[from] SchemaError),
 }
@@ -51,19 +54,13 @@ impl SchemaFault {
 /// # Errors
 /// If a file or folder cannot be written.
 pub fn export(folder: &Path, variant: Variant) -> Result<usize, SchemaFilesError> {
-    let mut written = 0;
-    for file in schema::files(variant) {
-        let path = folder.join(&file.path);
-        if fs::read_to_string(&path).is_ok_and(|text| text == file.text) {
-            continue;
-        }
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(|source| io_error(parent, source))?;
-        }
-        fs::write(&path, &file.text).map_err(|source| io_error(&path, source))?;
-        written += 1;
-    }
-    Ok(written)
+    let files = schema::files(variant);
+    let outputs = files.iter().map(|file| Output {
+        path: (&file.path).into(),
+        bytes: file.text.as_bytes(),
+        replaces: true,
+    });
+    Ok(outputs::write(Target::Folder(folder), outputs.collect())?)
 }
 
 /// Compares `folder` with the types, and the types with the released schemas. Ignores files whose names begin with a

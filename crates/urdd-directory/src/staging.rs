@@ -5,6 +5,7 @@
 //! content is in place (see [`super::target_lock`]). A crashed run leaves both behind, and the old content in place.
 //! The next run into the same target gets the lock, so no other run is active, and removes them. A second run waits for
 //! the first.
+#![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -12,9 +13,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-#[path = "staging_inside.rs"]
-#[doc(hidden)]
-pub mod inside;
+#[path = "staging_among.rs"]
+mod among;
 
 use super::target_lock::{LockError, TargetLock, beside};
 use crate::cancellation::Cancellation;
@@ -32,6 +32,8 @@ pub enum StagingError {
     Read { path: PathBuf, error: io::Error },
     #[error("{}: this file does not belong to the URDD, and would be overwritten; move it away", path.display())]
     InTheWay { path: PathBuf },
+    #[error("{}: this is a link, and nothing is written through it; replace it by the folder that it leads to", path.display())]
+    Link { path: PathBuf },
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     #[error(
@@ -63,7 +65,6 @@ pub struct Staging {
     _lock: Option<TargetLock>,
 }
 
-const CONTENT: &str = "new";
 const OLD: &str = "old";
 
 impl Staging {
@@ -83,8 +84,7 @@ impl Staging {
     }
 
     /// As [`Staging::begin`], but also for the current folder or one above it. Replacing that folder itself would leave
-    /// other processes in a deleted folder, so [`Staging::commit`] replaces its entries one by one. Each replacement is
-    /// atomic. All or none take place, unless the program crashes.
+    /// other processes in a deleted folder, so [`Staging::commit`] replaces its changed files one by one (`staging_among.rs`).
     ///
     /// # Errors
     /// As [`Staging::begin`].
@@ -92,6 +92,14 @@ impl Staging {
         let target = place(target)?;
         let is_inside = holds_current(&target);
         Self::at(target, is_inside, cancellation)
+    }
+
+    /// As [`Staging::begin`], for files beside `anchor`, whose folder exists and stays: see `staging_among.rs`.
+    pub(super) fn begin_among(anchor: &Path) -> Result<Self, StagingError> {
+        let write = |error| StagingError::Write { path: anchor.to_owned(), error };
+        let folder = parent(anchor).canonicalize().map_err(write)?;
+        let anchor = folder.join(anchor.file_name().unwrap_or_default());
+        Self::at(anchor, false, &Cancellation::default())
     }
 
     fn at(
@@ -117,7 +125,7 @@ impl Staging {
             rescue(&workplace, &target);
             remove(&workplace);
         }
-        let content = workplace.join(CONTENT);
+        let content = workplace.join(among::CONTENT);
         let made = fs::create_dir(&workplace).and_then(|()| fs::create_dir(&content));
         let staging = Staging { target, workplace, content, is_inside, _lock: lock };
         match made {
@@ -127,6 +135,18 @@ impl Staging {
                 Err(StagingError::Write { path, error })
             }
         }
+    }
+
+    /// Moves prepared files into `folder`, one by one: see `staging_among.rs`.
+    ///
+    /// # Errors
+    /// The file that cannot be moved, and why. The folder is as before then.
+    pub(super) fn put_among<'p>(
+        &self,
+        folder: &Path,
+        paths: &[&'p Path],
+    ) -> Result<(), (&'p Path, io::Error)> {
+        among::put(&self.workplace, folder, paths)
     }
 
     /// The folder for the new content.
@@ -146,12 +166,9 @@ impl Staging {
     /// If it cannot be renamed. The old content is then in place.
     pub fn commit(self) -> Result<(), StagingError> {
         keep_modes(&self.target, &self.content)
-            .and_then(|()| {
-                let old = self.workplace.join(OLD);
-                match self.is_inside {
-                    true => inside::put(&self.content, &self.target, &old),
-                    false => put(&self.content, &self.target, &old),
-                }
+            .and_then(|()| match self.is_inside {
+                true => among::put_changed(&self.workplace, &self.target),
+                false => put(&self.content, &self.target, &self.workplace.join(OLD)),
             })
             .map_err(|error| StagingError::Write { path: self.target.clone(), error })
     }
@@ -201,13 +218,19 @@ fn parent(target: &Path) -> PathBuf {
     }
 }
 
-/// Restores the old content if a run ended between two renames. `false` if that is needed and fails.
+/// Restores the old content if a run ended between two renames, or completes it. `false` if the former fails.
 fn rescue(workplace: &Path, target: &Path) -> bool {
     let old = workplace.join(OLD);
+    let is_folder = |path: &Path| fs::symlink_metadata(path).is_ok_and(|there| there.is_dir());
+    // Links in their places are not ours.
+    if !is_folder(workplace) || old.is_symlink() {
+        return true;
+    }
+    among::complete(workplace, &parent(target));
     let is_gone = fs::symlink_metadata(target).is_err();
     match is_gone && old.is_dir() {
         true => fs::rename(&old, target).is_ok(),
-        false => inside::put_back(&old, target).is_ok(),
+        false => true,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Copies files and folders unchanged: hard links where the file system supports them, else copies. A symbolic link
 //! stays a symbolic link.
+#![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::fs;
 use std::path::Path;

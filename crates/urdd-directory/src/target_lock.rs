@@ -2,6 +2,7 @@
 //!
 //! A run locks a file beside the target. The operating system releases the lock when the run ends, even after a crash.
 //! So a run that gets the lock knows that no other run is active there.
+#![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -96,6 +97,11 @@ pub(super) fn beside(target: &Path, ending: &str) -> PathBuf {
 fn open(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits().cast_signed());
+    }
     options.open(path)
 }
 

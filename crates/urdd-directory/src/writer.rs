@@ -1,4 +1,5 @@
 //! Writes files, and returns their entries for `urdd.json`.
+#![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -134,14 +135,30 @@ impl Writer {
             files.add(path, bytes);
             return Ok(());
         }
-        let mut file = File::create(self.place(path)?).map_err(failed)?;
+        let place = self.place(path)?;
+        // Never through a link, nor into a file of another folder that this one is a name of.
+        let _ = fs::remove_file(&place);
+        let mut file = File::create_new(place).map_err(failed)?;
         write(&mut file).map_err(failed)
     }
 
-    /// The path on disk. Creates its parent folder.
+    /// Writes a file to the disk, and waits until it is there.
+    pub(crate) fn synced(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let place = self.root.join(path);
+        place.parent().map_or(Ok(()), fs::create_dir_all)?;
+        let mut file = File::create(place)?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    }
+
+    /// The path on disk. Creates its parent folder, which may not be behind a link.
     fn place(&self, path: &str) -> Result<PathBuf, StagingError> {
         let place = self.root.join(path);
         if let Some(folder) = place.parent() {
+            let below = folder.ancestors().take_while(|folder| *folder != self.root);
+            if let Some(link) = below.into_iter().find(|folder| folder.is_symlink()) {
+                return Err(StagingError::Link { path: link.to_owned() });
+            }
             fs::create_dir_all(folder)
                 .map_err(|error| StagingError::Write { path: folder.to_owned(), error })?;
         }

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::error::ExportError;
 use super::format::Format;
+use urdd_directory::path::is_device;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_xml::is_character;
@@ -76,6 +77,7 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
 }
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
+    let is_robot = what == "robot" && !name.is_empty();
     let is_xml = !matches!(format, Format::Curobo | Format::Foam | Format::Usd);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
@@ -96,6 +98,15 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
             "SDF keeps such names for itself"
         }
         Format::Sdf if name.trim() != name => "SDF drops white space at the ends of a name",
+        Format::Drake | Format::Sdf if what == "link" && name.starts_with(':') => {
+            "Drake reads a colon at its beginning as the end of the name of a model"
+        }
+        Format::Drake | Format::Sdf if is_robot && name.bytes().all(|byte| byte == b':') => {
+            "Drake finds no link of a model of that name"
+        }
+        Format::Drake if is_robot && (name.starts_with("::") || name.ends_with("::")) => {
+            "Drake drops `::` at the ends of the name of a model"
+        }
         Format::Drake if name.is_empty() => "Drake refuses a robot without a name",
         Format::Drake if what == "link" && name.contains("::") => {
             "Drake reads the part before `::` as the name of a model"
@@ -110,14 +121,6 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
 
 fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -> ExportError {
     ExportError::Name { format, what, name: name.to_owned(), reason }
-}
-
-/// Whether Windows has a device of that name, whatever its extension.
-fn is_device(name: &str) -> bool {
-    let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
-    let numbered = ["com", "lpt"].iter().find_map(|port| stem.strip_prefix(port));
-    matches!(stem.as_str(), "con" | "prn" | "aux" | "nul")
-        || numbered.is_some_and(|number| matches!(number.as_bytes(), [b'0'..=b'9']))
 }
 
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.

@@ -91,7 +91,7 @@ fn imported_source(
     settings: &Settings,
 ) -> Result<(Source, Settings), GenerateError> {
     let settings = Settings { source: imported.settings(&settings.source)?, ..settings.clone() };
-    let mut source = urdd_source::load(&imported.path(), &settings.source, &settings.cancellation)?;
+    let mut source = imported.load(&settings.source, &settings.cancellation)?;
     source.notes.extend(imported.report.notes(&imported.shown));
     source.shown = format!("{} (as {})", imported.shown, imported.urdf);
     Ok((source, settings))

@@ -1,10 +1,8 @@
 //! Writes what an import says for exports beside the URDD: `NAME.export.toml`.
 
-use std::fs::File;
-use std::io::Write;
 use std::path::Path;
 
-use urdd_directory::regular;
+use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_source::import::Imported;
 use urdd_source::note::{Note, NoteKind};
 
@@ -14,16 +12,12 @@ pub(super) fn write(imported: &Imported, target: &Path) -> Option<Note> {
     let mut name = target.file_name()?.to_owned();
     name.push(".export.toml");
     let path = target.with_file_name(name);
-    if regular::read(&path, text.len() as u64).is_ok_and(|there| there == text) {
-        return None;
-    }
-    let written = File::create_new(&path).and_then(|mut file| file.write_all(text));
-    let error = written.err()?;
-    let assumed = match error.kind() {
-        std::io::ErrorKind::AlreadyExists => {
+    let own = Output { path: path.file_name()?.into(), bytes: text, replaces: false };
+    let assumed = match outputs::write(Target::File(&path), vec![own]).err()? {
+        OutputError::Exists(_) => {
             "it stays as it is; `urdd import` writes the new one elsewhere".to_owned()
         }
-        _ => format!("it is not written: {error}"),
+        error => format!("it is not written: {error}"),
     };
     Some(Note {
         kind: NoteKind::LeftBehind,

@@ -41,6 +41,7 @@ pub fn target(
         return Ok(Err(LeftAlone::HardLinks(names)));
     }
     // Another user's file has bits that count for that user alone.
+    #[expect(clippy::disallowed_methods, reason = "it asks whether it could, and writes nothing")]
     let is_refused = || {
         let opened = OpenOptions::new().write(true).open(&target);
         opened.is_err_and(|error| error.kind() == io::ErrorKind::PermissionDenied)

@@ -81,7 +81,10 @@ impl fmt::Display for FaultLines<'_> {
             }
             let (line, column) = (placed.line, placed.column);
             let fault = placed.fault.to_string();
-            write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
+            match line {
+                0 => write!(f, "{file}: {}", escape::line(&fault))?,
+                _ => write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?,
+            }
         }
         if faults.len() > MOST_SHOWN {
             write!(f, "\n{file}: and {} more such faults", faults.len() - MOST_SHOWN)?;

@@ -113,7 +113,7 @@ fn sdf_hint(element: &str) -> &'static str {
 /// A fault and its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlacedFault {
-    /// Line in the text, from 1.
+    /// Line in the text, from 1; 0 for the text as a whole.
     pub line: u32,
     /// Column in the line, from 1, in characters.
     pub column: u32,

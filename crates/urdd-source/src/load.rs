@@ -12,7 +12,7 @@ use super::settings::Settings;
 use super::urdf::{self, Reading};
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::path::portable;
+use urdd_directory::path;
 use urdd_directory::position::LineIndex;
 use urdd_format::urdf::UrdfModule;
 
@@ -302,5 +302,5 @@ pub(crate) fn stem(path: &Path) -> String {
 
 /// The name of a robot's file in its URDD.
 pub fn file_name(stem: &str) -> String {
-    portable(&format!("{}.urdf", if stem.is_empty() { "robot" } else { stem }))
+    path::file_name(if stem.is_empty() { "robot" } else { stem }, ".urdf")
 }

@@ -99,7 +99,7 @@ impl SourceMeshes {
             return Ok(with_meshes(load::load(path, settings, cancellation)?, settings));
         };
         let settings = imported.settings(settings)?;
-        let source = load::load(&imported.path(), &settings, cancellation)?;
+        let source = imported.load(&settings, cancellation)?;
         Ok(with_meshes(source, &settings))
     }
 

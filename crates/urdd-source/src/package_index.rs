@@ -5,11 +5,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use tempfile::TempDir;
-
 use crate::around::around;
 use crate::files::Files;
 use crate::packages::Packages;
+use urdd_directory::outputs;
+use urdd_directory::temporary::Temporary;
 
 /// The part of ament that xacro needs, for machines without ROS.
 const AMENT: &str = include_str!("ament_index_python.py");
@@ -17,7 +17,7 @@ const AMENT: &str = include_str!("ament_index_python.py");
 /// Packages in layouts that ROS searches: those named by the user before those of the environment, and those that the file is in
 /// or that are beside it after them.
 pub(super) struct PackageIndex {
-    prefix: TempDir,
+    prefix: Temporary,
     /// The names in the layouts, each with its folder.
     folders: Vec<(PathBuf, PathBuf)>,
 }
@@ -31,7 +31,10 @@ const PYTHON: &str = "python";
 
 impl PackageIndex {
     pub(super) fn new(packages: &Packages, file: &Path) -> io::Result<Self> {
-        let mut index = PackageIndex { prefix: TempDir::new()?, folders: Vec::new() };
+        let mut index = PackageIndex {
+            prefix: Temporary::begin(&std::env::temp_dir(), "packages")?,
+            folders: Vec::new(),
+        };
         for (name, folder) in packages.given() {
             index.add(GIVEN, name, &folder.canonicalize()?)?;
         }
@@ -48,17 +51,15 @@ impl PackageIndex {
             let _ = index.add(layout, &name, &folder);
         }
         let python = index.prefix.path().join(PYTHON).join("ament_index_python");
-        std::fs::create_dir_all(&python)?;
-        std::fs::write(python.join("__init__.py"), "")?;
-        std::fs::write(python.join("packages.py"), AMENT)?;
+        outputs::fresh(&python.join("__init__.py"), b"")?;
+        outputs::fresh(&python.join("packages.py"), AMENT.as_bytes())?;
         Ok(index)
     }
 
     fn add(&mut self, layout: &str, name: &str, folder: &Path) -> io::Result<()> {
         let share = self.prefix.path().join(layout).join("share");
         let index = share.join("ament_index/resource_index/packages");
-        std::fs::create_dir_all(&index)?;
-        std::fs::write(index.join(name), "")?;
+        outputs::fresh(&index.join(name), b"")?;
         let at = share.join(name);
         link(folder, &at)?;
         self.folders.push((at, folder.to_owned()));

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
+use urdd_directory::path;
 
 /// A robot of a batch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -113,7 +114,9 @@ fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(),
 fn names(sources: &[PathBuf]) -> Vec<String> {
     let parts: Vec<Vec<String>> = sources.iter().map(|source| parts(source)).collect();
     let mut used = vec![1; sources.len()];
-    let name = |idx: usize, used: usize| parts[idx][parts[idx].len() - used..].join("-");
+    let name = |idx: usize, used: usize| {
+        path::file_name(&parts[idx][parts[idx].len() - used..].join("-"), "")
+    };
     loop {
         let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (idx, used) in used.iter().enumerate() {
@@ -145,7 +148,7 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
     names.collect()
 }
 
-/// The names of a path's folders and its file name without extension, each safe to use in a file name.
+/// The names of a path's folders and its file name without extension, none of them hidden.
 fn parts(source: &Path) -> Vec<String> {
     let file = source.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &file;
@@ -157,13 +160,9 @@ fn parts(source: &Path) -> Vec<String> {
         Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
         _ => None,
     });
-    let plain = |name: String| {
-        let safe = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
-        let name = name.replace(safe, "_");
-        match name.trim_start_matches('.') {
-            "" => "robot".to_owned(),
-            name => name.to_owned(),
-        }
+    let plain = |name: String| match name.trim_start_matches('.') {
+        "" => "robot".to_owned(),
+        name => name.to_owned(),
     };
     folders.chain([stem.to_owned()]).map(plain).collect()
 }

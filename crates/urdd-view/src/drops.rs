@@ -4,8 +4,8 @@
 //! alone stands for the files in it. Everything is hostile: no path leaves the folder, no file replaces another, and
 //! number, sizes and depth have limits.
 
-use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -16,9 +16,9 @@ use crate::drop_folder::Drops;
 use crate::reply::{Failure, Reply};
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::listing::EntryKind;
-use urdd_directory::path;
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
+use urdd_directory::{outputs, path};
 use urdd_source::dropped::PackageFolders;
 use urdd_source::robots;
 
@@ -152,17 +152,13 @@ fn write(
             content.split_at_checked(size).ok_or((400, "the sizes do not match".to_owned()))?;
         content = rest;
         let target = folder.join(path);
-        if let Some(parent) = target.parent() {
-            fs::create_dir_all(parent).map_err(|error| failed(path, &error))?;
-        }
-        let mut file = File::create_new(&target).map_err(|error| failed(path, &error))?;
-        file.write_all(bytes).map_err(|error| failed(path, &error))?;
+        outputs::fresh(&target, bytes).map_err(|error| failed(path, &error))?;
     }
     // Without it, a package around the temporary folder would count as the robot's own, with the files in it.
     let package = folder.join("package.xml");
     if !package.exists() {
-        let text = "<package><name>dropped</name></package>\n";
-        fs::write(&package, text).map_err(|error| failed("package.xml", &error))?;
+        let text = b"<package><name>dropped</name></package>\n";
+        outputs::fresh(&package, text).map_err(|error| failed("package.xml", &error))?;
     }
     Ok(())
 }

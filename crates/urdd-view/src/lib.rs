@@ -28,7 +28,6 @@ mod sent_states;
 mod server;
 mod site_list;
 mod states;
-mod temporary;
 
 pub use collection::{Collection, Making, Shown, Source};
 pub use export::export;
@@ -37,4 +36,3 @@ pub use live::Live;
 pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};
 pub use states::States;
-pub use temporary::Temporary;

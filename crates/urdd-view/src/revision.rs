@@ -67,6 +67,7 @@ fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)]
 mod tests {
     use super::*;
 

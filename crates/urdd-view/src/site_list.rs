@@ -1,5 +1,9 @@
 //! The list of a site's files, `urdd-site.json`, which tells a later export which files to replace. Anything else that
 //! the user put into the folder remains.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "its files are named by their content, and it moves what a site lists alone"
+)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
@@ -14,7 +14,7 @@ from ._answers import ShapeKind
 from ._description import RobotDescription
 from ._options import ExportOptions, whole, words
 
-__all__ = ["Actuators", "Export", "Format", "export", "write_files"]
+__all__ = ["Actuators", "Export", "Format", "export"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
@@ -51,21 +51,11 @@ class Export:
             FileExistsError: if a file exists with other content, unless ``force``.
         """
         target = Path(file)
-        own, folder = (target, target.parent) if self.path is None else (target / self.path, target)
-        contents = {own: self.text.encode(), **{folder / path: data for path, data in self.files.items()}}
-        write_files(contents, force=force)
+        # The file that references the others is last.
+        files = [(Path(path), data) for path, data in self.files.items()]
+        own = (Path(target.name if self.path is None else self.path), self.text.encode())
+        _urdd.write_files(target, self.path is not None, [*files, own], force)
         return target
-
-
-def write_files(contents: Mapping[Path, bytes], *, force: bool) -> None:
-    """Writes files that belong together. What exists with other content is overwritten with ``force`` only."""
-    if not force:
-        for path, content in contents.items():
-            if path.exists() and path.read_bytes() != content:
-                raise FileExistsError(f"{path} exists with other content: force=True overwrites it")
-    for path, content in contents.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
 
 
 def export(

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, Literal
 
 from . import _urdd
-from ._export import write_files
 from ._options import source
 
 __all__ = ["Imported", "import_robot"]
@@ -70,6 +69,7 @@ def import_robot(
     options = source(packages, allowed_folders, body=body, model=model, ball=ball)
     urdf, files, report = _urdd.import_robot(Path(file), options)
     folder = Path(output)
-    contents = {folder / name: content for name, content in files}
-    write_files(contents, force=force)
-    return Imported(urdf=folder / urdf, files=sorted(contents), report=json.loads(report))
+    # The URDF, which names the others, is last.
+    contents = sorted(files, key=lambda file: file[0] == urdf)
+    _urdd.write_files(folder, True, [(Path(name), content) for name, content in contents], force)
+    return Imported(urdf=folder / urdf, files=sorted(folder / name for name, _ in files), report=json.loads(report))

@@ -1,7 +1,7 @@
 //! Shared code of the commands that run an external program.
 
 use std::fmt::Display;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use super::follow::{Follow, cannot_write};
 use crate::cli::output::{self, Failure, about};
 use crate::cli::signals::{self, Signals};
 use urdd_conformance::skips::{self, Skip};
-use urdd_directory::regular;
+use urdd_directory::{outputs, regular};
 use urdd_validate::report;
 
 /// Maximum size of a skip list, in bytes.
@@ -97,13 +97,13 @@ impl RunArguments {
             return Ok(Follow::new(None));
         };
         self.check_log(path)?;
-        let file = File::create(path).map_err(|error| cannot_write(path, &error))?;
+        let file = outputs::stream(path, true).map_err(|error| cannot_write(path, &error))?;
         Ok(Follow::new(Some((path.clone(), file))))
     }
 
     /// An error if the log would overwrite another file.
     fn check_log(&self, path: &Path) -> Result<(), Failure> {
-        output::check_name(path)?;
+        outputs::check_name(path)?;
         if self.output.as_deref() == Some(path) {
             Err("--log and --output name the same file: give two")?;
         }

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::arguments::{ExportArguments, Target};
+use super::arguments::{self, ExportArguments};
 use crate::cli::inputs;
 use crate::cli::output::{self, Failure, about, shown};
+use urdd_directory::outputs::{self, Output, Target};
 use urdd_export::{Export, merge_srdf};
 
 /// The existing SRDF, merged with the new pairs.
@@ -34,54 +35,44 @@ pub(super) fn write(
     output: &Path,
     mut made: Export,
 ) -> Result<(), Failure> {
-    let report = arguments.report.clone().map(|file| (file, made.report.as_bytes()));
+    let report = arguments.report.as_deref().map(|file| (file, made.report.as_bytes()));
+    let force = arguments.force;
     if output.as_os_str() == "-" {
-        let report: Vec<(PathBuf, &[u8])> = report.into_iter().collect();
-        refuse_others(arguments, &report)?;
-        output::write_files(&report)?;
+        if let Some((file, _)) = report {
+            output::write_files(Target::File(file), Vec::new(), report, force, "")?;
+        }
         return Ok(output::print_raw(&made.text)?);
     }
-    let (own, folder) = match &made.path {
-        Some(path) => (output.join(path), output),
-        None => (output.to_owned(), output.parent().unwrap_or(Path::new(""))),
+    let (own, target) = match &made.path {
+        Some(path) => (PathBuf::from(path), Target::Folder(output)),
+        None => (outputs::name_of(output).into(), Target::File(output)),
     };
-    let is_merged = arguments.update && (made.path.is_none() || own.exists());
+    let place = target.folder().join(&own);
+    let is_merged = arguments.update && (made.path.is_none() || place.exists());
     if is_merged {
-        made.text = merged(&own, &made.text)?;
+        made.text = merged(&place, &made.text)?;
     }
     // The file that references the others is last.
-    let files = made.files.iter().map(|(path, bytes)| (folder.join(path), bytes.as_slice()));
-    let mut files: Vec<(PathBuf, &[u8])> = files.collect();
+    let mut files: Vec<Output> = (made.files.iter())
+        .map(|(path, bytes)| Output { path: path.into(), bytes, replaces: force })
+        .collect();
     if arguments.update {
         files.retain(|file| {
-            let stays = output::is_other(file);
+            let place = target.folder().join(&file.path);
+            let stays = outputs::is_other(&place, file.bytes);
             if stays {
-                output::error(&format!("note: {} stays as it is", shown(&file.0)));
+                output::error(&format!("note: {} stays as it is", shown(&place)));
             }
             !stays
         });
     }
-    files.extend(report);
-    let own = (own, made.text.as_bytes());
-    refuse_others(arguments, files.iter().chain((!is_merged).then_some(&own)))?;
-    files.push(own);
-    Ok(output::write_files(&files)?)
-}
-
-/// An error if a file exists with different content.
-fn refuse_others<'f>(
-    arguments: &ExportArguments,
-    files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
-) -> Result<(), Failure> {
-    if !arguments.force {
-        let also = match arguments.format {
-            Target::Srdf => "; --update replaces the pairs of links in it",
-            Target::Moveit => {
-                "; --update replaces the pairs of links in the SRDF, and leaves other files as they are"
-            }
-            _ => "",
-        };
-        output::refuse_others(files, also)?;
-    }
-    Ok(())
+    files.push(Output { path: own, bytes: made.text.as_bytes(), replaces: force || is_merged });
+    let also = match arguments.format {
+        arguments::Target::Srdf => "; --update replaces the pairs of links in it",
+        arguments::Target::Moveit => {
+            "; --update replaces the pairs of links in the SRDF, and leaves other files as they are"
+        }
+        _ => "",
+    };
+    Ok(output::write_files(target, files, report, force, also)?)
 }

@@ -21,7 +21,7 @@ pub(super) fn write(arguments: &ExportArguments) -> Result<(), Failure> {
             shown(&file)
         ))?;
     }
-    output::write_file(&file, &text)?;
+    output::write_alone(&file, &text, arguments.force)?;
     let file = shown(&file);
     let text = format!("{file}: written; check the lines that begin with `# Guess`\n");
     Ok(output::print(&text)?)

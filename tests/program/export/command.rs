@@ -37,8 +37,9 @@ fn nothing_is_written_over_unless_asked() {
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
     assert_eq!(export(&["urdf", urdd_folder, "-o", "arm.urdf"]).0, 0);
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
-    let mut meshes = folder.join("arm_meshes").read_dir().expect("meshes");
-    let mesh = meshes.next().expect("a mesh").expect("a mesh").path();
+    let meshes = folder.join("arm_meshes").read_dir().expect("meshes");
+    let mut meshes = meshes.map(|mesh| mesh.expect("a mesh").path());
+    let mesh = meshes.find(|mesh| !mesh.ends_with("notes.txt")).expect("a mesh");
     std::fs::write(&mesh, "mine").expect("written");
     let (status, _, said) = export(&["urdf", urdd_folder, "-o", "arm.urdf"]);
     assert_eq!(status, 2, "{said}");
@@ -143,6 +144,7 @@ fn an_export_that_cannot_be_written_leaves_nothing() {
         let read = |file| (std::fs::read(&file).expect("a file"), file);
         files.into_iter().map(read).collect::<Vec<_>>()
     };
+    std::fs::write(out.join("arm.xml"), "mine").expect("written");
     let before = files();
     assert_eq!(export("arm.xml", "1").0, Some(2));
     assert!(files() == before);

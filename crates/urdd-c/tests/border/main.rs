@@ -1,7 +1,7 @@
 //! The C interface, as a caller in Rust.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod allocations;
 mod alone;

@@ -1,7 +1,7 @@
 //! `urdd diff` as a library: each change is named at its place, and nothing else is.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod bad_input;
 mod by_rules;

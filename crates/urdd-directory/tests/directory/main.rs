@@ -1,7 +1,7 @@
 //! JSON and YAML as text, compared with other readers.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod canonical;
 mod digest;
@@ -11,11 +11,12 @@ mod json_places;
 mod json_scan;
 mod layout;
 mod number_text;
+mod outputs;
 mod path;
 mod position;
 mod source_tree;
-mod staging_inside;
 mod string_text;
+mod temporary;
 mod text_arbitrary;
 mod text_bad_input;
 mod text_fault;

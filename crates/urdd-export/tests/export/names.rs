@@ -41,6 +41,17 @@ fn a_name_that_a_format_cannot_hold_is_an_error() {
     assert!(of(Format::Urdf, "robot", ""));
     assert!(!of(Format::Drake, "robot", ""));
     assert!(!of(Format::Drake, "link", "a::b"));
+    // Drake 1.51: `body with name 'rob:::base' not found`, and model `rob` for `::rob`.
+    for format in [Format::Drake, Format::Sdf] {
+        assert!(!of(format, "link", ":base") && !of(format, "link", ":"));
+        assert!(of(format, "link", "base:") && of(format, "link", "b:ase"));
+        assert!(
+            of(format, "joint", ":j") && of(format, "robot", ":rob") && of(format, "robot", "rob:")
+        );
+        assert!(!of(format, "robot", ":") && !of(format, "robot", "::"));
+    }
+    assert!(!of(Format::Drake, "robot", "::rob") && !of(Format::Drake, "robot", "rob::"));
+    assert!(of(Format::Drake, "robot", "r::ob"));
     assert!(check_unique(Format::Mjcf, "joint", ["a", "b"], "twice").is_ok());
     assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"], "twice").is_err());
 }

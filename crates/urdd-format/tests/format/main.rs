@@ -2,7 +2,7 @@
 //! unchanged.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod annotations;
 mod cpp_types;

@@ -1,7 +1,6 @@
 //! Stores the meshes of the parts, each file once.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -9,13 +8,16 @@ use sha2::{Digest, Sha256};
 use super::error::{CombineError, PartFault};
 use super::part::{Loaded, MeshFile};
 use super::recipe::Part;
+use crate::error::GenerateError;
 use crate::meshes::layout::common_folder;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::outputs;
+use urdd_directory::writer::Writer;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::ModuleKind;
 
-/// The meshes of all parts. Each is written to `store` after it was read, and moved to its place at the end. No more
+/// The meshes of all parts. Each is written to `store` after it was read, and put into its place at the end. No more
 /// than one mesh with its side files is in memory.
 pub(super) struct Meshes<'a> {
     /// Places below `meshes`, by the content of a mesh and the files that it references.
@@ -89,12 +91,12 @@ impl<'a> Meshes<'a> {
 
     fn store(&mut self, place: String, bytes: &[u8]) -> Result<(), CombineError> {
         let path = self.store.join(self.files.len().to_string());
-        fs::write(&path, bytes).map_err(|error| CombineError::unwritable(&path, error))?;
+        outputs::fresh(&path, bytes).map_err(|error| CombineError::unwritable(&path, error))?;
         self.files.insert(place, path);
         Ok(())
     }
 
-    /// Moves the files to where the URDF names them, below `folder`. Returns the folder that all places share, which is
+    /// Puts the files where the URDF names them, below `folder`. Returns the folder that all places share, which is
     /// left out of the names.
     ///
     /// # Errors
@@ -103,10 +105,11 @@ impl<'a> Meshes<'a> {
         let places: Vec<&Path> = self.files.keys().map(Path::new).collect();
         let shared = common_folder(&places);
         for (place, stored) in &self.files {
-            let path = folder.join(carried(place, &shared));
-            let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-            let put = made.and_then(|()| fs::rename(stored, &path));
-            put.map_err(|error| CombineError::unwritable(&path, error))?;
+            let (writer, path) = (Writer::new(folder), carried(place, &shared));
+            writer
+                .keep(stored, &path)
+                .map_err(GenerateError::from)
+                .map_err(|error| CombineError::Generate { id: None, error })?;
         }
         Ok(shared)
     }

@@ -36,6 +36,7 @@ use self::rewrite::{Rewrite, Rewritten};
 use crate::{
     Composed, GenerateError, Generated, MOST_LINKS, Progress, Settings, generate_composed,
 };
+use urdd_directory::temporary::Temporary;
 use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::Geometry;
@@ -79,8 +80,9 @@ pub fn combine(
         error: GenerateError::internal(&recipe.shown, reason),
     };
     let unwritable = CombineError::unwritable;
+    let place = std::env::temp_dir();
     let workplace =
-        tempfile::tempdir().map_err(|error| unwritable(&std::env::temp_dir(), error))?;
+        Temporary::begin(&place, "combined").map_err(|error| unwritable(&place, error))?;
     let mut notes = Vec::new();
     let parts = load_parts(recipe, workplace.path(), settings)?;
     note_parts(&parts, &mut notes);

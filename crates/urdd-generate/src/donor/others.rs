@@ -12,6 +12,7 @@ use crate::metadata::FOUND_KEY;
 use urdd_directory::digest;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_entry;
+use urdd_directory::outputs;
 use urdd_directory::root::Root;
 use urdd_directory::staging::StagingError;
 use urdd_directory::take::take;
@@ -70,16 +71,24 @@ fn merge(
         };
         let from = entry.path();
         let to = root.join(path).join(&name);
-        if entry.file_type().map_err(unread)?.is_dir() {
-            if is_of_modules(&inside) {
+        let kind = entry.file_type().map_err(unread)?;
+        if kind.is_dir() {
+            let there = fs::symlink_metadata(&to);
+            let is_free = there.as_ref().map_or(inside != ROOT_METADATA, |there| there.is_dir());
+            if is_free && is_of_modules(&inside) {
                 merge(folder, root, &inside, listed)?;
-            } else if fs::symlink_metadata(&to).is_err() {
+            } else if is_free && there.is_err() {
                 make_above(&to)?;
                 take(&from, &to)?;
             } else {
                 return Err(StagingError::InTheWay { path: from });
             }
-        } else if !is_ours(&inside, listed) {
+        } else if is_ours(&inside, listed) {
+            // A pipe, a device or a socket.
+            if !kind.is_file() && !kind.is_symlink() {
+                return Err(StagingError::InTheWay { path: from });
+            }
+        } else {
             make_above(&to)?;
             match fs::symlink_metadata(&to) {
                 Err(_) => take(&from, &to)?,
@@ -118,8 +127,7 @@ fn is_ours(path: &str, listed: &BTreeSet<String>) -> bool {
 }
 
 fn is_same(one: &Path, other: &Path) -> bool {
-    let size = |path: &Path| fs::metadata(path).map(|metadata| metadata.len()).ok();
-    size(one) == size(other) && fs::read(one).ok() == fs::read(other).ok()
+    fs::read(other).is_ok_and(|bytes| !outputs::is_other(one, &bytes))
 }
 
 /// The entries of extension modules that were carried over, with updated sizes and hashes.

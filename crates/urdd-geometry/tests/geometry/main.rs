@@ -2,7 +2,7 @@
 //! figures with other implementations on real meshes.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod across;
 mod bounding_sphere;

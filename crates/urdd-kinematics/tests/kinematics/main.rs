@@ -2,7 +2,7 @@
 //! works differently.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod closed_forms;
 mod configurations;

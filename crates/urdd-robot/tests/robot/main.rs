@@ -1,7 +1,7 @@
 //! Queries of a robot, compared with closed forms, finite differences and other methods.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod cancelled;
 mod carrying;

@@ -20,11 +20,12 @@ use super::{mjcf, sdf};
 use crate::error::SourceError;
 use crate::files::{Files, MAX_SOURCE_BYTES};
 use crate::gate::Gate;
-use crate::load::{Source, file_name, load, stem};
+use crate::load::{Source, load, stem};
+use crate::note::{Note, NoteKind};
 use crate::packages::Packages;
 use crate::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::path::portable;
+use urdd_directory::path::{self, portable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_geometry::primitives;
@@ -62,7 +63,7 @@ pub struct Imported {
 }
 
 impl Imported {
-    /// Settings by which the URDF is found in memory, at [`Imported::path`].
+    /// Settings by which the URDF is found in memory.
     ///
     /// # Errors
     /// If the files are more than memory may hold.
@@ -76,9 +77,29 @@ impl Imported {
         Ok(Settings { files, packages, allowed_folders: Vec::new(), ..settings.clone() })
     }
 
-    /// Where the URDF is in [`Imported::settings`].
-    pub fn path(&self) -> PathBuf {
-        Path::new("/").join(&self.urdf)
+    /// Reads the URDF. Errors and notes name the description, without a place: nobody has the URDF on disk. `settings` are
+    /// those of [`Imported::settings`].
+    ///
+    /// # Errors
+    /// If it is not a valid robot.
+    pub fn load(
+        &self,
+        settings: &Settings,
+        cancellation: &Cancellation,
+    ) -> Result<Source, SourceError> {
+        let source = load(&Path::new("/").join(&self.urdf), settings, cancellation);
+        let mut source = source.map_err(|error| match error {
+            SourceError::Refused { mut faults, .. } => {
+                faults.iter_mut().for_each(|fault| (fault.line, fault.column) = (0, 0));
+                SourceError::Refused { file: self.shown.clone(), faults }
+            }
+            error => error,
+        })?;
+        for note in &mut source.notes {
+            note.file.clone_from(&self.shown);
+            (note.line, note.column) = (0, 0);
+        }
+        Ok(source)
     }
 
     /// What exports need and a URDF does not say: the content of `NAME.export.toml`.
@@ -158,7 +179,7 @@ pub fn import_whole(
         load(path, settings, cancellation)?;
         return Err(SourceError::IsUrdf { file: path.display().to_string() });
     };
-    let source = load(&imported.path(), &imported.settings(settings)?, cancellation)?;
+    let source = imported.load(&imported.settings(settings)?, cancellation)?;
     Ok((imported, source))
 }
 
@@ -173,8 +194,14 @@ fn written(
     let tree = Tree::of(&model, options, gate.account());
     let tree = tree.map_err(|(place, why)| refused(placed(&model.files, place, why)))?;
     let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
-    let name = file_name(model.name.trim_start_matches(['.', '-']));
-    let base = name.strip_suffix(".urdf").unwrap_or(&name);
+    let base = match model.name.trim_start_matches(['.', '-']) {
+        "" => "robot",
+        name => name,
+    };
+    // With the longest ending that one of its files has.
+    let base = path::file_name(base, SETUP);
+    let base = base.strip_suffix(SETUP).unwrap_or(&base);
+    let name = format!("{base}.urdf");
     let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
     let text = urdf(&model, &tree, &original);
     files.insert(name.clone(), text.into_bytes().into());
@@ -204,11 +231,22 @@ fn written(
         let (_, line, column) = positions.at(place)?;
         Some(((kind, name.clone()), (Arc::clone(&shown_files[place.file]), line, column)))
     });
+    let mut report = Report::of(&model, format, &positions, &gate.all_elsewhere());
+    if base != model.name {
+        report.remarks.push(Note {
+            kind: NoteKind::Otherwise,
+            file: shown.clone(),
+            line: 0,
+            column: 0,
+            problem: "the name of the robot is not one that all file systems take".to_owned(),
+            assumed: format!("its files are named after `{base}`"),
+        });
+    }
     Ok(Imported {
         places: places.collect(),
         configurations: companions::configurations(&model, &tree),
         skips: companions::skips(&model),
-        report: Report::of(&model, format, &positions, &gate.all_elsewhere()),
+        report,
         origin: origin(format, &model.files),
         urdf: name,
         files,

@@ -1,7 +1,7 @@
 //! The tests of this crate.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod bounds;
 mod files;

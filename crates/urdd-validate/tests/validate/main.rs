@@ -2,7 +2,7 @@
 //! implementations.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod cancelled;
 mod core_rules_random;

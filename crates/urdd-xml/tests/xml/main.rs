@@ -1,7 +1,7 @@
 //! Tests of the limits and of the error messages.
 
 // A test may stop anywhere.
-#![allow(clippy::restriction)]
+#![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod growth;
 mod writer;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use urdd_directory::account::Charged;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::path::portable;
+use urdd_directory::path::file_name;
 use urdd_directory::read_error::ReadError;
 
 use super::super::fault::ImportFault;
@@ -122,7 +122,7 @@ impl<'f> Assets<'f> {
         }
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
         let (stem, extension) = file.rsplit_once('.').unwrap_or((file, ""));
-        let stem = portable(stem);
+        let stem = file_name(stem, "");
         let too_much = |why| at(place, why);
         let free = self.names.free(&format!("{folder}/{}", stem.to_lowercase()));
         let free = free.map_err(too_much)?;

@@ -15,6 +15,7 @@ use super::part::Parts;
 use crate::gate::Gate;
 use crate::inspect::Inspected;
 use crate::resolve::FoundMesh;
+use urdd_directory::path::file_name;
 
 /// The files.
 #[derive(Debug, Default)]
@@ -122,8 +123,8 @@ impl Assets {
         let top = common(group.iter().map(|(path, _)| path.as_path()));
         let base = self.base(&top, group.iter().map(|(path, _)| path.as_path()));
         let mut first = None;
-        for (path, bytes) in group {
-            let written = written(&base, &top, &path);
+        for (number, (path, bytes)) in group.into_iter().enumerate() {
+            let written = written(&base, &top, &path, number == 0);
             let is_there = self.taken.contains_key(&written.to_lowercase());
             let known = self.known.get(&path).copied().filter(|_| is_there);
             let index = known.map_or_else(|| self.push(gate, path, written, bytes), Ok)?;
@@ -135,8 +136,9 @@ impl Assets {
     /// The folder for files below another, in which no path is taken by another file.
     fn base<'p>(&mut self, top: &Path, group: impl Iterator<Item = &'p Path> + Clone) -> String {
         let is_free = |base: &str| {
-            group.clone().all(|path| {
-                let taken = self.taken.get(&written(base, top, path).to_lowercase());
+            group.clone().enumerate().all(|(number, path)| {
+                let written = written(base, top, path, number == 0);
+                let taken = self.taken.get(&written.to_lowercase());
                 taken.is_none_or(|taken| taken == path)
             })
         };
@@ -218,12 +220,18 @@ fn common<'p>(paths: impl Iterator<Item = &'p Path>) -> PathBuf {
     common.unwrap_or_default().iter().collect()
 }
 
-/// The path of a file below the URDF, with forward slashes.
-fn written(base: &str, top: &Path, path: &Path) -> String {
+/// The path of a file below the URDF, with forward slashes. The first of a group is named by the URDF alone, so that its
+/// name can be one for every file system. The first names the others, which keep their names.
+fn written(base: &str, top: &Path, path: &Path, is_first: bool) -> String {
     let below = path.strip_prefix(top).unwrap_or(path).components();
     let parts = below.filter_map(|part| match part {
         Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
         _ => None,
     });
-    parts.fold(base.to_owned(), |path, part| format!("{path}/{part}"))
+    let mut parts: Vec<String> = [base.to_owned()].into_iter().chain(parts).collect();
+    if let Some(name) = parts.last_mut().filter(|_| is_first) {
+        let (stem, ending) = name.split_at(name.rfind('.').unwrap_or(name.len()));
+        *name = file_name(stem, ending);
+    }
+    parts.join("/")
 }
