@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 
 use super::error::{XmlError, text_pos};
-use super::limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NAMESPACE_BYTES, MAX_PREFIXES};
+use super::limits::{Kind, MAX_ATTRIBUTES, MAX_COMPARED_BYTES, MAX_LEVELS, MAX_PREFIXES};
 use super::markup::{self, MarkupKind};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
 pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     let mut prefixes: HashSet<&[u8]> = HashSet::new();
     let (mut levels, mut elements) = (0_usize, 0_usize);
+    let (mut longest, mut compared) = (0_usize, 0_usize);
     let mut at = 0;
     while let Some(markup) = markup::next(text, at) {
         let end = markup.end.unwrap_or(text.len());
@@ -25,12 +26,15 @@ pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
             }
             MarkupKind::Declaration | MarkupKind::Tag => {}
         }
-        let (attributes, longest) = count_attributes(inside, &mut prefixes);
+        let Attributes { attributes, prefixed, namespace } =
+            count_attributes(inside, &mut prefixes);
         if attributes > MAX_ATTRIBUTES {
             return Err(too_many("attributes of one element", MAX_ATTRIBUTES));
         }
-        if longest > MAX_NAMESPACE_BYTES {
-            return Err(too_many("bytes in a namespace", MAX_NAMESPACE_BYTES));
+        longest = longest.max(namespace);
+        compared = compared.saturating_add(longest.saturating_mul(prefixed * prefixed));
+        if compared > MAX_COMPARED_BYTES {
+            return Err(too_many("bytes of namespaces to compare", MAX_COMPARED_BYTES));
         }
         if prefixes.len() > MAX_PREFIXES {
             return Err(too_many("prefixes of namespaces", MAX_PREFIXES));
@@ -54,10 +58,20 @@ pub fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     Ok(())
 }
 
-/// The number of `=` outside quotes in a tag, at most one more than [`MAX_ATTRIBUTES`], and the length of the longest
-/// namespace. Adds the names between `xmlns:` and such a `=` to `prefixes`.
-fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> (usize, usize) {
-    let (mut count, mut longest) = (0, 0);
+/// What is counted in a tag.
+#[derive(Default)]
+struct Attributes {
+    /// The `=` outside quotes, at most one more than [`MAX_ATTRIBUTES`].
+    attributes: usize,
+    /// Those of names with a prefix that are no declarations of one.
+    prefixed: usize,
+    /// The length of the longest namespace that is declared, bytes.
+    namespace: usize,
+}
+
+/// Counts in a tag. Adds the names between `xmlns:` and such a `=` to `prefixes`.
+fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> Attributes {
+    let mut found = Attributes::default();
     let mut quote = None;
     // Start of the last word or value, and whether the word has ended.
     let (mut word, mut ended) = (1, false);
@@ -66,25 +80,26 @@ fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> (usi
     for (at, byte) in tag.iter().enumerate().skip(1) {
         match (quote, byte) {
             (Some(open), byte) if *byte == open => {
-                longest = longest.max(if declares { at - word } else { 0 });
+                found.namespace = found.namespace.max(if declares { at - word } else { 0 });
                 (quote, ended) = (None, true);
             }
             (Some(_), _) => {}
             (None, b'"' | b'\'') => (quote, word) = (Some(*byte), at + 1),
             (None, b'=') => {
-                count += 1;
+                found.attributes += 1;
                 let name = tag[word..at].trim_ascii();
                 prefixes.extend(name.strip_prefix(b"xmlns:"));
                 declares = name == b"xmlns" || name.starts_with(b"xmlns:");
+                found.prefixed += usize::from(!declares && name.contains(&b':'));
                 ended = true;
             }
             (None, _) if byte.is_ascii_whitespace() => ended = true,
             (None, _) if ended => (word, ended) = (at, false),
             (None, _) => {}
         }
-        if count > MAX_ATTRIBUTES {
+        if found.attributes > MAX_ATTRIBUTES {
             break;
         }
     }
-    (count, longest)
+    found
 }

@@ -27,10 +27,7 @@ pub mod writer;
 pub use declaration::wrong_version;
 pub use document::{Counted, Document, parse};
 pub use error::XmlError;
-pub use limits::{
-    Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NAMESPACE_BYTES, MAX_NODES, MAX_PREFIXES,
-    MAX_ROBOT_ELEMENTS,
-};
+pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
 pub use markup::root_name;
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};

@@ -16,8 +16,9 @@ pub const MAX_ATTRIBUTES: usize = 256;
 /// Maximum number of namespace prefixes of a document; real ones have up to 10.
 pub const MAX_PREFIXES: usize = 64;
 
-/// Maximum length of a namespace, bytes as they are written; real ones have up to 100.
-pub const MAX_NAMESPACE_BYTES: usize = 1_024;
+/// Maximum number of bytes of namespaces that are compared: the parser compares the attributes of an element that have a
+/// prefix with one another. Real documents have up to a million.
+pub(super) const MAX_COMPARED_BYTES: usize = 1 << 30;
 
 /// The kind of document to parse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -51,11 +51,6 @@ fn prefixes(f: &mut Fixture, prefixes: f64) {
     in_limit(f, &format!("<a xmlns:p0=\"m\"/>{all}"));
 }
 
-/// A namespace of as many bytes.
-fn namespace(f: &mut Fixture, bytes: f64) {
-    in_limit(f, &format!("<a xmlns:p=\"{}\"/>", "n".repeat(bytes as usize)));
-}
-
 /// A URDF of as many bytes: spaces at its end.
 fn bytes(f: &mut Fixture, bytes: f64) {
     f.urdf_mut(|xml| {
@@ -164,13 +159,6 @@ pub fn numbers() -> Vec<Number> {
             vec![count(URD011, small, prefixes, 64.0)],
         ),
         number(
-            "urdf-namespace",
-            "6.1.8",
-            "1,024 bytes | one namespace",
-            ("1,024", 1_024.0),
-            vec![count(URD011, small, namespace, 1_024.0)],
-        ),
-        number(
             "slug",
             "7.3",
             "cut to 64 characters",
@@ -261,7 +249,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "collada-limits",
             "13.2",
-            "a COLLADA file with more than 256 levels, 4,000,000 nodes (elements, texts, comments and instructions), 256 attributes of one element, 64 prefixes, 1,024 bytes of a namespace",
+            "a COLLADA file with more than 256 levels, 4,000,000 nodes (elements, texts, comments and instructions), 256 attributes of one element, 64 prefixes",
             ("256", 256.0),
             vec![Sides::Elsewhere("crates/urdd-xml tests the limits of both kinds of XML")],
         ),
