@@ -6,6 +6,9 @@ use nalgebra::Vector3;
 
 use urdd_geometry::hull::ConvexHull;
 
+/// Number of points of which the hull takes the place: of more, memory would be taken for each.
+const MANY: usize = 200_000;
+
 /// A convex hull with a volume.
 #[derive(Debug, Clone)]
 pub struct Hull {
@@ -21,8 +24,7 @@ pub struct Hull {
 impl Hull {
     /// The hull of points; `None` if they span no volume.
     pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
-        let points: Vec<[f64; 3]> = points.map(Into::into).collect();
-        let hull = ConvexHull::new(&points).ok().filter(|hull| !hull.is_flat())?;
+        let hull = ConvexHull::new(&corners(points)).ok().filter(|hull| !hull.is_flat())?;
         let mesh = hull.into_mesh();
         let corners: Vec<Vector3<f64>> = mesh.vertices.iter().copied().map(Vector3::from).collect();
         let triangles: Vec<[usize; 3]> =
@@ -82,4 +84,19 @@ impl Hull {
         }
         2.0 * (second / volume - (first / volume).norm_squared())
     }
+}
+
+/// Points with the convex hull of these: all of them, or the corners of the hulls of very many.
+fn corners(points: impl Iterator<Item = Vector3<f64>>) -> Vec<[f64; 3]> {
+    let (mut kept, mut most) = (Vec::new(), MANY);
+    for point in points {
+        kept.push(point.into());
+        if kept.len() >= most {
+            if let Ok(hull) = ConvexHull::new(&kept) {
+                kept = hull.into_mesh().vertices;
+            }
+            most = MANY.max(2 * kept.len());
+        }
+    }
+    kept
 }

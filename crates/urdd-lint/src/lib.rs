@@ -20,7 +20,6 @@ mod imports;
 pub mod inertial;
 mod named_file;
 mod namespaces;
-mod offset;
 pub mod pose;
 mod primitives;
 mod programs;

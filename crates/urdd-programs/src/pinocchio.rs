@@ -9,6 +9,7 @@ use crate::fault::{FORMAT, Fault};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
+use crate::part::Part;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
 use crate::unknown::Names;
@@ -89,7 +90,7 @@ impl Reader<'_> {
                 }
                 if !reached.insert(link) {
                     let fault = Fault::Tree("a link is the child of two joints");
-                    self.effects.read_as(joint.node, format!("link/{link}"), fault, "two links");
+                    self.effects.read_as(joint.node, Part::of("link", link), fault, "two links");
                     continue;
                 }
             }
@@ -110,11 +111,11 @@ impl Reader<'_> {
     fn unreached(&mut self, model: &Model<'_>, reached: &HashSet<&str>) {
         let fault = Fault::Tree("it is in a loop, which the root does not reach");
         for (name, link) in model.links.iter().filter(|(name, _)| !reached.contains(*name)) {
-            self.effects.drop(link.node, format!("link/{name}"), fault.clone());
+            self.effects.drop(link.node, Part::of("link", name), fault.clone());
         }
         for (name, joint) in &model.joints {
             if !reached.contains(joint.child) {
-                self.effects.drop(joint.node, format!("joint/{name}"), fault.clone());
+                self.effects.drop(joint.node, Part::of("joint", name), fault.clone());
             }
         }
     }
@@ -143,14 +144,14 @@ impl Reader<'_> {
     fn unread(&mut self, joint: &Joint<'_>, name: &str) {
         for unread in ["mimic", "safety_controller", "calibration"] {
             if let Some(found) = joint.node.child(unread) {
-                let part = format!("joint/{name}/{unread}");
+                let part = Part::of("joint", name).inside(unread);
                 self.effects.drop(found, part, Fault::NeverRead(unread.into()));
             }
         }
         let axis = joint.node.child("axis");
         let xyz = axis.map(|axis| axis.value("xyz").unwrap_or_default());
         let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
-        let (at, part) = (axis.unwrap_or(joint.node), format!("joint/{name}/axis"));
+        let (at, part) = (axis.unwrap_or(joint.node), Part::of("joint", name).inside("axis"));
         match joint.kind {
             "planar" => {
                 self.limits(joint, name);
@@ -174,7 +175,7 @@ impl Reader<'_> {
     fn limits(&mut self, joint: &Joint<'_>, name: &str) {
         for unread in ["limit", "dynamics"] {
             if let Some(found) = joint.node.child(unread) {
-                let part = format!("joint/{name}/{unread}");
+                let part = Part::of("joint", name).inside(unread);
                 self.effects.drop(found, part, Fault::NeverRead(unread.into()));
             }
         }
@@ -192,7 +193,11 @@ impl Reader<'_> {
         if !is_all {
             for (index, shape) in link.node.named(kind).take(kept).enumerate() {
                 let fault = Fault::Way("another one of the link is faulty");
-                self.effects.drop(shape, format!("link/{name}/{kind}/{index}"), fault);
+                self.effects.drop(
+                    shape,
+                    Part::of("link", name).inside(format_args!("{kind}/{index}")),
+                    fault,
+                );
             }
             return Ok(());
         }
@@ -215,7 +220,7 @@ impl Reader<'_> {
                     let fault = Fault::NotFound("texture");
                     self.effects.drop(
                         image,
-                        format!("link/{link_name}/visual/{index}/material"),
+                        Part::of("link", link_name).inside(format_args!("visual/{index}/material")),
                         fault,
                     );
                 }

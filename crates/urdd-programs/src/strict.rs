@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use roxmltree::{Document, Error, Node, ParsingOptions, StringStorage, TextPos};
+use urdd_format::short;
 
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree};
 
@@ -200,7 +201,7 @@ fn element<'a>(node: Node<'_, 'a>, names: Names, text: &'a str) -> Option<Elemen
 
 fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {
     match namespace {
-        Some(namespace) => format!("{{{namespace}}}{name}").into(),
+        Some(namespace) => format!("{{{}}}{name}", short::name(namespace)).into(),
         None => name.into(),
     }
 }

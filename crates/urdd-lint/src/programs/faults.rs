@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use urdd_programs::{Deed, Fault, Program};
+use urdd_programs::{Deed, Fault, Part, Program};
 
 use super::answers::Answer;
 
@@ -25,7 +25,7 @@ pub struct Said {
     pub is_chosen: bool,
     pub deed: Deed,
     /// What is lost or read otherwise; empty for the whole file.
-    pub part: String,
+    pub part: Part,
     /// What it makes of the part.
     pub makes: Option<String>,
 }

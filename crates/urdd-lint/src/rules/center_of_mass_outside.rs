@@ -39,7 +39,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let points = body.in_frame(&bodies.pose[index]);
-        let size = diagonal(points.iter().copied());
+        let size = diagonal(points);
         let center = bodies.pose[index].transform_point(&Point3::from(inertial.center));
         let beyond = hull.outside(&center.coords);
         if inertial.mass > DENSE * hull.volume || beyond <= PART * size + MARGIN {

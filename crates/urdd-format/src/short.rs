@@ -1,0 +1,75 @@
+//! Text of a file in a message or report: few bytes, however long it is there and however often it is quoted.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::Deref;
+
+/// Text of a file as a message quotes it: at most 60 characters, and `…` where there are more.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Short(Box<str>);
+
+/// Maximum number of characters of a [`Short`].
+const LONGEST: usize = 60;
+/// Maximum number of bytes of a [`name`], and of characters where it has more.
+const LONGEST_NAME: usize = 250;
+
+impl Short {
+    /// Of this text.
+    pub fn of(text: &str) -> Self {
+        Short(cut(text, LONGEST).into())
+    }
+}
+
+impl From<&str> for Short {
+    fn from(text: &str) -> Self {
+        Short::of(text)
+    }
+}
+
+impl Deref for Short {
+    type Target = str;
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.0)
+    }
+}
+
+impl fmt::Debug for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&*self.0, f)
+    }
+}
+
+/// A name as reports have it: as it is, up to 250 bytes; of a longer one, its beginning and `…`.
+pub fn name(name: &str) -> Cow<'_, str> {
+    if name.len() <= LONGEST_NAME { name.into() } else { cut(name, LONGEST_NAME) }
+}
+
+fn cut(text: &str, longest: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(longest) {
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+        None => text.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_text_is_cut_between_characters() {
+        for (length, is_cut) in [(0, false), (60, false), (61, true), (1_000_000, true)] {
+            let short = Short::of(&"é".repeat(length));
+            assert_eq!(short.ends_with('…'), is_cut, "{length}");
+            assert_eq!(short.chars().count(), length.min(60) + usize::from(is_cut));
+        }
+        let ordinary = "n".repeat(250);
+        assert_eq!(name(&ordinary), ordinary);
+        assert_eq!(name(&"n".repeat(40_000)).chars().count(), 251);
+    }
+}
