@@ -225,7 +225,7 @@ OTHERS: dict[str, Callable[[int], Files]] = {
 COMMANDS = {
     "lint": ["lint", "FILE", "--format", "json"],
     "validate": ["validate", "FILE", "--format", "json"],
-    "generate": ["generate", "--modules", "core", "--no-progress", "FILE", "-o", "out"],
+    "generate": ["generate", "--modules", "core", "FILE", "-o", "out"],
     "import": ["import", "FILE", "-o", "out"],
 }
 #: The largest input, bytes, and the longest run, seconds.

@@ -9,9 +9,11 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::error::ExportError;
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
+use urdd_robot::{Robot, ShapeKind, Skips};
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,16 +100,28 @@ fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
     reasons.iter().any(|one| one.of_pair() == reason)
 }
 
+/// Charges what is written of pairs: two names for each, of which a URDD has numbers. Names may be long.
+fn charge(skips: &Skips, names: &[String]) -> Result<(), Overdrawn> {
+    /// In memory, in elements and in the text.
+    const COPIES: usize = 4;
+    let places = skips.places();
+    let of_shapes = places.iter().map(|(link, _)| names[*link].len()).sum::<usize>();
+    let account = Account::default();
+    account.deposit(of_shapes + places.len() * places.len());
+    account.charge(of_shapes.saturating_mul(places.len()).saturating_mul(COPIES))
+}
+
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
 pub(super) fn pairs(
     robot: &Robot,
     kind: ShapeKind,
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, RobotError> {
+) -> Result<Vec<LinkPair>, ExportError> {
     let skips = robot.skips(kind)?;
     let links = robot.description()?.links.into_iter();
     let names: Vec<String> = links.map(|link| link.name).collect();
+    charge(&skips, &names)?;
     let decision = Decision::new(&skips, &names, reasons);
     let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();

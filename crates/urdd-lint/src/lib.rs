@@ -21,7 +21,8 @@ pub mod inertial;
 mod named_file;
 mod namespaces;
 pub mod pose;
-mod primitives;
+#[doc(hidden)]
+pub mod primitives;
 mod programs;
 mod rule;
 pub mod rules;

@@ -1,4 +1,5 @@
 use std::cell::LazyCell;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
@@ -51,7 +52,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         }
     }
     let above = |top: usize| bodies.tree.parent_link[top].map(|parent| bodies.top[parent]);
-    let disabled = srdf::disabled_pairs(urdf);
+    let links: HashMap<&str, usize> =
+        robot.links.iter().enumerate().map(|(index, link)| (link.name.as_str(), index)).collect();
+    let disabled = srdf::disabled_pairs(urdf).into_iter().filter_map(|(a, b)| {
+        let (a, b) = (*links.get(a.as_str())?, *links.get(b.as_str())?);
+        Some((a.min(b), a.max(b)))
+    });
+    let disabled: HashSet<(usize, usize)> = disabled.collect();
     let mut worst: Option<(f64, usize, usize)> = None;
     let mut pairs = BTreeSet::new();
     let mut compared = 0;
@@ -62,10 +69,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 top_a == top_b || above(top_a) == Some(top_b) || above(top_b) == Some(top_a);
             let is_apart =
                 (0..3).any(|axis| low_a[axis] > high_b[axis] || low_b[axis] > high_a[axis]);
-            if is_near
-                || is_apart
-                || disabled.contains(&pair(&robot.links[*a].name, &robot.links[*b].name))
-            {
+            if is_near || is_apart || disabled.contains(&(*a.min(b), *a.max(b))) {
                 continue;
             }
             compared += 1;
@@ -103,9 +107,4 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let node = child(urdf.links[a], "collision").unwrap_or(urdf.links[a]);
     urdf.at(node, message).report(findings);
     Some(())
-}
-
-/// Two names in order.
-fn pair(a: &str, b: &str) -> (String, String) {
-    (a.min(b).to_owned(), a.max(b).to_owned())
 }
