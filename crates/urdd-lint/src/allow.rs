@@ -3,20 +3,20 @@
 //! A comment stands for the element that follows it, with all that is in it; before `<robot>`, for the whole file; and
 //! behind an element on the same line, for that element.
 
-use std::cmp::Reverse;
-use std::collections::{HashMap, HashSet};
 use std::str::FromStr;
 
-use roxmltree::{Document, Node, NodeId};
+use roxmltree::{Document, Node};
 
 use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;
 use urdd_findings::check::{Check, Outcome};
-use urdd_findings::code::Code;
 use urdd_findings::places::retain;
 use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::report::StaleIgnore;
+
+/// Maximum number of comments and texts between a comment and its element.
+const MOST_BETWEEN: usize = 200;
 
 struct Allow {
     written: String,
@@ -24,7 +24,7 @@ struct Allow {
     codes: Option<Codes>,
     /// The comment's line.
     line: u32,
-    /// The first position of what it stands for, and the first behind it.
+    /// The first and the last position of what it stands for.
     from: Position,
     to: Position,
     is_used: bool,
@@ -36,12 +36,25 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
     for check in checks.iter_mut().filter(|check| !check.findings.is_empty()) {
         let code = check.rule.code;
         let reason = SkipReason::Ignored("a comment in the file allows it".to_owned());
-        let mut ranges = Ranges::of(&allows, code);
-        retain(check, reason, |_, place| !at(place).is_some_and(|at| ranges.hold(at)));
-        let used = ranges.used();
-        for allow in allows.iter_mut().filter(|allow| allow.is_of(code)) {
-            allow.is_used |= used.contains(&(allow.from, allow.to));
+        let mut places: Vec<Position> = check.said().filter_map(|(place, _)| at(place)).collect();
+        places.sort_unstable();
+        // Where each begins, and the farthest end of those that begin before.
+        let mut ranges = Vec::new();
+        let is_of = |allow: &&mut Allow| allow.codes.is_some_and(|codes| codes.holds(code));
+        for allow in allows.iter_mut().filter(is_of) {
+            let first = places.partition_point(|at| *at < allow.from);
+            allow.is_used |= places.get(first).is_some_and(|at| *at <= allow.to);
+            ranges.push((allow.from, allow.to));
         }
+        ranges.sort_unstable();
+        for index in 1..ranges.len() {
+            ranges[index].1 = ranges[index].1.max(ranges[index - 1].1);
+        }
+        let is_inside = |at: Position| {
+            let before = ranges.partition_point(|(from, _)| *from <= at).checked_sub(1);
+            before.is_some_and(|last| at <= ranges[last].1)
+        };
+        retain(check, reason, |_, place| !at(place).is_some_and(is_inside));
     }
     // What a rule that did not run would have found is not known.
     let ran = |codes: Codes| {
@@ -59,68 +72,6 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
         .collect()
 }
 
-impl Allow {
-    fn is_of(&self, code: Code) -> bool {
-        self.codes.is_some_and(|codes| codes.holds(code))
-    }
-}
-
-/// What comments stand for that allow a rule, in order. Each is apart from the others, or inside of some.
-struct Ranges(Vec<Stretch>);
-
-struct Stretch {
-    from: Position,
-    /// The first position behind it.
-    to: Position,
-    /// The smallest of the others that it is in.
-    around: Option<usize>,
-    is_used: bool,
-}
-
-impl Ranges {
-    fn of(allows: &[Allow], code: Code) -> Self {
-        let these = allows.iter().filter(|allow| allow.is_of(code));
-        let mut these: Vec<_> = these.map(|allow| (allow.from, Reverse(allow.to))).collect();
-        these.sort_unstable();
-        these.dedup();
-        let mut all: Vec<Stretch> = Vec::new();
-        for (from, Reverse(to)) in these {
-            let mut around = all.len().checked_sub(1);
-            while let Some(other) = around.filter(|other| all[*other].to <= from) {
-                around = all[other].around;
-            }
-            all.push(Stretch { from, to, around, is_used: false });
-        }
-        Ranges(all)
-    }
-
-    /// Whether one of them has a place; it is used then.
-    fn hold(&mut self, at: Position) -> bool {
-        let mut last = self.0.partition_point(|one| one.from <= at).checked_sub(1);
-        while let Some(one) = last {
-            if at < self.0[one].to {
-                self.0[one].is_used = true;
-                return true;
-            }
-            last = self.0[one].around;
-        }
-        false
-    }
-
-    /// Those that are used, with those around them.
-    fn used(mut self) -> HashSet<(Position, Position)> {
-        for one in (0..self.0.len()).rev().filter(|one| self.0[*one].is_used).collect::<Vec<_>>() {
-            let mut around = self.0[one].around;
-            while let Some(other) = around.filter(|other| !self.0[*other].is_used) {
-                self.0[other].is_used = true;
-                around = self.0[other].around;
-            }
-        }
-        let used = self.0.iter().filter(|one| one.is_used);
-        used.map(|one| (one.from, one.to)).collect()
-    }
-}
-
 fn allows(document: &Document) -> Vec<Allow> {
     let nodes = document.descendants().filter(Node::is_comment);
     let comments: Vec<_> = nodes.filter_map(|node| Some((node, codes_of(node.text()?)?))).collect();
@@ -129,12 +80,13 @@ fn allows(document: &Document) -> Vec<Allow> {
     }
     let lines = LineIndex::new(document.input_text());
     let mut allows = Vec::new();
-    let beside = Beside::of(comments.iter().map(|(comment, _)| *comment));
     for (comment, codes) in comments {
         let start = lines.position(comment.range().start);
         let ends_on_this_line = |node: &Node| lines.position(node.range().end).line == start.line;
-        let before = beside.before[&comment.id()].filter(ends_on_this_line);
-        let Some(element) = before.or(beside.after[&comment.id()]) else {
+        let element = |node: &Node| node.is_element();
+        let before = comment.prev_siblings().skip(1).take(MOST_BETWEEN).find(element);
+        let after = || comment.next_siblings().skip(1).take(MOST_BETWEEN).find(element);
+        let Some(element) = before.filter(ends_on_this_line).or_else(after) else {
             continue;
         };
         let range = element.range();
@@ -148,32 +100,6 @@ fn allows(document: &Document) -> Vec<Allow> {
         }));
     }
     allows
-}
-
-/// The elements beside comments: found once for many comments in a row.
-struct Beside<'a> {
-    before: HashMap<NodeId, Option<Node<'a, 'a>>>,
-    after: HashMap<NodeId, Option<Node<'a, 'a>>>,
-}
-
-impl<'a> Beside<'a> {
-    /// Of comments in the order of the document.
-    fn of(comments: impl DoubleEndedIterator<Item = Node<'a, 'a>> + Clone) -> Self {
-        type Known<'a> = HashMap<NodeId, Option<Node<'a, 'a>>>;
-        let find = |known: &Known<'a>, next: fn(&Node<'a, 'a>) -> Option<Node<'a, 'a>>, comment| {
-            let mut all = std::iter::successors(next(&comment), next);
-            let found = all.find(|node| node.is_element() || known.contains_key(&node.id()))?;
-            known.get(&found.id()).copied().unwrap_or(Some(found))
-        };
-        let (mut before, mut after) = (Known::new(), Known::new());
-        for comment in comments.clone() {
-            before.insert(comment.id(), find(&before, Node::prev_sibling, comment));
-        }
-        for comment in comments.rev() {
-            after.insert(comment.id(), find(&after, Node::next_sibling, comment));
-        }
-        Beside { before, after }
-    }
 }
 
 /// The codes that a comment allows; `None` if it is another comment.

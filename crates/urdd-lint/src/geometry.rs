@@ -80,9 +80,6 @@ pub struct Shapes {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
-    /// The hull of a body's shapes; `None` if they span no volume, or one is missing. It is not computed for
-    /// links.
-    pub hull: Option<Hull>,
 }
 
 /// A visual or collision element's shape.
@@ -106,20 +103,38 @@ impl Shape {
 
     /// Points whose convex hull is that of the shape, m.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
-        let place = |corner: Vector3<f64>, pose: &Isometry3<f64>| {
-            pose.transform_point(&Point3::from(corner)).coords
-        };
         let scaled = self.solid.corners.iter().map(|corner| corner.component_mul(&self.scale));
-        scaled.map(move |corner| self.poses.iter().fold(corner, place))
+        scaled.map(|corner| self.place(corner))
+    }
+
+    fn place(&self, corner: Vector3<f64>) -> Vector3<f64> {
+        let place = |corner, pose: &Isometry3<f64>| pose.transform_point(&corner);
+        self.poses.iter().fold(Point3::from(corner), place).coords
     }
 
     /// The volume of their convex hull, m³.
     pub fn volume(&self) -> f64 {
-        self.solid.volume * self.scale.product().abs()
+        self.solid.hull.as_ref().map_or(0.0, |hull| hull.volume * self.scale.product().abs())
+    }
+
+    fn is_like(&self, other: &Shape) -> bool {
+        let is_same = self.scale == other.scale && self.poses == other.poses;
+        is_same && Arc::ptr_eq(&self.solid, &other.solid)
     }
 }
 
 impl Shapes {
+    /// The convex hull of all shapes; `None` if they span no volume. It is not kept: each would take some 100 kB.
+    pub fn hull(&self) -> Option<Hull> {
+        match &self.shapes[..] {
+            [first, others @ ..] if others.iter().all(|other| other.is_like(first)) => {
+                let hull = first.solid.hull.as_ref()?;
+                hull.mapped(&first.scale, |corner| first.place(corner))
+            }
+            _ => Hull::of(self.corners()),
+        }
+    }
+
     /// Whether one of the shapes is turned, as in [`Shape::is_turned`].
     pub fn is_turned(&self) -> bool {
         self.shapes.iter().any(|shape| shape.is_turned)
@@ -274,8 +289,5 @@ fn of_body(top: usize, robot: &Robot, bodies: &Bodies, links: &[Shapes]) -> Shap
         inertials += usize::from(robot.links[link].inertial.is_some());
     }
     body.is_partial |= corners.saturating_mul(inertials) > MAX_COMPARED;
-    if !body.is_partial {
-        body.hull = Hull::of(body.corners());
-    }
     body
 }

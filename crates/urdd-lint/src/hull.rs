@@ -26,17 +26,39 @@ impl Hull {
     pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
         let hull = ConvexHull::new(&corners(points)).ok().filter(|hull| !hull.is_flat())?;
         let mesh = hull.into_mesh();
-        let corners: Vec<Vector3<f64>> = mesh.vertices.iter().copied().map(Vector3::from).collect();
-        let triangles: Vec<[usize; 3]> =
-            mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
+        let triangles = mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
+        Hull::new(mesh.vertices.into_iter().map(Vector3::from).collect(), triangles)
+    }
+
+    /// Of its corners and triangles; `None` without a volume.
+    fn new(corners: Vec<Vector3<f64>>, triangles: Vec<[usize; 3]>) -> Option<Self> {
+        let origin = corners[triangles.first()?[0]];
+        let volume = triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|index| corners[index] - origin);
+            a.dot(&b.cross(&c)) / 6.0
+        });
+        let volume: f64 = volume.sum();
         let planes = triangles.iter().filter_map(|&[a, b, c]| {
             let (a, b, c) = (corners[a], corners[b], corners[c]);
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
             Some((normal, normal.dot(&a)))
         });
         let planes = planes.collect();
-        let volume = mesh.signed_volume();
         (volume > 0.0).then_some(Hull { corners, triangles, planes, volume })
+    }
+
+    /// The hull, scaled along each axis and then placed.
+    pub fn mapped(
+        &self,
+        scale: &Vector3<f64>,
+        place: impl Fn(Vector3<f64>) -> Vector3<f64>,
+    ) -> Option<Self> {
+        let corners = self.corners.iter().map(|corner| place(corner.component_mul(scale)));
+        let mut triangles = self.triangles.clone();
+        if scale.product() < 0.0 {
+            triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        Hull::new(corners.collect(), triangles)
     }
 
     /// The hull of points, or of the farthest of them in as many directions: one with many corners takes long to compare, and

@@ -17,15 +17,15 @@ const RINGS: usize = 17;
 #[derive(Debug)]
 pub struct Solid {
     pub corners: Vec<Vector3<f64>>,
-    /// The volume of their convex hull; 0 if they span none.
-    pub volume: f64,
+    /// Their convex hull; `None` if they span no volume.
+    pub hull: Option<Hull>,
 }
 
 impl Solid {
     /// Of a convex hull's corners.
     pub fn of(corners: Vec<Vector3<f64>>) -> Arc<Self> {
-        let volume = Hull::of(corners.iter().copied()).map_or(0.0, |hull| hull.volume);
-        Arc::new(Solid { corners, volume })
+        let hull = Hull::of(corners.iter().copied());
+        Arc::new(Solid { corners, hull })
     }
 }
 

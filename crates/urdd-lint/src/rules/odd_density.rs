@@ -28,7 +28,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
         let mass_of = |link: usize| mass(&robot.links[link]);
         let mass: f64 = bodies.members(top).filter_map(mass_of).sum();
-        let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
+        let Some(hull) = (mass > 0.0).then(|| body.hull()).flatten() else {
             continue;
         };
         // Each shape by itself, so that an L is not filled; the smaller of what is seen and what collides.

@@ -10,7 +10,7 @@ use urdd_lint::primitives::solid;
 fn shapes_share_their_points_and_have_their_volume() {
     let volume = |shape: &Geometry| {
         let (solid, scale) = solid(shape).expect("no mesh");
-        solid.volume * scale.product()
+        solid.hull.as_ref().expect("a volume").volume * scale.product()
     };
     let of_box = Geometry::Box(Cuboid { size: [2.0, 3.0, 5.0] });
     assert!((volume(&of_box) - 30.0).abs() < 1e-12);
