@@ -25,9 +25,10 @@ impl Asked {
     pub fn about(bytes: &[u8], text: &str, folder: &Path, settings: &LintSettings) -> Self {
         let answers = answers::ask(bytes, folder, settings);
         let encoding = Encoding::of(bytes, text);
+        let results = answers::results(&answers, &encoding, text);
         Asked {
-            results: answers::results(&answers, &encoding, text),
-            faults: faults(&answers, bytes),
+            results,
+            faults: faults(answers, bytes),
             has_chosen: !settings.report.programs.is_empty(),
             encoding,
         }
