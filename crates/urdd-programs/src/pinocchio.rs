@@ -202,13 +202,21 @@ impl Reader<'_> {
             return Ok(());
         }
         let link_name = name;
+        let [capsules, convex] = ["capsule", "convex"].map(|kind| Entries::of(link.node, kind));
         for (index, shape) in link.node.named(kind).enumerate() {
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             let Some(form) = form else { continue };
             if form.name() == "mesh" {
                 self.mesh(form)?;
             }
-            self.checking(link.node, shape, form.name())?;
+            let unnamed = match form.name() {
+                "cylinder" => capsules.unnamed(shape),
+                "mesh" => convex.unnamed(shape),
+                _ => None,
+            };
+            if let Some(entry) = unnamed {
+                return self.effects.refuse(entry, Fault::Missing("name"));
+            }
             let own = shape.child("material").filter(|_| kind == "visual");
             let name = own.and_then(|material| material.value("name")).unwrap_or_default();
             let material = materials.get(name).copied().or(own.filter(|_| name.is_empty()));
@@ -262,23 +270,28 @@ impl Reader<'_> {
         };
         self.effects.refuse(filename, fault)
     }
+}
 
-    /// Pinocchio's own `<collision_checking>`: entries are looked through until one names the shape.
-    fn checking(&mut self, link: Node<'_>, shape: Node<'_>, form: &str) -> Reading<()> {
-        let wanted = match form {
-            "cylinder" => "capsule",
-            "mesh" => "convex",
-            _ => return Ok(()),
-        };
-        let Some(checking) = link.child("collision_checking") else { return Ok(()) };
-        for entry in checking.named(wanted) {
-            match entry.value("name") {
-                None => return self.effects.refuse(entry, Fault::Missing("name")),
-                Some(name) if name == shape.value("name").unwrap_or_default() => break,
-                Some(_) => {}
-            }
+/// Entries of a kind of Pinocchio's own `<collision_checking>`, which are looked through until one names the shape: the names
+/// before one that has none.
+struct Entries<'t> {
+    names: HashSet<&'t str>,
+    unnamed: Option<Node<'t>>,
+}
+
+impl<'t> Entries<'t> {
+    fn of(link: Node<'t>, kind: &str) -> Self {
+        let checking = link.child("collision_checking");
+        let all = || checking.into_iter().flat_map(|one| one.named(kind));
+        Entries {
+            names: all().map_while(|entry| entry.value("name")).collect(),
+            unnamed: all().find(|entry| entry.value("name").is_none()),
         }
-        Ok(())
+    }
+
+    /// The entry without a name that is before one of a shape's.
+    fn unnamed(&self, shape: Node<'_>) -> Option<Node<'t>> {
+        self.unnamed.filter(|_| !self.names.contains(shape.value("name").unwrap_or_default()))
     }
 }
 
