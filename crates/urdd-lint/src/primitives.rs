@@ -29,8 +29,8 @@ impl Solid {
     }
 }
 
-/// Points and a factor along each axis: the convex hull of the scaled points is the shape, or holds it and is 2 % larger at
-/// most. `None` for a mesh.
+/// Points and a factor along each axis: the convex hull of the scaled points is the shape, within 2 % of its size. `None` for
+/// a mesh.
 pub fn solid(shape: &Geometry) -> Option<(Arc<Solid>, Vector3<f64>)> {
     static CUBE: LazyLock<Arc<Solid>> = LazyLock::new(|| Solid::of(cube()));
     static CYLINDER: LazyLock<Arc<Solid>> = LazyLock::new(|| Solid::of(cylinder()));

@@ -22,5 +22,5 @@ fn names_in_very_many_pairs_are_charged() {
         assert!(charge(longest * shapes, shapes).is_ok(), "{longest} {shapes}");
     }
     assert!(charge(40_000 * 300, 300).is_err());
-    assert!(charge(usize::MAX, usize::MAX).is_err());
+    assert!(charge(usize::MAX / 1000, 2_000).is_err());
 }
