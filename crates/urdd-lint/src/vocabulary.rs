@@ -21,7 +21,7 @@ pub struct Names<'a> {
 }
 
 /// Maximum number of steps of comparisons with all names: beyond, names that are not there have no hint.
-const MAX_STEPS: usize = 20_000_000;
+const MAX_STEPS: usize = 4_000_000;
 
 impl<'a> Names<'a> {
     /// All of these, of which some may be the same.

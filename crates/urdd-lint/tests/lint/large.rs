@@ -81,7 +81,7 @@ fn very_many_names_that_are_not_there_have_no_hint() {
     let known = Names::new(names.iter().map(String::as_str));
     assert_eq!(known.hint("a_link_of_a_robt_7"), ", but there is `a_link_of_a_robot_7`");
     let hints = (0..10_000).map(|_| known.hint("a_link_of_a_robt_7"));
-    assert!((5..100).contains(&hints.filter(|hint| !hint.is_empty()).count()));
+    assert!((2..20).contains(&hints.filter(|hint| !hint.is_empty()).count()));
 }
 
 #[test]
