@@ -3,7 +3,7 @@
     python benches/evaluation/growth.py [KIND ...] [--urdd PROGRAM] [--commands lint,generate,import,validate]
 
 Each kind is an input that somebody else could write, large in one or two respects; the second is twice the first, and the
-third twice the second. The exponent is log2 of the ratio of the last two: 1 for what grows as its input, 2 for what grows
+third twice the second. The exponent is that of the last two: 1 for what grows as its input, 2 for what grows
 with its square. Time is processor time, user; memory is the largest resident set. Short runs are scaled up first, until
 the smallest takes a while: below it, the program's start counts. What ends with a refusal is shown as such.
 """
@@ -270,8 +270,12 @@ def measure(urdd: Path, make: Callable[[int], Files], command: list[str], least:
     return runs
 
 
-def exponent(values: list[float]) -> float:
-    return math.log2(max(values[-1], 1e-9) / max(values[-2], 1e-9)) if len(values) > 1 else math.inf
+def exponent(runs: list[Run], value: Callable[[Run], float]) -> float:
+    """Of the last two runs: by their sizes where the last is more than twice as large, as with names that grow too."""
+    if len(runs) < 2:
+        return math.inf
+    (before, last) = runs[-2:]
+    return math.log(max(value(last), 1e-9) / max(value(before), 1e-9)) / math.log(max(2.0, last.size / before.size))
 
 
 def main() -> None:
@@ -293,7 +297,7 @@ def main() -> None:
             for command in (one for one in commands if one in wanted):
                 runs = measure(urdd, make, COMMANDS[command], given.least)
                 last = runs[-1]
-                time_, memory = exponent([one.seconds for one in runs]), exponent([one.megabytes for one in runs])
+                time_, memory = exponent(runs, lambda one: one.seconds), exponent(runs, lambda one: one.megabytes)
                 status = "refused" if last.status == 2 or (last.status and command in ("generate", "import")) else str(last.status)
                 above = " <<<" if time_ > 1.2 and last.seconds > 1 or memory > 1.2 or last.status < 0 else ""
                 ratio = last.megabytes * 1e6 / last.size
