@@ -71,6 +71,27 @@ fn a_urdf_takes_a_stated_multiple_of_memory() {
 }
 
 #[test]
+fn lint_takes_a_stated_multiple_of_memory() {
+    let folder = testkit::temporary::folder();
+    let long = "x".repeat(40_000);
+    let text = |link: &str, inside: &str| {
+        format!("<robot name=\"r\"><link name=\"{link}\">{inside}</link></robot>")
+    };
+    let sphere = "<visual><geometry><sphere radius=\"1\"/></geometry></visual>";
+    for text in [
+        text(&long, &"<visual/>".repeat(4_000)),
+        text(&long, &"<vsual/>".repeat(4_000)),
+        text("l", &"<visual/>".repeat(40_000)),
+        text("l", &sphere.repeat(4_000)),
+    ] {
+        fs::write(folder.path().join("r.urdf"), &text).unwrap();
+        let limit = OWN + 100 * text.len() + (128 << 20);
+        let output = urdd(limit, &["lint", "r.urdf", "--format", "json"], folder.path());
+        assert_eq!(output.status.code(), Some(0), "{} bytes: {:?}", text.len(), output.stderr);
+    }
+}
+
+#[test]
 fn a_mesh_takes_a_stated_multiple_of_memory() {
     let folder = testkit::temporary::folder();
     let urdf = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"m.obj\"/></geometry></visual></link></robot>";

@@ -105,29 +105,3 @@ impl<'a, T> IntoIterator for &'a Charged<T> {
         self.0.iter()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    impl Cost for &str {
-        fn cost(&self) -> usize {
-            self.len()
-        }
-    }
-
-    #[test]
-    fn a_charge_is_refused_where_it_exceeds_the_deposit() {
-        let account = Account::default();
-        let allowance = usize::try_from(ALLOWANCE).unwrap();
-        assert_eq!(account.charge(allowance), Ok(()));
-        assert_eq!(account.charge(1), Err(Overdrawn));
-        account.deposit(2);
-        assert_eq!(account.charge(199), Ok(()));
-        assert_eq!(account.clone().charge(1), Err(Overdrawn), "clones share it");
-        assert_eq!(account.charge(usize::MAX), Err(Overdrawn), "sums do not wrap");
-        let mut list = Charged::default();
-        assert_eq!(list.push("a", &account), Err(Overdrawn));
-        assert!(list.is_empty());
-    }
-}

@@ -73,6 +73,17 @@ impl<'a> LineIndex<'a> {
         self.before_block[block] + scalars(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
+    /// The byte offset of a position.
+    pub fn offset(&self, at: Position) -> Option<usize> {
+        let before = self.scalars_before(self.line_start(at.line as usize)?);
+        let wanted = before + (at.column as usize).checked_sub(1)?;
+        let block = self.before_block.partition_point(|before| *before <= wanted).checked_sub(1)?;
+        let from = (block * BLOCK).min(self.text.len());
+        let bytes = self.text.as_bytes()[from..].iter().enumerate();
+        let starts = bytes.filter(|(_, byte)| begins_scalar(**byte)).map(|(at, _)| from + at);
+        starts.chain([self.text.len()]).nth(wanted - self.before_block[block])
+    }
+
     /// Byte offset of the start of a 1-based line.
     pub fn line_start(&self, line: usize) -> Option<usize> {
         self.starts.get(line.checked_sub(1)?).copied()
@@ -100,5 +111,9 @@ pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
 
 /// Counts scalar values: every byte of UTF-8 except continuation bytes.
 fn scalars(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count()
+    bytes.iter().filter(|&&byte| begins_scalar(byte)).count()
+}
+
+fn begins_scalar(byte: u8) -> bool {
+    byte & 0xC0 != 0x80
 }

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::error::ExportError;
 use super::options::PairOptions;
 use super::pairs::{Contacts, LinkPair, pairs};
 use urdd_format::link_shapes_simple_skips::SkipReason;
@@ -16,7 +17,7 @@ const MAX_SAMPLES: u32 = 10_000;
 pub(super) fn link_pairs(
     robot: &Robot,
     options: &PairOptions,
-) -> Result<Vec<LinkPair>, RobotError> {
+) -> Result<Vec<LinkPair>, ExportError> {
     let reasons = options.reasons.as_deref();
     let mut pairs = pairs(robot, options.shapes, reasons, options.keep_pairs)?;
     count(robot, options.shapes, &mut pairs)?;

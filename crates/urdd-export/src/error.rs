@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
+use urdd_directory::account::Overdrawn;
 use urdd_format::nearest::nearest;
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};
@@ -15,6 +16,9 @@ pub enum ExportError {
     /// A query on the URDD failed.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// Names are so long, and in so many pairs, that more would be written than [`Overdrawn`] allows.
+    #[error(transparent)]
+    Overdrawn(#[from] Overdrawn),
     /// The joints of the robot do not form a tree.
     #[error("the joints do not form a tree with one root: run `urdd validate` for details")]
     NoTree,

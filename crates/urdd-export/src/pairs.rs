@@ -9,9 +9,11 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::error::ExportError;
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
+use urdd_robot::{Robot, ShapeKind, Skips};
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,20 +100,36 @@ fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
     reasons.iter().any(|one| one.of_pair() == reason)
 }
 
+/// Charges the names in all pairs of shapes, of which a URDD has numbers. Names may be long: `bytes` is the sum of those of
+/// all shapes.
+///
+/// # Errors
+/// If the pairs would take more than an account has that was given the names and the numbers.
+pub fn charge(bytes: usize, shapes: usize) -> Result<(), Overdrawn> {
+    /// In memory, in elements and in the text.
+    const COPIES: usize = 4;
+    /// Bytes of a pair in a module, at least.
+    const PAIR: usize = 4;
+    let account = Account::default();
+    account.deposit(bytes.saturating_add(shapes.saturating_mul(shapes).saturating_mul(PAIR)));
+    account.charge(bytes.saturating_mul(shapes).saturating_mul(COPIES))
+}
+
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
 pub(super) fn pairs(
     robot: &Robot,
     kind: ShapeKind,
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, RobotError> {
+) -> Result<Vec<LinkPair>, ExportError> {
     let skips = robot.skips(kind)?;
     let links = robot.description()?.links.into_iter();
     let names: Vec<String> = links.map(|link| link.name).collect();
+    let places = skips.places();
+    charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len())?;
     let decision = Decision::new(&skips, &names, reasons);
     let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
-    let places = skips.places();
     for i in 0..places.len() {
         for j in i + 1..places.len() {
             let (first, second) = if places[i].0 < places[j].0 { (i, j) } else { (j, i) };

@@ -12,7 +12,6 @@ use thiserror::Error;
 use super::cause::at;
 use super::check::Check;
 use super::code::Code;
-use super::effect::Effect;
 use super::examined::Examined;
 use super::file_error::{self, FileError};
 use super::places::retain;
@@ -114,15 +113,12 @@ impl Baseline {
         }
         // What follows from them is not in the baseline, but known as well.
         for check in &mut examined.checks {
-            let follows = check.effects.clone();
+            let follows = check.effects.clone().into_iter();
+            let follows = follows.filter(|one| known.contains(&one.cause));
+            let follows: HashSet<_> = follows.map(|one| (one.at, one.message)).collect();
             retain(check, in_the_baseline(), |_, place| {
-                let is_known = |one: &Effect| {
-                    let is_this = Some(one.at) == at(place);
-                    is_this
-                        && Some(&one.message) == place.message.as_ref()
-                        && known.contains(&one.cause)
-                };
-                !follows.iter().any(is_known)
+                let this = at(place).zip(place.message.clone());
+                !this.is_some_and(|this| follows.contains(&this))
             });
         }
         let ran = |key: &str| {

@@ -38,14 +38,18 @@ pub(super) fn fold(checks: &mut [Check]) {
             continue;
         };
         let rule = check.rule;
+        let mut by_place: HashMap<Position, Vec<Effect>> = HashMap::new();
+        for one in left {
+            by_place.entry(one.at).or_default().push(one);
+        }
         retain(check, SkipReason::Failed(by), |severity, place| {
-            let is_this = |one: &Effect| {
-                Some(one.at) == at(place) && place.message.as_ref() == Some(&one.message)
-            };
-            let Some(which) = left.iter().position(is_this) else {
-                return true;
-            };
-            let one = left.swap_remove(which);
+            let here = at(place).and_then(|at| by_place.get_mut(&at));
+            let this = here.and_then(|here| {
+                let said = place.message.as_ref();
+                let which = here.iter().position(|one| said == Some(&one.message))?;
+                Some(here.swap_remove(which))
+            });
+            let Some(one) = this else { return true };
             let effect = Place {
                 message: Some(format!("{} {}: {}", rule.code, rule.name, one.message)),
                 related: Vec::new(),

@@ -18,6 +18,8 @@ pub const KEPT_PLACES: usize = 10_000;
 pub const KEPT_FINDINGS: usize = 10_000;
 /// Maximum memory of the further places of a rule's findings, bytes, approximately; the rest are counted.
 pub const KEPT_BYTES: usize = 4 << 20;
+/// And of the findings themselves, with their messages.
+const KEPT_FIRSTS: usize = 16 << 20;
 
 /// A fault found by a rule.
 #[derive(Debug, Clone, PartialEq)]
@@ -174,6 +176,7 @@ pub struct Findings {
     by_place: HashMap<(Option<String>, String, Option<Severity>), usize>,
     reported: usize,
     kept: usize,
+    kept_firsts: usize,
     skipped: Option<SkipReason>,
     spots: Option<HashSet<Spot>>,
     only: Option<HashSet<Spot>>,
@@ -251,10 +254,11 @@ impl Findings {
             None => finding.message.clone(),
         };
         let key = (finding.place.file.clone(), kind, finding.severity);
-        let full = self.findings.len() >= KEPT_FINDINGS;
+        let full = self.findings.len() >= KEPT_FINDINGS || self.kept_firsts >= KEPT_FIRSTS;
         match (self.by_place.get(&key), self.findings.last_mut()) {
             (None, Some(last)) if full => last.count += finding.count,
             (None, _) => {
+                self.kept_firsts += bytes(&finding.place) + finding.message.len() + key.1.len();
                 self.by_place.insert(key, self.findings.len());
                 self.findings.push(finding);
             }
@@ -297,7 +301,7 @@ impl Findings {
     /// Removes the findings, in the order in which the first of each was reported.
     pub fn take(&mut self) -> Vec<Finding> {
         self.by_place.clear();
-        self.kept = 0;
+        (self.kept, self.kept_firsts) = (0, 0);
         std::mem::take(&mut self.findings)
     }
 }

@@ -67,6 +67,8 @@ pub mod self_collision_model;
 pub mod shape_kind;
 pub mod shapes;
 #[doc(hidden)]
+#[doc(hidden)]
+pub mod short;
 pub mod skips;
 pub mod tagged;
 mod types;

@@ -16,11 +16,11 @@ use urdd_format::kinematics_samples::{ConfigurationKind, KinematicsSamplesModule
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
+use urdd_format::short::Short;
 use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics, KinematicsError};
 use urdd_source::Source;
 use urdd_source::fault::Fault;
 use urdd_source::note::{Note, NoteKind};
-use urdd_source::urdf::shortened;
 
 pub(crate) struct Context<'a> {
     pub source: &'a Source,
@@ -50,7 +50,7 @@ fn no_poses(kind: ConfigurationKind, error: &ConfigurationError, chain: &ChainMo
     let mut joints = chain.joints_in_chain.iter();
     let joint = joints.find(|joint| joint.child_link_idx.get() == *link_idx);
     Fault::PosesTooLarge {
-        joint: joint.map_or_else(String::new, |joint| shortened(&joint.joint_name)),
+        joint: joint.map_or_else(Short::default, |joint| Short::of(&joint.joint_name)),
         configuration: kind.to_string(),
     }
 }

@@ -87,7 +87,7 @@ fn resolve(
                 offset: multiplier * driver.offset + offset,
             };
             if !(driver.multiplier.is_finite() && driver.offset.is_finite()) {
-                return Err(Fault::MimicOverflow(robot.joints[idx].name.clone()));
+                return Err(Fault::MimicOverflow((&*robot.joints[idx].name).into()));
             }
             resolved[idx] = Some(driver.clone());
         }

@@ -62,7 +62,7 @@ impl TriangleBudget {
     pub fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
         if triangles > MOST_LINK_TRIANGLES {
             return Err(Fault::TooManyTriangles {
-                link: link.to_owned(),
+                link: link.into(),
                 found: triangles,
                 limit: MOST_LINK_TRIANGLES,
             });
@@ -95,7 +95,7 @@ pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     if width > LEAST_WIDTH * largest {
         return Ok(());
     }
-    Err(Fault::Unresolved { link: link.to_owned() })
+    Err(Fault::Unresolved { link: link.into() })
 }
 
 /// The largest distance of a point from a line through two distant points; 0 without points.

@@ -15,6 +15,9 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::report::StaleIgnore;
 
+/// Maximum number of comments and texts between a comment and its element.
+const MOST_BETWEEN: usize = 200;
+
 struct Allow {
     written: String,
     /// `None`: there is no such rule.
@@ -33,17 +36,25 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
     for check in checks.iter_mut().filter(|check| !check.findings.is_empty()) {
         let code = check.rule.code;
         let reason = SkipReason::Ignored("a comment in the file allows it".to_owned());
-        retain(check, reason, |_, place| {
-            let Some(at) = at(place) else { return true };
-            let mut keeps = true;
-            for allow in &mut allows {
-                let is_inside = allow.from <= at && at <= allow.to;
-                if is_inside && allow.codes.is_some_and(|codes| codes.holds(code)) {
-                    (allow.is_used, keeps) = (true, false);
-                }
-            }
-            keeps
-        });
+        let mut places: Vec<Position> = check.said().filter_map(|(place, _)| at(place)).collect();
+        places.sort_unstable();
+        // Where each begins, and the farthest end of those that begin before.
+        let mut ranges = Vec::new();
+        let is_of = |allow: &&mut Allow| allow.codes.is_some_and(|codes| codes.holds(code));
+        for allow in allows.iter_mut().filter(is_of) {
+            let first = places.partition_point(|at| *at < allow.from);
+            allow.is_used |= places.get(first).is_some_and(|at| *at <= allow.to);
+            ranges.push((allow.from, allow.to));
+        }
+        ranges.sort_unstable();
+        for index in 1..ranges.len() {
+            ranges[index].1 = ranges[index].1.max(ranges[index - 1].1);
+        }
+        let is_inside = |at: Position| {
+            let before = ranges.partition_point(|(from, _)| *from <= at).checked_sub(1);
+            before.is_some_and(|last| at <= ranges[last].1)
+        };
+        retain(check, reason, |_, place| !at(place).is_some_and(is_inside));
     }
     // What a rule that did not run would have found is not known.
     let ran = |codes: Codes| {
@@ -72,8 +83,10 @@ fn allows(document: &Document) -> Vec<Allow> {
     for (comment, codes) in comments {
         let start = lines.position(comment.range().start);
         let ends_on_this_line = |node: &Node| lines.position(node.range().end).line == start.line;
-        let before = comment.prev_sibling_element().filter(ends_on_this_line);
-        let Some(element) = before.or_else(|| comment.next_sibling_element()) else {
+        let element = |node: &Node| node.is_element();
+        let before = comment.prev_siblings().skip(1).take(MOST_BETWEEN).find(element);
+        let after = || comment.next_siblings().skip(1).take(MOST_BETWEEN).find(element);
+        let Some(element) = before.filter(ends_on_this_line).or_else(after) else {
             continue;
         };
         let range = element.range();

@@ -4,7 +4,6 @@
 use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 
-use super::offset::offset;
 use super::subject::Subject;
 use super::unknown::{Unknown, What};
 use urdd_directory::position::{LineIndex, Position};
@@ -64,20 +63,29 @@ pub fn mark_misspelt(
     if misspellings.is_empty() {
         return;
     }
-    let edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
+    let mut edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
     let mended = apply(urdf.text, edits.clone());
     let Some(others) = again(&mended) else {
         return;
     };
     let (from, to) = (LineIndex::new(urdf.text), LineIndex::new(&mended));
+    // How far edits up to each place move what follows.
+    let mut moves: Vec<(usize, isize)> = Vec::new();
+    edits.sort_by_key(|edit| edit.range.start);
+    for edit in &edits {
+        let before = moves.last().map_or(0, |(_, by)| *by);
+        moves.push((
+            edit.range.start,
+            before + edit.text.len() as isize - edit.range.len() as isize,
+        ));
+    }
     let moved = |at| {
-        let before = offset(urdf.text, &from, at)?;
-        let mut offset = before;
-        for edit in edits.iter().filter(|edit| edit.range.start < before) {
-            offset = (offset + edit.text.len()).checked_sub(edit.range.len())?;
-        }
-        Some(to.position(offset))
+        let offset = from.offset(at)?;
+        let edits_before = moves.partition_point(|(start, _)| *start < offset);
+        let by = edits_before.checked_sub(1).map_or(0, |last| moves[last].1);
+        Some(to.position(offset.checked_add_signed(by)?))
     };
+    let causes = Causes::new(&misspellings);
     for check in checks.iter_mut().filter(|check| check.rule.code != Code::LNT040) {
         let mut others = others.iter();
         let other = others.find(|other| other.rule.code == check.rule.code);
@@ -85,7 +93,7 @@ pub fn mark_misspelt(
         if let Some(other) = other.filter(ran) {
             let effect = |(place, at, message): (&Place, Position, String)| Effect {
                 at,
-                cause: (Code::LNT040, cause(&misspellings, place, &message)),
+                cause: (Code::LNT040, causes.of(place, &message)),
                 message,
             };
             let effects = gone(check, other, moved).into_iter().map(effect);
@@ -125,7 +133,7 @@ fn reported(checks: &[Check], code: Code) -> impl Iterator<Item = (&Place, &str)
 fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
     let mut found: Vec<Misspelling> = Vec::new();
     let mut renamed = HashSet::new();
-    for Unknown { node, what, meant, .. } in urdf.unknown() {
+    for Unknown { node, what, meant, .. } in urdf.unknown().iter().cloned() {
         let Some(meant) = meant else { continue };
         let (finding, ranges) = match what {
             What::Element => (urdf.at(node, ""), urdf.tag_names(node)),
@@ -179,14 +187,30 @@ fn gone<'c>(
     gone
 }
 
-/// The misspelling that a finding follows from: one in the same link or joint, if there is one; and one whose right name the
-/// finding mentions.
-fn cause(misspellings: &[Misspelling], place: &Place, message: &str) -> Position {
-    let rank = |one: &&Misspelling| {
-        let is_near = place.subject.is_some() && one.subject == place.subject;
-        (is_near, message.contains(one.meant))
-    };
-    // The first of the best.
-    let best = misspellings.iter().rev().max_by_key(rank);
-    best.map_or(Position { line: 1, column: 1 }, |best| best.at)
+/// The misspellings that findings follow from.
+struct Causes<'m>(HashMap<Option<&'m str>, Vec<&'m Misspelling>>);
+
+impl<'m> Causes<'m> {
+    /// The first of each meaning, in each link or joint and in all.
+    fn new(misspellings: &'m [Misspelling]) -> Self {
+        let mut firsts: HashMap<_, Vec<&Misspelling>> = HashMap::new();
+        for one in misspellings {
+            let own = one.subject.as_deref();
+            for part in own.map(Some).into_iter().chain([None]) {
+                let firsts = firsts.entry(part).or_default();
+                if firsts.iter().all(|first| first.meant != one.meant) {
+                    firsts.push(one);
+                }
+            }
+        }
+        Causes(firsts)
+    }
+
+    /// One in the same link or joint, if there is one; and one whose right name the finding mentions.
+    fn of(&self, place: &Place, message: &str) -> Position {
+        let near = place.subject.as_deref().and_then(|part| self.0.get(&Some(part)));
+        let all = near.or_else(|| self.0.get(&None)).map(Vec::as_slice).unwrap_or_default();
+        let best = all.iter().find(|one| message.contains(one.meant)).or(all.first());
+        best.map_or(Position { line: 1, column: 1 }, |best| best.at)
+    }
 }

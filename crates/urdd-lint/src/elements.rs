@@ -2,6 +2,7 @@
 
 use urdd_xml::Node;
 
+use urdd_format::short;
 use urdd_xml::element::children;
 
 /// The joint types that have an axis.
@@ -27,16 +28,13 @@ pub fn number(node: Node, name: &str) -> Option<f64> {
     numbers::<1>(node, name).map(|[number]| number)
 }
 
-/// The path of an element, with its index among those of the same name.
-pub fn pointer(node: Node) -> String {
-    let mut parts = Vec::new();
-    let inside = |node: &Node| node.parent_element().is_some();
-    for one in node.ancestors().take_while(inside) {
-        let name = one.tag_name().name();
-        let before = one.prev_siblings().skip(1);
-        let before = before.filter(|other| other.is_element() && other.tag_name().name() == name);
-        parts.push(format!("/{name}/{}", before.count()));
-    }
+/// The path of an element, without its place among those of the same name: findings at the same kind of element are one.
+pub fn kind(node: Node) -> String {
+    /// URDF is less deep.
+    const LEVELS: usize = 8;
+    let inside = node.ancestors().take_while(|node| node.parent_element().is_some());
+    let names = inside.take(LEVELS).map(|one| short::name(one.tag_name().name()));
+    let mut parts: Vec<_> = names.map(|name| format!("/{name}/*")).collect();
     parts.reverse();
     parts.concat()
 }

@@ -79,10 +79,10 @@ pub fn examined(
         false => subject.macros().map(|_| Code::LNT051),
     };
     job.run(&subject, &mut examined.checks, |checks| {
-        let Some(asked) = job.ask() else { return Vec::new() };
+        let Some(mut asked) = job.ask() else { return Vec::new() };
         let left = match as_it_is {
             Some(code) => attach_all(&asked, code, checks),
-            None => attach(&subject, &asked, checks),
+            None => attach(&subject, &mut asked, checks),
         };
         examined.report.programs = asked.results;
         left
@@ -181,7 +181,7 @@ impl<'a> Job<'a> {
         let source = job.source(&checks);
         let subject = job.subject(&document, &source);
         job.run(&subject, &mut checks, |checks| {
-            job.ask().map_or_else(Vec::new, |asked| attach(&subject, &asked, checks))
+            job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks))
         });
         Some(checks)
     }

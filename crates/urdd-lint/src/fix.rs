@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::offset::offset;
 use super::target::{LeftAlone, target};
 use super::{LintError, LintSettings, sources, stems};
 use urdd_directory::position::{LineIndex, Position};
@@ -133,8 +132,7 @@ fn with_fixes<'a>(
     let mut all: Vec<Edit> = Vec::new();
     let mut mended = 0;
     for fix in fixes {
-        let edits: Option<Vec<Edit>> =
-            fix.edits.iter().map(|edit| edit_of(text, &lines, edit)).collect();
+        let edits: Option<Vec<Edit>> = fix.edits.iter().map(|edit| edit_of(&lines, edit)).collect();
         let Some(edits) = edits else { continue };
         let touches = |edit: &Edit| {
             let near = |other: &Edit| {
@@ -151,10 +149,9 @@ fn with_fixes<'a>(
     (apply(text, all), mended)
 }
 
-fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
-    let offset = |line: Count, column: Count| {
-        offset(text, lines, Position { line: line.0, column: column.0 })
-    };
+fn edit_of(lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
+    let offset =
+        |line: Count, column: Count| lines.offset(Position { line: line.0, column: column.0 });
     let start = offset(edit.line, edit.column)?;
     let end = offset(edit.end_line, edit.end_column)?;
     (start <= end).then(|| Edit { range: start..end, text: edit.text.clone() })

@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use rayon::prelude::*;
 
 use super::bodies::{Bodies, isometry};
 use super::hull::Hull;
-use super::primitives::corners;
+use super::primitives::{Solid, solid};
 use urdd_document::robot::Robot;
 use urdd_findings::part::Why;
 use urdd_format::meshes::GeometryKind;
@@ -17,8 +18,10 @@ use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Format, Note, Scene};
 use urdd_source::{SourceMesh, SourceMeshes};
 
-/// Maximum number of corners that are placed for one robot: it may name one large mesh very often.
-const MAX_CORNERS: usize = 10_000_000;
+/// Maximum number of corners of one robot: it may name one large mesh very often.
+const MAX_CORNERS: usize = 3_000_000;
+/// Maximum number of corners of a body, times the inertials in it: each is compared with all.
+const MAX_COMPARED: usize = 10_000_000;
 
 /// Formats that are read here. Nobody reads all of the others.
 const READ: [&str; 5] = ["stl", "dae", "obj", "gltf", "glb"];
@@ -33,7 +36,7 @@ pub fn is_read_here(file: &Path) -> bool {
 #[derive(Debug)]
 pub struct MeshFacts {
     /// Corners of the convex hull, before the element's scale; all vertices where they have no volume.
-    pub corners: Vec<[f64; 3]>,
+    pub solid: Arc<Solid>,
     pub triangles: usize,
     /// Format of the content.
     pub format: Format,
@@ -77,8 +80,6 @@ pub struct Shapes {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
-    /// The hull of a body's shapes; `None` if they span no volume. It is not computed for links.
-    pub hull: Option<Hull>,
 }
 
 /// A visual or collision element's shape.
@@ -88,19 +89,52 @@ pub struct Shape {
     pub kind: GeometryKind,
     /// Whether it is of a glTF, which some programs turn from y-up to z-up and others do not.
     pub is_turned: bool,
-    /// Points whose convex hull is that of the shape, m.
-    pub corners: Vec<Vector3<f64>>,
+    solid: Arc<Solid>,
+    scale: Vector3<f64>,
+    /// Its pose in the link's frame, and the link's in that of the shapes.
+    poses: [Isometry3<f64>; 2],
 }
 
 impl Shape {
-    /// The shape moved by a pose.
+    /// A link's shape, with the link at a pose.
     pub fn placed(&self, pose: &Isometry3<f64>) -> Shape {
-        let place = |corner: &Vector3<f64>| pose.transform_point(&Point3::from(*corner)).coords;
-        Shape { corners: self.corners.iter().map(place).collect(), ..*self }
+        Shape { poses: [self.poses[0], *pose], ..self.clone() }
+    }
+
+    /// Points whose convex hull is that of the shape, m.
+    pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let scaled = self.solid.corners.iter().map(|corner| corner.component_mul(&self.scale));
+        scaled.map(|corner| self.place(corner))
+    }
+
+    fn place(&self, corner: Vector3<f64>) -> Vector3<f64> {
+        let place = |corner, pose: &Isometry3<f64>| pose.transform_point(&corner);
+        self.poses.iter().fold(Point3::from(corner), place).coords
+    }
+
+    /// The volume of their convex hull, m³.
+    pub fn volume(&self) -> f64 {
+        self.solid.hull.as_ref().map_or(0.0, |hull| hull.volume * self.scale.product().abs())
+    }
+
+    fn is_like(&self, other: &Shape) -> bool {
+        let is_same = self.scale == other.scale && self.poses == other.poses;
+        is_same && Arc::ptr_eq(&self.solid, &other.solid)
     }
 }
 
 impl Shapes {
+    /// The convex hull of all shapes; `None` if they span no volume. It is not kept: each would take some 100 kB.
+    pub fn hull(&self) -> Option<Hull> {
+        match &self.shapes[..] {
+            [first, others @ ..] if others.iter().all(|other| other.is_like(first)) => {
+                let hull = first.solid.hull.as_ref()?;
+                hull.mapped(&first.scale, |corner| first.place(corner))
+            }
+            _ => Hull::of(self.corners()),
+        }
+    }
+
     /// Whether one of the shapes is turned, as in [`Shape::is_turned`].
     pub fn is_turned(&self) -> bool {
         self.shapes.iter().any(|shape| shape.is_turned)
@@ -108,20 +142,18 @@ impl Shapes {
 
     /// The corners of all shapes.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
-        self.shapes.iter().flat_map(|shape| shape.corners.iter().copied())
+        self.shapes.iter().flat_map(Shape::corners)
     }
 
     /// The corners of the shapes of one kind.
     pub fn corners_of(&self, kind: GeometryKind) -> impl Iterator<Item = Vector3<f64>> {
         let of_kind = self.shapes.iter().filter(move |shape| shape.kind == kind);
-        of_kind.flat_map(|shape| shape.corners.iter().copied())
+        of_kind.flat_map(Shape::corners)
     }
 
     /// The corners of all shapes in the frame whose pose is given.
-    pub fn in_frame(&self, frame: &Isometry3<f64>) -> Vec<Vector3<f64>> {
-        let seen =
-            |corner: Vector3<f64>| frame.inverse_transform_point(&Point3::from(corner)).coords;
-        self.corners().map(seen).collect()
+    pub fn in_frame(&self, frame: &Isometry3<f64>) -> impl Iterator<Item = Vector3<f64>> {
+        self.corners().map(|corner| frame.inverse_transform_point(&Point3::from(corner)).coords)
     }
 }
 
@@ -151,7 +183,7 @@ impl RobotGeometry {
             })
             .collect();
         let links = of_links(source, robot, &files);
-        let bodies = bodies.tops().map(|top| (top, of_body(top, bodies, &links)));
+        let bodies = bodies.tops().map(|top| (top, of_body(top, robot, bodies, &links)));
         RobotGeometry {
             bodies: bodies.collect(),
             links,
@@ -186,8 +218,9 @@ fn facts(scene: &Scene) -> MeshFacts {
     });
     vertices.dedup();
     let hull = ConvexHull::new(&vertices).ok();
+    let corners = hull.map_or(vertices, |hull| hull.into_mesh().vertices);
     MeshFacts {
-        corners: hull.map_or(vertices, |hull| hull.into_mesh().vertices),
+        solid: Solid::of(corners.into_iter().map(Vector3::from).collect()),
         triangles: scene.triangle_count(),
         format: scene.format,
         notes: scene.notes.clone(),
@@ -213,7 +246,7 @@ fn of_links(
                     continue;
                 };
                 let mut is_turned = false;
-                let points = match shape {
+                let found = match shape {
                     Geometry::Mesh(mesh) => {
                         let named = meshes.get(&(index, kind, place));
                         let file = named.and_then(|mesh| mesh.file.as_ref().ok());
@@ -221,18 +254,19 @@ fn of_links(
                         is_turned = facts.is_some_and(|facts| {
                             matches!(facts.format, Format::Gltf | Format::Glb)
                         });
-                        facts.map(|facts| scaled(&facts.corners, mesh.scale.unwrap_or([1.0; 3])))
+                        let scale = mesh.scale.unwrap_or([1.0; 3]).into();
+                        facts.map(|facts| (Arc::clone(&facts.solid), scale))
                     }
-                    primitive => Some(corners(primitive)),
+                    primitive => solid(primitive),
                 };
-                let points = points.and_then(|points| {
-                    left = left.checked_sub(points.len())?;
-                    Some(points)
+                let found = found.and_then(|found| {
+                    left = left.checked_sub(found.0.corners.len())?;
+                    Some(found)
                 });
-                match points {
-                    Some(corners) => {
-                        let shape = Shape { kind, is_turned, corners };
-                        geometry.shapes.push(shape.placed(&isometry(&element.origin)));
+                match found {
+                    Some((solid, scale)) => {
+                        let poses = [isometry(&element.origin), Isometry3::identity()];
+                        geometry.shapes.push(Shape { kind, is_turned, solid, scale, poses });
                     }
                     None => geometry.is_partial = true,
                 }
@@ -243,19 +277,17 @@ fn of_links(
     links
 }
 
-fn scaled(points: &[[f64; 3]], [x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
-    let scaled = |point: &[f64; 3]| Vector3::new(point[0] * x, point[1] * y, point[2] * z);
-    points.iter().map(scaled).collect()
-}
-
-fn of_body(top: usize, bodies: &Bodies, links: &[Shapes]) -> Shapes {
+fn of_body(top: usize, robot: &Robot, bodies: &Bodies, links: &[Shapes]) -> Shapes {
     let mut body = Shapes::default();
+    let (mut corners, mut inertials) = (0, 0);
     for link in bodies.members(top) {
         let geometry = &links[link];
         body.is_partial |= geometry.is_partial;
         let place = |shape: &Shape| shape.placed(&bodies.pose[link]);
         body.shapes.extend(geometry.shapes.iter().map(place));
+        corners += geometry.shapes.iter().map(|shape| shape.solid.corners.len()).sum::<usize>();
+        inertials += usize::from(robot.links[link].inertial.is_some());
     }
-    body.hull = Hull::of(body.corners());
+    body.is_partial |= corners.saturating_mul(inertials) > MAX_COMPARED;
     body
 }

@@ -6,6 +6,9 @@ use nalgebra::Vector3;
 
 use urdd_geometry::hull::ConvexHull;
 
+/// Number of points of which the hull takes the place: of more, memory would be taken for each.
+const MANY: usize = 200_000;
+
 /// A convex hull with a volume.
 #[derive(Debug, Clone)]
 pub struct Hull {
@@ -21,20 +24,41 @@ pub struct Hull {
 impl Hull {
     /// The hull of points; `None` if they span no volume.
     pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
-        let points: Vec<[f64; 3]> = points.map(Into::into).collect();
-        let hull = ConvexHull::new(&points).ok().filter(|hull| !hull.is_flat())?;
+        let hull = ConvexHull::new(&corners(points)).ok().filter(|hull| !hull.is_flat())?;
         let mesh = hull.into_mesh();
-        let corners: Vec<Vector3<f64>> = mesh.vertices.iter().copied().map(Vector3::from).collect();
-        let triangles: Vec<[usize; 3]> =
-            mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
+        let triangles = mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
+        Hull::new(mesh.vertices.into_iter().map(Vector3::from).collect(), triangles)
+    }
+
+    /// Of its corners and triangles; `None` without a volume.
+    fn new(corners: Vec<Vector3<f64>>, triangles: Vec<[usize; 3]>) -> Option<Self> {
+        let origin = corners[triangles.first()?[0]];
+        let volume = triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|index| corners[index] - origin);
+            a.dot(&b.cross(&c)) / 6.0
+        });
+        let volume: f64 = volume.sum();
         let planes = triangles.iter().filter_map(|&[a, b, c]| {
             let (a, b, c) = (corners[a], corners[b], corners[c]);
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
             Some((normal, normal.dot(&a)))
         });
         let planes = planes.collect();
-        let volume = mesh.signed_volume();
         (volume > 0.0).then_some(Hull { corners, triangles, planes, volume })
+    }
+
+    /// The hull, scaled along each axis and then placed.
+    pub fn mapped(
+        &self,
+        scale: &Vector3<f64>,
+        place: impl Fn(Vector3<f64>) -> Vector3<f64>,
+    ) -> Option<Self> {
+        let corners = self.corners.iter().map(|corner| place(corner.component_mul(scale)));
+        let mut triangles = self.triangles.clone();
+        if scale.product() < 0.0 {
+            triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        Hull::new(corners.collect(), triangles)
     }
 
     /// The hull of points, or of the farthest of them in as many directions: one with many corners takes long to compare, and
@@ -82,4 +106,19 @@ impl Hull {
         }
         2.0 * (second / volume - (first / volume).norm_squared())
     }
+}
+
+/// Points with the convex hull of these: all of them, or the corners of the hulls of very many.
+fn corners(points: impl Iterator<Item = Vector3<f64>>) -> Vec<[f64; 3]> {
+    let (mut kept, mut most) = (Vec::new(), MANY);
+    for point in points {
+        kept.push(point.into());
+        if kept.len() >= most {
+            if let Ok(hull) = ConvexHull::new(&kept) {
+                kept = hull.into_mesh().vertices;
+            }
+            most = MANY.max(2 * kept.len());
+        }
+    }
+    kept
 }

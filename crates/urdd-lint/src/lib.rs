@@ -20,9 +20,9 @@ mod imports;
 pub mod inertial;
 mod named_file;
 mod namespaces;
-mod offset;
 pub mod pose;
-mod primitives;
+#[doc(hidden)]
+pub mod primitives;
 mod programs;
 mod rule;
 pub mod rules;

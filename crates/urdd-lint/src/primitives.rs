@@ -1,9 +1,11 @@
-//! Points around the shapes that URDF has beside meshes.
+//! Shapes as points that they share: those that URDF has beside meshes are three sets of them.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::{Arc, LazyLock};
 
 use nalgebra::Vector3;
 
+use super::hull::Hull;
 use urdd_format::urdf::Geometry;
 
 /// Corners of the polygon around a circle.
@@ -11,34 +13,58 @@ const SIDES: usize = 32;
 /// Circles of a sphere.
 const RINGS: usize = 17;
 
-/// Points whose convex hull is the shape, or holds it and is 2 % larger at most. None for a mesh.
-pub fn corners(shape: &Geometry) -> Vec<Vector3<f64>> {
-    match shape {
-        Geometry::Box(of) => {
-            let [x, y, z] = of.size.map(|size| size / 2.0);
-            let signs =
-                (0..8).map(|bits| [1, 2, 4].map(|bit| if bits & bit == 0 { 1.0 } else { -1.0 }));
-            signs.map(|[a, b, c]| Vector3::new(a * x, b * y, c * z)).collect()
-        }
-        Geometry::Cylinder(of) => cylinder(of.radius, of.length),
-        Geometry::Capsule(of) => cylinder(of.radius, of.length + 2.0 * of.radius),
-        Geometry::Sphere(of) => {
-            let rings = (0..RINGS).map(|ring| (ring as f64 / (RINGS - 1) as f64 - 0.5) * PI);
-            let ring = |angle: f64| {
-                let z =
-                    of.radius * if angle.abs() == FRAC_PI_2 { angle.signum() } else { angle.sin() };
-                circle(of.radius * angle.cos()).map(move |(x, y)| Vector3::new(x, y, z))
-            };
-            rings.flat_map(ring).collect()
-        }
-        Geometry::Mesh(_) => Vec::new(),
+/// Points in some frame, for all shapes that are these points, scaled.
+#[derive(Debug)]
+pub struct Solid {
+    pub corners: Vec<Vector3<f64>>,
+    /// Their convex hull; `None` if they span no volume.
+    pub hull: Option<Hull>,
+}
+
+impl Solid {
+    /// Of a convex hull's corners.
+    pub fn of(corners: Vec<Vector3<f64>>) -> Arc<Self> {
+        let hull = Hull::of(corners.iter().copied());
+        Arc::new(Solid { corners, hull })
     }
 }
 
-fn cylinder(radius: f64, length: f64) -> Vec<Vector3<f64>> {
-    let ends = [-length / 2.0, length / 2.0];
-    let both = ends.map(|z| circle(radius).map(move |(x, y)| Vector3::new(x, y, z)));
+/// Points and a factor along each axis: the convex hull of the scaled points is the shape, within 2 % of its size. `None` for
+/// a mesh.
+pub fn solid(shape: &Geometry) -> Option<(Arc<Solid>, Vector3<f64>)> {
+    static CUBE: LazyLock<Arc<Solid>> = LazyLock::new(|| Solid::of(cube()));
+    static CYLINDER: LazyLock<Arc<Solid>> = LazyLock::new(|| Solid::of(cylinder()));
+    static SPHERE: LazyLock<Arc<Solid>> = LazyLock::new(|| Solid::of(sphere()));
+    let cylinder = |radius, length| (&CYLINDER, Vector3::new(radius, radius, length / 2.0));
+    let (solid, scale) = match shape {
+        Geometry::Box(of) => (&CUBE, Vector3::from(of.size) / 2.0),
+        Geometry::Cylinder(of) => cylinder(of.radius, of.length),
+        Geometry::Capsule(of) => cylinder(of.radius, of.length + 2.0 * of.radius),
+        Geometry::Sphere(of) => (&SPHERE, Vector3::repeat(of.radius)),
+        Geometry::Mesh(_) => return None,
+    };
+    Some((Arc::clone(solid), scale))
+}
+
+fn cube() -> Vec<Vector3<f64>> {
+    let sign = |bits: usize, bit| if bits & bit == 0 { 1.0 } else { -1.0 };
+    (0..8).map(|bits| Vector3::new(sign(bits, 1), sign(bits, 2), sign(bits, 4))).collect()
+}
+
+/// Of radius 1, from -1 to 1.
+fn cylinder() -> Vec<Vector3<f64>> {
+    let both = [-1.0, 1.0].map(|z| circle(1.0).map(move |(x, y)| Vector3::new(x, y, z)));
     both.into_iter().flatten().collect()
+}
+
+/// Of radius 1.
+fn sphere() -> Vec<Vector3<f64>> {
+    let rings = (0..RINGS).map(|ring| (ring as f64 / (RINGS - 1) as f64 - 0.5) * PI);
+    let ring = |angle: f64| {
+        let z = if angle.abs() == FRAC_PI_2 { angle.signum() } else { angle.sin() };
+        circle(angle.cos()).map(move |(x, y)| Vector3::new(x, y, z))
+    };
+    rings.flat_map(ring).collect()
 }
 
 /// Corners of a polygon around a circle.

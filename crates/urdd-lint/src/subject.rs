@@ -9,13 +9,13 @@ use nalgebra::Vector3;
 use urdd_xml::{Document, Node};
 
 use super::bodies::Bodies;
-use super::elements::{child, numbers, pointer};
+use super::elements::{child, kind, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::programs::Left;
 use super::skip::{WITHOUT_MESHES, refused};
 use super::unknown::{Unknown, unknown};
-use super::vocabulary::hint;
+use super::vocabulary::Names;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_findings::code::Code;
@@ -23,8 +23,8 @@ use urdd_findings::finding::{Finding, Findings};
 use urdd_findings::part::Part;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::meshes::GeometryKind;
 use urdd_format::report::{Fix, TextEdit};
+use urdd_format::short;
 use urdd_format::urdf::JointType;
 use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::{children, name};
@@ -52,6 +52,8 @@ pub struct Subject<'a> {
     unknown: OnceLock<Vec<Unknown<'a>>>,
     without_meshes: bool,
     elements: OnceLock<Vec<Node<'a, 'a>>>,
+    shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
+    joint_names: OnceLock<Names<'a>>,
     programs: OnceLock<Vec<Left>>,
 }
 
@@ -92,6 +94,8 @@ impl<'a> Subject<'a> {
             geometry: OnceLock::new(),
             unknown: OnceLock::new(),
             elements: OnceLock::new(),
+            shapes: OnceLock::new(),
+            joint_names: OnceLock::new(),
             programs: OnceLock::new(),
         }
     }
@@ -213,12 +217,16 @@ impl<'a> Subject<'a> {
 
     /// The `<mesh>` of a mesh.
     pub fn mesh_node(&self, mesh: &SourceMesh) -> Option<Node<'a, 'a>> {
-        let kind = match mesh.geometry {
-            GeometryKind::Visual => "visual",
-            GeometryKind::Collision => "collision",
-        };
-        let elements = children(*self.links.get(mesh.link)?);
-        let element = elements.filter(|(name, _)| *name == kind).nth(mesh.element)?.1;
+        let shapes = self.shapes.get_or_init(|| {
+            let of = |link: &Node<'a, 'a>| {
+                ["visual", "collision"].map(|kind| {
+                    let all = children(*link).filter(|(name, _)| *name == kind);
+                    all.map(|(_, node)| node).collect()
+                })
+            };
+            self.links.iter().map(of).collect()
+        });
+        let element = shapes.get(mesh.link)?[mesh.geometry as usize].get(mesh.element)?;
         let mut inside = element.descendants();
         inside.find(|node| node.tag_name().name() == "mesh")
     }
@@ -260,8 +268,8 @@ impl<'a> Subject<'a> {
     }
 
     /// What URDF does not define.
-    pub fn unknown(&self) -> Vec<Unknown<'a>> {
-        self.unknown.get_or_init(|| unknown(self.root)).clone()
+    pub fn unknown(&self) -> &[Unknown<'a>] {
+        self.unknown.get_or_init(|| unknown(self.root))
     }
 
     /// Sets the faults that only programs name.
@@ -306,10 +314,9 @@ impl<'a> Subject<'a> {
 
     /// Reports an element whose `name` is not that of a joint.
     pub fn names_a_joint(&self, node: Node<'a, 'a>, findings: &mut Findings) {
-        let known: Vec<&str> = self.names(&self.joints).collect();
-        let named = node.attribute("name").filter(|name| !known.contains(name));
-        let Some(name) = named else { return };
-        let hint = hint(name, &known);
+        let known = self.joint_names.get_or_init(|| Names::new(self.names(&self.joints)));
+        let Some(name) = node.attribute("name").filter(|name| !known.has(name)) else { return };
+        let hint = known.hint(name);
         let message = format!("no joint is called `{name}`{hint}; write the name of a joint");
         self.at_attribute(node, "name", message).report(findings);
     }
@@ -356,8 +363,8 @@ impl<'a> Subject<'a> {
 
     /// Findings at the same kind of element are one with a count.
     fn placed(&self, node: Node<'a, 'a>, offset: usize, message: impl Into<String>) -> Finding {
-        let mut finding = Finding::at(self.file, pointer(node), message)
-            .position(Some(self.lines.position(offset)));
+        let mut finding =
+            Finding::at(self.file, kind(node), message).position(Some(self.lines.position(offset)));
         finding.place.subject = subject(node);
         finding
     }
@@ -380,11 +387,11 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The link or joint that an element belongs to.
+/// The link or joint that an element belongs to. A long name is shortened: each place has it.
 pub fn subject(node: Node) -> Option<String> {
     let part = part(node)?;
     let name = part.attribute("name")?;
-    Some(format!("{} `{name}`", part.tag_name().name()))
+    Some(format!("{} `{}`", part.tag_name().name(), short::name(name)))
 }
 
 /// The link or joint of the robot that holds an element.

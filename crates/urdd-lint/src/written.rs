@@ -1,5 +1,6 @@
 //! The place in a .xacro file that a link or joint of its expansion was written at, as far as its name tells.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use urdd_xml::Node;
@@ -68,13 +69,18 @@ pub fn named(subject: &str) -> Option<(&str, &str)> {
 
 /// Says of each finding about a link or joint where that is written, as `find` knows by the subject.
 pub fn say_where(checks: &mut [Check], find: impl Fn(&str) -> Option<WrittenAt>) {
-    let say = |place: &mut Place| {
-        place.written_at = place.subject.as_deref().and_then(&find);
+    let mut known: HashMap<String, Option<WrittenAt>> = HashMap::new();
+    let mut say = |place: &mut Place| {
+        let Some(subject) = &place.subject else { return };
+        if !known.contains_key(subject) {
+            known.insert(subject.clone(), find(subject));
+        }
+        place.written_at.clone_from(&known[subject]);
     };
     let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
     for place in findings.flat_map(Finding::places_mut) {
         say(place);
-        place.related.iter_mut().for_each(say);
+        place.related.iter_mut().for_each(&mut say);
     }
 }
 

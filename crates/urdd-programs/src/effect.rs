@@ -1,6 +1,9 @@
 //! What a program does because of something in a file.
 
+use urdd_format::short;
+
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::{Attribute, Node, Parsed, Tree};
 
 /// What becomes of a part of a robot in a program, or of the whole.
@@ -24,7 +27,7 @@ pub struct Effect {
     /// The element or attribute that is the reason: its first byte in the file.
     pub at: usize,
     /// The part that is lost or read otherwise, such as `joint/elbow/limit`; empty for the whole file.
-    pub part: String,
+    pub part: Part,
     /// What is wrong there, or what the program does not know.
     pub fault: Fault,
     /// What it makes of the part, if it reads it otherwise: `1`, `fixed`.
@@ -52,32 +55,33 @@ impl Effects {
         self.worst().is_none_or(|worst| worst < Deed::Refuses)
     }
 
-    fn add(&mut self, deed: Deed, at: usize, part: String, fault: Fault, makes: Option<String>) {
+    fn add(&mut self, deed: Deed, at: usize, part: Part, fault: Fault, makes: Option<&str>) {
+        let makes = makes.map(|makes| short::name(makes).into_owned());
         self.0.push(Effect { deed, at, part, fault, makes });
     }
 
     pub(crate) fn refuse<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
-        self.add(Deed::Refuses, at.at(), String::new(), fault, None);
+        self.add(Deed::Refuses, at.at(), Part::default(), fault, None);
         Err(Refused)
     }
 
     pub(crate) fn crash<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
-        self.add(Deed::Crashes, at.at(), String::new(), fault, None);
+        self.add(Deed::Crashes, at.at(), Part::default(), fault, None);
         Err(Refused)
     }
 
-    pub(crate) fn drop(&mut self, at: impl At, part: impl Into<String>, fault: Fault) {
+    pub(crate) fn drop(&mut self, at: impl At, part: impl Into<Part>, fault: Fault) {
         self.add(Deed::Drops, at.at(), part.into(), fault, None);
     }
 
     pub(crate) fn read_as(
         &mut self,
         at: impl At,
-        part: impl Into<String>,
+        part: impl Into<Part>,
         fault: Fault,
-        makes: impl Into<String>,
+        makes: impl AsRef<str>,
     ) {
-        self.add(Deed::Reads, at.at(), part.into(), fault, Some(makes.into()));
+        self.add(Deed::Reads, at.at(), part.into(), fault, Some(makes.as_ref()));
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use urdd_format::short::Short;
+
 /// A reason. Programs that do something at one place for one reason share a sentence.
 // Fields are what the sentence of a fault names.
 #[allow(missing_docs)]
@@ -18,31 +20,31 @@ pub enum Fault {
     /// An attribute is empty.
     Empty(&'static str),
     /// Text that is no number to the program.
-    NotANumber { attribute: String, text: String },
+    NotANumber { attribute: Short, text: Short },
     /// Another count of numbers than there should be.
-    Count { attribute: String, expected: usize, text: String },
+    Count { attribute: Short, expected: usize, text: Short },
     /// A number outside of what is allowed: "must not be negative".
-    Range { attribute: String, text: String, rule: &'static str },
+    Range { attribute: Short, text: Short, rule: &'static str },
     /// Another element of a name that stands once.
-    Repeated(String),
+    Repeated(Short),
     /// Another part of the same kind and name.
-    NotUnique { kind: &'static str, name: String },
+    NotUnique { kind: &'static str, name: Short },
     /// Refers to something that is not there.
-    Unknown { kind: &'static str, name: String },
+    Unknown { kind: &'static str, name: Short },
     /// A value that is none of those that are allowed.
-    Value { attribute: String, text: String },
+    Value { attribute: Short, text: Short },
     /// A type of joints that URDF has, and the program does not, or not here.
     Type(&'static str),
     /// A shape that the program does not know.
-    Shape(String),
+    Shape(Short),
     /// An element or attribute that the program never reads.
-    NeverRead(String),
+    NeverRead(Short),
     /// What the program does with every such part, or because of another fault: nothing is wrong there.
     Way(&'static str),
     /// An element that URDF does not have in its place, and the one that it looks like.
-    UnknownElement { name: String, like: &'static str },
+    UnknownElement { name: Short, like: &'static str },
     /// An attribute that its element does not have, and the one that it looks like.
-    UnknownAttribute { name: String, like: &'static str },
+    UnknownAttribute { name: Short, like: &'static str },
     /// The joints and links make no tree.
     Tree(&'static str),
     /// A mass or an inertia that no body can have, or that is not there.
@@ -56,9 +58,9 @@ pub enum Fault {
     /// A mesh in a format, or under a name, that other programs take: no fault of the robot.
     ForOthers(&'static str),
     /// The version of URDF on `<robot>`.
-    Version(String),
+    Version(Short),
     /// A name that the program cannot have.
-    Name { kind: &'static str, name: String, rule: &'static str },
+    Name { kind: &'static str, name: Short, rule: &'static str },
     /// Anything else, as a sentence without its end.
     Other(&'static str),
 }
@@ -69,15 +71,15 @@ pub(crate) const FORMAT: Fault =
 
 impl Fault {
     pub(crate) fn not_a_number(attribute: &str, text: &str) -> Fault {
-        Fault::NotANumber { attribute: attribute.to_owned(), text: shortened(text) }
+        Fault::NotANumber { attribute: attribute.into(), text: text.into() }
     }
 
     pub(crate) fn count(attribute: &str, expected: usize, text: &str) -> Fault {
-        Fault::Count { attribute: attribute.to_owned(), expected, text: shortened(text) }
+        Fault::Count { attribute: attribute.into(), expected, text: text.into() }
     }
 
     pub(crate) fn range(attribute: &str, text: &str, rule: &'static str) -> Fault {
-        Fault::Range { attribute: attribute.to_owned(), text: shortened(text), rule }
+        Fault::Range { attribute: attribute.into(), text: text.into(), rule }
     }
 
     pub(crate) fn value(attribute: &str, text: &str) -> Fault {
@@ -87,15 +89,15 @@ impl Fault {
         if let Some(known) = of_urdf {
             return Fault::Type(known);
         }
-        Fault::Value { attribute: attribute.to_owned(), text: shortened(text) }
+        Fault::Value { attribute: attribute.into(), text: text.into() }
     }
 
     pub(crate) fn not_unique(kind: &'static str, name: &str) -> Fault {
-        Fault::NotUnique { kind, name: shortened(name) }
+        Fault::NotUnique { kind, name: name.into() }
     }
 
     pub(crate) fn unknown(kind: &'static str, name: &str) -> Fault {
-        Fault::Unknown { kind, name: shortened(name) }
+        Fault::Unknown { kind, name: name.into() }
     }
 
     /// A link below a joint has the name of the world.
@@ -115,14 +117,16 @@ impl Fault {
 
     /// Whether another fault at the same element is the same one, said otherwise.
     pub fn is_alike(&self, other: &Fault) -> bool {
-        let name = |fault: &Fault| match fault {
-            Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
-                Some((*name).to_owned())
+        fn name(fault: &Fault) -> Option<&str> {
+            match fault {
+                Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
+                    Some(name)
+                }
+                Fault::Repeated(name) | Fault::Shape(name) => Some(name),
+                Fault::NotUnique { kind, .. } | Fault::Unknown { kind, .. } => Some(kind),
+                _ => None,
             }
-            Fault::Repeated(name) | Fault::Shape(name) => Some(name.clone()),
-            Fault::NotUnique { kind, .. } | Fault::Unknown { kind, .. } => Some((*kind).to_owned()),
-            _ => None,
-        };
+        }
         let is_plain = !matches!(self, Fault::Other(_));
         std::mem::discriminant(self) == std::mem::discriminant(other)
             && name(self) == name(other)
@@ -145,7 +149,7 @@ impl Fault {
             Fault::Unknown { .. } => "mend the name, or add what it names",
             Fault::Value { .. } => "write one of those that URDF defines",
             Fault::Type(_) => "use joints that the program has",
-            Fault::Shape(shape) if shape == "capsule" => {
+            Fault::Shape(shape) if **shape == *"capsule" => {
                 "use other shapes, or write `version=\"1.1\"` on `<robot>` for ROS (urdfdom 6) and Pinocchio alone"
             }
             Fault::Shape(_) => "use box, cylinder, sphere or mesh",
@@ -200,18 +204,18 @@ impl fmt::Display for Fault {
             Fault::Unknown { kind, name } => write!(f, "no {kind} is called `{name}`"),
             Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
             Fault::Type(kind) => write!(f, "a {kind} joint is not for every program"),
-            Fault::Shape(shape) if shape == "capsule" => {
+            Fault::Shape(shape) if **shape == *"capsule" => {
                 f.write_str("`<capsule>` is not a shape in every program")
             }
             Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
             Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
-            Fault::UnknownElement { name, like } if name == like => {
+            Fault::UnknownElement { name, like } if **name == **like => {
                 write!(f, "`<{name}>` is where URDF does not have it")
             }
             Fault::UnknownElement { name, like } => {
                 write!(f, "`<{name}>` is not an element of URDF here (`<{like}>` is)")
             }
-            Fault::UnknownAttribute { name, like } if name == like => {
+            Fault::UnknownAttribute { name, like } if **name == **like => {
                 write!(f, "`{name}` is on an element that does not have it")
             }
             Fault::UnknownAttribute { name, like } => {
@@ -223,14 +227,4 @@ impl fmt::Display for Fault {
             }
         }
     }
-}
-
-/// Shortens text for a message.
-pub(crate) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut short: String = text.chars().take(LONGEST).collect();
-    if short.len() < text.len() {
-        short.push('…');
-    }
-    short
 }

@@ -3,6 +3,7 @@
 use crate::effect::Effects;
 use crate::fault::Fault;
 use crate::number::{pieces, strtod, whole};
+use crate::part::Part;
 use crate::tree::Node;
 
 /// What a material has itself.
@@ -21,7 +22,7 @@ impl Look {
     }
 
     /// Says that a material is read as another one of its name, if that looks otherwise.
-    pub fn compare(read: Option<&Look>, material: Node<'_>, part: &str, effects: &mut Effects) {
+    pub fn compare(read: Option<&Look>, material: Node<'_>, part: &Part, effects: &mut Effects) {
         let (Some(read), Some(own)) = (read, Look::of(material)) else { return };
         if read.texture != own.texture || !is_same(&read.rgba, &own.rgba) {
             let name = material.value("name").unwrap_or_default();

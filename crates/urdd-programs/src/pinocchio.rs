@@ -9,6 +9,7 @@ use crate::fault::{FORMAT, Fault};
 use crate::file::File;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::istream;
+use crate::part::Part;
 use crate::rapidxml;
 use crate::tree::{Attribute, Node};
 use crate::unknown::Names;
@@ -89,7 +90,7 @@ impl Reader<'_> {
                 }
                 if !reached.insert(link) {
                     let fault = Fault::Tree("a link is the child of two joints");
-                    self.effects.read_as(joint.node, format!("link/{link}"), fault, "two links");
+                    self.effects.read_as(joint.node, Part::of("link", link), fault, "two links");
                     continue;
                 }
             }
@@ -110,11 +111,11 @@ impl Reader<'_> {
     fn unreached(&mut self, model: &Model<'_>, reached: &HashSet<&str>) {
         let fault = Fault::Tree("it is in a loop, which the root does not reach");
         for (name, link) in model.links.iter().filter(|(name, _)| !reached.contains(*name)) {
-            self.effects.drop(link.node, format!("link/{name}"), fault.clone());
+            self.effects.drop(link.node, Part::of("link", name), fault.clone());
         }
         for (name, joint) in &model.joints {
             if !reached.contains(joint.child) {
-                self.effects.drop(joint.node, format!("joint/{name}"), fault.clone());
+                self.effects.drop(joint.node, Part::of("joint", name), fault.clone());
             }
         }
     }
@@ -143,14 +144,14 @@ impl Reader<'_> {
     fn unread(&mut self, joint: &Joint<'_>, name: &str) {
         for unread in ["mimic", "safety_controller", "calibration"] {
             if let Some(found) = joint.node.child(unread) {
-                let part = format!("joint/{name}/{unread}");
+                let part = Part::of("joint", name).inside(unread);
                 self.effects.drop(found, part, Fault::NeverRead(unread.into()));
             }
         }
         let axis = joint.node.child("axis");
         let xyz = axis.map(|axis| axis.value("xyz").unwrap_or_default());
         let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
-        let (at, part) = (axis.unwrap_or(joint.node), format!("joint/{name}/axis"));
+        let (at, part) = (axis.unwrap_or(joint.node), Part::of("joint", name).inside("axis"));
         match joint.kind {
             "planar" => {
                 self.limits(joint, name);
@@ -174,7 +175,7 @@ impl Reader<'_> {
     fn limits(&mut self, joint: &Joint<'_>, name: &str) {
         for unread in ["limit", "dynamics"] {
             if let Some(found) = joint.node.child(unread) {
-                let part = format!("joint/{name}/{unread}");
+                let part = Part::of("joint", name).inside(unread);
                 self.effects.drop(found, part, Fault::NeverRead(unread.into()));
             }
         }
@@ -192,18 +193,30 @@ impl Reader<'_> {
         if !is_all {
             for (index, shape) in link.node.named(kind).take(kept).enumerate() {
                 let fault = Fault::Way("another one of the link is faulty");
-                self.effects.drop(shape, format!("link/{name}/{kind}/{index}"), fault);
+                self.effects.drop(
+                    shape,
+                    Part::of("link", name).inside(format_args!("{kind}/{index}")),
+                    fault,
+                );
             }
             return Ok(());
         }
         let link_name = name;
+        let [capsules, convex] = ["capsule", "convex"].map(|kind| Entries::of(link.node, kind));
         for (index, shape) in link.node.named(kind).enumerate() {
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             let Some(form) = form else { continue };
             if form.name() == "mesh" {
                 self.mesh(form)?;
             }
-            self.checking(link.node, shape, form.name())?;
+            let unnamed = match form.name() {
+                "cylinder" => capsules.unnamed(shape),
+                "mesh" => convex.unnamed(shape),
+                _ => None,
+            };
+            if let Some(entry) = unnamed {
+                return self.effects.refuse(entry, Fault::Missing("name"));
+            }
             let own = shape.child("material").filter(|_| kind == "visual");
             let name = own.and_then(|material| material.value("name")).unwrap_or_default();
             let material = materials.get(name).copied().or(own.filter(|_| name.is_empty()));
@@ -215,7 +228,7 @@ impl Reader<'_> {
                     let fault = Fault::NotFound("texture");
                     self.effects.drop(
                         image,
-                        format!("link/{link_name}/visual/{index}/material"),
+                        Part::of("link", link_name).inside(format_args!("visual/{index}/material")),
                         fault,
                     );
                 }
@@ -257,23 +270,28 @@ impl Reader<'_> {
         };
         self.effects.refuse(filename, fault)
     }
+}
 
-    /// Pinocchio's own `<collision_checking>`: entries are looked through until one names the shape.
-    fn checking(&mut self, link: Node<'_>, shape: Node<'_>, form: &str) -> Reading<()> {
-        let wanted = match form {
-            "cylinder" => "capsule",
-            "mesh" => "convex",
-            _ => return Ok(()),
-        };
-        let Some(checking) = link.child("collision_checking") else { return Ok(()) };
-        for entry in checking.named(wanted) {
-            match entry.value("name") {
-                None => return self.effects.refuse(entry, Fault::Missing("name")),
-                Some(name) if name == shape.value("name").unwrap_or_default() => break,
-                Some(_) => {}
-            }
+/// Entries of a kind of Pinocchio's own `<collision_checking>`, which are looked through until one names the shape: the names
+/// before one that has none.
+struct Entries<'t> {
+    names: HashSet<&'t str>,
+    unnamed: Option<Node<'t>>,
+}
+
+impl<'t> Entries<'t> {
+    fn of(link: Node<'t>, kind: &str) -> Self {
+        let checking = link.child("collision_checking");
+        let all = || checking.into_iter().flat_map(|one| one.named(kind));
+        Entries {
+            names: all().map_while(|entry| entry.value("name")).collect(),
+            unnamed: all().find(|entry| entry.value("name").is_none()),
         }
-        Ok(())
+    }
+
+    /// The entry without a name that is before one of a shape's.
+    fn unnamed(&self, shape: Node<'_>) -> Option<Node<'t>> {
+        self.unnamed.filter(|_| !self.names.contains(shape.value("name").unwrap_or_default()))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use urdd_format::short;
 use urdd_xml::{Kind, Node, ParserError as Error, StringStorage, TextPos, XmlError};
 
 use crate::tree::{Attribute, BEYOND, Element, Malformed, Parsed, Tree};
@@ -199,7 +200,7 @@ fn element<'a>(node: Node<'_, 'a>, names: Names, text: &'a str) -> Option<Elemen
 
 fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {
     match namespace {
-        Some(namespace) => format!("{{{namespace}}}{name}").into(),
+        Some(namespace) => format!("{{{}}}{name}", short::name(namespace)).into(),
         None => name.into(),
     }
 }

@@ -5,7 +5,8 @@ use std::cell::LazyCell;
 use std::collections::HashSet;
 
 use crate::effect::{At, Effects};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
+use crate::part::Part;
 use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
 use urdd_xml::vocabulary::{KNOWN, Known, of};
@@ -68,7 +69,7 @@ pub(crate) enum Names {
 /// Something that a program ignores if it would read what is meant.
 pub(crate) struct Found {
     at: usize,
-    part: String,
+    part: Part,
     fault: Fault,
     /// The elements that it is in, and what is meant. A program that never reads one of these loses nothing.
     meant: Vec<&'static str>,
@@ -78,7 +79,7 @@ impl Found {
     /// Adds it to what a program does that never reads some elements and attributes.
     pub fn add(&self, never: &[&str], effects: &mut Effects) {
         if !self.meant.iter().any(|one| never.contains(one)) {
-            effects.drop(self.at, &*self.part, self.fault.clone());
+            effects.drop(self.at, &self.part, self.fault.clone());
         }
     }
 }
@@ -105,9 +106,9 @@ type Beside<'t> = LazyCell<HashSet<&'static str>, Box<dyn FnOnce() -> HashSet<&'
 /// Where an element stands.
 #[derive(Clone)]
 struct Place {
-    part: String,
+    part: Part,
     /// The link, joint or material.
-    owner: String,
+    owner: Part,
 }
 
 struct Finder {
@@ -186,7 +187,7 @@ impl Finder {
             if !is_default && (other.name, known.name) != ("material", "collision") {
                 let part = match other.name {
                     "link" | "joint" => {
-                        part_of("robot", name, node.value("name").unwrap_or_default(), 0)
+                        part_of(&"robot".into(), name, node.value("name").unwrap_or_default(), 0)
                     }
                     _ => place.owner.clone(),
                 };
@@ -217,7 +218,7 @@ impl Finder {
         }
     }
 
-    fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
+    fn attributes(&mut self, node: Node<'_>, known: &Known, part: &Part) {
         // Names of shapes are read by few programs, for nothing that is seen.
         let is_shape = matches!(known.name, "visual" | "collision");
         let free = |one: &&str| node.attribute(one).is_none() && !(is_shape && *one == "name");
@@ -228,7 +229,7 @@ impl Finder {
         if is_value && !missing.is_empty() {
             let fault =
                 Fault::Other("numbers are inside of the element, and not in its attributes");
-            self.drop(node, format!("{part}/?"), fault, &missing);
+            self.drop(node, part.inside("?"), fault, &missing);
         }
         for attribute in node.attributes() {
             let name = &*attribute.name;
@@ -254,43 +255,43 @@ impl Finder {
             };
             let other = || other().filter(|name| !COMMON.contains(name));
             if let Some(like) = own.or_else(other) {
-                let fault = Fault::UnknownAttribute { name: shortened(name), like };
-                self.drop(attribute, format!("{part}/?"), fault, &[like]);
+                let fault = Fault::UnknownAttribute { name: name.into(), like };
+                self.drop(attribute, part.inside("?"), fault, &[like]);
             }
         }
     }
 
-    fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
-        let fault = Fault::UnknownElement { name: shortened(name), like };
-        self.drop(node, format!("{part}/?"), fault, &[like]);
+    fn add(&mut self, node: Node<'_>, part: &Part, name: &str, like: &'static str) {
+        let fault = Fault::UnknownElement { name: name.into(), like };
+        self.drop(node, part.inside("?"), fault, &[like]);
     }
 
-    fn drop(&mut self, at: impl At, part: String, fault: Fault, meant: &[&'static str]) {
+    fn drop(&mut self, at: impl At, part: Part, fault: Fault, meant: &[&'static str]) {
         let meant = [&self.inside, meant].concat();
         self.found.push(Found { at: at.at(), part, fault, meant });
     }
 }
 
 /// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
-fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> String {
+fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> Part {
     match (known.name, like) {
         ("robot", "link" | "joint" | "material") => {
-            part_of("robot", like, node.value("name").unwrap_or_default(), 0)
+            part_of(&"robot".into(), like, node.value("name").unwrap_or_default(), 0)
         }
         _ => place.part.clone(),
     }
 }
 
 /// The part that an element is about; that of its parent, if it is none itself.
-fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
+fn part_of(parent: &Part, element: &str, name: &str, count: usize) -> Part {
     match element {
-        "link" | "joint" => format!("{element}/{name}"),
-        "material" if parent == "robot" => format!("material/{name}"),
-        "visual" | "collision" => format!("{parent}/{element}/{count}"),
-        "origin" if !parent.starts_with("joint") => parent.to_owned(),
+        "link" | "joint" => Part::of(element, name),
+        "material" if **parent == *"robot" => Part::of("material", name),
+        "visual" | "collision" => parent.inside(format_args!("{element}/{count}")),
+        "origin" if !parent.starts_with("joint") => parent.clone(),
         "mass" | "inertia" | "geometry" | "color" | "texture" | "parent" | "child" | "box"
-        | "sphere" | "cylinder" | "capsule" | "mesh" => parent.to_owned(),
-        _ => format!("{parent}/{element}"),
+        | "sphere" | "cylinder" | "capsule" | "mesh" => parent.clone(),
+        _ => parent.inside(element),
     }
 }
 

@@ -125,7 +125,7 @@ pub(crate) fn model<'t>(
         Some(written) => match version(&written.value) {
             Some((1, 0)) => 0,
             Some((1, minor @ 1..=2)) if release == Release::Six => minor,
-            _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
+            _ => return effects.refuse(written, Fault::Version((&*written.value).into())),
         },
     };
     let mut reader = Reader { minor, effects, materials: HashMap::new() };

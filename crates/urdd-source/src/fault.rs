@@ -1,6 +1,7 @@
 //! Faults for which a file is refused: any interpretation of it would be a guess.
 
 use thiserror::Error;
+use urdd_format::short::Short;
 
 /// Why a text is not a valid robot description.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -14,7 +15,7 @@ pub enum Fault {
     )]
     Entities,
     #[error("the outermost element is `<{0}>`, but that of a URDF is `<robot>`{hint}", hint = sdf_hint(.0))]
-    NotRobot(String),
+    NotRobot(Short),
     #[error(
         "the file contains only xacro macros, and no link; expand it first: `xacro FILE > robot.urdf`"
     )]
@@ -22,30 +23,30 @@ pub enum Fault {
     #[error("`<{element}>` needs the attribute `{attribute}`")]
     MissingAttribute { element: &'static str, attribute: &'static str },
     #[error("joint `{joint}` has no `<{element}>`")]
-    MissingElement { joint: String, element: &'static str },
+    MissingElement { joint: Short, element: &'static str },
     #[error(
         "joint `{joint}` has the unknown type `{found}`; the types of URDF are revolute, continuous, prismatic, fixed, floating, planar, spherical"
     )]
-    UnknownJointType { joint: String, found: String },
+    UnknownJointType { joint: Short, found: Short },
     #[error("`rpy` and `quat_xyzw` both give the rotation of an `<origin>`; keep one of them")]
     TwoRotations,
     #[error("two links are named `{name}`; the other one is on line {first}")]
-    TwoLinks { name: String, first: u32 },
+    TwoLinks { name: Short, first: u32 },
     #[error("two joints are named `{name}`; the other one is on line {first}")]
-    TwoJoints { name: String, first: u32 },
+    TwoJoints { name: Short, first: u32 },
     #[error("joint `{joint}` has the {end} link `{link}`, which does not exist{hint}")]
     UnknownLink {
-        joint: String,
+        joint: Short,
         /// `parent` or `child`.
         end: &'static str,
-        link: String,
+        link: Short,
         /// A suggestion of a similar name.
         hint: String,
     },
     #[error(
         "link `{link}` is the child of joint `{joint}`, and already of joint `{first}`: a URDF must be a tree"
     )]
-    TwoParents { link: String, joint: String, first: String },
+    TwoParents { link: Short, joint: Short, first: Short },
     #[error("`<robot>` contains no `<link>`")]
     NoLinks,
     #[error(
@@ -59,23 +60,23 @@ pub enum Fault {
     #[error("the joints form a cycle: {0}. A URDF must be a tree")]
     Cycle(String),
     #[error("the mimic of joint `{0}` leads back to that joint")]
-    MimicCircle(String),
+    MimicCircle(Short),
     /// The product of mimic multipliers, or an offset, overflows binary64.
     #[error(
         "the multipliers or offsets along the mimics of joint `{0}` are beyond the range of 64-bit numbers"
     )]
-    MimicOverflow(String),
+    MimicOverflow(Short),
     #[error(
         "joint `{joint}` is {joint_type}, but its axis `{axis}` has no direction; give it one, or make the joint fixed"
     )]
-    ZeroAxis { joint: String, joint_type: String, axis: String },
+    ZeroAxis { joint: Short, joint_type: String, axis: String },
     #[error("the numbers in the URDF are too large ({0})")]
     NoPoses(String),
     /// The pose of a link overflows binary64.
     #[error(
         "the URDF places the child of joint `{joint}` beyond the range of 64-bit numbers, in the configuration {configuration}; correct the origins, limits or mimics on the way to it"
     )]
-    PosesTooLarge { joint: String, configuration: String },
+    PosesTooLarge { joint: Short, configuration: String },
     #[error(
         "the robot has {found} links, but a URDD has at most {limit}: lists over all pairs of links grow with the square of their number"
     )]
@@ -87,7 +88,7 @@ pub enum Fault {
     #[error(
         "the shapes of link `{link}` have {found} triangles, but a link of a URDD has at most {limit}; make its meshes coarser, or leave them out: `--modules core`"
     )]
-    TooManyTriangles { link: String, found: usize, limit: usize },
+    TooManyTriangles { link: Short, found: usize, limit: usize },
     #[error(
         "the shapes of all links have more than {limit} triangles, the limit of a URDD; make the meshes coarser, or leave them out: `--modules core`"
     )]
@@ -96,7 +97,7 @@ pub enum Fault {
     #[error(
         "link `{link}`: its shape is too thin, or too far from the link's frame, for the 32-bit numbers of mesh files; check its units and origin, or leave meshes out: `--modules core`"
     )]
-    Unresolved { link: String },
+    Unresolved { link: Short },
     #[error("there are more than {0} elements")]
     TooMany(u32),
 }

@@ -64,7 +64,7 @@ pub fn wrapped(text: &str) -> String {
     let mut prefixes: Vec<&str> = Vec::new();
     for (at, _) in text.match_indices(':') {
         let before = &text[..at];
-        let word = before.rsplit(|c: char| c.is_whitespace() || "<>/\"'=&;".contains(c));
+        let word = before.rsplit(|c: char| c.is_whitespace() || "<>/\"'=&;:".contains(c));
         let prefix = word.into_iter().next().unwrap_or_default();
         let begins = prefix.starts_with(|c: char| c.is_alphabetic() || c == '_');
         let is_name = prefix.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));

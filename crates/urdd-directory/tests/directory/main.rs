@@ -3,6 +3,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
+mod account;
 mod canonical;
 mod digest;
 mod document;

@@ -15,6 +15,9 @@ fn columns_count_characters_not_bytes() {
     assert_eq!(index.position(text.find('y').unwrap()), at(2, 1));
     assert_eq!(index.position(text.find('z').unwrap()), at(3, 1));
     assert_eq!(index.position(usize::MAX), at(4, 1));
+    assert_eq!(index.offset(at(4, 1)), Some(text.len()));
+    assert_eq!(index.offset(at(1, 3)), text.find('x'));
+    assert_eq!([index.offset(at(5, 1)), index.offset(at(4, 2)), index.offset(at(1, 0))], [None; 3]);
 }
 
 #[test]
@@ -26,6 +29,7 @@ fn long_lines_are_counted_as_short_ones() {
         let line = before.rsplit('\n').next().unwrap();
         let expected = at(1 + u32::from(offset > 6000), line.chars().count() as u32 + 1);
         assert_eq!(index.position(offset), expected, "{offset}");
+        assert_eq!(index.offset(expected), Some(offset));
     }
 }
 

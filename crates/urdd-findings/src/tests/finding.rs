@@ -40,6 +40,19 @@ fn what_is_kept_is_bounded_and_all_is_counted() {
 }
 
 #[test]
+fn long_messages_are_counted_as_what_they_take() {
+    let mut findings = Findings::default();
+    let long = "x".repeat(100_000);
+    for i in 0..1000 {
+        findings.report(Finding::at("a.json", format!("/k{i}"), format!("{i}{long}")));
+    }
+    let findings = findings.take();
+    let kept: usize = findings.iter().map(|finding| finding.message.len()).sum();
+    assert!((10_000_000..20_000_000).contains(&kept), "{kept}");
+    assert_eq!(findings.iter().map(|finding| finding.count).sum::<usize>(), 1000);
+}
+
+#[test]
 fn spots_outlive_folding() {
     let mut all = Findings::remembering_spots();
     for i in 0..10 {

@@ -12,6 +12,7 @@ mod published_schemas;
 mod rate;
 mod readable;
 mod schema_comment;
+mod short;
 mod skips;
 mod typescript;
 

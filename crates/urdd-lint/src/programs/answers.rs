@@ -56,7 +56,7 @@ pub fn results(answers: &[Answer], encoding: &Encoding, text: &str) -> Vec<Progr
             does: deed(effect.deed),
             line: at.map(|at| Count(at.line)),
             column: at.map(|at| Count(at.column)),
-            part: Some(effect.part.clone()).filter(|part| !part.is_empty()),
+            part: Some(effect.part.to_string()).filter(|part| !part.is_empty()),
             reason: effect.fault.to_string(),
             makes: effect.makes.clone(),
             is_usual: effect.fault.is_usual(),

@@ -26,9 +26,10 @@ impl Asked {
     pub fn about(file: Counted<'_>, text: &str, folder: &Path, settings: &LintSettings) -> Self {
         let (bytes, answers) = (file.bytes(), answers::ask(file, folder, settings));
         let encoding = Encoding::of(bytes, text);
+        let results = answers::results(&answers, &encoding, text);
         Asked {
-            results: answers::results(&answers, &encoding, text),
-            faults: faults(&answers, bytes),
+            results,
+            faults: faults(answers, bytes),
             has_chosen: !settings.report.programs.is_empty(),
             encoding,
         }

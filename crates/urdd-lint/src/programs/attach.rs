@@ -39,17 +39,17 @@ struct Known {
 
 /// Gives what programs do to findings of the same fault, and returns the rest. Findings of the validator that are less severe
 /// than what programs do become effects of what is left.
-pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Left> {
+pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec<Left> {
     let known = Index::new(checks);
     let mut given = Given::new();
     let mut effects: BTreeMap<Code, Vec<Effect>> = BTreeMap::new();
     let mut left = Vec::new();
-    let faults = of_one_body(subject, asked);
-    for faulty in &faults {
+    let faults = std::mem::take(&mut asked.faults);
+    for faulty in of_one_body(subject, asked, faults) {
         let Some(offset) = asked.encoding.in_text(faulty.at) else { continue };
         let node = subject.element(offset);
         let severity = severity(&faulty.said, asked.has_chosen);
-        match node.and_then(|node| known.of(subject, node, offset, faulty)) {
+        match node.and_then(|node| known.of(subject, node, offset, &faulty)) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
                 let code =
@@ -61,18 +61,26 @@ pub fn attach(subject: &Subject, asked: &Asked, checks: &mut [Check]) -> Vec<Lef
                 });
             }
             Some(known) => {
-                let fix = || fix(subject, offset, &faulty.fault);
-                let here = given.entry((known.code, known.at));
-                let here = here.and_modify(|(one, _)| one.add(faulty.clone()));
-                let (_, known) = here.or_insert_with(|| (faulty.clone(), None));
-                *known = known.take().or_else(fix);
+                let key = (known.code, known.at);
+                let is_fixed = given.get(&key).is_some_and(|(_, fix)| fix.is_some());
+                let fix = if is_fixed { None } else { fix(subject, offset, &faulty.fault) };
+                match given.entry(key) {
+                    Entry::Occupied(mut here) => {
+                        let (one, known) = here.get_mut();
+                        one.add(faulty);
+                        *known = known.take().or(fix);
+                    }
+                    Entry::Vacant(here) => {
+                        here.insert((faulty, fix));
+                    }
+                }
                 continue;
             }
             None => {}
         }
         left.push(Left {
             offset,
-            message: message(faulty, &asked.results),
+            message: message(&faulty, &asked.results),
             severity,
             consequence: faulty.is_of_looks().then_some(Consequence::Appearance),
             programs: does(&faulty.said),
@@ -102,22 +110,22 @@ pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) -> Vec<Left> 
 }
 
 /// The faults, with those of the mass and inertia of a link as one.
-fn of_one_body(subject: &Subject, asked: &Asked) -> Vec<Faulty> {
+fn of_one_body(subject: &Subject, asked: &Asked, all: Vec<Faulty>) -> Vec<Faulty> {
     let mut faults: Vec<Faulty> = Vec::new();
     let mut bodies: HashMap<String, usize> = HashMap::new();
-    for faulty in &asked.faults {
+    for faulty in all {
         let part = || {
             let node = subject.element(asked.encoding.in_text(faulty.at)?)?;
             crate::subject::subject(node)
         };
-        let body = Some(faulty).filter(|one| matches!(one.fault, Fault::Inertia(_)));
-        match body.and_then(|_| part()).map(|part| bodies.entry(part)) {
-            Some(Entry::Occupied(known)) => faults[*known.get()].add(faulty.clone()),
+        let is_body = matches!(faulty.fault, Fault::Inertia(_));
+        match is_body.then(part).flatten().map(|part| bodies.entry(part)) {
+            Some(Entry::Occupied(known)) => faults[*known.get()].add(faulty),
             Some(Entry::Vacant(new)) => {
                 new.insert(faults.len());
-                faults.push(faulty.clone());
+                faults.push(faulty);
             }
-            None => faults.push(faulty.clone()),
+            None => faults.push(faulty),
         }
     }
     faults

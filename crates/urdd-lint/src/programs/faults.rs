@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use urdd_programs::{Deed, Fault, Program};
+use urdd_programs::{Deed, Fault, Part, Program};
 
 use super::answers::Answer;
 
@@ -25,37 +25,36 @@ pub struct Said {
     pub is_chosen: bool,
     pub deed: Deed,
     /// What is lost or read otherwise; empty for the whole file.
-    pub part: String,
+    pub part: Part,
     /// What it makes of the part.
     pub makes: Option<String>,
 }
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
 /// is one fault.
-pub fn faults(answers: &[Answer], bytes: &[u8]) -> Vec<Faulty> {
+pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
+    let refusing = answers.iter().filter(|answer| !answer.effects.loads());
+    let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
     for answer in answers {
-        for effect in answer.effects.0.iter().filter(|effect| effect.fault.is_of_robot()) {
+        for effect in answer.effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
             let said = Said {
                 program: answer.program,
                 is_chosen: answer.is_chosen,
                 deed: effect.deed,
-                part: effect.part.clone(),
-                makes: effect.makes.clone(),
+                part: effect.part,
+                makes: effect.makes,
             };
             let is_attribute = bytes.get(effect.at).is_some_and(|byte| *byte != b'<');
             let here = by_place.entry(effect.at).or_default();
-            let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&effect.fault);
-            let fault = effect.fault.clone();
-            let new = Faulty { at: effect.at, fault, said: vec![said] };
+            let new = Faulty { at: effect.at, fault: effect.fault, said: vec![said] };
+            let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
             match here.iter_mut().find(is_same) {
                 Some(known) => known.add(new),
                 None => here.push(new),
             }
         }
     }
-    let refusing = answers.iter().filter(|answer| !answer.effects.loads());
-    let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     // What a program loses of a robot that it does not have says nothing.
     let is_something = |faulty: &Faulty| {
         let mut said = faulty.said.iter();

@@ -101,6 +101,14 @@ fn equal<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
 }
 
 fn is_equal(one: Node, other: Node) -> bool {
+    let (mut inside, mut beside) = (children(one), children(other));
+    let mut are_equal = || loop {
+        match (inside.next(), beside.next()) {
+            (None, None) => return true,
+            (Some((_, one)), Some((_, other))) if is_equal(one, other) => {}
+            _ => return false,
+        }
+    };
     let has = |attribute: urdd_xml::Attribute| {
         other.attribute(attribute.name()) == Some(attribute.value())
     };
@@ -109,8 +117,7 @@ fn is_equal(one: Node, other: Node) -> bool {
         && one.attributes().len() == other.attributes().len()
         && one.attributes().all(has)
         && text(one) == text(other)
-        && children(one).count() == children(other).count()
-        && children(one).zip(children(other)).all(|((_, one), (_, other))| is_equal(one, other))
+        && are_equal()
 }
 
 /// The name of a file without white space around it, if there is such a file.

@@ -12,6 +12,9 @@ use urdd_source::gate::Gate;
 
 use crate::settings::LintSettings;
 
+/// Maximum length of a name that is looked for once, bytes.
+const MOST_BYTES: usize = 250;
+
 /// The mesh files around a URDF. Each name is looked for once, and each file is read once.
 pub struct MeshFiles<'a> {
     folder: PathBuf,
@@ -45,7 +48,10 @@ impl<'a> MeshFiles<'a> {
             Some(_) => self.packaged(name),
             None => self.plain(name),
         };
-        self.by_name.borrow_mut().insert(name.to_owned(), mesh.clone());
+        // Programs put folders before names: many long ones are not kept.
+        if name.len() <= MOST_BYTES {
+            self.by_name.borrow_mut().insert(name.to_owned(), mesh.clone());
+        }
         mesh
     }
 

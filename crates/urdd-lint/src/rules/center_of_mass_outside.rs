@@ -26,20 +26,26 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     if !urdf.moves() {
         return Some(());
     }
-    for (index, link) in robot.links.iter().enumerate() {
-        let body = &geometry
-            .bodies
-            .get(&bodies.top[index])
-            .filter(|body| !body.is_partial && !body.is_turned());
+    // A body at a time: it has one hull.
+    let mut order: Vec<usize> = (0..robot.links.len()).collect();
+    order.sort_by_key(|link| bodies.top[*link]);
+    let mut last = None;
+    let mut found = BTreeMap::new();
+    for index in order {
+        let (link, top) = (&robot.links[index], bodies.top[index]);
+        let body = &geometry.bodies.get(&top).filter(|body| !body.is_partial && !body.is_turned());
         let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };
         let has_shapes = !link.visual.is_empty() || !link.collision.is_empty();
-        let Some(hull) = body.hull.as_ref().filter(|_| has_shapes && inertial.mass > LIGHT) else {
+        if !has_shapes || inertial.mass <= LIGHT {
             continue;
-        };
+        }
+        let (_, hull) =
+            last.take().filter(|(of, _)| *of == top).unwrap_or_else(|| (top, body.hull()));
+        let (_, Some(hull)) = last.insert((top, hull)) else { continue };
         let points = body.in_frame(&bodies.pose[index]);
-        let size = diagonal(points.iter().copied());
+        let size = diagonal(points);
         let center = bodies.pose[index].transform_point(&Point3::from(inertial.center));
         let beyond = hull.outside(&center.coords);
         if inertial.mass > DENSE * hull.volume || beyond <= PART * size + MARGIN {
@@ -51,10 +57,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             metres(size)
         );
         let node = urdf.inertial(index, "origin");
-        urdf.at(node, message)
-            .actual(point(inertial.center.into()))
-            .off_by(beyond, "m")
-            .report(findings);
+        let center = point(inertial.center.into());
+        found.insert(index, urdf.at(node, message).actual(center).off_by(beyond, "m"));
     }
+    found.into_values().for_each(|finding| finding.report(findings));
     Some(())
 }

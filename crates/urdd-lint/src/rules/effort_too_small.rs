@@ -49,6 +49,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     // A joint that others follow holds what is beyond them too.
     let mimics = Mimics::resolve(robot).map(|mimics| mimics.by_joint);
     let mimic = |joint: usize| mimics.as_ref().and_then(|all| all[joint]);
+    let followed: BTreeSet<usize> =
+        (0..robot.joints.len()).filter_map(|joint| Some(mimic(joint)?.driver)).collect();
     let mut needed = vec![0.0; robot.joints.len()];
     for (index, joint) in robot.joints.iter().enumerate() {
         let child = tree.joint_links[index].1;
@@ -73,9 +75,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let mass = loads[tree.joint_links[index].1].mass;
         let [needed, limit, mass] =
             [needed.abs(), limit, mass].map(|value| readable::number(value, 3));
-        let is_followed = (0..robot.joints.len())
-            .any(|other| mimic(other).is_some_and(|mimic| mimic.driver == index));
-        let others = if is_followed { " and what its followers hold" } else { "" };
+        let others = if followed.contains(&index) { " and what its followers hold" } else { "" };
         let message = format!(
             "in the default configuration, the joint needs {needed} {unit} to hold the {mass} kg beyond it{others}, and `effort` \
             is {limit}: it sags; write what the motor can do, in {unit}"

@@ -1,5 +1,5 @@
 use super::prelude::*;
-use crate::vocabulary::hint;
+use crate::vocabulary::Names;
 
 declare_lint! {
     /// A `<gazebo reference>` names neither a link nor a joint.
@@ -11,13 +11,13 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let known: Vec<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
+    let known = Names::new(urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)));
     for (_, node) in children(urdf.root).filter(|(name, _)| *name == "gazebo") {
         let reference = node.attribute("reference").filter(|name| !name.is_empty());
-        let Some(reference) = reference.filter(|name| !known.contains(name)) else {
+        let Some(reference) = reference.filter(|name| !known.has(name)) else {
             continue;
         };
-        let hint = hint(reference, &known);
+        let hint = known.hint(reference);
         let message = format!(
             "neither a link nor a joint is called `{reference}`{hint}; write a name that is there"
         );

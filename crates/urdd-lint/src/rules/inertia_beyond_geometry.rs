@@ -52,7 +52,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         {
             continue;
         }
-        let points = body.in_frame(&bodies.pose[link]);
+        let points: Vec<Vector3<f64>> = body.in_frame(&bodies.pose[link]).collect();
         let margin = PART * diagonal(points.iter().copied()) + MARGIN;
         let largest = largest_radii(inertial, &points, margin);
         let radii = inertial.moments.map(|moment| (moment / inertial.mass).max(0.0).sqrt());

@@ -27,7 +27,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Some(inertial) = Inertial::of(link).filter(|_| !shapes.is_partial) else {
             continue;
         };
-        let Some(hull) = Hull::of(shapes.corners()) else {
+        let Some(hull) = shapes.hull() else {
             continue;
         };
         let (trace, even) = (inertial.trace(), inertial.mass * hull.even_trace());

@@ -21,10 +21,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let longest = urdf.longest_part(findings)?;
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Ok(facts) = mesh.facts else { continue };
-        let size = diagonal(facts.corners.iter().map(|[x, y, z]| {
-            let [a, b, c] = mesh.scale;
-            Vector3::new(x * a, y * b, z * c)
-        }));
+        let scale = Vector3::from(mesh.scale);
+        let size = diagonal(facts.solid.corners.iter().map(|one| one.component_mul(&scale)));
         let largest = mesh.scale.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
         let (what, advice) = if size > longest {
             let advice = match largest > 1.0 {

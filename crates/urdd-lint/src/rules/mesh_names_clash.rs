@@ -13,12 +13,12 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let mut by_name: BTreeMap<&std::ffi::OsStr, Vec<(_, &Path)>> = BTreeMap::new();
+    let mut seen = BTreeSet::new();
     for (node, mesh) in urdf.read_meshes(findings)? {
-        if let (GeometryKind::Collision, Some(name)) = (mesh.kind, mesh.file.file_name()) {
-            let files = by_name.entry(name).or_default();
-            if files.iter().all(|(_, file)| *file != mesh.file) {
-                files.push((node, mesh.file));
-            }
+        if let (GeometryKind::Collision, Some(name)) = (mesh.kind, mesh.file.file_name())
+            && seen.insert(mesh.file)
+        {
+            by_name.entry(name).or_default().push((node, mesh.file));
         }
     }
     for files in by_name.into_values().filter(|files| files.len() > 1) {

@@ -12,7 +12,7 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for Unknown { node, what, meant, belongs, .. } in urdf.unknown() {
+    for Unknown { node, what, meant, belongs, .. } in urdf.unknown().iter().cloned() {
         if meant.is_some() || belongs.is_empty() || is_zero(node, what) {
             continue;
         }

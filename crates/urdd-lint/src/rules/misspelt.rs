@@ -1,3 +1,5 @@
+use std::collections::HashMap;
+
 use super::prelude::*;
 use crate::vocabulary::fits;
 
@@ -14,8 +16,12 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let all = urdf.unknown();
-    for Unknown { node, what, meant, is_only, .. } in all.iter().cloned() {
+    // Two attributes of one name are no XML.
+    let mut meant_so: HashMap<_, usize> = HashMap::new();
+    for one in urdf.unknown().iter().filter(|one| matches!(one.what, What::Attribute(_))) {
+        *meant_so.entry((one.node.id(), one.meant)).or_default() += 1;
+    }
+    for Unknown { node, what, meant, is_only, .. } in urdf.unknown().iter().cloned() {
         let Some(meant) = meant else {
             continue;
         };
@@ -26,12 +32,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             What::Attribute(name) => {
                 let message = format!("programs ignore the attribute `{name}`; write `{meant}`");
-                // Two attributes of one name are no XML.
-                let others = all.iter().filter(|other| {
-                    let is_attribute = matches!(other.what, What::Attribute(_));
-                    is_attribute && other.node == node && other.meant == Some(meant)
-                });
-                let has_one_meaning = is_only && others.count() == 1 && !node.has_attribute(meant);
+                let has_one_meaning = is_only
+                    && meant_so[&(node.id(), Some(meant))] == 1
+                    && !node.has_attribute(meant);
                 let attribute = node
                     .attribute_node(name)
                     .filter(|attribute| has_one_meaning && fits(meant, attribute.value()));

@@ -1,3 +1,5 @@
+use std::collections::HashMap;
+
 use super::prelude::*;
 
 declare_lint! {
@@ -61,15 +63,19 @@ enum World {
     Carried,
 }
 
-fn world(urdf: &Subject) -> World {
-    let end = |joint: &Node<'_, '_>, end: &str| {
+fn world<'a>(urdf: &Subject<'a>) -> World {
+    let end = |joint: &Node<'a, 'a>, end: &str| {
         let link = joint.children().find(|node| node.has_tag_name(end));
-        link.and_then(|link| link.attribute("link")).unwrap_or_default().to_owned()
+        link.and_then(|link| link.attribute("link")).unwrap_or_default()
     };
-    let mut link = WORLD.to_owned();
+    let mut above: HashMap<&str, Node> = HashMap::new();
+    for joint in &urdf.joints {
+        above.entry(end(joint, "child")).or_insert(*joint);
+    }
+    let mut link = WORLD;
     // A circle ends with the joints.
     for step in 0..urdf.joints.len() {
-        let Some(joint) = urdf.joints.iter().find(|joint| end(joint, "child") == link) else {
+        let Some(joint) = above.get(link) else {
             break;
         };
         if moves(*joint) {

@@ -1,4 +1,5 @@
 use super::prelude::*;
+use crate::geometry::Shape;
 use crate::inertial::mass;
 use urdd_format::readable::number;
 
@@ -27,14 +28,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
         let mass_of = |link: usize| mass(&robot.links[link]);
         let mass: f64 = bodies.members(top).filter_map(mass_of).sum();
-        let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
+        let Some(hull) = (mass > 0.0).then(|| body.hull()).flatten() else {
             continue;
         };
         // Each shape by itself, so that an L is not filled; the smaller of what is seen and what collides.
         let sum = |kind: GeometryKind| -> f64 {
             let shapes = body.shapes.iter().filter(|shape| shape.kind == kind);
-            let hulls = shapes.filter_map(|shape| Hull::of(shape.corners.iter().copied()));
-            hulls.map(|hull| hull.volume).sum()
+            shapes.map(Shape::volume).sum()
         };
         let sums = [GeometryKind::Visual, GeometryKind::Collision].map(sum);
         let least = sums.into_iter().filter(|sum| *sum > 0.0).fold(f64::INFINITY, f64::min);

@@ -37,7 +37,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     }
     let geometry = urdf.geometry(findings)?;
     let shapes = geometry.links.iter().flat_map(|link| &link.shapes);
-    let largest = shapes.map(|shape| diagonal(shape.corners.iter().copied())).fold(0.0, f64::max);
+    let largest = shapes.map(|shape| diagonal(shape.corners())).fold(0.0, f64::max);
     // A shape that is not known may be as large as the distances.
     if geometry.links.iter().any(|link| link.is_partial) || largest == 0.0 {
         return Some(());

@@ -36,7 +36,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     groups.sort_by_key(|(_, links)| links[0]);
     for (key, links) in groups {
         let hulls = links.iter().filter(|link| !geometry.links[**link].is_partial);
-        let hulls = hulls.filter_map(|link| Hull::of(geometry.links[*link].corners()));
+        let hulls = hulls.filter_map(|link| geometry.links[*link].hull());
         let mut volumes: Vec<f64> = hulls.map(|hull| hull.volume).collect();
         volumes.sort_by(f64::total_cmp);
         let mut sizes: Vec<f64> = Vec::new();

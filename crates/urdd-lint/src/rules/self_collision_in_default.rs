@@ -1,8 +1,10 @@
 use std::cell::LazyCell;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
 use super::prelude::*;
+use crate::geometry::Shape;
 use crate::pose::at_default;
 use urdd_geometry::convex::across::PlacedPair;
 use urdd_geometry::convex::{ConvexShape, penetration};
@@ -13,7 +15,7 @@ declare_lint! {
     /// It is the convex hulls of collision shapes that overlap, by more than 1 mm: MuJoCo, PyBullet and Isaac take the hull of a
     /// collision mesh. MuJoCo pushes the links apart from the first step, and the robot jerks or jams. Each joint is at 0,
     /// or at the limit nearest to it. Left out: links that fixed joints hold together, a link and the next one, pairs that the
-    /// robot's SRDF disables, robots of more than 600 collision shapes.
+    /// robot's SRDF disables, robots of more than 600 collision shapes, or of more than 5,000 pairs of shapes whose boxes overlap.
     ///
     /// Make the shapes smaller or cut them into convex pieces (`urdd generate`), or disable the pair.
     LNT050 "self-collision-in-default", Info, Collisions, since "1.1.0"
@@ -22,19 +24,21 @@ declare_lint! {
 /// Parts that touch are no finding, m.
 const LEAST: f64 = 0.001;
 const MANY: usize = 600;
+const MANY_PAIRS: usize = 5_000;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let geometry = urdf.geometry(findings)?;
+    let collides = |shape: &&Shape| shape.kind == GeometryKind::Collision && !shape.is_turned;
+    let all = geometry.links.iter().flat_map(|link| &link.shapes);
+    if all.filter(collides).count() > MANY {
+        return Some(());
+    }
     let poses = at_default(robot, &bodies.tree);
     let mut items = Vec::new();
     for (link, shapes) in geometry.links.iter().enumerate() {
-        for shape in shapes
-            .shapes
-            .iter()
-            .filter(|shape| shape.kind == GeometryKind::Collision && !shape.is_turned)
-        {
-            let corners = shape.placed(&poses[link]).corners;
+        for shape in shapes.shapes.iter().filter(collides) {
+            let corners: Vec<Vector3<f64>> = shape.placed(&poses[link]).corners().collect();
             let Some(bounds) = bounds(corners.iter().copied()) else {
                 continue;
             };
@@ -47,13 +51,17 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             items.push((link, bounds, shape));
         }
     }
-    if items.len() > MANY {
-        return Some(());
-    }
     let above = |top: usize| bodies.tree.parent_link[top].map(|parent| bodies.top[parent]);
-    let disabled = srdf::disabled_pairs(urdf);
+    let links: HashMap<&str, usize> =
+        robot.links.iter().enumerate().map(|(index, link)| (link.name.as_str(), index)).collect();
+    let disabled = srdf::disabled_pairs(urdf).into_iter().filter_map(|(a, b)| {
+        let (a, b) = (*links.get(a.as_str())?, *links.get(b.as_str())?);
+        Some((a.min(b), a.max(b)))
+    });
+    let disabled: HashSet<(usize, usize)> = disabled.collect();
     let mut worst: Option<(f64, usize, usize)> = None;
     let mut pairs = BTreeSet::new();
+    let mut compared = 0;
     for (number, (a, (low_a, high_a), first)) in items.iter().enumerate() {
         for (b, (low_b, high_b), second) in &items[number + 1..] {
             let (top_a, top_b) = (bodies.top[*a], bodies.top[*b]);
@@ -61,11 +69,12 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 top_a == top_b || above(top_a) == Some(top_b) || above(top_b) == Some(top_a);
             let is_apart =
                 (0..3).any(|axis| low_a[axis] > high_b[axis] || low_b[axis] > high_a[axis]);
-            if is_near
-                || is_apart
-                || disabled.contains(&pair(&robot.links[*a].name, &robot.links[*b].name))
-            {
+            if is_near || is_apart || disabled.contains(&(*a.min(b), *a.max(b))) {
                 continue;
+            }
+            compared += 1;
+            if compared > MANY_PAIRS {
+                return Some(());
             }
             let (Some(first), Some(second)) = (&**first, &**second) else {
                 continue;
@@ -98,9 +107,4 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let node = child(urdf.links[a], "collision").unwrap_or(urdf.links[a]);
     urdf.at(node, message).report(findings);
     Some(())
-}
-
-/// Two names in order.
-fn pair(a: &str, b: &str) -> (String, String) {
-    (a.min(b).to_owned(), a.max(b).to_owned())
 }

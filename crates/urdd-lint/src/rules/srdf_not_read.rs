@@ -1,7 +1,7 @@
 use urdd_xml::Document;
 
 use super::prelude::*;
-use crate::vocabulary::{hint, near};
+use crate::vocabulary::{Names, near};
 use urdd_directory::position::{LineIndex, Position};
 
 declare_lint! {
@@ -104,7 +104,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 struct Reader<'d, 'f> {
     file: &'d str,
     lines: LineIndex<'d>,
-    groups: Vec<&'d str>,
+    groups: Names<'d>,
     findings: &'f mut Findings,
 }
 
@@ -115,7 +115,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         Reader {
             file,
             lines: LineIndex::new(document.input_text()),
-            groups: groups.map(str::trim).collect(),
+            groups: Names::new(groups.map(str::trim)),
             findings,
         }
     }
@@ -168,9 +168,9 @@ impl<'d, 'f> Reader<'d, 'f> {
         };
         for attribute in groups {
             let group = node.attribute(*attribute).unwrap_or_default().trim();
-            if !group.is_empty() && !self.groups.contains(&group) {
+            if !group.is_empty() && !self.groups.has(group) {
                 let lost = if of == "group" { "the group around it" } else { "this element" };
-                let hint = hint(group, &self.groups);
+                let hint = self.groups.hint(group);
                 let message = format!(
                     "no group is called `{group}`{hint}, and MoveIt leaves out {lost}; write the name of a group"
                 );

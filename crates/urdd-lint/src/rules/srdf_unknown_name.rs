@@ -1,7 +1,7 @@
 use urdd_xml::Document;
 
 use super::prelude::*;
-use crate::vocabulary::hint;
+use crate::vocabulary::Names;
 use urdd_directory::position::LineIndex;
 
 declare_lint! {
@@ -31,8 +31,8 @@ const FREE_BASE: &str = "root_joint";
 
 fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findings) {
     let root = document.root_element();
-    let links: BTreeSet<&str> = urdf.names(&urdf.links).collect();
-    let joints: BTreeSet<&str> = urdf.names(&urdf.joints).collect();
+    let links = Names::new(urdf.names(&urdf.links));
+    let joints = Names::new(urdf.names(&urdf.joints));
     let elements = || root.descendants().filter(Node::is_element);
     let virtual_joints = elements().filter(|node| node.tag_name().name() == "virtual_joint");
     let virtual_joints: BTreeSet<&str> =
@@ -59,7 +59,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
             };
             let known = if is_link { &links } else { &joints };
             let is_free_base = !is_link && name == FREE_BASE;
-            if known.contains(name)
+            if known.has(name)
                 || is_free_base
                 || virtual_joints.contains(name)
                 || !told.insert((is_link, name.to_owned()))
@@ -67,7 +67,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
                 continue;
             }
             let kind = if is_link { "link" } else { "joint" };
-            let hint = hint(name, &known.iter().copied().collect::<Vec<_>>());
+            let hint = known.hint(name);
             let message = format!(
                 "the URDF has no {kind} `{name}`{hint}; correct the name, or remove the line"
             );

@@ -26,7 +26,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let visuals = body.shapes.iter().filter(|shape| shape.kind == GeometryKind::Visual);
-        let size = diagonal(visuals.flat_map(|shape| shape.corners.iter().copied()));
+        let size = diagonal(visuals.flat_map(|shape| shape.corners()));
         if size >= SMALL {
             let message = format!(
                 "this is drawn {} long, and nothing can collide with it; add a `<collision>`",

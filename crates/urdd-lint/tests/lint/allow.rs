@@ -43,6 +43,18 @@ fn a_comment_elsewhere_allows_nothing_and_is_named() {
 }
 
 #[test]
+fn comments_in_one_another_are_all_used() {
+    let text = SLIDE.replace("<joint", "<!-- urdd: allow LNT012 --><!-- urdd: allow LNT --><joint");
+    let text = text
+        .replace("<axis", "<!-- urdd: allow LNT012 --><axis")
+        .replace("<robot", "<!-- urdd: allow LNT -->\n<robot");
+    let (_folder, file) = written(&text);
+    let run = linted(&file, &LintSettings::default());
+    assert_eq!(codes(&run), [""; 0]);
+    assert_eq!(run.report.stale_ignores, []);
+}
+
+#[test]
 fn codes_stand_before_the_reason() {
     assert_eq!(codes_of(" urdd: allow LNT001 SRC, really "), Some(vec!["LNT001"]));
     assert_eq!(codes_of("urdd:allow LNT001 , SRC: see #3, #4"), Some(vec!["LNT001", "SRC"]));

@@ -125,7 +125,7 @@ impl Reader<'_> {
         for &(element, count, value) in force.numbers {
             let of = self.effects.needed_element(node, element)?;
             let written = self.effects.needed(of, "value")?;
-            let numbers = self.numbers(written, count, force.name)?;
+            let numbers = self.numbers(written, count, &force.name.into())?;
             match value {
                 NotNegative if numbers.iter().any(|number| *number < 0.0) => {
                     return self.negative(written);
@@ -150,7 +150,7 @@ impl Reader<'_> {
                 return self.effects.refuse(name, Fault::unknown("joint", &name.value));
             }
             let factor = self.effects.needed(joint, "a")?;
-            self.numbers(factor, 1, TENDON)?;
+            self.numbers(factor, 1, &TENDON.into())?;
         }
         Ok(())
     }

@@ -3,11 +3,12 @@
 use super::Reader;
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::Node;
 
 impl Reader<'_> {
     /// An inertial. One that no body can have is a solid sphere of water of its mass, or of 1 kg.
-    pub(super) fn inertial(&mut self, inertial: Node<'_>, part: &str) -> Reading<()> {
+    pub(super) fn inertial(&mut self, inertial: Node<'_>, part: &Part) -> Reading<()> {
         self.pose(inertial, part)?;
         let mut written = None;
         if let Some(node) = inertial.child("mass") {

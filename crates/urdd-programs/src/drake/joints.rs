@@ -4,7 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Links, Reader, WORLD};
 use crate::effect::Reading;
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 /// A joint that Drake has.
@@ -61,7 +62,12 @@ impl Reader<'_> {
             let limit = idle.and_then(|joint| joint.node.child("limit"));
             if let Some(effort) = limit.and_then(|limit| limit.attribute("effort")) {
                 let fault = Fault::Way("`effort` is read only for a joint with a transmission");
-                self.effects.read_as(effort, format!("joint/{name}/limit"), fault, "no motor");
+                self.effects.read_as(
+                    effort,
+                    Part::of("joint", name).inside("limit"),
+                    fault,
+                    "no motor",
+                );
             }
         }
         Ok(())
@@ -74,7 +80,7 @@ impl Reader<'_> {
         let name = self.effects.needed(node, "name")?;
         let kind = self.effects.needed(node, "type")?;
         let (parent, child) = (self.end(node, "parent")?, self.end(node, "child")?);
-        let part = format!("joint/{}", name.value);
+        let part = Part::of("joint", &name.value);
         for (value, attribute) in
             [(name, "name"), (kind, "type"), (parent, "link"), (child, "link")]
         {
@@ -88,9 +94,9 @@ impl Reader<'_> {
                 return self.effects.refuse(end, Fault::unknown("link", &end.value));
             }
         }
-        self.pose(node, &format!("{part}/origin"))?;
+        self.pose(node, &part.inside("origin"))?;
         if !matches!(&*kind.value, "fixed" | "floating" | "ball") {
-            self.axis(node, &format!("{part}/axis"))?;
+            self.axis(node, &part.inside("axis"))?;
         }
         let Some(freedoms) = freedoms(&kind.value, node.name() == "drake:joint") else {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
@@ -107,12 +113,12 @@ impl Reader<'_> {
                 "fixed" => Fault::Way("the link `world` is the world of the program"),
                 _ => Fault::world(),
             };
-            self.effects.read_as(child, &*part, fault, "a joint of the world");
+            self.effects.read_as(child, &part, fault, "a joint of the world");
         }
         for unread in ["safety_controller", "calibration"] {
             if let Some(found) = node.child(unread) {
                 let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, format!("{part}/{unread}"), fault);
+                self.effects.drop(found, part.inside(unread), fault);
             }
         }
         let effort = self.motion(node, &kind.value, &part)?;
@@ -144,7 +150,7 @@ impl Reader<'_> {
             let frame = format!("{}_{end}", name.value);
             if !model.frames.insert(frame) {
                 let rule = "a link or frame is called so with `_parent` or `_child` behind it";
-                let fault = Fault::Name { kind: "joint", name: shortened(&name.value), rule };
+                let fault = Fault::Name { kind: "joint", name: (&*name.value).into(), rule };
                 return self.effects.refuse(name, fault);
             }
         }
@@ -157,7 +163,7 @@ impl Reader<'_> {
         self.effects.needed(end, "link")
     }
 
-    fn axis(&mut self, joint: Node<'_>, part: &str) -> Reading<()> {
+    fn axis(&mut self, joint: Node<'_>, part: &Part) -> Reading<()> {
         let axis = self.first(joint, "axis", part);
         let Some(xyz) = axis.and_then(|axis| axis.attribute("xyz")) else {
             return Ok(());
@@ -171,8 +177,8 @@ impl Reader<'_> {
     }
 
     /// Limits and dynamics. Gives the limit of effort.
-    fn motion(&mut self, joint: Node<'_>, kind: &str, part: &str) -> Reading<f64> {
-        let (limit_part, dynamics_part) = (format!("{part}/limit"), format!("{part}/dynamics"));
+    fn motion(&mut self, joint: Node<'_>, kind: &str, part: &Part) -> Reading<f64> {
+        let (limit_part, dynamics_part) = (part.inside("limit"), part.inside("dynamics"));
         let limit = self.first(joint, "limit", &limit_part);
         let dynamics = self.first(joint, "dynamics", &dynamics_part);
         let mut effort = f64::INFINITY;
@@ -207,7 +213,7 @@ impl Reader<'_> {
         Ok(effort)
     }
 
-    fn limit(&mut self, limit: Node<'_>, kind: &str, part: &str) -> Reading<Option<f64>> {
+    fn limit(&mut self, limit: Node<'_>, kind: &str, part: &Part) -> Reading<Option<f64>> {
         let mut number = |name| self.number(limit, name, part);
         let (lower, upper, effort) = (number("lower")?, number("upper")?, number("effort")?);
         for name in ["velocity", "drake:acceleration"] {
@@ -230,7 +236,7 @@ impl Reader<'_> {
         Ok(effort)
     }
 
-    fn dynamics(&mut self, dynamics: Node<'_>, part: &str) -> Reading<()> {
+    fn dynamics(&mut self, dynamics: Node<'_>, part: &Part) -> Reading<()> {
         self.not_negative(dynamics, "damping", part)?;
         self.number(dynamics, "coulomb_window", part)?;
         let friction = self.number(dynamics, "friction", part)?;
@@ -242,7 +248,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn not_negative(&mut self, node: Node<'_>, name: &str, part: &str) -> Reading<()> {
+    fn not_negative(&mut self, node: Node<'_>, name: &str, part: &Part) -> Reading<()> {
         let Some(value) = node.attribute(name) else { return Ok(()) };
         match self.numbers(value, 1, part)?.iter().any(|number| *number < 0.0) {
             true => self.negative(value),
@@ -265,7 +271,7 @@ impl Reader<'_> {
         if of.value == name {
             return self.effects.refuse(of, Fault::Other("the joint mimics itself"));
         }
-        let part = format!("joint/{name}/mimic");
+        let part = Part::of("joint", name).inside("mimic");
         self.number(mimic, "multiplier", &part)?;
         self.number(mimic, "offset", &part)?;
         let Some(follower) = model.joints.get(name) else { return Ok(()) };
@@ -286,7 +292,7 @@ impl Reader<'_> {
         model: &mut Model<'_, 't>,
         actuators: &mut HashSet<&'t str>,
     ) -> Reading<()> {
-        let part = format!("transmission/{}", node.value("name").unwrap_or_default());
+        let part = Part::of("transmission", node.value("name").unwrap_or_default());
         let kind = match node.child("type") {
             Some(kind) => match kind.text() {
                 Some(text) => text,
@@ -316,7 +322,7 @@ impl Reader<'_> {
         }
         if joint.effort == 0.0 {
             let fault = Fault::Way("a transmission of a joint with `effort` 0 is not read");
-            self.effects.drop(of, format!("joint/{}/limit", of.value), fault);
+            self.effects.drop(of, Part::of("joint", &of.value).inside("limit"), fault);
             return Ok(());
         }
         if joint.freedoms > 1 {
@@ -353,7 +359,7 @@ impl Reader<'_> {
             return self.effects.refuse(link, Fault::unknown("link", &link.value));
         }
         for vector in ["xyz", "rpy"] {
-            self.vector(frame, vector, 3, "frame")?;
+            self.vector(frame, vector, 3, &"frame".into())?;
         }
         if name.value.is_empty() {
             return self.effects.refuse(name, Fault::Empty("name"));

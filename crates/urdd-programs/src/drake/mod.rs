@@ -10,9 +10,10 @@ use std::collections::{HashMap, HashSet};
 
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::file::File;
 use crate::number::{is_space, istream};
+use crate::part::Part;
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
 use crate::unknown::Names;
@@ -80,7 +81,7 @@ impl Reader<'_> {
         match &*name.value {
             "" => self.effects.refuse(name, Fault::Empty("name")),
             "WorldModelInstance" | "DefaultModelInstance" if kind == "robot" => {
-                let fault = Fault::Name { kind, name: shortened(&name.value), rule };
+                let fault = Fault::Name { kind, name: (&*name.value).into(), rule };
                 self.effects.refuse(name, fault)
             }
             name => Ok(name),
@@ -94,18 +95,18 @@ impl Reader<'_> {
                 continue;
             }
             let name = self.named(link, "link")?;
-            let part = format!("link/{name}");
-            let inertial = self.first(link, "inertial", &format!("{part}/inertial"));
+            let part = Part::of("link", name);
+            let inertial = self.first(link, "inertial", &part.inside("inertial"));
             if name == WORLD {
                 let fault = Fault::Way("a link `world` is the world of the program");
-                self.effects.read_as(link, &*part, fault, "the world");
+                self.effects.read_as(link, &part, fault, "the world");
                 if let Some(inertial) = inertial {
                     let fault = Fault::NeverRead("inertial".into());
-                    self.effects.drop(inertial, format!("{part}/inertial"), fault);
+                    self.effects.drop(inertial, part.inside("inertial"), fault);
                 }
             } else {
                 if let Some(inertial) = inertial {
-                    self.inertial(inertial, &format!("{part}/inertial"))?;
+                    self.inertial(inertial, &part.inside("inertial"))?;
                 }
                 if links.insert(name, link).is_some() {
                     return self.effects.refuse(link, Fault::not_unique("link", name));
@@ -113,7 +114,7 @@ impl Reader<'_> {
             }
             for kind in ["visual", "collision"] {
                 for (index, shape) in link.named(kind).enumerate() {
-                    self.shape(shape, &format!("{part}/{kind}/{index}"))?;
+                    self.shape(shape, &part.inside(format_args!("{kind}/{index}")))?;
                 }
             }
         }
@@ -145,7 +146,7 @@ impl Reader<'_> {
     fn is_ignored(&mut self, node: Node<'_>) -> bool {
         let ignored = node.attribute("drake_ignore").filter(|ignored| ignored.value == "true");
         if let Some(ignored) = ignored {
-            let part = format!("{}/{}", node.name(), node.value("name").unwrap_or_default());
+            let part = Part::of(node.name(), node.value("name").unwrap_or_default());
             self.effects.drop(ignored, part, Fault::Way("`drake_ignore` is `true`"));
         }
         ignored.is_some()
@@ -168,7 +169,7 @@ impl Reader<'_> {
         let mut color = None;
         if let Some(of) = node.child("color") {
             let rgba = self.effects.needed(of, "rgba")?;
-            color = Some((rgba.range.start, self.numbers(rgba, 4, "material")?));
+            color = Some((rgba.range.start, self.numbers(rgba, 4, &"material".into())?));
         }
         if name.is_empty() {
             return Ok(color);
@@ -200,16 +201,16 @@ impl Reader<'_> {
     }
 
     /// The first child of a name, which is the one that counts: also if it is empty, and another one is not.
-    fn first<'t>(&mut self, parent: Node<'t>, name: &str, part: &str) -> Option<Node<'t>> {
+    fn first<'t>(&mut self, parent: Node<'t>, name: &str, part: &Part) -> Option<Node<'t>> {
         let mut all = parent.named(name);
         let first = all.next()?;
         if first.is_empty() && all.any(|other| !other.is_empty()) {
-            self.effects.drop(first, part, Fault::Repeated(name.to_owned()));
+            self.effects.drop(first, part, Fault::Repeated(name.into()));
         }
         Some(first)
     }
 
-    fn pose(&mut self, parent: Node<'_>, part: &str) -> Reading<()> {
+    fn pose(&mut self, parent: Node<'_>, part: &Part) -> Reading<()> {
         let Some(origin) = self.first(parent, "origin", part) else { return Ok(()) };
         for name in ["xyz", "rpy"] {
             self.vector(origin, name, 3, part)?;
@@ -221,7 +222,7 @@ impl Reader<'_> {
     }
 
     /// A number that may be left out.
-    fn number(&mut self, node: Node<'_>, name: &str, part: &str) -> Reading<Option<f64>> {
+    fn number(&mut self, node: Node<'_>, name: &str, part: &Part) -> Reading<Option<f64>> {
         Ok(self.vector(node, name, 1, part)?.and_then(|numbers| numbers.first().copied()))
     }
 
@@ -231,13 +232,13 @@ impl Reader<'_> {
         node: Node<'_>,
         name: &str,
         count: usize,
-        part: &str,
+        part: &Part,
     ) -> Reading<Option<Vec<f64>>> {
         node.attribute(name).map(|value| self.numbers(value, count, part)).transpose()
     }
 
     /// As many numbers as the text begins with: what follows them is left out.
-    fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &str) -> Reading<Vec<f64>> {
+    fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &Part) -> Reading<Vec<f64>> {
         let text = &*value.value;
         let (mut numbers, mut rest) = (Vec::new(), text);
         while let Some((number, behind)) = istream(rest) {

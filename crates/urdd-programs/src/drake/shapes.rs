@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::Reader;
 use crate::effect::Reading;
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::is_space;
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 /// The shapes in the order in which Drake looks for them, and their sizes.
@@ -21,13 +22,13 @@ const SHAPES: [(&str, &[&str]); 7] = [
 ];
 
 impl Reader<'_> {
-    pub(super) fn shape(&mut self, shape: Node<'_>, part: &str) -> Reading<()> {
+    pub(super) fn shape(&mut self, shape: Node<'_>, part: &Part) -> Reading<()> {
         let geometry = self.effects.needed_element(shape, "geometry")?;
         self.pose(shape, part)?;
         let known = SHAPES.iter().find_map(|(name, sizes)| Some((geometry.child(name)?, *sizes)));
         let Some((form, sizes)) = known else {
             return match geometry.children().next() {
-                Some(other) => self.effects.refuse(other, Fault::Shape(shortened(other.name()))),
+                Some(other) => self.effects.refuse(other, Fault::Shape(other.name().into())),
                 None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
             };
         };
@@ -42,7 +43,7 @@ impl Reader<'_> {
             }
         }
         if shape.name() == "visual" {
-            self.color(shape, &format!("{part}/material"))?;
+            self.color(shape, &part.inside("material"))?;
         }
         if let Some(name) = shape.attribute("name")
             && name.value.trim_matches(is_space).is_empty()
@@ -55,7 +56,7 @@ impl Reader<'_> {
         }
     }
 
-    fn color(&mut self, visual: Node<'_>, part: &str) -> Reading<()> {
+    fn color(&mut self, visual: Node<'_>, part: &Part) -> Reading<()> {
         let Some(material) = self.first(visual, "material", part) else { return Ok(()) };
         let Some((at, rgba)) = self.material(material, false)? else { return Ok(()) };
         match rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
@@ -69,7 +70,7 @@ impl Reader<'_> {
         }
     }
 
-    fn mesh(&mut self, mesh: Node<'_>, part: &str, is_collision: bool) -> Reading<()> {
+    fn mesh(&mut self, mesh: Node<'_>, part: &Part, is_collision: bool) -> Reading<()> {
         let filename = self.effects.needed(mesh, "filename")?;
         let facts = self.found(filename, "mesh")?;
         if let Some(scale) = mesh.attribute("scale") {

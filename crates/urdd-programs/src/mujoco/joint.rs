@@ -6,6 +6,7 @@ use super::inertia::Pose;
 use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::Node;
 
 /// A joint, as the tree asks for it.
@@ -43,7 +44,7 @@ impl Reader<'_> {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
         }
         let name = self.text(node, "name")?;
-        let part = format!("joint/{name}");
+        let part = Part::of("joint", name);
         let pose = self.origin(node, &part)?;
         let joint = Joint { node, name, kind: &kind.value, pose };
         self.axis(&joint)?;
@@ -58,11 +59,11 @@ impl Reader<'_> {
             let fault = Fault::not_unique("joint", name);
             match self.release {
                 Release::Three => return self.effects.refuse(node, fault),
-                Release::Four => self.effects.read_as(node, &*part, fault, "without a name"),
+                Release::Four => self.effects.read_as(node, &part, fault, "without a name"),
             }
         }
         if let Some(dynamics) = self.only(node, "dynamics")? {
-            let part = format!("{part}/dynamics");
+            let part = part.inside("dynamics");
             self.number(dynamics, "damping", &part)?;
             self.number(dynamics, "friction", &part)?;
             self.finite(dynamics, &["damping", "friction"]);
@@ -71,12 +72,12 @@ impl Reader<'_> {
         if joint.kind == "planar" {
             let fault = Fault::Way("a planar joint becomes three joints");
             let makes = format!("{name}_TX, {name}_TY and {name}_RZ");
-            self.effects.read_as(kind, &*part, fault, makes);
+            self.effects.read_as(kind, &part, fault, makes);
         }
         for unread in ["safety_controller", "calibration"] {
             if let Some(found) = node.child(unread) {
-                let fault = Fault::NeverRead(unread.to_owned());
-                self.effects.drop(found, format!("{part}/{unread}"), fault);
+                let fault = Fault::NeverRead(unread.into());
+                self.effects.drop(found, part.inside(unread), fault);
             }
         }
         Ok(joint)
@@ -96,8 +97,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn limit(&mut self, joint: &Joint<'_>, part: &str) -> Reading<()> {
-        let part = format!("{part}/limit");
+    fn limit(&mut self, joint: &Joint<'_>, part: &Part) -> Reading<()> {
+        let part = part.inside("limit");
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         let Some(limit) = self.only(joint.node, "limit")? else {
             if is_limited {
@@ -119,7 +120,7 @@ impl Reader<'_> {
             }
             "continuous" if has_range => {
                 let fault = Fault::Limits("a continuous joint is limited by `lower` and `upper`");
-                self.effects.read_as(limit, &*part, fault, "limited");
+                self.effects.read_as(limit, &part, fault, "limited");
             }
             _ if is_limited && !has_range => {
                 let fault = match range {
@@ -127,24 +128,24 @@ impl Reader<'_> {
                     [_, None] => Fault::Missing("upper"),
                     _ => Fault::Limits("`lower` is not below `upper`"),
                 };
-                self.effects.read_as(limit, &*part, fault, "no limit");
+                self.effects.read_as(limit, &part, fault, "no limit");
             }
             _ => {}
         }
         self.effort(joint, limit, &part)?;
         for unread in ["velocity", "acceleration", "deceleration", "jerk"] {
             if let Some(found) = limit.attribute(unread) {
-                self.effects.drop(found, &*part, Fault::NeverRead(unread.to_owned()));
+                self.effects.drop(found, &part, Fault::NeverRead(unread.into()));
             }
         }
         Ok(())
     }
 
-    fn effort(&mut self, joint: &Joint<'_>, limit: Node<'_>, part: &str) -> Reading<()> {
+    fn effort(&mut self, joint: &Joint<'_>, limit: Node<'_>, part: &Part) -> Reading<()> {
         let Some(effort) = self.number(limit, "effort", part)? else { return Ok(()) };
         let Some(value) = limit.attribute("effort") else { return Ok(()) };
         if matches!(joint.kind, "floating" | "spherical") {
-            self.effects.drop(value, part, Fault::NeverRead("effort".to_owned()));
+            self.effects.drop(value, part, Fault::NeverRead("effort".into()));
         } else if effort == 0.0 || effort.is_nan() {
             let fault = Fault::Way("an `effort` of 0 limits nothing");
             self.effects.read_as(value, part, fault, "no limit");
@@ -162,10 +163,10 @@ impl Reader<'_> {
             scalar.entry(joint.name).or_insert(joint.is_scalar());
         }
         for joint in joints.iter().filter(|joint| joint.moves()) {
-            let part = format!("joint/{}/mimic", joint.name);
+            let part = Part::of("joint", joint.name).inside("mimic");
             if self.release == Release::Three {
                 if let Some(mimic) = joint.node.child("mimic") {
-                    self.effects.drop(mimic, part, Fault::NeverRead("mimic".to_owned()));
+                    self.effects.drop(mimic, part, Fault::NeverRead("mimic".into()));
                 }
                 continue;
             }

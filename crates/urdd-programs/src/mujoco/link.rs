@@ -3,7 +3,8 @@
 use super::inertia::{Body, LEAST_EIGENVALUE, Matrix, Pose, eigenvalues};
 use super::reader::{LEAST, Reader, Release};
 use crate::effect::Reading;
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::Node;
 
 /// The density of collisions, kg per cubic metre.
@@ -26,7 +27,7 @@ impl Solid {
 
 impl Reader<'_> {
     pub fn link(&mut self, link: Node<'_>, name: &str) -> Reading<Body> {
-        let part = format!("link/{name}");
+        let part = Part::of("link", name);
         let own = match self.only(link, "inertial")? {
             Some(inertial) => Some(self.inertial(inertial, name)?),
             None => None,
@@ -35,14 +36,14 @@ impl Reader<'_> {
         for (index, visual) in link.named("visual").enumerate() {
             self.own_material(visual)?;
             if self.settings.has_visuals {
-                solids.push(self.geom(visual, &format!("{part}/visual/{index}"))?);
+                solids.push(self.geom(visual, &part.inside(format_args!("visual/{index}")))?);
             } else {
-                let fault = Fault::NeverRead("visual".to_owned());
-                self.effects.drop(visual, format!("{part}/visual/{index}"), fault);
+                let fault = Fault::NeverRead("visual".into());
+                self.effects.drop(visual, part.inside(format_args!("visual/{index}")), fault);
             }
         }
         for (index, collision) in link.named("collision").enumerate() {
-            solids.push(self.geom(collision, &format!("{part}/collision/{index}"))?);
+            solids.push(self.geom(collision, &part.inside(format_args!("collision/{index}")))?);
         }
         let body = match own {
             Some(body) if !self.settings.ignores_inertials || solids.is_empty() => body,
@@ -65,12 +66,12 @@ impl Reader<'_> {
     }
 
     fn inertial(&mut self, inertial: Node<'_>, name: &str) -> Reading<Body> {
-        let part = format!("link/{name}/inertial");
+        let part = Part::of("link", name).inside("inertial");
         let mut pose = self.origin(inertial, &part)?;
         if self.release == Release::Three && pose.turn != Pose::default().turn {
             let rpy = inertial.child("origin").and_then(|origin| origin.attribute("rpy"));
             let at = rpy.map_or(inertial.start(), |rpy| rpy.range.start);
-            self.effects.drop(at, format!("{part}/origin"), Fault::NeverRead("rpy".to_owned()));
+            self.effects.drop(at, part.inside("origin"), Fault::NeverRead("rpy".into()));
             pose.turn = Pose::default().turn;
         }
         let mass = self.needed(inertial, "mass")?;
@@ -82,7 +83,7 @@ impl Reader<'_> {
         }
         if kilograms < 0.0 || kilograms.is_nan() {
             let fault = Fault::Inertia("a mass that is not above 0 is 0");
-            self.effects.read_as(mass, &*part, fault, "0");
+            self.effects.read_as(mass, &part, fault, "0");
         }
         let kilograms = if kilograms < 0.0 { 0.0 } else { kilograms };
         let moments = self.moments(node, six, name)?;
@@ -102,7 +103,7 @@ impl Reader<'_> {
         }
         if six.iter().any(|value| !value.is_finite()) {
             let fault = Fault::Inertia("a number of it is not finite");
-            self.effects.read_as(node, format!("link/{name}/inertial"), fault, "0");
+            self.effects.read_as(node, Part::of("link", name).inside("inertial"), fault, "0");
             return Ok([0.0; 3]);
         }
         let moments = eigenvalues(
@@ -128,7 +129,7 @@ impl Reader<'_> {
     fn body_of(&mut self, link: Node<'_>, name: &str, solids: &[(Solid, Pose)]) -> Reading<Body> {
         if !solids.is_empty() && name != "world" {
             let fault = Fault::Way("the link has no `<inertial>`");
-            let part = format!("link/{name}/inertial");
+            let part = Part::of("link", name).inside("inertial");
             self.effects.read_as(link, part, fault, "the collisions filled with water");
         }
         let mut sum: Option<Body> = None;
@@ -155,7 +156,7 @@ impl Reader<'_> {
     }
 
     /// A collision.
-    fn geom(&mut self, node: Node<'_>, part: &str) -> Reading<(Solid, Pose)> {
+    fn geom(&mut self, node: Node<'_>, part: &Part) -> Reading<(Solid, Pose)> {
         let geometry = self.needed(node, "geometry")?;
         let mut found = None;
         for name in ["box", "cylinder", "sphere", "capsule", "mesh"] {
@@ -165,7 +166,7 @@ impl Reader<'_> {
         }
         let Some(shape) = found else {
             return match geometry.children().next() {
-                Some(other) => self.effects.refuse(other, Fault::Shape(shortened(other.name()))),
+                Some(other) => self.effects.refuse(other, Fault::Shape(other.name().into())),
                 None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
             };
         };
@@ -213,13 +214,13 @@ impl Reader<'_> {
     }
 
     /// An `<origin>`.
-    pub fn origin(&mut self, node: Node<'_>, part: &str) -> Reading<Pose> {
+    pub fn origin(&mut self, node: Node<'_>, part: &Part) -> Reading<Pose> {
         let Some(origin) = self.only(node, "origin")? else { return Ok(Pose::default()) };
-        let part = format!("{part}/origin");
+        let part = part.inside("origin");
         let xyz = self.numbers(origin, "xyz", &part)?.unwrap_or_default();
         let rpy = self.numbers(origin, "rpy", &part)?.unwrap_or_default();
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
-            let fault = Fault::NeverRead("quat_xyzw".to_owned());
+            let fault = Fault::NeverRead("quat_xyzw".into());
             self.effects.drop(quaternion, part, fault);
         }
         Ok(Pose::new(xyz, rpy))

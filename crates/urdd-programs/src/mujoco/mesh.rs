@@ -5,6 +5,7 @@ use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::{FORMAT, Fault};
 use crate::mesh::{Mesh, MeshFacts};
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 /// The most triangles of an STL file.
@@ -15,7 +16,7 @@ const MAX_COORDINATE: f64 = (1 << 30) as f64;
 const LEAST_VOLUME: f64 = 1e-15;
 
 impl Reader<'_> {
-    pub fn mesh(&mut self, shape: Node<'_>, part: &str) -> Reading<Solid> {
+    pub fn mesh(&mut self, shape: Node<'_>, part: &Part) -> Reading<Solid> {
         let Some(filename) = shape.attribute("filename") else {
             return self.effects.refuse(shape, Fault::Missing("filename"));
         };
@@ -69,7 +70,7 @@ impl Reader<'_> {
     }
 
     /// The file of a mesh. Where names lose their folders, a person has put the file beside the URDF.
-    fn found(&mut self, filename: &Attribute<'_>, part: &str, strips: bool) -> Mesh {
+    fn found(&mut self, filename: &Attribute<'_>, part: &Part, strips: bool) -> Mesh {
         let name = &*filename.value;
         let folder = &self.settings.mesh_folder;
         let within = |name: &str| match folder.is_empty() || name.starts_with('/') {

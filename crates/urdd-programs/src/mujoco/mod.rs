@@ -13,8 +13,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::file::File;
+use crate::part::Part;
 use crate::tinyxml;
 use crate::tree::Node;
 use crate::unknown::Names;
@@ -161,7 +162,7 @@ impl Reader<'_> {
     fn readable(&mut self, node: Node<'_>, kind: &'static str, name: &str) {
         if name.contains('\u{fffd}') && std::str::from_utf8(self.file.bytes).is_err() {
             let rule = "it is not UTF-8: Python cannot list names";
-            let fault = Fault::Name { kind, name: shortened(name), rule };
+            let fault = Fault::Name { kind, name: name.into(), rule };
             self.effects.read_as(node, "robot/?", fault, "names that Python cannot read");
         }
     }
@@ -238,10 +239,10 @@ impl Reader<'_> {
             self.effects.read_as(link.node, "link/world", fault, "the world");
         } else if let Some(inertial) = link.node.child("inertial").filter(|_| is_static) {
             let fault = Fault::Way("a link that no joint moves is a part of the world");
-            self.effects.drop(inertial, format!("link/{}/inertial", link.name), fault);
+            self.effects.drop(inertial, Part::of("link", link.name).inside("inertial"), fault);
         }
         if let Some((_, joint)) = link.above.filter(|_| self.settings.fuses) {
-            let part = format!("joint/{}", joint.value("name").unwrap_or_default());
+            let part = Part::of("joint", joint.value("name").unwrap_or_default());
             let fault = Fault::Way("links that are fixed to each other become one body");
             self.effects.read_as(joint, part, fault, "one body");
         }

@@ -4,6 +4,7 @@ use super::reader::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::number::{is_space, strtod, whole};
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 /// The least numbers without loss, of double and of single precision.
@@ -16,7 +17,7 @@ impl Reader<'_> {
         let mut found = node.named(name);
         let first = found.next();
         match found.next() {
-            Some(second) => self.effects.refuse(second, Fault::Repeated(name.to_owned())),
+            Some(second) => self.effects.refuse(second, Fault::Repeated(name.into())),
             None => Ok(first),
         }
     }
@@ -41,7 +42,7 @@ impl Reader<'_> {
         &mut self,
         node: Node<'_>,
         name: &'static str,
-        part: &str,
+        part: &Part,
     ) -> Reading<Option<[f64; N]>> {
         let Some(value) = node.attribute(name) else { return Ok(None) };
         let found = self.vector(value)?;
@@ -55,7 +56,7 @@ impl Reader<'_> {
         &mut self,
         node: Node<'_>,
         name: &'static str,
-        part: &str,
+        part: &Part,
     ) -> Reading<Option<f64>> {
         Ok(self.numbers(node, name, part)?.map(|[number]: [f64; 1]| number))
     }

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::{Links, MOST_LINKS, Reader, atof, pieces};
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 const KINDS: [&str; 7] =
@@ -37,8 +38,8 @@ impl Reader<'_> {
         if name.is_empty() {
             return self.effects.crash(node, Fault::Empty("name"));
         }
-        let part = format!("joint/{name}");
-        self.pose(node, &format!("{part}/origin"));
+        let part = Part::of("joint", name);
+        self.pose(node, &part.inside("origin"));
         let (parent, child) = (self.end(node, "parent", links)?, self.end(node, "child", links)?);
         let Some(kind) = node.attribute("type") else {
             return self.effects.crash(node, Fault::Missing("type"));
@@ -50,15 +51,15 @@ impl Reader<'_> {
         match &*kind.value {
             "fixed" => {}
             "floating" => {
-                self.effects.read_as(kind, &*part, Fault::value("type", "floating"), "fixed");
+                self.effects.read_as(kind, &part, Fault::value("type", "floating"), "fixed");
             }
             kind => {
                 if let Some(axis) = axis {
-                    self.axis(axis, kind, &format!("{part}/axis"))?;
+                    self.axis(axis, kind, &part.inside("axis"))?;
                 }
             }
         }
-        self.limit(node, &kind.value, &format!("{part}/limit"))?;
+        self.limit(node, &kind.value, &part.inside("limit"))?;
         if let Some(dynamics) = node.child("dynamics") {
             let values = ["damping", "friction"].map(|name| dynamics.attribute(name));
             if values.iter().all(Option::is_none) {
@@ -66,13 +67,13 @@ impl Reader<'_> {
                 return self.effects.refuse(dynamics, fault);
             }
             for value in values.into_iter().flatten() {
-                self.number(value, &format!("{part}/dynamics"));
+                self.number(value, &part.inside("dynamics"));
             }
         }
         for unread in ["mimic", "calibration", "safety_controller"] {
             if let Some(found) = node.child(unread) {
                 let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, format!("{part}/{unread}"), fault);
+                self.effects.drop(found, part.inside(unread), fault);
             }
         }
         Ok(Joint { node, name, parent, child })
@@ -95,7 +96,7 @@ impl Reader<'_> {
         }
     }
 
-    fn axis(&mut self, axis: Node<'_>, kind: &str, part: &str) -> Reading<()> {
+    fn axis(&mut self, axis: Node<'_>, kind: &str, part: &Part) -> Reading<()> {
         let Some(xyz) = axis.attribute("xyz") else {
             self.effects.read_as(axis, part, Fault::Missing("xyz"), "whatever the memory has");
             return Ok(());
@@ -116,7 +117,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn limit(&mut self, joint: Node<'_>, kind: &str, part: &str) -> Reading<()> {
+    fn limit(&mut self, joint: Node<'_>, kind: &str, part: &Part) -> Reading<()> {
         let needs_limit = matches!(kind, "revolute" | "prismatic");
         let Some(limit) = joint.child("limit") else {
             return match needs_limit {
@@ -195,10 +196,10 @@ impl Reader<'_> {
             if last.is_some_and(|last| last > reached.len().max(2)) {
                 return self.effects.crash(*node, fault);
             }
-            self.effects.drop(*node, format!("link/{name}"), fault.clone());
+            self.effects.drop(*node, Part::of("link", name), fault.clone());
         }
         for joint in joints.iter().filter(|joint| !reached.contains(joint.child)) {
-            self.effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
+            self.effects.drop(joint.node, Part::of("joint", joint.name), fault.clone());
         }
         Ok(())
     }

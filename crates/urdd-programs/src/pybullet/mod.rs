@@ -13,9 +13,10 @@ use urdd_xml::{Counted, Kind};
 use self::lines::Lines;
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::file::File;
 use crate::number::{self, is_space, strtod};
+use crate::part::Part;
 use crate::tinyxml::{Document, OLD_MAX_DEPTH};
 use crate::tree::{Attribute, BEYOND, Malformed, Node};
 use crate::unknown::Names;
@@ -106,7 +107,7 @@ impl Reader<'_> {
         self.named(robot, "robot")?;
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
-            let part = format!("material/{name}");
+            let part = Part::of("material", name);
             match self.materials.get(name) {
                 Some((first, _)) if *first == rgba(material) => {}
                 Some(_) => {
@@ -148,13 +149,13 @@ impl Reader<'_> {
         let name = &*self.effects.needed(node, "name")?.value;
         let longest = LONGEST_NAMES.iter().find(|(one, _)| *one == kind);
         if longest.is_some_and(|(_, longest)| name.len() > *longest) {
-            let fault = Fault::Name { kind, name: shortened(name), rule: "the name is too long" };
+            let fault = Fault::Name { kind, name: name.into(), rule: "the name is too long" };
             return self.effects.crash(node, fault);
         }
         Ok(name)
     }
 
-    fn material(&mut self, material: Node<'_>, part: &str) {
+    fn material(&mut self, material: Node<'_>, part: &Part) {
         if let Some(texture) = material.child("texture") {
             self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
         }
@@ -167,23 +168,23 @@ impl Reader<'_> {
     }
 
     fn link(&mut self, link: Node<'_>, name: &str) -> Reading<()> {
-        let part = format!("link/{name}");
+        let part = Part::of("link", name);
         match link.child("inertial") {
-            Some(inertial) => self.inertial(inertial, &format!("{part}/inertial"))?,
+            Some(inertial) => self.inertial(inertial, &part.inside("inertial"))?,
             None if name == "world" => {}
             None if name.contains("%s") || name.contains("%n") => {
                 let rule = "a warning about its missing inertial takes it for a format";
-                let fault = Fault::Name { kind: "link", name: shortened(name), rule };
+                let fault = Fault::Name { kind: "link", name: name.into(), rule };
                 return self.effects.crash(link, fault);
             }
             None => {
                 let fault = Fault::Way("the link has no `<inertial>`");
-                self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
+                self.effects.read_as(link, part.inside("inertial"), fault, "mass 1");
             }
         }
         for kind in ["visual", "collision"] {
             for (index, shape) in link.named(kind).enumerate() {
-                self.shape(shape, &format!("{part}/{kind}/{index}"))?;
+                self.shape(shape, &part.inside(format_args!("{kind}/{index}")))?;
             }
         }
         // PyBullet's own elements.
@@ -200,7 +201,7 @@ impl Reader<'_> {
         }
     }
 
-    fn inertial(&mut self, inertial: Node<'_>, part: &str) -> Reading<()> {
+    fn inertial(&mut self, inertial: Node<'_>, part: &Part) -> Reading<()> {
         self.pose(inertial, part);
         let mass = self.effects.needed_element(inertial, "mass")?;
         let mass = self.effects.needed(mass, "value")?;
@@ -214,7 +215,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn pose(&mut self, parent: Node<'_>, part: &str) {
+    fn pose(&mut self, parent: Node<'_>, part: &Part) {
         let Some(origin) = parent.child("origin") else { return };
         for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
             self.vector(value, part);
@@ -225,7 +226,7 @@ impl Reader<'_> {
     }
 
     /// Three numbers. Fewer are none at all, and what follows is left out.
-    fn vector(&mut self, value: &Attribute<'_>, part: &str) {
+    fn vector(&mut self, value: &Attribute<'_>, part: &Part) {
         let pieces = pieces(&value.value);
         let fault = || Fault::count(&value.name, 3, &value.value);
         if pieces.len() < 3 {
@@ -237,7 +238,7 @@ impl Reader<'_> {
         }
     }
 
-    fn number(&mut self, value: &Attribute<'_>, part: &str) {
+    fn number(&mut self, value: &Attribute<'_>, part: &Part) {
         if !is_whole(&value.value) {
             let fault = Fault::not_a_number(&value.name, &value.value);
             self.effects.read_as(value, part, fault, atof(&value.value).to_string());

@@ -2,16 +2,17 @@
 
 use super::{Reader, atof, is_defined, pieces, rgba};
 use crate::effect::Reading;
-use crate::fault::{FORMAT, Fault, shortened};
+use crate::fault::{FORMAT, Fault};
 use crate::look::is_same;
 use crate::mesh::{Mesh, MeshFacts};
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 /// In how many folders above the file it looks for a mesh; they are all in truth.
 const FOLDERS: usize = 8;
 
 impl Reader<'_> {
-    pub(super) fn shape(&mut self, shape: Node<'_>, part: &str) -> Reading<()> {
+    pub(super) fn shape(&mut self, shape: Node<'_>, part: &Part) -> Reading<()> {
         self.pose(shape, part);
         let geometry = self.effects.needed_element(shape, "geometry")?;
         let Some(form) = geometry.children().next() else {
@@ -23,7 +24,7 @@ impl Reader<'_> {
             "cylinder" | "capsule" => &["radius", "length"],
             "plane" => &["normal"],
             "mesh" | "cdf" => &["filename"],
-            other => return self.effects.refuse(form, Fault::Shape(shortened(other))),
+            other => return self.effects.refuse(form, Fault::Shape(other.into())),
         };
         for &name in needed {
             let value = self.effects.needed(form, name)?;
@@ -37,7 +38,7 @@ impl Reader<'_> {
         let material = shape.child("material").filter(|_| shape.name() == "visual");
         let Some(material) = material else { return Ok(()) };
         let name = &*self.effects.needed(material, "name")?.value;
-        let part = format!("{part}/material");
+        let part = part.inside("material");
         self.material(material, &part);
         let Some((first, last)) = self.materials.get(name) else {
             if !name.is_empty() {
@@ -54,7 +55,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn mesh(&mut self, mesh: Node<'_>, filename: &Attribute<'_>, part: &str) -> Reading<()> {
+    fn mesh(&mut self, mesh: Node<'_>, filename: &Attribute<'_>, part: &Part) -> Reading<()> {
         if let Some(scale) = mesh.attribute("scale") {
             match pieces(&scale.value).len() {
                 0..3 => {
@@ -109,7 +110,7 @@ impl Reader<'_> {
         filename: &Attribute<'_>,
         end: &str,
         facts: &MeshFacts,
-        part: &str,
+        part: &Part,
     ) -> Reading<()> {
         let why = match (end, &facts.stl, &facts.obj, &facts.collada) {
             (".stl", Some(stl), ..) if stl.binary.is_some_and(|count| count > 0) => return Ok(()),

@@ -16,6 +16,7 @@ use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::number::pieces;
+use crate::part::Part;
 use crate::tinyxml;
 use crate::tree::Node;
 use crate::unknown::Names;
@@ -120,23 +121,23 @@ fn never_read(model: &Model<'_>, effects: &mut Effects) {
     for (name, joint) in &model.joints {
         for element in ["mimic", "safety_controller", "calibration"] {
             if let Some(node) = joint.node.child(element) {
-                let part = format!("joint/{name}/{element}");
+                let part = Part::of("joint", name).inside(element);
                 effects.drop(node, part, Fault::NeverRead(element.into()));
             }
         }
     }
-    let texture = |material: Node<'_>, part: String, effects: &mut Effects| {
+    let texture = |material: Node<'_>, part: Part, effects: &mut Effects| {
         if let Some(texture) = material.child("texture") {
             effects.drop(texture, part, Fault::NeverRead("texture".into()));
         }
     };
     for material in model.robot.named("material") {
         let name = material.value("name").unwrap_or_default();
-        texture(material, format!("material/{name}"), effects);
+        texture(material, Part::of("material", name), effects);
     }
     for (name, link) in &model.links {
         for (index, visual) in link.node.named("visual").enumerate() {
-            let part = format!("link/{name}/visual/{index}/material");
+            let part = Part::of("link", name).inside(format_args!("visual/{index}/material"));
             visual.named("material").for_each(|one| texture(one, part.clone(), effects));
         }
     }
@@ -171,7 +172,7 @@ fn centre(body: &Body<'_>, without_mass: Option<usize>, effects: &mut Effects) -
 
 fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
     let node = joint.node;
-    let part = format!("joint/{}/limit", joint.name);
+    let part = Part::of("joint", joint.name).inside("limit");
     writable(node.child("origin"), &["xyz"], effects)?;
     writable(node.child("dynamics"), &["damping", "friction"], effects)?;
     let ends: &[&str] = if joint.kind == "continuous" { &[] } else { &["lower", "upper"] };
@@ -182,12 +183,12 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         if is_limited && value("lower").unwrap_or(0.0) > value("upper").unwrap_or(0.0) {
             let fault = Fault::Limits("`lower` is above `upper`");
-            effects.read_as(limit, &*part, fault, "one in the place of the other");
+            effects.read_as(limit, &part, fault, "one in the place of the other");
         }
         for one in ["effort", "velocity"].into_iter().filter_map(|name| limit.attribute(name)) {
             if number(&one.value).is_some_and(|number| number < 0.0) {
                 let fault = Fault::range(&one.name, &one.value, "must not be negative");
-                effects.read_as(one, &*part, fault, "no limit");
+                effects.read_as(one, &part, fault, "no limit");
             }
         }
     }

@@ -4,8 +4,9 @@ use std::collections::HashSet;
 
 use super::tree::Tree;
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::number::is_space;
+use crate::part::Part;
 use crate::tree::Node;
 
 /// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
@@ -26,8 +27,8 @@ pub(super) fn check(
         let read = trimmed(name);
         if read != name {
             let rule = "white space around it is cut off, `true` is 1 and `false` 0";
-            let fault = Fault::Name { kind, name: shortened(name), rule };
-            effects.read_as(node, format!("{kind}/{name}"), fault, read);
+            let fault = Fault::Name { kind, name: name.into(), rule };
+            effects.read_as(node, Part::of(kind, name), fault, read);
         }
         if !names.insert(read) {
             return effects.refuse(node, Fault::not_unique("link or joint", name));
@@ -92,7 +93,7 @@ fn one(node: Node<'_>, kind: &'static str, name: &str, effects: &mut Effects) ->
     }
     if is_reserved {
         let rule = "the name is one of SDF's own";
-        return effects.refuse(at, Fault::Name { kind, name: shortened(name), rule });
+        return effects.refuse(at, Fault::Name { kind, name: name.into(), rule });
     }
     Ok(())
 }

@@ -3,9 +3,12 @@
 
 use std::collections::{HashMap, HashSet};
 
+use urdd_format::short::Short;
+
 use super::inertia::{Inertia, Pose};
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::Node;
 use crate::urdfdom::Model;
 
@@ -213,7 +216,7 @@ impl<'t> Tree<'t> {
             if !link.is_some_and(|link| link.is_made && link.name != body.name) {
                 return effects.refuse(at, fault);
             }
-            effects.drop(at, format!("joint/{}", joint.name), fault);
+            effects.drop(at, Part::of("joint", joint.name), fault);
         }
         Ok(())
     }
@@ -249,10 +252,10 @@ impl<'t> Tree<'t> {
 
     fn drop_link(&self, index: usize, fault: &Fault, effects: &mut Effects) {
         let body = &self.bodies[index];
-        effects.drop(body.node, format!("link/{}", body.name), fault.clone());
+        effects.drop(body.node, Part::of("link", body.name), fault.clone());
         if let Some(joint) = &body.joint {
             let fault = Fault::Way("the link below is left out");
-            effects.drop(joint.node, format!("joint/{}", joint.name), fault);
+            effects.drop(joint.node, Part::of("joint", joint.name), fault);
         }
     }
 
@@ -260,10 +263,10 @@ impl<'t> Tree<'t> {
         let body = &self.bodies[index];
         let Some(joint) = &body.joint else { return };
         let fault = Fault::Way("a fixed joint is left out, and joins two links to one");
-        effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
-        let owner = shortened(self.bodies[body.owner].name);
+        effects.drop(joint.node, Part::of("joint", joint.name), fault.clone());
+        let owner = Short::of(self.bodies[body.owner].name);
         let makes = format!("a part of `{owner}`");
-        effects.read_as(body.node, format!("link/{}", body.name), fault, makes);
+        effects.read_as(body.node, Part::of("link", body.name), fault, makes);
     }
 }
 

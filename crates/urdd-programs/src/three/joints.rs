@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::{Joint, Reader, name_of, named};
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 impl<'t> Reader<'_, 't> {
@@ -13,10 +14,10 @@ impl<'t> Reader<'_, 't> {
         node: Node<'t>,
         links: &HashMap<&str, Node<'t>>,
     ) -> Reading<Joint<'t>> {
-        let part = format!("joint/{}", name_of(node));
+        let part = Part::of("joint", name_of(node));
         let mimic = named(node, "mimic").next();
         if let Some(mimic) = mimic {
-            self.numbers(mimic, &["multiplier", "offset"], &format!("{part}/mimic"), "NaN");
+            self.numbers(mimic, &["multiplier", "offset"], &part.inside("mimic"), "NaN");
         }
         self.pose(node, &part);
         let Some(parent) = self.last(node, "parent", &part) else {
@@ -30,53 +31,53 @@ impl<'t> Reader<'_, 't> {
         let link = child.map(|child| child.value("link").unwrap_or("null"));
         if link.is_none_or(|link| !links.contains_key(link)) {
             let fault = Fault::unknown("link", link.unwrap_or_default());
-            self.effects.drop(child.unwrap_or(node), format!("{part}/child"), fault);
+            self.effects.drop(child.unwrap_or(node), part.inside("child"), fault);
         }
         if let Some(axis) = named(node, "axis").next() {
             let Some(xyz) = axis.attribute("xyz") else {
                 return self.effects.refuse(axis, Fault::Missing("xyz"));
             };
-            self.axis(xyz, &format!("{part}/axis"));
+            self.axis(xyz, &part.inside("axis"));
         }
         self.limit(node, &part);
         for unread in ["dynamics", "calibration", "safety_controller"] {
             if let Some(found) = named(node, unread).next() {
                 let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, format!("{part}/{unread}"), fault);
+                self.effects.drop(found, part.inside(unread), fault);
             }
         }
         Ok(Joint { node, child: link, mimic })
     }
 
     /// An axis is split at white space, which may be before the first number too.
-    fn axis(&mut self, xyz: &Attribute<'_>, part: &str) {
+    fn axis(&mut self, xyz: &Attribute<'_>, part: &Part) {
         let text = &*xyz.value;
         let is_padded = text.is_empty() || text.starts_with(char::is_whitespace);
         let before = is_padded.then_some("");
         self.vector(xyz, before.into_iter().chain(text.split_whitespace()), 3, part);
     }
 
-    fn limit(&mut self, joint: Node<'t>, part: &str) {
-        let (kind, part) = (joint.attribute("type"), format!("{part}/limit"));
+    fn limit(&mut self, joint: Node<'t>, part: &Part) {
+        let (kind, part) = (joint.attribute("type"), part.inside("limit"));
         let text = kind.map_or("", |kind| &*kind.value);
         let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
         if !known.contains(&text) {
             let at = kind.map_or(joint.start(), |kind| kind.range.start);
-            let part = format!("joint/{}", name_of(joint));
+            let part = Part::of("joint", name_of(joint));
             self.effects.read_as(at, part, Fault::value("type", text), "fixed");
         }
         let is_limited = matches!(text, "revolute" | "prismatic");
         let mut limits = named(joint, "limit").peekable();
         if limits.peek().is_none() && is_limited {
             let fault = Fault::MissingElement("limit");
-            self.effects.read_as(joint, &*part, fault, "locked at 0");
+            self.effects.read_as(joint, &part, fault, "locked at 0");
         }
         for limit in limits {
             self.numbers(limit, &["lower", "upper", "effort", "velocity"], &part, "NaN");
             for unread in ["acceleration", "deceleration", "jerk"] {
                 if let Some(unread) = limit.attribute(unread) {
-                    let fault = Fault::NeverRead(unread.name.to_string());
-                    self.effects.drop(unread, &*part, fault);
+                    let fault = Fault::NeverRead((&*unread.name).into());
+                    self.effects.drop(unread, &part, fault);
                 }
             }
         }
@@ -90,7 +91,7 @@ impl<'t> Reader<'_, 't> {
             if let Some(other) =
                 last.insert(child, joint.node).filter(|one| !one.is_like(joint.node))
             {
-                let part = format!("joint/{}/child", name_of(other));
+                let part = Part::of("joint", name_of(other)).inside("child");
                 let fault = Fault::Tree("a link is the child of two joints");
                 self.effects.drop(joint.node, part, fault);
             }

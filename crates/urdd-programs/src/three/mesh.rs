@@ -3,10 +3,11 @@
 use super::Reader;
 use crate::fault::{FORMAT, Fault};
 use crate::mesh::{ColladaFacts, Mesh, MeshFacts};
+use crate::part::Part;
 use crate::tree::Node;
 
 impl<'t> Reader<'_, 't> {
-    pub(super) fn mesh(&mut self, mesh: Node<'t>, part: &str) {
+    pub(super) fn mesh(&mut self, mesh: Node<'t>, part: &Part) {
         let Some(name) = mesh.attribute("filename") else {
             return self.effects.drop(mesh, part, Fault::Missing("filename"));
         };
@@ -31,12 +32,12 @@ impl<'t> Reader<'_, 't> {
     }
 
     /// A COLLADA mesh is not painted with the material of the visual.
-    pub(super) fn own_colours(&mut self, visual: Node<'t>, form: Node<'t>, part: &str) {
+    pub(super) fn own_colours(&mut self, visual: Node<'t>, form: Node<'t>, part: &Part) {
         let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
         if form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae") {
             let fault = Fault::Way("a COLLADA mesh keeps its own colours");
             let material = visual.child("material").unwrap_or(form);
-            self.effects.drop(material, format!("{part}/material"), fault);
+            self.effects.drop(material, part.inside("material"), fault);
         }
     }
 }

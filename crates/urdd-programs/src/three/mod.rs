@@ -8,11 +8,12 @@ use std::collections::{HashMap, HashSet};
 
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, shortened};
+use crate::fault::Fault;
 use crate::file::File;
 use crate::look::Look;
 use crate::mesh::Mesh;
 use crate::number::parse_float;
+use crate::part::Part;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
 use crate::unknown::Names as ElementNames;
@@ -77,7 +78,7 @@ struct Joint<'t> {
 impl<'t> Reader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
         for material in named(robot, "material") {
-            self.material(material, &format!("material/{}", name_of(material)))?;
+            self.material(material, &Part::of("material", name_of(material)))?;
             self.materials.insert(name_of(material), Look::of(material));
         }
         let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
@@ -94,21 +95,21 @@ impl<'t> Reader<'_, 't> {
             let name = name_of(link);
             if name.contains(['"', '\n', '\r', '\u{c}']) {
                 let rule = "a name cannot have a quote or an end of a line";
-                let fault = Fault::Name { kind: "link", name: shortened(name), rule };
+                let fault = Fault::Name { kind: "link", name: name.into(), rule };
                 return self.effects.refuse(link, fault);
             }
-            self.link(link, &format!("link/{name}"))?;
+            self.link(link, &Part::of("link", name))?;
             let is_root = !children.contains(name) || name.contains('\\');
             if let Some(root) = root.filter(|_| is_root) {
                 let fault = Fault::Tree("two links have no joint above them");
-                let part = format!("link/{}", name_of(root));
+                let part = Part::of("link", name_of(root));
                 self.effects.drop(link, part, fault.clone());
-                self.effects.read_as(link, format!("link/{name}"), fault, "one with the others");
+                self.effects.read_as(link, Part::of("link", name), fault, "one with the others");
             }
             root = if is_root { Some(link) } else { root };
             if links.insert(name, link).is_some_and(|other| !other.is_like(link)) {
                 let fault = Fault::not_unique("link", name);
-                self.effects.read_as(link, format!("link/{name}"), fault, "the last");
+                self.effects.read_as(link, Part::of("link", name), fault, "the last");
             }
         }
         let mut joints = HashMap::new();
@@ -119,7 +120,7 @@ impl<'t> Reader<'_, 't> {
                 && all.get(other).is_some_and(|other: &Joint| !other.node.is_like(node))
             {
                 let fault = Fault::not_unique("joint", name_of(node));
-                self.effects.read_as(node, format!("joint/{}", name_of(node)), fault, "the last");
+                self.effects.read_as(node, Part::of("joint", name_of(node)), fault, "the last");
             }
             all.push(joint);
         }
@@ -127,7 +128,7 @@ impl<'t> Reader<'_, 't> {
         self.mimics(&all, &joints)
     }
 
-    fn number(&mut self, value: &Attribute<'_>, part: &str, none: &str) -> f64 {
+    fn number(&mut self, value: &Attribute<'_>, part: &Part, none: &str) -> f64 {
         let number = parse_float(&value.value);
         let is_whole = value.value.trim().parse().is_ok_and(|whole: f64| whole == number);
         if !is_whole || !number.is_finite() {
@@ -138,7 +139,7 @@ impl<'t> Reader<'_, 't> {
         number
     }
 
-    fn numbers(&mut self, node: Node<'_>, names: &[&str], part: &str, none: &str) {
+    fn numbers(&mut self, node: Node<'_>, names: &[&str], part: &Part, none: &str) {
         for value in names.iter().filter_map(|name| node.attribute(name)) {
             if !value.value.is_empty() {
                 self.number(value, part, none);
@@ -152,7 +153,7 @@ impl<'t> Reader<'_, 't> {
         value: &Attribute<'_>,
         pieces: impl Iterator<Item = &'v str>,
         count: usize,
-        part: &str,
+        part: &Part,
     ) {
         let (mut found, mut is_whole) = (0, true);
         for piece in pieces {
@@ -168,9 +169,9 @@ impl<'t> Reader<'_, 't> {
         }
     }
 
-    fn pose(&mut self, parent: Node<'t>, part: &str) {
+    fn pose(&mut self, parent: Node<'t>, part: &Part) {
         let Some(origin) = self.last(parent, "origin", part) else { return };
-        let part = format!("{part}/origin");
+        let part = part.inside("origin");
         for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
             if !value.value.is_empty() {
                 let text = value.value.trim();
@@ -184,19 +185,19 @@ impl<'t> Reader<'_, 't> {
     }
 
     /// Of elements that repeat, the last counts.
-    fn last(&mut self, parent: Node<'t>, name: &str, part: &str) -> Option<Node<'t>> {
+    fn last(&mut self, parent: Node<'t>, name: &str, part: &Part) -> Option<Node<'t>> {
         let mut all = named(parent, name);
         let first = all.next()?;
         let Some(last) = all.last() else { return Some(first) };
         let is_empty = first.attributes().is_empty() && first.children().next().is_none();
         if !is_empty && !last.is_like(first) {
-            let fault = Fault::Repeated(name.to_owned());
-            self.effects.read_as(last, format!("{part}/{name}"), fault, "the last");
+            let fault = Fault::Repeated(name.into());
+            self.effects.read_as(last, part.inside(name), fault, "the last");
         }
         Some(last)
     }
 
-    fn material(&mut self, material: Node<'t>, part: &str) -> Reading<()> {
+    fn material(&mut self, material: Node<'t>, part: &Part) -> Reading<()> {
         for color in named(material, "color") {
             let Some(rgba) = color.attribute("rgba") else {
                 return self.effects.refuse(color, Fault::Missing("rgba"));
@@ -216,9 +217,9 @@ impl<'t> Reader<'_, 't> {
         Ok(())
     }
 
-    fn link(&mut self, link: Node<'t>, part: &str) -> Reading<()> {
+    fn link(&mut self, link: Node<'t>, part: &Part) -> Reading<()> {
         if let Some(inertial) = named(link, "inertial").next() {
-            let part = format!("{part}/inertial");
+            let part = part.inside("inertial");
             self.pose(inertial, &part);
             for mass in named(inertial, "mass") {
                 self.numbers(mass, &["value"], &part, "0");
@@ -229,19 +230,19 @@ impl<'t> Reader<'_, 't> {
             }
         }
         for (index, visual) in named(link, "visual").enumerate() {
-            self.visual(visual, &format!("{part}/visual/{index}"))?;
+            self.visual(visual, &part.inside(format_args!("visual/{index}")))?;
         }
         for (index, collision) in named(link, "collision").enumerate() {
             let fault = Fault::NeverRead("collision".into());
-            self.effects.drop(collision, format!("{part}/collision/{index}"), fault);
+            self.effects.drop(collision, part.inside(format_args!("collision/{index}")), fault);
         }
         Ok(())
     }
 
-    fn visual(&mut self, visual: Node<'t>, part: &str) -> Reading<()> {
+    fn visual(&mut self, visual: Node<'t>, part: &Part) -> Reading<()> {
         if let Some(material) = named(visual, "material").next() {
             let name = material.value("name").unwrap_or_default();
-            let part = format!("{part}/material");
+            let part = part.inside("material");
             if let Some(read) = self.materials.get(name).filter(|_| !name.is_empty()) {
                 Look::compare(read.as_ref(), material, &part, self.effects);
             } else {
@@ -266,7 +267,7 @@ impl<'t> Reader<'_, 't> {
         Ok(())
     }
 
-    fn shape(&mut self, form: Node<'t>, part: &str) {
+    fn shape(&mut self, form: Node<'t>, part: &Part) {
         let sizes: &[&'static str] = match &*form.name().to_ascii_lowercase() {
             "mesh" => return self.mesh(form, part),
             "box" => {
@@ -278,7 +279,7 @@ impl<'t> Reader<'_, 't> {
             }
             "sphere" => &["radius"],
             "cylinder" => &["radius", "length"],
-            _ => return self.effects.drop(form, part, Fault::Shape(shortened(form.name()))),
+            _ => return self.effects.drop(form, part, Fault::Shape(form.name().into())),
         };
         for name in sizes {
             match form.attribute(name) {

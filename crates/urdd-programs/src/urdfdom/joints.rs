@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{Part, needed, number, numbers, vector};
+use super::values::{PartRead, needed, number, numbers, vector};
 use super::{Joint, Reader};
 use crate::effect::Reading;
 use crate::fault::Fault;
+use crate::part::Part;
 use crate::tree::Node;
 
 impl Reader<'_> {
@@ -23,7 +24,7 @@ impl Reader<'_> {
         Ok(joints)
     }
 
-    fn joint<'t>(&mut self, node: Node<'t>) -> Part<(&'t str, Joint<'t>)> {
+    fn joint<'t>(&mut self, node: Node<'t>) -> PartRead<(&'t str, Joint<'t>)> {
         let name = &*needed(node, "name")?.value;
         self.pose(node)?;
         let end = |name| node.child(name).and_then(|end| end.value("link")).unwrap_or_default();
@@ -38,14 +39,16 @@ impl Reader<'_> {
             match axis.attribute("xyz") {
                 Some(xyz) => drop(vector(xyz, 3)?),
                 None => {
-                    let part = format!("joint/{name}/axis");
+                    let part = Part::of("joint", name).inside("axis");
                     self.effects.read_as(axis, part, Fault::Missing("xyz"), "0 0 0");
                 }
             }
         }
         let is_limited = matches!(&*kind.value, "revolute" | "prismatic");
         match node.child("limit") {
-            Some(limit) => self.limit(limit, is_limited, &format!("joint/{name}/limit"))?,
+            Some(limit) => {
+                self.limit(limit, is_limited, &Part::of("joint", name).inside("limit"))?
+            }
             None if is_limited => return Err((node.start(), Fault::MissingElement("limit"))),
             None => {}
         }
@@ -71,7 +74,7 @@ impl Reader<'_> {
         Ok((name, Joint { node, kind: &kind.value, parent, child }))
     }
 
-    fn limit(&mut self, limit: Node<'_>, is_limited: bool, part: &str) -> Part<()> {
+    fn limit(&mut self, limit: Node<'_>, is_limited: bool, part: &Part) -> PartRead<()> {
         const FURTHER: [&str; 3] = ["acceleration", "deceleration", "jerk"];
         numbers(limit, &["lower", "upper"])?;
         if self.minor < 2 {
@@ -79,7 +82,7 @@ impl Reader<'_> {
                 number(needed(limit, name)?)?;
             }
             for unread in FURTHER.iter().filter_map(|name| limit.attribute(name)) {
-                self.effects.drop(unread, part, Fault::NeverRead(unread.name.to_string()));
+                self.effects.drop(unread, part, Fault::NeverRead((&*unread.name).into()));
             }
             return Ok(());
         }

@@ -2,19 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{Part, needed, needed_element, number, vector};
+use super::values::{PartRead, needed, needed_element, number, vector};
 use super::{Link, NO_COLOR, Reader};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::look::Look;
 use crate::number::{istream, pieces, whole};
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 
 impl Reader<'_> {
     pub(super) fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
-            let part = format!("material/{name}");
+            let part = Part::of("material", name);
             if material.attribute("name").is_none() {
                 self.effects.drop(material, part, Fault::Missing("name"));
             } else if !self.color(material, &part) {
@@ -29,7 +30,7 @@ impl Reader<'_> {
     }
 
     /// Whether a material has a colour or a texture.
-    fn color(&mut self, material: Node<'_>, part: &str) -> bool {
+    fn color(&mut self, material: Node<'_>, part: &Part) -> bool {
         let texture = material.child("texture").and_then(|node| node.attribute("filename"));
         if let Some(empty) = texture.filter(|filename| filename.value.is_empty()) {
             self.effects.drop(empty, part, Fault::Empty("filename"));
@@ -67,7 +68,7 @@ impl Reader<'_> {
             let kept = match node.attribute("name") {
                 Some(_) => self.link(node, name),
                 None => {
-                    self.effects.drop(node, format!("link/{name}"), Fault::Missing("name"));
+                    self.effects.drop(node, Part::of("link", name), Fault::Missing("name"));
                     [(0, true); 2]
                 }
             };
@@ -85,7 +86,7 @@ impl Reader<'_> {
     fn link(&mut self, link: Node<'_>, name: &str) -> [(usize, bool); 2] {
         let mut bad = None;
         if let Some(inertial) = link.child("inertial") {
-            let part = format!("link/{name}/inertial");
+            let part = Part::of("link", name).inside("inertial");
             if let Err((at, fault)) = self.inertial(inertial) {
                 self.effects.drop(at, part, fault.clone());
                 bad = Some((at, fault));
@@ -94,7 +95,7 @@ impl Reader<'_> {
         let mut kept = [(0, true); 2];
         for (kind, kept) in ["visual", "collision"].into_iter().zip(&mut kept) {
             for (index, node) in link.named(kind).enumerate() {
-                let part = format!("link/{name}/{kind}/{index}");
+                let part = Part::of("link", name).inside(format_args!("{kind}/{index}"));
                 if bad.is_none() {
                     bad = self.shape(node, &part).err();
                 }
@@ -110,7 +111,7 @@ impl Reader<'_> {
         kept
     }
 
-    fn inertial(&mut self, inertial: Node<'_>) -> Part<()> {
+    fn inertial(&mut self, inertial: Node<'_>) -> PartRead<()> {
         self.pose(inertial)?;
         let mass = needed_element(inertial, "mass")?;
         number(needed(mass, "value")?)?;
@@ -122,7 +123,7 @@ impl Reader<'_> {
     }
 
     /// A visual or collision.
-    fn shape(&mut self, shape: Node<'_>, part: &str) -> Part<()> {
+    fn shape(&mut self, shape: Node<'_>, part: &Part) -> PartRead<()> {
         self.pose(shape)?;
         let geometry = needed_element(shape, "geometry")?;
         self.geometry(geometry)?;
@@ -130,7 +131,7 @@ impl Reader<'_> {
             return Ok(());
         };
         let name = &*needed(material, "name")?.value;
-        let part = format!("{part}/material");
+        let part = part.inside("material");
         if let Some(first) = self.materials.get(name).filter(|_| !name.is_empty()) {
             Look::compare(first.as_ref(), material, &part, self.effects);
         } else {
@@ -148,7 +149,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn geometry(&mut self, geometry: Node<'_>) -> Part<()> {
+    fn geometry(&mut self, geometry: Node<'_>) -> PartRead<()> {
         let Some(form) = geometry.children().next() else {
             return Err((geometry.start(), Fault::Other("`<geometry>` has no shape")));
         };
@@ -168,7 +169,7 @@ impl Reader<'_> {
                     None => Ok(()),
                 };
             }
-            other => return Err((form.start(), Fault::Shape(crate::fault::shortened(other)))),
+            other => return Err((form.start(), Fault::Shape(other.into()))),
         };
         for name in sizes {
             needed(form, name)?;
@@ -181,7 +182,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn positive(&self, size: &Attribute<'_>, values: &[f64]) -> Part<()> {
+    fn positive(&self, size: &Attribute<'_>, values: &[f64]) -> PartRead<()> {
         match self.minor >= 2 && !values.iter().all(|value| *value > 0.0) {
             true => {
                 let rule = "URDF 1.2 has only sizes above 0";
@@ -191,7 +192,7 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn pose(&mut self, parent: Node<'_>) -> Part<()> {
+    pub(super) fn pose(&mut self, parent: Node<'_>) -> PartRead<()> {
         let Some(origin) = parent.child("origin") else { return Ok(()) };
         if let Some(xyz) = origin.attribute("xyz") {
             vector(xyz, 3)?;

@@ -6,24 +6,24 @@ use crate::number::{istream, pieces, whole};
 use crate::tree::{Attribute, Node};
 
 /// A part that may be faulty: where, and why.
-pub(super) type Part<T> = Result<T, (usize, Fault)>;
+pub(super) type PartRead<T> = Result<T, (usize, Fault)>;
 
-pub(super) fn needed<'t>(node: Node<'t>, name: &'static str) -> Part<&'t Attribute<'t>> {
+pub(super) fn needed<'t>(node: Node<'t>, name: &'static str) -> PartRead<&'t Attribute<'t>> {
     node.attribute(name).ok_or((node.start(), Fault::Missing(name)))
 }
 
-pub(super) fn needed_element<'t>(node: Node<'t>, name: &'static str) -> Part<Node<'t>> {
+pub(super) fn needed_element<'t>(node: Node<'t>, name: &'static str) -> PartRead<Node<'t>> {
     node.child(name).ok_or((node.start(), Fault::MissingElement(name)))
 }
 
 /// A number without anything behind it.
-pub(super) fn number(value: &Attribute<'_>) -> Part<f64> {
+pub(super) fn number(value: &Attribute<'_>) -> PartRead<f64> {
     let read = whole(istream(&value.value));
     read.ok_or_else(|| (value.at(), Fault::not_a_number(&value.name, &value.value)))
 }
 
 /// Numbers that may be left out.
-pub(super) fn numbers(node: Node<'_>, names: &[&str]) -> Part<()> {
+pub(super) fn numbers(node: Node<'_>, names: &[&str]) -> PartRead<()> {
     names
         .iter()
         .filter_map(|name| node.attribute(name))
@@ -31,7 +31,7 @@ pub(super) fn numbers(node: Node<'_>, names: &[&str]) -> Part<()> {
 }
 
 /// Numbers with spaces, and nothing else, between them.
-pub(super) fn vector(value: &Attribute<'_>, count: usize) -> Part<Vec<f64>> {
+pub(super) fn vector(value: &Attribute<'_>, count: usize) -> PartRead<Vec<f64>> {
     let numbers: Option<Vec<f64>> =
         pieces(&value.value).map(|piece| whole(istream(piece))).collect();
     match numbers {

@@ -11,11 +11,12 @@ use joint::{Joint, last};
 
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{FORMAT, Fault, shortened};
+use crate::fault::{FORMAT, Fault};
 use crate::file::File;
 use crate::look::Look;
 use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
+use crate::part::Part;
 use crate::tree::{Attribute, Node};
 use crate::unknown::Names as ElementNames;
 
@@ -61,7 +62,7 @@ impl<'t> Reader<'_, 't> {
         let joints = self.joints(robot, &links)?;
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
-            self.look(material, &format!("material/{name}"))?;
+            self.look(material, &Part::of("material", name))?;
         }
         let looks = materials.into_iter().map(|(name, node)| (name, (true, Look::of(node))));
         self.materials = looks.collect();
@@ -85,13 +86,13 @@ impl<'t> Reader<'_, 't> {
         let name = &*attribute.value;
         if name.contains('\\') {
             let rule = "it is the name of a file, too";
-            let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
+            let fault = Fault::Name { kind: "robot", name: name.into(), rule };
             self.effects.drop(attribute, "robot/?", fault);
         }
         let has_slash = name.starts_with('/') || name.ends_with('/');
         if name.len() > LONGEST || has_slash || name.contains(char::is_control) {
             let rule = "it is the name of a file, too";
-            let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
+            let fault = Fault::Name { kind: "robot", name: name.into(), rule };
             return self.effects.refuse(attribute, fault);
         }
         Ok(())
@@ -114,14 +115,14 @@ impl<'t> Reader<'_, 't> {
     }
 
     /// Of elements that repeat it reads the last, also if it is empty.
-    fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
+    fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &Part) {
         for name in names {
             let mut all = node.named(name);
             let first = all.next().filter(|first| !first.is_empty());
             let emptied = first.and(all.last()).filter(|last| last.is_empty());
             if let Some(second) = node.repeated(name).or(emptied) {
-                let fault = Fault::Repeated((*name).to_owned());
-                self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
+                let fault = Fault::Repeated((*name).into());
+                self.effects.read_as(second, part.inside(name), fault, "the last");
             }
         }
     }
@@ -155,14 +156,14 @@ impl<'t> Reader<'_, 't> {
             {
                 return self.effects.refuse(mimicked, Fault::unknown("joint", &mimicked.value));
             }
-            self.joint(node, kind, &format!("joint/{name}"));
+            self.joint(node, kind, &Part::of("joint", name));
             joints.push(Joint { node, name, kind, parent: parent.1, child: child.1 });
         }
         Ok(joints)
     }
 
     /// What is read otherwise of a joint.
-    fn joint(&mut self, node: Node<'t>, kind: &str, part: &str) {
+    fn joint(&mut self, node: Node<'t>, kind: &str, part: &Part) {
         let names = [
             "origin",
             "parent",
@@ -176,7 +177,7 @@ impl<'t> Reader<'_, 't> {
         ];
         self.repeated(node, &names, part);
         self.pose(node, part);
-        let part = format!("{part}/limit");
+        let part = part.inside("limit");
         match last(node, "limit") {
             None if matches!(kind, "revolute" | "prismatic") => {
                 let fault = Fault::MissingElement("limit");
@@ -189,8 +190,8 @@ impl<'t> Reader<'_, 't> {
             Some(limit) => {
                 for name in ["acceleration", "deceleration", "jerk"] {
                     if let Some(unread) = limit.attribute(name) {
-                        let fault = Fault::NeverRead(name.to_owned());
-                        self.effects.drop(unread, &*part, fault);
+                        let fault = Fault::NeverRead(name.into());
+                        self.effects.drop(unread, &part, fault);
                     }
                 }
             }
@@ -198,11 +199,11 @@ impl<'t> Reader<'_, 't> {
         }
     }
 
-    fn pose(&mut self, parent: Node<'t>, part: &str) {
+    fn pose(&mut self, parent: Node<'t>, part: &Part) {
         let origin = last(parent, "origin");
         if let Some(unread) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
             let fault = Fault::NeverRead("quat_xyzw".into());
-            self.effects.drop(unread, format!("{part}/origin"), fault);
+            self.effects.drop(unread, part.inside("origin"), fault);
         }
     }
 
@@ -211,7 +212,7 @@ impl<'t> Reader<'_, 't> {
         let name = link.value("name").unwrap_or_default();
         for (index, visual) in link.named("visual").enumerate() {
             let Some(material) = last(visual, "material") else { continue };
-            let part = format!("link/{name}/visual/{index}/material");
+            let part = Part::of("link", name).inside(format_args!("visual/{index}/material"));
             let name = material.value("name").unwrap_or_default();
             let has_look = ["color", "texture"].iter().any(|look| material.child(look).is_some());
             if let Some((_, first)) = self.materials.get(name).filter(|_| !name.is_empty()) {
@@ -229,7 +230,7 @@ impl<'t> Reader<'_, 't> {
     }
 
     /// The colour and texture of a material.
-    fn look(&mut self, material: Node<'t>, part: &str) -> Reading<()> {
+    fn look(&mut self, material: Node<'t>, part: &Part) -> Reading<()> {
         if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
             let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);
             if !opacity.is_nan() && !(0.0..=1.0).contains(&opacity) {
@@ -259,14 +260,14 @@ impl<'t> Reader<'_, 't> {
     }
 
     fn link(&mut self, link: Node<'t>) -> Reading<()> {
-        let part = format!("link/{}", link.value("name").unwrap_or_default());
+        let part = Part::of("link", link.value("name").unwrap_or_default());
         self.repeated(link, &["inertial"], &part);
         if let Some(inertial) = last(link, "inertial") {
-            self.inertial(inertial, &format!("{part}/inertial"))?;
+            self.inertial(inertial, &part.inside("inertial"))?;
         }
         for kind in ["visual", "collision"] {
             for (index, shape) in link.named(kind).enumerate() {
-                let part = format!("{part}/{kind}/{index}");
+                let part = part.inside(format_args!("{kind}/{index}"));
                 self.repeated(shape, &["origin", "geometry", "material"], &part);
                 self.pose(shape, &part);
                 self.shape(shape, &part)?;
@@ -275,7 +276,7 @@ impl<'t> Reader<'_, 't> {
         Ok(())
     }
 
-    fn inertial(&mut self, inertial: Node<'t>, part: &str) -> Reading<()> {
+    fn inertial(&mut self, inertial: Node<'t>, part: &Part) -> Reading<()> {
         self.repeated(inertial, &["origin", "mass", "inertia"], part);
         self.pose(inertial, part);
         let has = |name| inertial.child(name).is_some();
@@ -297,7 +298,7 @@ impl<'t> Reader<'_, 't> {
         Ok(())
     }
 
-    fn shape(&mut self, shape: Node<'t>, part: &str) -> Reading<()> {
+    fn shape(&mut self, shape: Node<'t>, part: &Part) -> Reading<()> {
         let Some(geometry) = last(shape, "geometry") else {
             self.effects.drop(shape, part, Fault::MissingElement("geometry"));
             return Ok(());
@@ -306,7 +307,7 @@ impl<'t> Reader<'_, 't> {
         let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
         else {
             match geometry.children().next() {
-                Some(form) => self.effects.drop(form, part, Fault::Shape(shortened(form.name()))),
+                Some(form) => self.effects.drop(form, part, Fault::Shape(form.name().into())),
                 None => {
                     let fault = Fault::Other("`<geometry>` has no shape");
                     self.effects.drop(geometry, part, fault);
@@ -334,7 +335,7 @@ impl<'t> Reader<'_, 't> {
         Ok(())
     }
 
-    fn mesh(&mut self, mesh: Node<'t>, part: &str) {
+    fn mesh(&mut self, mesh: Node<'t>, part: &Part) {
         let Some(name) = mesh.attribute("filename").filter(|name| !name.value.is_empty()) else {
             return self.effects.drop(mesh, part, Fault::Missing("filename"));
         };

@@ -182,7 +182,7 @@ fn vector(value: Option<&Attribute<'_>>, count: usize, effects: &mut Effects) ->
 fn names_of_attributes(node: Node<'_>, effects: &mut Effects) -> Reading<()> {
     for attribute in node.attributes() {
         if attribute.name.contains(['-', '.', '{']) {
-            let name = attribute.name.rsplit('}').next().unwrap_or_default().to_owned();
+            let name = attribute.name.rsplit('}').next().unwrap_or_default().into();
             let rule = "in USD no attribute has a `-`, a `.` or a prefix in its name";
             return effects.refuse(attribute, Fault::Name { kind: "attribute", name, rule });
         }

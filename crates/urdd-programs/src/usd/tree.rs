@@ -6,6 +6,7 @@ use super::joint::{Joint, last};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::number::python;
+use crate::part::Part;
 use crate::tree::Node;
 
 /// Links in a row, at which Python's stack ends.
@@ -40,7 +41,7 @@ pub(super) fn find<'t>(
         let name = link.value("name").unwrap_or_default();
         if !names.contains(name) && !tree.merged.contains(name) {
             let fault = Fault::Tree("the link is not below the root");
-            effects.drop(link, format!("link/{name}"), fault);
+            effects.drop(link, Part::of("link", name), fault);
         }
     }
     tree.joints(joints, effects);
@@ -109,12 +110,12 @@ impl<'t> Tree<'t, '_> {
         let is_empty = has_no_inertia(link) && !has_shape(link);
         let is_fixed =
             above.is_none_or(|joint| joint.kind == "fixed" && !self.driven.contains(name));
-        let part = format!("link/{name}");
+        let part = Part::of("link", name);
         if !is_empty || !is_fixed {
             self.bodies.insert(name);
         } else if let Some(inertial) = last(link, "inertial") {
             let fault = Fault::Way("the link has no mass, no shape, and a fixed joint above it");
-            effects.drop(inertial, format!("{part}/inertial"), fault);
+            effects.drop(inertial, part.inside("inertial"), fault);
         }
         if !has_no_inertia(link) || !has_shape(link) {
             return;
@@ -134,8 +135,8 @@ impl<'t> Tree<'t, '_> {
             let fault =
                 Fault::Inertia("its inertia goes to the link above, and all below it is lost");
             let at = self.links.get(joint.child).copied().unwrap_or(joint.node);
-            effects.drop(at, format!("link/{}", joint.child), fault.clone());
-            effects.read_as(at, format!("{part}/inertial"), fault, "that of the link below");
+            effects.drop(at, Part::of("link", joint.child), fault.clone());
+            effects.read_as(at, part.inside("inertial"), fault, "that of the link below");
         }
     }
 
@@ -146,7 +147,7 @@ impl<'t> Tree<'t, '_> {
         let written: HashSet<&str> =
             joints.iter().filter(|joint| is_written(joint)).map(|joint| joint.name).collect();
         for joint in joints {
-            let part = format!("joint/{}", joint.name);
+            let part = Part::of("joint", joint.name);
             if !is_written(joint) {
                 let fault = match joint.kind {
                     "floating" => Fault::Way("a floating joint is written as none"),
@@ -157,13 +158,13 @@ impl<'t> Tree<'t, '_> {
             }
             if !self.bodies.contains(joint.parent) {
                 let fault = Fault::Way("the link above the joint is not a body");
-                effects.read_as(joint.node, format!("{part}/parent"), fault, "the next body above");
+                effects.read_as(joint.node, part.inside("parent"), fault, "the next body above");
             }
             let Some(mimic) = last(joint.node, "mimic") else { continue };
             let name = mimic.value("joint").unwrap_or_default();
             if !written.contains(name) {
                 let fault = Fault::Way("the joint that it follows is not written");
-                effects.drop(mimic, format!("{part}/mimic"), fault);
+                effects.drop(mimic, part.inside("mimic"), fault);
             }
         }
     }

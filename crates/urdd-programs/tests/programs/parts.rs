@@ -19,7 +19,7 @@ pub fn claims(effects: &Effects) -> BTreeSet<Claim> {
     let claims = effects.0.iter().filter(|effect| effect.deed < Deed::Refuses);
     claims
         .map(|effect| Claim {
-            part: effect.part.clone(),
+            part: effect.part.to_string(),
             kind: format!("{} {:?}", kind(&effect.part), effect.fault),
             is_doubtful: match &effect.fault {
                 Fault::NotANumber { text, .. } => numbers(text) == Some(1),

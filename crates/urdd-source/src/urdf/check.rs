@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::reader::{Reader, shortened};
+use super::reader::Reader;
 use super::reading::written_axis;
 use crate::cycles::cycles;
 use crate::fault::Fault;
 use crate::note::NoteKind;
+use urdd_format::short::Short;
 use urdd_format::urdf::{Joint, JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 use urdd_kinematics::{has_axis, num_dofs};
@@ -42,7 +43,7 @@ fn same_names(reader: &mut Reader) {
 /// `read` in `mod.rs` replaces it by the line.
 fn twice<'a>(
     names: impl Iterator<Item = (&'a String, usize)>,
-    fault: fn(String, u32) -> Fault,
+    fault: fn(Short, u32) -> Fault,
 ) -> Vec<(usize, Fault)> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     let mut found = Vec::new();
@@ -50,7 +51,7 @@ fn twice<'a>(
         let first = *seen.entry(name).or_insert(offset);
         if first != offset {
             let first = u32::try_from(first).unwrap_or(u32::MAX);
-            found.push((offset, fault(name.clone(), first)));
+            found.push((offset, fault(Short::of(name), first)));
         }
     }
     found
@@ -74,11 +75,11 @@ fn ends(reader: &mut Reader) {
                 let plain_names = plain_names.get_or_insert_with(|| plain_names_of(robot));
                 let meant = plain_names.get(&plain(link));
                 let fault = Fault::UnknownLink {
-                    joint: shortened(&joint.name),
+                    joint: Short::of(&joint.name),
                     end,
-                    link: shortened(link),
+                    link: Short::of(link),
                     hint: meant.map_or_else(String::new, |name| {
-                        format!(" (there is `{}`)", shortened(name))
+                        format!(" (there is `{}`)", Short::of(name))
                     }),
                 };
                 faults.push((offset, fault));
@@ -90,9 +91,9 @@ fn ends(reader: &mut Reader) {
         };
         if let Some(first) = moved_by.insert(child, idx) {
             let fault = Fault::TwoParents {
-                link: shortened(&joint.child.link),
-                joint: shortened(&joint.name),
-                first: shortened(&robot.joints[first].name),
+                link: Short::of(&joint.child.link),
+                joint: Short::of(&joint.name),
+                first: Short::of(&robot.joints[first].name),
             };
             faults.push((place.child, fault));
         }
@@ -129,7 +130,7 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
     }
     let roots: Vec<usize> = (0..parent.len()).filter(|link| parent[*link].is_none()).collect();
     let named = |links: &[usize]| {
-        let names = links.iter().map(|link| format!("`{}`", shortened(&robot.links[*link].name)));
+        let names = links.iter().map(|link| format!("`{}`", Short::of(&robot.links[*link].name)));
         names.collect::<Vec<_>>()
     };
     if let Some(ring) = ring(&parent) {
@@ -172,7 +173,7 @@ fn axes(reader: &mut Reader) {
         let fine = square.is_normal() && unit_axis(axis).is_some();
         if has_axis(joint.joint_type) && !fine {
             let fault = Fault::ZeroAxis {
-                joint: shortened(&joint.name),
+                joint: Short::of(&joint.name),
                 joint_type: joint.joint_type.as_str().to_ascii_lowercase(),
                 axis: axis.map(|x| x.to_string()).join(" "),
             };
@@ -192,7 +193,7 @@ fn mimics(reader: &mut Reader) {
     let mut dropped = Vec::new();
     for (idx, joint) in robot.joints.iter().enumerate() {
         let Some(mimic) = &joint.mimic else { continue };
-        let (name, driver) = (shortened(&joint.name), shortened(&mimic.joint));
+        let (name, driver) = (Short::of(&joint.name), Short::of(&mimic.joint));
         let found = joints.get(mimic.joint.as_str()).copied();
         let many = |idx: usize| num_dofs(robot.joints[idx].joint_type) > 1;
         let problem = match found {
@@ -223,7 +224,7 @@ fn mimics(reader: &mut Reader) {
     let mut circling = cycles(&drivers).concat();
     circling.sort_unstable();
     for idx in circling {
-        let name = shortened(&reader.reading.robot.joints[idx].name);
+        let name = Short::of(&reader.reading.robot.joints[idx].name);
         let place = reader.joint_places[idx].mimic.start;
         reader.fault(place, Fault::MimicCircle(name));
     }
@@ -244,7 +245,7 @@ fn missing_limits(reader: &mut Reader) {
         };
         if joint.mimic.is_none() && !is_limited(joint) {
             let kind = joint.joint_type.as_str().to_ascii_lowercase();
-            let problem = format!("joint `{}` is {kind} and has no limits", shortened(&joint.name));
+            let problem = format!("joint `{}` is {kind} and has no limits", Short::of(&joint.name));
             let assumed = format!("treated as unlimited; its bounds are {bounds}");
             found.push((place.joint, problem, assumed));
         }

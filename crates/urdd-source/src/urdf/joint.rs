@@ -1,10 +1,11 @@
 //! Joints.
 
 use super::numbers::element_of_numbers;
-use super::reader::{JointPlace, Reader, shortened};
+use super::reader::{JointPlace, Reader};
 use super::xml::Element;
 use crate::fault::Fault;
 use crate::note::NoteKind;
+use urdd_format::short::Short;
 use urdd_format::urdf as v1;
 
 const JOINT_ELEMENTS: &[&str] = &[
@@ -84,13 +85,12 @@ impl Reader {
         let attribute = self.attribute(joint, "type")?;
         match found {
             None => {
-                let fault =
-                    Fault::UnknownJointType { joint: name.to_owned(), found: shortened(&word) };
+                let fault = Fault::UnknownJointType { joint: name.into(), found: Short::of(&word) };
                 self.fault(attribute.range().start, fault);
             }
             Some(_) if plain != word => {
                 let problem =
-                    format!("the joint type `{}` is not spelled as in URDF", shortened(&word));
+                    format!("the joint type `{}` is not spelled as in URDF", Short::of(&word));
                 let assumed = format!("read as `{plain}`");
                 self.remark(NoteKind::JointType, attribute.range().start, problem, assumed);
                 self.edit(attribute.range_value(), plain);
@@ -109,7 +109,7 @@ impl Reader {
         place: &mut usize,
     ) -> Option<v1::LinkName> {
         let Some(element) = self.only(joint, end) else {
-            let fault = Fault::MissingElement { joint: shown.to_owned(), element: end };
+            let fault = Fault::MissingElement { joint: shown.into(), element: end };
             self.fault(joint.range().start, fault);
             return None;
         };

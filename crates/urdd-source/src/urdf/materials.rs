@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::reader::{Reader, shortened};
+use super::reader::Reader;
 use crate::note::NoteKind;
+use urdd_format::short::Short;
 
 /// Notes conflicting looks under one name, materials without a name, and names without a look. (A link may reference a
 /// material that is declared later.)
@@ -29,11 +30,11 @@ pub(super) fn check(reader: &mut Reader) {
             None => ("a material has no name".to_owned(), "it applies only to its element"),
             Some(name) => match looks.get(name.as_str()) {
                 Some(first) if has_look && *first != look && told.insert(name) => (
-                    format!("material `{}` is defined again, and looks different", shortened(name)),
+                    format!("material `{}` is defined again, and looks different", Short::of(name)),
                     "each element keeps its own; a name alone means the first",
                 ),
                 None if told.insert(name) => (
-                    format!("no material `{}` has a colour or texture", shortened(name)),
+                    format!("no material `{}` has a colour or texture", Short::of(name)),
                     "the name is kept, without a look",
                 ),
                 _ => continue,

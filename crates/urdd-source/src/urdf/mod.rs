@@ -15,7 +15,6 @@ mod xml;
 use super::fault::{Fault, PlacedFault};
 use urdd_directory::position;
 
-pub use reader::shortened;
 pub use reading::{Reading, Tree, written_axis};
 
 /// Reads a URDF. A robot without a name is named `file_stem`.

@@ -11,6 +11,7 @@ use super::xml::{self, Element};
 use crate::fault::Fault;
 use crate::note::{NoteKind, Remark};
 use crate::origin::{from_xyzw, has_quaternions};
+use urdd_format::short::Short;
 use urdd_format::urdf as v1;
 use urdd_xml::element::Edit;
 
@@ -135,7 +136,7 @@ impl Reader {
         let found = self.attribute(element, attribute)?;
         let what = || {
             let element = xml::name(element);
-            format!("`{attribute}` of `<{element}>` is `{}`", shortened(found.value()))
+            format!("`{attribute}` of `<{element}>` is `{}`", Short::of(found.value()))
         };
         match numbers::read(found.value()) {
             Numbers::Finite(numbers) => Some(numbers),
@@ -195,7 +196,7 @@ impl Reader {
         let offset = robot.range().start;
         let name = xml::name(robot);
         if name != "robot" {
-            self.fault(offset, Fault::NotRobot(shortened(name)));
+            self.fault(offset, Fault::NotRobot(Short::of(name)));
             return;
         }
         let name = self.text(robot, "name").unwrap_or_else(|| {
@@ -294,16 +295,6 @@ fn absent(element: &str, attribute: &str) -> String {
         _ => return "treated as absent".to_owned(),
     };
     format!("treated as absent, which means {means}")
-}
-
-/// Shortens text for a message.
-pub fn shortened(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut short: String = text.chars().take(LONGEST).collect();
-    if short.len() < text.len() {
-        short.push('…');
-    }
-    short.replace(char::is_control, " ")
 }
 
 fn escaped(text: &str) -> String {
