@@ -108,8 +108,8 @@ export class App {
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];
-      const { making, failure } = entry;
-      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure } });
+      const { making, failure, stopped } = entry;
+      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure, stopped } });
       void this.findAbsent(robot);
       return robot;
     } catch (error) {
@@ -152,7 +152,20 @@ export class App {
 
   close(): void {
     this.opening++;
-    this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null, pair: null, contacts: null });
+    // What nobody waits for any more keeps no other robot waiting.
+    if (this.store.now.robot === null && this.store.now.loading !== null) this.engine.end();
+    this.store.set({
+      robot: null,
+      failure: null,
+      loading: null,
+      making: NOT_MADE,
+      q: [],
+      poses: null,
+      pair: null,
+      contacts: null,
+      absent: [],
+      report: { report: null, error: null, busy: null },
+    });
   }
 
   /** Moves the robot. Moves in quick succession, as in a drag, are one undo step. */

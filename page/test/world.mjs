@@ -116,15 +116,18 @@ export async function browser() {
   });
 }
 
+/** A file of the page as it was built last, in the folder that URDD_DIST names. */
+export function built(name) {
+  return brotliDecompressSync(readFileSync(join(process.env.URDD_DIST, `${name}.br`)));
+}
+
 /** The page as it was built last, where URDD_DIST names its folder: the program need not be built again for it. */
 async function fromDist(context) {
-  const dist = process.env.URDD_DIST;
-  if (!dist) return;
+  if (!process.env.URDD_DIST) return;
   const types = { js: "text/javascript", css: "text/css", wasm: "application/wasm" };
   await context.route(/\/(?:(?:app|editor|make|worker)\.js|style\.css|(?:make|urdd)\.wasm)$/, (route) => {
     const name = new URL(route.request().url()).pathname.slice(1);
-    const body = brotliDecompressSync(readFileSync(join(dist, `${name}.br`)));
-    return route.fulfill({ body, contentType: types[name.split(".").pop()] });
+    return route.fulfill({ body: built(name), contentType: types[name.split(".").pop()] });
   });
 }
 

@@ -37,7 +37,7 @@ mod xacro;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use error::SourceError;
-pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
+pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,

@@ -1,8 +1,9 @@
-//! JSON and YAML as text, compared with other readers.
+//! JSON and YAML as text, compared with other readers; archives of other programs.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod archives;
 mod canonical;
 mod digest;
 mod document;
