@@ -23,6 +23,13 @@ function folder(files) {
   return (path = "") => join(made, path);
 }
 
+/** Packs a folder, under its own name. */
+function pack(place, zip, name) {
+  const script = "import shutil, sys; shutil.make_archive(sys.argv[1], 'zip', sys.argv[2], sys.argv[3])";
+  const done = spawnSync("python3", ["-c", script, place(zip).slice(0, -4), place(), name], { encoding: "utf8" });
+  assert.equal(done.status, 0, done.stderr);
+}
+
 const mesh = (name) => `<visual><geometry><mesh filename="${name}"/></geometry></visual>`;
 const box = (size) => `<visual><geometry><box size="${size} ${size} ${size}"/></geometry></visual>`;
 
@@ -67,6 +74,28 @@ inPage(set, "archives of every program become the robot, with its meshes", async
     );
   }
 });
+
+inPage(
+  set,
+  "links of an archive to one file are bounded",
+  async (page) => {
+    await gallery(page);
+    const zip = join(folder({ "a.urdf": "" })(), "links.zip");
+    const script = `import sys, zipfile
+with zipfile.ZipFile(sys.argv[1], "w", zipfile.ZIP_DEFLATED) as zip:
+    zip.writestr("a.urdf", "<robot name='a'><link name='a'/></robot>")
+    zip.writestr("big.stl", bytes(30_000_000))
+    for k in range(40):
+        link = zipfile.ZipInfo(f"m{k}.stl")
+        link.create_system, link.external_attr = 3, 0o120777 << 16
+        zip.writestr(link, "big.stl")`;
+    assert.equal(spawnSync("python3", ["-c", script, zip]).status, 0);
+    await dropOn(page, zip);
+    const failure = await state(page, "failure");
+    assert.match(failure, /more than 1 GB/);
+  },
+  { faults: null },
+);
 
 /** Whether the camera shows all of the robot, as large as it can, on a ground of its size. */
 async function isFramed(page) {
@@ -142,7 +171,7 @@ for (const [format, file, text] of [
     inPage(set, `an ${format} without its mesh asks for it, and takes it ${how}`, async (page) => {
       await gallery(page);
       const place = folder({ [file]: text, "meshes/m.stl": TETRAHEDRON, "elsewhere/deep/m.stl": TETRAHEDRON });
-      assert.equal(spawnSync("zip", ["-qr", "meshes.zip", "meshes"], { cwd: place() }).status, 0);
+      pack(place, "meshes.zip", "meshes");
       await dropOn(page, place(file));
       const ask = page.locator(".wanted:visible");
       await ask.getByText(format === "SDF" ? /Drop the folder of one here/ : /m\.stl/).waitFor();
@@ -319,7 +348,7 @@ inPage(set, "Cancel ends the reading of a drop, and what was open stays", async 
   await page.evaluate(() => {
     globalThis.urdd.app.engine.apart = () => new Promise(() => undefined);
   });
-  assert.equal(spawnSync("zip", ["-qr", "big.zip", "big"], { cwd: place() }).status, 0);
+  pack(place, "big.zip", "big");
   await dropOn(page, place("big.zip"));
   await page.getByRole("button", { name: "Cancel" }).click();
   await soon(async () => assert.equal(await page.locator(".waiting").isVisible(), false));
@@ -352,7 +381,7 @@ inPage(
       "urdd.json": "{}",
       "extra.stl": STL,
     });
-    assert.equal(spawnSync("zip", ["-qr", "none.zip", "folder"], { cwd: place() }).status, 0);
+    pack(place, "none.zip", "folder");
     await dropOn(page, place("one.urdf"));
     await whole(page, "one");
     const text = urdf("one", box(1), box(2), box(3));
