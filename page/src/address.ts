@@ -78,6 +78,7 @@ export class Address {
 
   private close(): void {
     this.turn++;
+    this.app.store.set({ taking: null });
     this.here?.leave();
     this.app.close();
   }

@@ -12,7 +12,7 @@ import { namedOf } from "./configurations";
 import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, PARTIAL, StateStore } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore } from "./state";
 import type { Layer, LayerKind, Pair, State } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -215,7 +215,8 @@ export class App {
   measure(): void {
     const { robot, q, shapes } = this.store.now;
     if (!robot?.moves || this.drawn !== robot) return;
-    if (robot.entry.making) this.store.set({ proximity: { answer: null, error: PARTIAL }, contacts: null });
+    const error = partial(robot.entry);
+    if (error !== null) this.store.set({ proximity: { answer: null, error }, contacts: null });
     else this.proximity.ask({ q, shapes });
   }
 

@@ -141,6 +141,12 @@ export const NOT_MADE: State["making"] = { making: null, failure: null };
 /** What panels say of a robot that has only what its picture needs. */
 export const PARTIAL = "this robot is still being generated.";
 
+/** What panels say of a robot that has not all, and why; null if it has, or nobody knows why it has not. */
+export function partial({ making, stopped }: Entry): string | null {
+  if (making) return PARTIAL;
+  return stopped ? "the rest of this robot was not generated; *Generate the rest* goes on." : null;
+}
+
 /** The pair that fades other links, in the Proximity tab only. */
 export function ghosted({ pair, tab }: Readonly<State>): Pair | null {
   return tab === "Proximity" ? pair : null;

@@ -1,6 +1,7 @@
 /** What the open robot lacks, and whether a drop has it. */
 
 import type { State } from "../state";
+import { MAY_DESCRIBE } from "../drop";
 import type { Taken } from "../drop";
 import type { Given } from "./protocol";
 
@@ -35,13 +36,18 @@ export function unmet(text: string, files: readonly Given[]): string[] {
 }
 
 /**
- * The files of a drop that are for the open robot: what is no robot by itself, or the folder of a package that it lacks.
+ * The files of a drop that are for the open robot: what is no robot by itself, the folder of a package that it lacks, or a
+ * description that it includes.
  */
 export function missingFrom({ draft, absent, wanted }: Readonly<State>, taken: Taken): Given[] | null {
   if (!draft) return null;
   if (taken.kind === "files") return taken.files.length > 0 ? taken.files : null;
   if (taken.kind !== "description") return null;
-  const folders = new Set(taken.files.flatMap(({ path }) => path.split("/").slice(0, -1)));
+  const parts = taken.files.map(({ path }) => path.split("/"));
+  const folders = new Set(parts.flatMap((parts) => parts.slice(0, -1)));
+  const names = new Set(parts.map((parts) => parts.pop()));
   const packages = packagesOf([...absent.map(({ filename }) => filename), ...wanted]);
-  return packages.some((name) => folders.has(name)) ? taken.files : null;
+  const included = wanted.filter((name) => MAY_DESCRIBE.test(name)).map((name) => name.split(/[\\/]/).pop());
+  const isFor = packages.some((name) => folders.has(name)) || included.some((name) => names.has(name));
+  return isFor ? taken.files : null;
 }
