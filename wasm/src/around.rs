@@ -38,7 +38,7 @@ impl Given {
             let found = found.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
             content.push((place(&folder, path), found));
         }
-        let around = Around::in_memory(content).map_err(|error| error.to_string())?;
+        let around = Around::of(content).map_err(|error| error.to_string())?;
         let mut given = Given { folder, paths, files: around, is_searched: false };
         if let Some(lost) = files.lost() {
             given.files = given.files.clone().searched(|file| lost.contains(&given.path(file)));

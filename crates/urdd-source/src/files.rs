@@ -61,12 +61,6 @@ pub trait Lender: fmt::Debug + Send + Sync {
     fn bytes(&self) -> io::Result<Arc<[u8]>>;
 }
 
-impl From<Arc<[u8]>> for Content {
-    fn from(bytes: Arc<[u8]>) -> Self {
-        Content::Here(bytes)
-    }
-}
-
 impl Content {
     fn size(&self) -> u64 {
         match self {
@@ -137,15 +131,22 @@ impl Files {
     /// # Errors
     /// If a path leads out of the set, or there is too much.
     pub fn in_memory(
-        files: impl IntoIterator<Item = (String, impl Into<Content>)>,
+        files: impl IntoIterator<Item = (String, Arc<[u8]>)>,
     ) -> Result<Files, MemoryFault> {
+        Files::of(files.into_iter().map(|(path, bytes)| (path, Content::Here(bytes))))
+    }
+
+    /// As [`Files::in_memory`], of which some may be elsewhere until they are needed.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of(files: impl IntoIterator<Item = (String, Content)>) -> Result<Files, MemoryFault> {
         let (mut all, mut bytes) = (BTreeMap::new(), 0_u64);
         for (path, content) in files {
             let plain = plain(Path::new(&path)).filter(|path| path.parent().is_some());
             let Some(plain) = plain else {
                 return Err(MemoryFault::Path(path));
             };
-            let content = content.into();
             bytes = bytes.saturating_add(content.size());
             all.insert(plain, content);
             if all.len() > MOST_FILES {

@@ -205,7 +205,8 @@ fn check(entry: &Listed<'_>, name: &str) -> Result<(), EntryFault> {
     }
     let path = name.strip_suffix('/').unwrap_or(name);
     // What is packed from `.` has an entry for that.
-    if !is_inside(path) && !(name.is_empty() && entry.name == b"./") {
+    let is_top = name.is_empty() && entry.name == b"./";
+    if !is_top && !is_inside(path) {
         return Err(EntryFault::Path);
     }
     if entry.is_encrypted {

@@ -185,7 +185,7 @@ fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
     let text = urdf(&["a.stl"]);
     let here = crate::Content::Here(Arc::from(text.as_bytes()));
     let files = [("arm.urdf".to_owned(), here), ("a.stl".to_owned(), elsewhere)];
-    let settings = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
+    let settings = Settings { files: Files::of(files).unwrap(), ..Settings::default() };
     let source =
         SourceMeshes::open(Path::new("arm.urdf"), &settings, &Cancellation::default()).unwrap();
     let mesh = source.meshes[0].file.as_ref().expect("a file");
