@@ -3,10 +3,11 @@
 import type { App } from "./app";
 import { message } from "./app";
 import { beside } from "./drop";
-import type { Taken } from "./drop";
+import type { Taken, Taking } from "./drop";
 import * as fragment from "./fragment";
 import { missingFrom } from "./here/missing";
 import type { Here } from "./here/here";
+import { sizeOf } from "./here/protocol";
 import type { Given } from "./here/protocol";
 import { untilReady } from "./making";
 import { unknown } from "./model";
@@ -22,14 +23,15 @@ const QUIET = 400;
 
 export class Address {
   private timer: ReturnType<typeof setTimeout> | undefined;
-  /** The fragment of the present view. */
+  /** The fragment of the present view, and the robot of this page that it shows. */
   private shown = "";
+  private own: string | null = null;
   /** Counts navigations, so that only the last one takes effect. */
   private turn = 0;
   /** The view that a site opens with: of `urdd view --compare --export`. */
   private first = document.querySelector<HTMLMetaElement>('meta[name="urdd-opens"]')?.content ?? "";
-  /** Takes back the drop that is being sent. */
-  private sending = new AbortController();
+  /** Takes back the drop that is being read or sent. */
+  private taking = new AbortController();
 
   constructor(
     private readonly app: App,
@@ -41,7 +43,7 @@ export class Address {
       clearTimeout(this.timer);
       this.timer = setTimeout(() => {
         const { robot, loading } = app.store.now;
-        if (robot && !loading) this.put(this.current(), false);
+        if (robot && !loading) this.put(this.current(), false, robot.entry.here ? robot.entry.id : null);
       }, QUIET);
     };
     app.store.on(
@@ -50,100 +52,120 @@ export class Address {
     );
     stage?.view.moved.push(later);
     const follow = (): void => {
-      if (location.hash !== this.shown) void this.follow();
+      if (location.hash !== this.shown || ownOf(history.state) !== this.own) void this.follow();
     };
     addEventListener("popstate", follow);
     addEventListener("hashchange", follow);
+    addEventListener("beforeunload", (event) => {
+      if (here?.isUnsaved) event.preventDefault();
+    });
   }
 
   /** Opens a robot of the list, as a new entry of the history. */
   async open(entry: Entry): Promise<void> {
-    // Robots that this page makes have no address: another browser does not have them.
-    this.put(entry.here ? "" : fragment.write({ ...fragment.read(""), robot: entry.id }), true);
+    // Robots that this page makes have no address: another browser does not have them. This one's history has them.
+    const words = entry.here ? "" : fragment.write({ ...fragment.read(""), robot: entry.id });
+    this.put(words, true, entry.here ? entry.id : null);
     await this.read(entry);
   }
 
-  /** Closes the robot, and removes it from the address. Takes back what is being sent. */
+  /** Closes the robot, and removes it from the address. */
   leave(): void {
-    this.turn++;
-    this.sending.abort();
-    this.here?.leave();
+    this.stopTaking();
+    this.close();
     this.put("", true);
+  }
+
+  private close(): void {
+    this.turn++;
+    this.app.store.set({ taking: null });
+    this.here?.leave();
     this.app.close();
   }
 
-  /** Opens dropped or selected files, which have no address; or adds those that the open robot lacks. */
-  async openFiles(files: () => Promise<Taken>): Promise<void> {
-    const { store } = this.app;
+  /** Ends what a person waits for. What was open before stays. */
+  cancel(): void {
+    if (this.app.store.now.taking === null) this.leave();
+    else this.stopTaking();
+  }
+
+  private stopTaking(): void {
+    this.taking.abort();
+    this.app.store.set({ taking: null });
+  }
+
+  /** Removes robots that this page made. */
+  remove(entry: Entry): void {
+    this.here?.remove([entry]);
+  }
+
+  /**
+   * Opens dropped or selected files, which have no address; or adds those that the open robot lacks. What is open stays
+   * until there is another robot.
+   */
+  async openFiles(files: Taking): Promise<void> {
+    const { app, here } = this;
+    const { store } = app;
+    this.stopTaking();
+    this.taking = new AbortController();
+    const { signal } = this.taking;
+    const unzip = (zip: Blob): Promise<Given[] | null> => app.engine.apart("unzip", { zip }, signal);
     // During the event: afterwards its files are gone.
-    const taking = files();
-    let turn = ++this.turn;
-    if (store.now.robot === null) store.set({ loading: { what: "files", done: 0, of: 0 }, failure: null });
+    const taking = files({ unzip, signal });
+    store.set({ taking: "Reading the files", ...(here?.open ? {} : { failure: null }) });
     try {
       const source = await taking;
-      if (turn !== this.turn) return;
+      signal.throwIfAborted();
       const missing = missingFrom(store.now, source);
       if (missing) {
-        this.here?.add(missing);
-        this.app.note(`${count(missing.length, "file")} added.`);
-        return;
-      }
-      this.leave();
-      ({ turn } = this);
-      await this.showTaken(source, turn);
+        here?.add(missing);
+        app.note(`${count(missing.length, "file")} added.`);
+      } else await this.showTaken(source, signal);
     } catch (error) {
-      if (turn !== this.turn) return;
-      if (store.now.robot) this.app.note(message(error));
+      if (signal.aborted) return;
+      if (store.now.robot || here?.open) app.note(message(error));
       else store.set({ loading: null, failure: message(error) });
+    } finally {
+      if (this.taking.signal === signal) store.set({ taking: null });
     }
   }
 
-  private async showTaken(source: Taken, turn: number): Promise<void> {
+  private async showTaken(source: Taken, signal: AbortSignal): Promise<void> {
     const { app, here } = this;
+    const { store, site } = app;
     if (source.kind === "files")
       throw new Error(
         "This is no robot: there is no URDF, MJCF or SDF here, and no URDD (a folder with urdd.json or a module such as urdf_module/module.json).",
       );
     if (source.kind !== "description") {
+      this.close();
+      this.put("", true);
       await app.open({ ...unknown(source.name), id: "" }, source);
       return;
     }
     // xacro files are programs, which only `urdd view` runs.
-    if (app.site.mode === "live" && source.hasXacro) {
-      const { files } = source;
-      await this.send(files instanceof File ? [{ path: files.name, file: files }] : files, turn);
-      return;
-    }
-    if (!here)
+    const isSent = site.mode === "live" && source.hasXacro;
+    if (!isSent && !here)
       throw new Error(
         "This is a robot description, not a URDD, and this page in one file cannot generate one: run `urdd view` with it, or drop it on a page that `urdd view --export` made.",
       );
-    app.store.set({ loading: { title: "Reading", what: "the files", done: 0, of: 0 } });
-    const entries = await here.take(source.files);
-    if (turn !== this.turn) {
-      here.forget(entries);
-      return;
-    }
-    app.store.set({ entries: [...app.store.now.entries, ...entries] });
+    const entries = isSent ? await this.send(source.files, signal) : await here?.take(source.files, signal);
+    signal.throwIfAborted();
+    if (!entries) return;
+    const known = new Set(entries.map(({ id }) => id));
+    this.close();
+    store.set({ entries: [...store.now.entries.filter(({ id }) => !known.has(id)), ...entries] });
     const [one] = entries;
     if (one && entries.length === 1) await this.open(one);
-    else app.store.set({ loading: null });
+    else this.put("", true);
   }
 
-  /** Sends descriptions to `urdd view`, and opens the robot if there is one. */
-  private async send(files: Given[], turn: number): Promise<void> {
+  /** Sends descriptions to `urdd view`, which makes robots of them. */
+  private async send(files: Given[], signal: AbortSignal): Promise<Entry[]> {
     const { store, site } = this.app;
-    this.sending = new AbortController();
-    const size = bytes(files.reduce((sum, { file }) => sum + file.size, 0));
-    store.set({ loading: { title: "Sending", what: `${count(files.length, "file")} (${size})`, done: 0, of: 0 } });
-    const sent = await site.drop(files, this.sending.signal);
-    const entries = await site.robots();
-    store.set({ entries });
-    if (turn !== this.turn) return;
-    const found = entries.filter(({ id }) => sent.includes(id));
-    const [one] = found;
-    if (one && found.length === 1) await this.open(one);
-    else store.set({ loading: null });
+    store.set({ taking: `Sending ${count(files.length, "file")} (${bytes(sizeOf(files))})` });
+    const sent = await site.drop(files, signal);
+    return (await site.robots()).filter(({ id }) => sent.includes(id));
   }
 
   /** A link to the view, for other tabs and browsers too. */
@@ -158,6 +180,12 @@ export class Address {
     clearTimeout(this.timer);
     const turn = ++this.turn;
     const { app } = this;
+    const own = app.store.now.entries.find((entry) => entry.here && entry.id === ownOf(history.state));
+    if (own) {
+      this.put("", false, own.id);
+      await this.read(own);
+      return;
+    }
     const shared = fragment.read(location.hash || this.first);
     this.first = "";
     const { robot } = app.store.now;
@@ -175,7 +203,7 @@ export class Address {
       app.store.set({ entries });
       this.put(fragment.write(shared), false);
       if (shared.from === null || !this.here) await this.show(shared, turn);
-      else await this.openFiles(() => beside(shared.from ?? ""));
+      else await this.openFiles(beside(shared.from));
     } catch (error) {
       if (turn !== this.turn) return;
       // The token is always removed from the address.
@@ -189,10 +217,12 @@ export class Address {
     const { app } = this;
     const { entries, robot } = app.store.now;
     const asked = entries.find((entry) => entry.id === shared.robot);
-    const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
+    const one = asked ?? (entries.length === 1 ? entries.find((entry) => !entry.here) : undefined);
     if (shared.robot !== null && !asked) app.note(`Unknown robot ${shared.robot}.`);
-    if (!one) app.close();
-    else if (robot?.entry.id === one.id) this.apply(shared);
+    if (!one) {
+      this.here?.leave();
+      app.close();
+    } else if (robot?.entry.id === one.id) this.apply(shared);
     else if (turn === this.turn) await this.read(one, shared);
   }
 
@@ -276,18 +306,25 @@ export class Address {
     });
   }
 
-  /** Writes the address: as a new entry of the history, or in place of the present one. */
-  private put(words: string, step: boolean): void {
+  /** Writes the address, and the robot of this page: as a new entry of the history, or in place of the present one. */
+  private put(words: string, step: boolean, own: string | null = null): void {
     clearTimeout(this.timer);
     const url = words === "" ? location.pathname + location.search : `#${words}`;
+    const isOther = location.hash !== (words === "" ? "" : `#${words}`) || own !== this.own;
     try {
-      if (step && location.hash !== (words === "" ? "" : `#${words}`)) history.pushState(null, "", url);
-      else history.replaceState(null, "", url);
+      if (step && isOther) history.pushState({ own }, "", url);
+      else history.replaceState({ own }, "", url);
     } catch {
       // A frame without its own address, as in a notebook.
     }
     this.shown = location.hash;
+    this.own = own;
   }
+}
+
+/** The robot of this page in an entry of the history. */
+function ownOf(state: unknown): string | null {
+  return (state as { own?: string } | null)?.own ?? null;
 }
 
 /** The state of the panels and the picture in a link. */

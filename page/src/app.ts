@@ -12,7 +12,7 @@ import { namedOf } from "./configurations";
 import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, PARTIAL, StateStore } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore } from "./state";
 import type { Layer, LayerKind, Pair, State } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -108,8 +108,8 @@ export class App {
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];
-      const { making, failure } = entry;
-      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure } });
+      const { making, failure, stopped } = entry;
+      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure, stopped } });
       void this.findAbsent(robot);
       return robot;
     } catch (error) {
@@ -152,7 +152,20 @@ export class App {
 
   close(): void {
     this.opening++;
-    this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null, pair: null, contacts: null });
+    // What nobody waits for any more keeps no other robot waiting.
+    if (this.store.now.robot === null && this.store.now.loading !== null) this.engine.end();
+    this.store.set({
+      robot: null,
+      failure: null,
+      loading: null,
+      making: NOT_MADE,
+      q: [],
+      poses: null,
+      pair: null,
+      contacts: null,
+      absent: [],
+      report: { report: null, error: null, busy: null },
+    });
   }
 
   /** Moves the robot. Moves in quick succession, as in a drag, are one undo step. */
@@ -202,7 +215,8 @@ export class App {
   measure(): void {
     const { robot, q, shapes } = this.store.now;
     if (!robot?.moves || this.drawn !== robot) return;
-    if (robot.entry.making) this.store.set({ proximity: { answer: null, error: PARTIAL }, contacts: null });
+    const error = partial(robot.entry);
+    if (error !== null) this.store.set({ proximity: { answer: null, error }, contacts: null });
     else this.proximity.ask({ q, shapes });
   }
 

@@ -124,7 +124,7 @@ function jointOf(old: RobotModel, was: Link, now: RobotModel, is: Link): string[
 function massOf({ inertial: was }: Link, { inertial: is }: Link): string[] {
   const words: string[] = [];
   const [a, b] = [was?.mass ?? null, is?.mass ?? null];
-  if (!isNear(a, b)) words.push(`mass ${shown(a)} → ${shown(b)} kg`);
+  if (!isNear(a, b)) words.push(`mass ${shown(a, b === null ? " kg" : "")} → ${shown(b, " kg")}`);
   if (!was || !is) return words;
   const apart = distance(was.position, is.position);
   if (apart > SAME) words.push(`centre of mass ${lengths(was.position)} → ${lengths(is.position)}`);
@@ -138,8 +138,8 @@ function isNear(a: number | null, b: number | null): boolean {
   return a === b || Math.abs(a - b) <= SAME * Math.max(Math.abs(a), Math.abs(b));
 }
 
-function shown(value: number | null): string {
-  return value === null ? "none" : number(value, 4);
+function shown(value: number | null, unit = ""): string {
+  return value === null ? "none" : number(value, 4) + unit;
 }
 
 function distance(a: Vector, b: Vector): number {

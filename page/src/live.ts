@@ -75,8 +75,9 @@ function same(a: unknown, b: unknown): boolean {
 /** A line that says that the URDF cannot be generated any more, and why. */
 export function brokenLine(app: App): HTMLElement {
   const line = h("div", { class: "broken", role: "alert" });
-  app.store.on(["making", "robot", "server"], ({ making: { failure }, robot, server }) => {
-    line.hidden = failure === null || robot === null || server !== "here";
+  app.store.on(["making", "robot", "server"], ({ making: { failure, stopped }, robot, server }) => {
+    // Whoever stops it knows.
+    line.hidden = failure === null || stopped === true || robot === null || server !== "here";
     const text = failure === null ? "" : `The page shows the last version that could be read. ${failure}`;
     const shown = lines(text);
     if (line.textContent !== shown) fill(line, shown);

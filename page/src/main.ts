@@ -13,6 +13,7 @@ import { keys } from "./keys";
 import { brokenLine, follow, serverLine } from "./live";
 import { saveDialog } from "./making";
 import { named } from "./named";
+import { missingFiles } from "./panels/absent";
 import { findings } from "./panels/findings";
 import { gallery } from "./panels/gallery";
 import { header } from "./panels/header";
@@ -61,28 +62,42 @@ function start(): void {
   const address = new Address(app, stage, here);
 
   const failure = h("div", { class: "failure", role: "alert" });
-  const back = button("Back", {}, () => address.leave());
-  app.store.on(["failure", "draft"], ({ failure: text, draft }) => {
+  const why = h("p", {});
+  const what = h("p", { class: "hint" });
+  // Buttons stay while the words change, so that a click is not lost.
+  const ask = missingFiles(app, false);
+  fill(
+    failure,
+    why,
+    ask,
+    what,
+    button("Back", {}, () => address.leave()),
+  );
+  app.store.on(["failure", "draft", "wanted"], ({ failure: text, draft, wanted }) => {
     failure.hidden = text === null;
-    const how = draft && "The findings say what is wrong. Mend the text: the robot is shown as soon as there is one.";
-    fill(failure, h("p", {}, text), how && h("p", { class: "hint" }, how), back);
+    fill(why, text);
+    ask.hidden = wanted.length === 0;
+    what.hidden = !draft;
+    const first = wanted.length > 0 ? "Or" : "The findings say what is wrong. You can also";
+    fill(what, `${first} mend the text: the robot is shown as soon as there is one.`);
   });
   const progress = h("div", { role: "status" });
-  // It stays while the words change, so that a click is not lost.
   const waiting = h(
     "div",
     { class: "waiting" },
     progress,
-    button("Cancel", {}, () => address.leave()),
+    button("Cancel", {}, () => address.cancel()),
   );
-  app.store.on(["robot", "loading"], ({ robot, loading }) => {
-    waiting.hidden = robot !== null || loading === null;
-    if (!loading) return;
-    const bar = h("progress", { "aria-label": loading.what, max: Math.max(loading.of, 1) });
-    if (loading.of > 0) bar.value = loading.done;
-    fill(progress, h("p", {}, said(loading)), bar);
+  app.store.on(["robot", "loading", "taking", "failure"], ({ robot, loading, taking, failure }) => {
+    const isBeside = robot !== null || failure !== null;
+    waiting.hidden = taking === null && (isBeside || loading === null);
+    waiting.classList.toggle("beside", isBeside);
+    const { what = taking ?? "", done = 0, of = 0 } = (taking === null && loading) || {};
+    const bar = h("progress", { "aria-label": what, max: Math.max(of, 1) });
+    if (of > 0) bar.value = done;
+    fill(progress, h("p", {}, taking ?? (loading && said(loading))), bar);
   });
-  const choose = (files: File[], folder: boolean): void => void address.openFiles(() => chosen(files, folder));
+  const choose = (files: File[], folder: boolean): void => void address.openFiles(chosen(files, folder));
   const timeline = new Timeline(app);
   const middle = h(
     "main",
@@ -97,7 +112,12 @@ function start(): void {
           `Cannot draw the robot: this browser has no WebGL (${noPicture ?? ""}). The panels still work.`,
         ),
       ),
-    gallery(app, (entry) => void address.open(entry), choose),
+    gallery(
+      app,
+      (entry) => void address.open(entry),
+      (entry) => address.remove(entry),
+      choose,
+    ),
     waiting,
     failure,
     timeline.element,

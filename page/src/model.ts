@@ -16,8 +16,10 @@ export interface Entry {
   ready: boolean;
   /** The progress of its generation; null otherwise. A robot that is ready then has only what the picture needs. */
   making: { what: string; done: number; of: number } | null;
-  /** Why its generation failed. */
+  /** Why its generation failed, or ended. */
   failure: string | null;
+  /** Whether a person ended it. */
+  stopped?: boolean;
   links: number | null;
   dofs: number | null;
   verdict: string | null;

@@ -3,7 +3,7 @@
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
 import { message } from "./app";
-import { PARTIAL } from "./state";
+import { partial } from "./state";
 import { count } from "./ui/format";
 import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
@@ -13,8 +13,9 @@ const ALL = 1e9;
 
 export async function load(app: App, shapes: ShapeKind): Promise<void> {
   const { skips, robot } = app.store.now;
-  if (robot?.entry.making) {
-    app.store.set({ skips: { ...skips, answer: null, error: PARTIAL } });
+  const error = robot && partial(robot.entry);
+  if (error !== null) {
+    app.store.set({ skips: { ...skips, answer: null, error } });
     return;
   }
   const edits = skips.dirty ? skips.answer?.edits : null;

@@ -1,6 +1,7 @@
 /** The picture. It follows the state. */
 
 import { Vector3 } from "three";
+import type { Box3 } from "three";
 import type { App } from "./app";
 import { message } from "./app";
 import type { RobotModel } from "./model";
@@ -41,6 +42,16 @@ const HANDLES = {
 
 const START = new Vector3(1, -0.75, 0.45);
 
+/** By how much a robot may grow or shrink before the camera is set anew. */
+const MUCH = 3;
+
+/** Whether the camera and the ground for one box are right for another one, as of a robot that was edited. */
+function isAlike(box: Box3, other: Box3): boolean {
+  const [size, before] = [box, other].map((one) => one.getSize(new Vector3()).length());
+  const share = (size ?? 0) / (before ?? 0);
+  return share < MUCH && share > 1 / MUCH && box.intersectsBox(other);
+}
+
 export class Stage {
   readonly element: HTMLElement;
   readonly view: View;
@@ -60,8 +71,9 @@ export class Stage {
   private size = 1;
   /** The camera for the next robot; null to fit all of it. */
   from: number[] | null = null;
-  /** The robot that the camera was set for. */
-  private lookedAt: string | null = null;
+  /** The robot that is shown, and the one that the camera was set for, with its box then. */
+  private showing: string | null = null;
+  private lookedAt: { id: string; box: Box3 } | null = null;
   /** Milliseconds from the page's start to the first complete picture. */
   firstPicture: number | null = null;
   /** The robot that is completely drawn, with the camera set. */
@@ -125,6 +137,8 @@ export class Stage {
     this.measure.changed = () => measure.setAttribute("aria-pressed", String(this.measure.isOn));
     views.append(h("span", { class: "gap" }), ...handles.map(([, button]) => button), measure, chooseOther(app));
     app.store.on(["robot"], ({ robot }) => {
+      // What is in front of an empty picture is not behind it for the Tab key.
+      this.element.inert = robot === null;
       views.hidden = !robot;
       howto.hidden = !robot;
       howto.classList.toggle("still", !robot?.moves);
@@ -216,7 +230,7 @@ export class Stage {
 
   /** Shows another robot, or none. */
   private take(robot: RobotModel | null): void {
-    const isReload = robot === null ? this.app.store.now.loading !== null : robot.entry.id === this.lookedAt;
+    const isReload = robot === null ? this.app.store.now.loading !== null : robot.entry.id === this.showing;
     if (this.scene) {
       this.retire();
       this.former = this.scene;
@@ -228,7 +242,7 @@ export class Stage {
     this.view.invalidate();
     if (!robot) {
       // The camera stays while the same robot is reloaded.
-      if (!this.app.store.now.loading) this.lookedAt = null;
+      if (!this.app.store.now.loading) this.showing = this.lookedAt = null;
       this.names.show([]);
       return;
     }
@@ -237,13 +251,14 @@ export class Stage {
     this.view.scene.add(this.scene.root);
     const { poses } = this.app.store.now;
     if (poses) this.scene.pose(poses);
-    const isNew = this.from !== null || robot.entry.id === "" || robot.entry.id !== this.lookedAt;
-    this.lookedAt = robot.entry.id;
-    void this.fill(isNew);
+    this.showing = robot.entry.id;
+    // A robot that was dropped has no name to be known by.
+    if (robot.entry.id === "") this.lookedAt = null;
+    void this.fill();
   }
 
   /** Loads the visible layers. */
-  private async fill(look = false): Promise<void> {
+  private async fill(): Promise<void> {
     const { scene, model, busy } = this;
     const layers = drawnLayers(this.app.store.now);
     if (!scene || !model) return;
@@ -254,10 +269,11 @@ export class Stage {
       busy.delete(layer);
       if (scene !== this.scene) return;
     }
-    if (look) this.settle(scene);
-    this.retire();
     // Another call may still be loading: the last one ends it.
-    if (busy.size > 0 || this.settledOn === model) return;
+    if (busy.size > 0) return;
+    this.retire();
+    if (this.settledOn === model) return;
+    this.settle(scene, model.entry.id);
     this.settledOn = model;
     this.app.settled();
   }
@@ -285,9 +301,11 @@ export class Stage {
     prepare(scene);
   }
 
-  /** Sets the camera and the ground once the robot is visible. */
-  private settle(scene: RobotScene): void {
+  /** Sets the camera and the ground once the robot is visible, unless they are right for it. */
+  private settle(scene: RobotScene, id: string): void {
     const box = scene.bounds();
+    if (this.from === null && this.lookedAt?.id === id && isAlike(box, this.lookedAt.box)) return;
+    this.lookedAt = { id, box };
     const side = box.getSize(new Vector3());
     this.size = Math.max(side.x, side.y, side.z, 1e-3);
     this.ground.under(box);

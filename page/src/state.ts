@@ -108,6 +108,10 @@ export interface State {
   report: { report: Report | null; error: string | null; busy: string | null };
   /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];
+  /** Files that the MJCF or SDF names, and that are not there. */
+  wanted: readonly string[];
+  /** The drop that is being read, in words. */
+  taking: string | null;
   /** What links are painted by: their worst finding, one rule, or nothing; `auto` until it is chosen. */
   painted: "worst" | { code: string } | null | "auto";
   /** Whether links are coloured by part, for a combined robot. */
@@ -123,7 +127,7 @@ export interface State {
   note: string | null;
   units: Units;
   /** The generation of the open robot, which goes on while its picture is shown: its progress, or why it failed. */
-  making: Pick<Entry, "making" | "failure">;
+  making: Pick<Entry, "making" | "failure" | "stopped">;
   /** Whether `urdd view` answers, has ended, or was replaced by another one. */
   server: "here" | "gone" | "another";
   /** What is unfolded in a narrow window: a panel, or the pills without room. */
@@ -136,6 +140,12 @@ export const NOT_MADE: State["making"] = { making: null, failure: null };
 
 /** What panels say of a robot that has only what its picture needs. */
 export const PARTIAL = "this robot is still being generated.";
+
+/** What panels say of a robot that has not all, and why; null if it has, or nobody knows why it has not. */
+export function partial({ making, stopped }: Entry): string | null {
+  if (making) return PARTIAL;
+  return stopped ? "the rest of this robot was not generated; *Generate the rest* goes on." : null;
+}
 
 /** The pair that fades other links, in the Proximity tab only. */
 export function ghosted({ pair, tab }: Readonly<State>): Pair | null {
@@ -185,6 +195,8 @@ export function initial(): State {
     skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
     absent: [],
+    wanted: [],
+    taking: null,
     painted: "auto",
     byPart: true,
     sample: null,

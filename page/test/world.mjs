@@ -116,15 +116,37 @@ export async function browser() {
   });
 }
 
+/** A file of the page as it was built last, in the folder that URDD_DIST names. */
+const built = (name) => brotliDecompressSync(readFileSync(join(process.env.URDD_DIST, `${name}.br`)));
+
+/** Names of the page's files by the paths that they have in a site. */
+export function namesOf(page) {
+  const words = /<meta name="urdd-files" content="([^"]*)"/.exec(page)?.[1].split(" ") ?? [];
+  return new Map(words.flatMap((name, k) => (k % 2 === 0 ? [[`/${words[k + 1]}`, name]] : [])));
+}
+
+/** What a site answers for a file of the page: that of the page as it was built last, where there is one. */
+export async function answered(route, name) {
+  return process.env.URDD_DIST ? built(name) : (await route.fetch()).body();
+}
+
 /** The page as it was built last, where URDD_DIST names its folder: the program need not be built again for it. */
 async function fromDist(context) {
-  const dist = process.env.URDD_DIST;
-  if (!dist) return;
+  if (!process.env.URDD_DIST) return;
   const types = { js: "text/javascript", css: "text/css", wasm: "application/wasm" };
-  await context.route(/\/(?:(?:app|editor|make|worker)\.js|style\.css|(?:make|urdd)\.wasm)$/, (route) => {
-    const name = new URL(route.request().url()).pathname.slice(1);
-    const body = brotliDecompressSync(readFileSync(join(dist, `${name}.br`)));
-    return route.fulfill({ body, contentType: types[name.split(".").pop()] });
+  const policy = /<meta http-equiv="Content-Security-Policy"[^>]*>/;
+  const all = ["app.js", "editor.js", "make.js", "worker.js", "style.css", "make.wasm", "urdd.wasm"];
+  const names = new Map(all.map((name) => [`/${name}`, name]));
+  await context.route(/\/(?:index\.html)?(?:[?#].*)?$/, async (route) => {
+    const response = await route.fetch();
+    const text = await response.text();
+    for (const [path, name] of namesOf(text)) names.set(path, name);
+    await route.fulfill({ response, body: text.replace(policy, policy.exec(built("index.html").toString())[0]) });
+  });
+  await context.route(/\.(?:js|css|wasm)$/, async (route) => {
+    const name = names.get(new URL(route.request().url()).pathname);
+    const contentType = types[name?.split(".").pop()];
+    await (contentType ? route.fulfill({ body: built(name), contentType }) : route.continue());
   });
 }
 
@@ -151,12 +173,21 @@ export async function tab(chrome, address, { first, routes, ...options } = {}) {
   return { page, faults, close: () => context.close() };
 }
 
-/** Drags files or folders of this machine onto the page, as a person does. */
+/** Drags files or folders of this machine onto the page, as a person does: again, if the page was too busy to see it. */
 export async function dropOn(page, ...files) {
   const session = await page.context().newCDPSession(page);
   const data = { items: [], files, dragOperationsMask: 1 };
-  for (const type of ["dragEnter", "dragOver", "drop"])
-    await session.send("Input.dispatchDragEvent", { type, x: 640, y: 360, data });
+  await page.evaluate(() => {
+    globalThis.wasDropped = false;
+    globalThis.addEventListener("drop", () => (globalThis.wasDropped = true), { capture: true, once: true });
+  });
+  for (let tries = 0; tries < 5; tries++) {
+    for (const type of ["dragEnter", "dragOver", "drop"])
+      await session.send("Input.dispatchDragEvent", { type, x: 640, y: 360, data });
+    const was = page.waitForFunction(() => globalThis.wasDropped, null, { timeout: 3000 });
+    if (await was.catch(() => false)) return;
+  }
+  throw new Error("the page saw no drop");
 }
 
 /** Opens a robot of the gallery, and waits until it is drawn. */

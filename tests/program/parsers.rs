@@ -45,7 +45,6 @@ const OTHERS: &[&str] = &[
     "signal-hook",
     "similar",
     "strsim",
-    "tempfile",
     "terminal_size",
     "textwrap",
     "thiserror",

@@ -10,10 +10,10 @@ export class Urdd {
 
   static async of(bytes) {
     const module = await WebAssembly.compile(bytes);
-    // The module that generates imports this one function; the other imports nothing.
+    // The module that generates imports these functions; the other imports nothing. All files are given to it at once.
     const progress = (at, length) => urdd.tell(urdd.#text(at, length));
     const instance = await WebAssembly.instantiate(module, {
-      urdd: { progress },
+      urdd: { progress, read: () => 0 },
     });
     const urdd = new Urdd(instance);
     return urdd;

@@ -18,6 +18,8 @@ pub struct Given {
     /// Their paths.
     paths: Vec<String>,
     files: Around,
+    /// Whether files are found by their last names.
+    is_searched: bool,
 }
 
 impl Given {
@@ -32,12 +34,17 @@ impl Given {
         let folder = if is_plain { name } else { "robot".to_owned() };
         let mut content = Vec::new();
         for path in &paths {
-            let bytes = files.bytes(path, MAX_FILE_BYTES);
-            let bytes = bytes.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
-            content.push((place(&folder, path), bytes));
+            let found = files.content(path, MAX_FILE_BYTES);
+            let found = found.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
+            content.push((place(&folder, path), found));
         }
-        let files = Around::in_memory(content).map_err(|error| error.to_string())?;
-        Ok(Given { folder, paths, files })
+        let around = Around::of(content).map_err(|error| error.to_string())?;
+        let mut given = Given { folder, paths, files: around, is_searched: false };
+        if let Some(lost) = files.lost() {
+            given.files = given.files.clone().searched(|file| lost.contains(&given.path(file)));
+            given.is_searched = true;
+        }
+        Ok(given)
     }
 
     /// The path of a file among them, seen from the root of all.
@@ -57,7 +64,6 @@ impl Given {
     }
 
     /// The path of a file among them from its place.
-    #[cfg(feature = "make")]
     pub fn path(&self, place: &Path) -> String {
         let path = place.strip_prefix(Path::new("/").join(&self.folder)).unwrap_or(place);
         path.to_string_lossy().into_owned()
@@ -75,7 +81,7 @@ impl Given {
         let text = text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
         let folders = PackageFolders::of(self.paths.iter().map(|path| &**path).collect());
         let mut packages = Packages::none();
-        for (name, folder) in folders.of_text(&String::from_utf8_lossy(&text)) {
+        for (name, folder) in folders.of_text(&String::from_utf8_lossy(&text), self.is_searched) {
             packages.put(name, self.place(&folder));
         }
         Ok(Settings { packages, files: self.files.clone(), ..Settings::default() })

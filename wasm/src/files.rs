@@ -1,6 +1,8 @@
 //! The files of a URDD: a zip archive, or files that the host provides one by one, on request.
 
 use std::collections::BTreeMap;
+#[cfg(feature = "lint")]
+use std::collections::BTreeSet;
 use std::io::{Cursor, Read};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -9,7 +11,11 @@ use urdd_directory::listing::{Entry, EntryKind, Listing};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Archive, OpenFile, Source};
 
+#[cfg(feature = "lint")]
+use crate::asked::Asked;
 use crate::{answer, memory};
+#[cfg(feature = "lint")]
+use urdd_source::Content;
 
 /// The files, and those that the host provides.
 #[derive(Debug, Clone)]
@@ -23,6 +29,9 @@ pub struct Files {
 struct Given {
     name: String,
     files: Mutex<BTreeMap<String, Held>>,
+    /// Files of which nobody knows where they belong; `None` if each file is where it belongs.
+    #[cfg(feature = "lint")]
+    lost: Mutex<Option<BTreeSet<String>>>,
 }
 
 /// A file's size, and its content.
@@ -70,23 +79,34 @@ impl Files {
     }
 
     /// The address of the open files, for the host.
-    #[cfg(feature = "make")]
     pub fn into_address(self) -> usize {
         Box::into_raw(Box::new(self)) as usize
     }
 
-    /// The bytes of a file, at most `limit`; those that the host gave are shared.
+    /// The content of a file of at most `limit` bytes. What the host gave is shared, and what it named is asked for when it
+    /// is needed.
     #[cfg(feature = "lint")]
-    pub fn bytes(&self, path: &str, limit: u64) -> Result<Arc<[u8]>, String> {
+    pub fn content(&self, path: &str, limit: u64) -> Result<Content, String> {
         if let Some(given) = &self.given {
             let files = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some((_, Some(bytes))) = files.get(path)
-                && bytes.len() as u64 <= limit
-            {
-                return Ok(Arc::clone(bytes));
+            match files.get(path) {
+                Some((_, Some(bytes))) if bytes.len() as u64 <= limit => {
+                    return Ok(Content::Here(Arc::clone(bytes)));
+                }
+                Some((size, None)) => {
+                    return Ok(Content::Elsewhere(Arc::new(Asked::of(path, *size))));
+                }
+                _ => {}
             }
         }
-        self.read(path, limit).map(Arc::from)
+        Ok(Content::Here(self.read(path, limit)?.into()))
+    }
+
+    /// The files of which nobody knows where they belong; `None` if each file is where it belongs.
+    #[cfg(feature = "lint")]
+    pub fn lost(&self) -> Option<BTreeSet<String>> {
+        let given = self.given.as_ref()?;
+        given.lost.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Reads a file of at most `limit` bytes.
@@ -109,7 +129,13 @@ impl Files {
 pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut Files {
     // SAFETY: guaranteed by the caller.
     let name = String::from_utf8_lossy(unsafe { memory::bytes(name, length) }).into_owned();
-    let given = Arc::new(Given { name, files: Mutex::default() });
+    let given = Given {
+        name,
+        files: Mutex::default(),
+        #[cfg(feature = "lint")]
+        lost: Mutex::default(),
+    };
+    let given = Arc::new(given);
     Box::into_raw(Box::new(Files {
         root: Root::of(Shared(Arc::clone(&given))),
         given: Some(given),
@@ -182,6 +208,23 @@ pub unsafe extern "C" fn urdd_files_put(
     }
 }
 
+/// States that nobody knows where a file belongs, such as one that was dropped without its folder: it is found by its last
+/// name where nothing is at the path that a description names. So is any file by a name that leads out of the files. An
+/// empty path states that alone.
+///
+/// # Safety
+/// `files` is open; the path, in UTF-8, is valid for [`memory::bytes`].
+#[cfg(feature = "lint")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_files_lost(files: *mut Files, path: *const u8, length: usize) {
+    // SAFETY: guaranteed by the caller.
+    let (files, path) = unsafe { (&*files, memory::bytes(path, length)) };
+    if let Some(given) = &files.given {
+        let mut lost = given.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.get_or_insert_default().insert(String::from_utf8_lossy(path).into_owned());
+    }
+}
+
 /// Opens the files in a zip archive; null if it is not an archive of a URDD ([`urdd_zip_fault`] says why).
 ///
 /// # Safety
@@ -205,7 +248,6 @@ pub unsafe extern "C" fn urdd_files_of_zip(
 ///
 /// # Safety
 /// The bytes are valid for [`memory::bytes`].
-#[cfg(feature = "make")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_of_any_zip(zip: *const u8, length: usize) -> *mut u8 {
     // SAFETY: guaranteed by the caller.

@@ -1,5 +1,5 @@
-//! The library as a WebAssembly module: no clock, no files, no random numbers. It imports nothing; where it generates, one
-//! function that is told of progress.
+//! The library as a WebAssembly module: no clock, no files, no random numbers. It imports nothing; where it lints, a
+//! function that gives the content of a file that the host named, and where it generates, one that is told of progress.
 //!
 //! Input bytes are written to memory from `urdd_alloc`. Output is an *answer*: a pointer to a 32-bit length
 //! and that many bytes, to be freed with `urdd_free_answer`. Unless its function states otherwise, an answer
@@ -10,6 +10,8 @@ mod about;
 mod answer;
 #[cfg(feature = "lint")]
 mod around;
+#[cfg(feature = "lint")]
+mod asked;
 #[cfg(feature = "robot")]
 mod bodies;
 #[cfg(feature = "robot")]

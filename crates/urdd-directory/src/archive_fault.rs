@@ -6,17 +6,17 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum ArchiveFault {
-    #[error("it is not a complete zip archive ({reason}); pack the URDD again")]
+    #[error("it is not a complete zip archive ({reason}); pack it again")]
     Broken { reason: String },
     #[error(
         "it is a zip64 archive, of more than 65,535 entries or 4 GiB; unpack it, and give the folder"
     )]
     Zip64,
-    #[error("it states {stated} entries, but lists {listed}; pack the URDD again")]
+    #[error("it states {stated} entries, but lists {listed}; pack it again")]
     Count { stated: usize, listed: usize },
     /// Other programs may extract different files.
     #[error(
-        "it contains bytes that belong to no entry or to two entries, as if two archives were in one file; pack the URDD again"
+        "it contains bytes that belong to no entry or to two entries, as if two archives were in one file; pack it again"
     )]
     OtherBytes,
     #[error(
@@ -53,18 +53,16 @@ pub enum EntryFault {
         "has a name of {length} bytes; the limit is {limit}, and {part} between two slashes; rename it"
     )]
     LongName { length: usize, limit: usize, part: usize },
-    #[error(
-        "is described differently in its own header and in the archive's list; pack the URDD again"
-    )]
+    #[error("is described differently in its own header and in the archive's list; pack it again")]
     Header,
     #[error("occurs twice")]
     Duplicate,
-    #[error("is encrypted; pack the URDD without a password")]
+    #[error("is encrypted; pack it without a password")]
     Encrypted,
-    #[error("is compressed by method {method} of zip; pack the URDD with deflate")]
+    #[error("is compressed by method {method} of zip; pack it with deflate")]
     Method { method: u16 },
     #[error("is {size} bytes long; the limit is {limit}")]
     TooLarge { size: u64, limit: u64 },
-    #[error("is damaged ({reason}); pack the URDD again")]
+    #[error("is damaged ({reason}); pack it again")]
     Damaged { reason: String },
 }

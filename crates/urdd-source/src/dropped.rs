@@ -59,9 +59,9 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
         let folder = file.parent().unwrap_or(file);
         let hidden = |part: &std::ffi::OsStr| part.to_string_lossy().starts_with('.');
         folder.iter().any(hidden)
-            || folder.ancestors().any(|above| all.contains_key(&above.join(ROOT_METADATA)))
+            || folder.ancestors().any(|above| all.has(&above.join(ROOT_METADATA)))
     };
-    let found = all.keys().filter(|file| !is_passed(file));
+    let found = all.paths().filter(|file| !is_passed(file));
     let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
     let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.unzip();
     named(paths).into_iter().zip(kinds).map(|(job, kind)| Dropped { job, kind }).collect()
@@ -93,8 +93,11 @@ impl<'a> PackageFolders<'a> {
     /// The packages that a text names, each with the highest folder of its name in which a file is that the text names; or,
     /// where no folder has the name, with the folder in which the first file that is there is found, as when the content
     /// of a package was dropped without its folder.
-    pub fn of_text<'t>(&self, text: &'t str) -> BTreeMap<&'t str, String> {
+    ///
+    /// Of a set that is searched (`is_searched`), a package is otherwise the whole set, if that has a file of the last name.
+    pub fn of_text<'t>(&self, text: &'t str, is_searched: bool) -> BTreeMap<&'t str, String> {
         let mut found = BTreeMap::new();
+        let mut lost = BTreeMap::new();
         let named = IN_PACKAGE.iter().flat_map(|prefix| text.split(prefix).skip(1));
         for rest in named {
             let end = rest.find(['"', '\'', '<']).unwrap_or(rest.len());
@@ -113,14 +116,21 @@ impl<'a> PackageFolders<'a> {
                 None if self.0.has_folder(package) => None,
                 None => self.0.folder_with(file).map(str::to_owned),
             };
+            let last = file.rsplit('/').next().unwrap_or(file);
             if let Some(folder) = folder {
                 found.insert(package, folder);
-                if found.len() == MAX_PACKAGES {
-                    break;
-                }
+            } else if is_searched
+                && !self.0.has_folder(package)
+                && self.0.folder_with(last).is_some()
+            {
+                lost.insert(package, String::new());
+            }
+            if found.len() + lost.len() >= MAX_PACKAGES {
+                break;
             }
         }
-        found
+        lost.append(&mut found);
+        lost
     }
 }
 
@@ -138,7 +148,7 @@ mod tests {
             <m f=\"package://q/meshes/a.obj\"/><m f=\"package://known/meshes/b.obj\"/>
             <m f='package://../meshes/a.obj'/><m f='package://r/../a.obj'/><m>package://s/meshes/a.obj</m>
             <m f='package://in/known/b.obj'/><m f='model://deep/in/known/b.obj'/>";
-        let found = dropped.of_text(text);
+        let found = dropped.of_text(text, false);
         let found: Vec<_> = found.iter().map(|(name, folder)| (*name, &**folder)).collect();
         let expected =
             [("deep", "deep"), ("in", "deep/in"), ("p", "y"), ("q", "known"), ("s", "known")];
@@ -146,7 +156,7 @@ mod tests {
         let many: String = (0..2 * MAX_PACKAGES)
             .map(|k| format!("<m f='package://p{k}/meshes/a.obj'/>"))
             .collect();
-        assert_eq!(dropped.of_text(&many).len(), MAX_PACKAGES);
+        assert_eq!(dropped.of_text(&many, false).len(), MAX_PACKAGES);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
+use std::fmt;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
@@ -17,7 +18,9 @@ pub const MAX_SOURCE_BYTES: u64 = 64 << 20;
 /// Maximum number of files in memory.
 const MOST_FILES: usize = 20_000;
 /// Maximum size of all files in memory, bytes.
-const MOST_BYTES: usize = 2 << 30;
+const MOST_BYTES: u64 = 2 << 30;
+/// Files that say what the folder is that they are in.
+const MANIFESTS: [&str; 2] = ["package.xml", "model.config"];
 
 /// Where the files around a description are.
 #[derive(Debug, Clone, Default)]
@@ -26,7 +29,87 @@ pub enum Files {
     #[default]
     Disk,
     /// In memory, by absolute path. There is no other file, and all of them may be read.
-    Memory(Arc<BTreeMap<PathBuf, Arc<[u8]>>>),
+    Memory(Arc<Held>),
+}
+
+/// Files in memory, by absolute path.
+#[derive(Debug, Clone, Default)]
+pub struct Held {
+    files: BTreeMap<PathBuf, Content>,
+    /// Of files whose place may be unknown, by their last names: the paths, and whether it is.
+    searched: BTreeMap<OsString, Vec<(PathBuf, bool)>>,
+}
+
+/// The content of a file in memory, or who has it.
+#[derive(Debug, Clone)]
+pub enum Content {
+    /// Its bytes.
+    Here(Arc<[u8]>),
+    /// Who has its bytes, and gives them each time that they are asked for.
+    Elsewhere(Arc<dyn Lender>),
+}
+
+/// Who has the bytes of a file.
+pub trait Lender: fmt::Debug + Send + Sync {
+    /// The number of bytes.
+    fn size(&self) -> u64;
+
+    /// The bytes.
+    ///
+    /// # Errors
+    /// If they cannot be had.
+    fn bytes(&self) -> io::Result<Arc<[u8]>>;
+}
+
+impl Content {
+    fn size(&self) -> u64 {
+        match self {
+            Content::Here(bytes) => bytes.len() as u64,
+            Content::Elsewhere(lender) => lender.size(),
+        }
+    }
+}
+
+impl Held {
+    /// The paths of the files.
+    pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        self.files.keys()
+    }
+
+    /// Whether there is a file at exactly this path.
+    pub fn has(&self, path: &Path) -> bool {
+        self.files.contains_key(path)
+    }
+
+    fn is_dir(&self, folder: &Path) -> bool {
+        let mut below = self.files.range(folder.to_owned()..);
+        below.find(|(file, _)| **file != folder).is_some_and(|(file, _)| file.starts_with(folder))
+    }
+
+    /// Where a path leads: to itself, or to the file of its last name that fits best, if there is but one. Of a path in a
+    /// folder that is there, only those fit whose place is unknown.
+    fn place(&self, path: &Path) -> Option<PathBuf> {
+        let plain = plain(path);
+        let is_there = |path: &&PathBuf| self.has(path) || self.is_dir(path);
+        if let Some(path) = plain.as_ref().filter(is_there) {
+            return Some(path.clone());
+        }
+        let top = |path: PathBuf| -> PathBuf { path.components().take(2).collect() };
+        let is_outside = plain.is_none_or(|path| !self.is_dir(&top(path)));
+        let same = |found: &PathBuf| {
+            let parts = path.components().rev().zip(found.components().rev());
+            parts.take_while(|(asked, found)| asked == found).count()
+        };
+        let named = self.searched.get(path.file_name()?)?.iter();
+        let named = named.filter(|(_, is_lost)| is_outside || *is_lost);
+        let mut fits: Vec<_> = named.map(|(found, _)| (same(found), found)).collect();
+        fits.sort();
+        match fits.as_slice() {
+            [.., (second, _), (first, _)] if second == first => None,
+            [.., (_, best)] => Some((*best).clone()),
+            [] => None,
+        }
+    }
 }
 
 /// Why files cannot be a set in memory.
@@ -50,13 +133,21 @@ impl Files {
     pub fn in_memory(
         files: impl IntoIterator<Item = (String, Arc<[u8]>)>,
     ) -> Result<Files, MemoryFault> {
-        let (mut all, mut bytes) = (BTreeMap::new(), 0_usize);
+        Files::of(files.into_iter().map(|(path, bytes)| (path, Content::Here(bytes))))
+    }
+
+    /// As [`Files::in_memory`], of which some may be elsewhere until they are needed.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of(files: impl IntoIterator<Item = (String, Content)>) -> Result<Files, MemoryFault> {
+        let (mut all, mut bytes) = (BTreeMap::new(), 0_u64);
         for (path, content) in files {
             let plain = plain(Path::new(&path)).filter(|path| path.parent().is_some());
             let Some(plain) = plain else {
                 return Err(MemoryFault::Path(path));
             };
-            bytes = bytes.saturating_add(content.len());
+            bytes = bytes.saturating_add(content.size());
             all.insert(plain, content);
             if all.len() > MOST_FILES {
                 return Err(MemoryFault::TooMany);
@@ -65,7 +156,25 @@ impl Files {
                 return Err(MemoryFault::TooLarge);
             }
         }
-        Ok(Files::Memory(Arc::new(all)))
+        Ok(Files::Memory(Arc::new(Held { files: all, searched: BTreeMap::new() })))
+    }
+
+    /// The same set in memory, of which files are found by their last names where nothing is at the path that is asked for:
+    /// those for which `is_lost` says that nobody knows their place, and all where the path leads out of the set.
+    #[must_use]
+    pub fn searched(self, is_lost: impl Fn(&Path) -> bool) -> Files {
+        let Files::Memory(held) = self else {
+            return self;
+        };
+        let mut held = Arc::unwrap_or_clone(held);
+        for path in held.files.keys() {
+            let name = path.file_name().unwrap_or_default();
+            if !MANIFESTS.iter().any(|manifest| name == *manifest) {
+                let named = held.searched.entry(name.to_owned()).or_default();
+                named.push((path.clone(), is_lost(path)));
+            }
+        }
+        Files::Memory(Arc::new(held))
     }
 
     /// Reads a regular file of at most `limit` bytes.
@@ -77,9 +186,10 @@ impl Files {
             return regular::read(path, limit);
         };
         let path = self.canonicalize(path).map_err(|_| ReadError::Missing)?;
-        match files.get(&path) {
-            Some(bytes) if bytes.len() as u64 > limit => Err(ReadError::TooLong { limit }),
-            Some(bytes) => Ok(bytes.to_vec()),
+        match files.files.get(&path) {
+            Some(content) if content.size() > limit => Err(ReadError::TooLong { limit }),
+            Some(Content::Here(bytes)) => Ok(bytes.to_vec()),
+            Some(Content::Elsewhere(lender)) => Ok(lender.bytes()?.to_vec()),
             None => Err(ReadError::NotAFile),
         }
     }
@@ -104,18 +214,17 @@ impl Files {
     /// # Errors
     /// If there is none.
     pub fn canonicalize(&self, path: &Path) -> io::Result<PathBuf> {
-        if matches!(self, Files::Disk) {
-            return path.canonicalize();
+        match self {
+            Files::Disk => path.canonicalize(),
+            Files::Memory(files) => files.place(path).ok_or_else(|| io::ErrorKind::NotFound.into()),
         }
-        let plain = plain(path);
-        plain.filter(|path| self.exists(path)).ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
     /// Whether there is a regular file, links followed.
     pub fn is_file(&self, path: &Path) -> bool {
         match self {
             Files::Disk => path.is_file(),
-            Files::Memory(files) => plain(path).is_some_and(|path| files.contains_key(&path)),
+            Files::Memory(files) => files.place(path).is_some_and(|path| files.has(&path)),
         }
     }
 
@@ -123,12 +232,7 @@ impl Files {
     pub fn is_dir(&self, path: &Path) -> bool {
         match self {
             Files::Disk => path.is_dir(),
-            Files::Memory(files) => plain(path).is_some_and(|path| {
-                let mut below = files.range(path.clone()..);
-                below
-                    .find(|(file, _)| **file != path)
-                    .is_some_and(|(file, _)| file.starts_with(&path))
-            }),
+            Files::Memory(files) => plain(path).is_some_and(|path| files.is_dir(&path)),
         }
     }
 
@@ -136,7 +240,9 @@ impl Files {
     pub fn exists(&self, path: &Path) -> bool {
         match self {
             Files::Disk => path.exists(),
-            Files::Memory(_) => self.is_file(path) || self.is_dir(path),
+            Files::Memory(files) => {
+                plain(path).is_some_and(|path| files.has(&path) || files.is_dir(&path))
+            }
         }
     }
 
@@ -158,7 +264,7 @@ impl Files {
             let inside = file.strip_prefix(&folder).ok()?;
             Some(inside.components().next()?.as_os_str().to_owned())
         };
-        let names: BTreeSet<OsString> = files.keys().filter_map(first).collect();
+        let names: BTreeSet<OsString> = files.paths().filter_map(first).collect();
         names.into_iter().collect()
     }
 }

@@ -38,7 +38,7 @@ mod xacro;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use error::SourceError;
-pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
+pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile};
 pub use load::{

@@ -184,7 +184,7 @@ fn sources(
         wanted()?;
         let text = fs::read(&job.source).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
-        let packages = dropped.of_text(&text).into_iter();
+        let packages = dropped.of_text(&text, false).into_iter();
         let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
         let source = Source { file: job.source, packages: packages.collect() };
         Ok((job.name, source))

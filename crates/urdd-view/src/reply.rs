@@ -43,7 +43,7 @@ pub struct Reply {
 /// The page may only run its own code and the module, and fetch from its origin. Images in glTF become blobs; JSON glTF
 /// contains `data:` URIs.
 pub const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
-     connect-src 'self' blob: data:; img-src 'self' blob: data:; worker-src 'self'; base-uri 'none'; form-action 'none'; \
+     connect-src 'self' blob: data:; img-src 'self' blob: data:; worker-src blob:; base-uri 'none'; form-action 'none'; \
      frame-ancestors 'none'";
 
 /// The headers of every response, in addition to those of its body.

@@ -51,7 +51,21 @@ export class Engine {
     }
   }
 
+  /** Runs a query that needs no robot in a second worker, which then ends, or when it is aborted. */
+  async apart<K extends CallName>(call: K, question: Calls[K][0], signal: AbortSignal): Promise<Calls[K][1]> {
+    const other = this.another();
+    const end = (): void => other.end();
+    signal.addEventListener("abort", end);
+    try {
+      return await other.ask(call, question);
+    } finally {
+      signal.removeEventListener("abort", end);
+      end();
+    }
+  }
+
   end(): void {
+    this.source = null;
     this.link.end();
   }
 }

@@ -6,6 +6,8 @@ export interface Progress {
   what: string;
 }
 
+const STOPPED = "stopped";
+
 /** Queries and answers, by name; `init` is the first of each worker. */
 export type CallsOf<C> = { [K in keyof C]: [unknown, unknown] };
 
@@ -24,6 +26,23 @@ interface Waiting {
   onProgress: ((progress: Progress) => void) | undefined;
 }
 
+/** The addresses of scripts as blobs. A worker of a blob has the policy of its page; one of an address of a site has none. */
+const blobs = new Map<string, Promise<string>>();
+
+function underPolicy(script: string): Promise<string> {
+  if (script.startsWith("blob:")) return Promise.resolve(script);
+  const fetched = async (): Promise<string> => {
+    const response = await fetch(script);
+    if (!response.ok) throw new Error(`the worker (${script}) cannot be loaded: status ${response.status}`);
+    return URL.createObjectURL(new Blob([await response.text()], { type: "text/javascript" }));
+  };
+  const made = blobs.get(script) ?? fetched();
+  blobs.set(script, made);
+  // It may be there the next time.
+  made.catch(() => blobs.delete(script));
+  return made;
+}
+
 /** The module crashed: the worker is replaced. */
 export class Trapped extends Error {}
 
@@ -32,6 +51,8 @@ export class Link<C extends CallsOf<C> & { init: [unknown, unknown] }> {
   private readonly waiting = new Map<number, Waiting>();
   private next = 1;
   private ready: Promise<unknown> | null = null;
+  /** Counts starts and ends, so that a start that was overtaken comes to nothing. */
+  private turn = 0;
 
   /** `begin` gives the question of `init`; `revived` is called after a crash. */
   constructor(
@@ -50,19 +71,30 @@ export class Link<C extends CallsOf<C> & { init: [unknown, unknown] }> {
   }
 
   end(): void {
-    this.stop(new Error("stopped"));
+    this.stop(new Error(STOPPED));
   }
 
   private start(): Promise<unknown> {
-    if (!this.ready) {
-      this.worker = new Worker(this.script);
-      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => this.answered(event.data));
-      this.worker.addEventListener("error", (event) =>
-        this.stop(new Error(event.message || "the worker cannot be started")),
-      );
-      this.ready = this.send("init", this.begin());
-    }
-    return this.ready;
+    if (this.ready) return this.ready;
+    const ready = this.begun();
+    this.ready = ready;
+    // It may begin the next time.
+    ready.catch((error: unknown) => {
+      if (this.ready === ready) this.stop(error as Error);
+    });
+    return ready;
+  }
+
+  private async begun(): Promise<unknown> {
+    const turn = ++this.turn;
+    const script = await underPolicy(this.script);
+    if (turn !== this.turn) throw new Error(STOPPED);
+    this.worker = new Worker(script);
+    this.worker.addEventListener("message", (event: MessageEvent<Answer>) => this.answered(event.data));
+    this.worker.addEventListener("error", (event) =>
+      this.stop(new Error(event.message || "the worker cannot be started")),
+    );
+    return this.send("init", this.begin());
   }
 
   private send<K extends keyof C & string>(
@@ -94,6 +126,7 @@ export class Link<C extends CallsOf<C> & { init: [unknown, unknown] }> {
   }
 
   private stop(error: Error): void {
+    this.turn++;
     this.worker?.terminate();
     this.worker = null;
     this.ready = null;

@@ -6,6 +6,7 @@ import type { Exports } from "./wasm";
 interface EngineExports extends Exports {
   urdd_files_of_zip(name: number, nameLength: number, zip: number, length: number): number;
   urdd_zip_fault(zip: number, length: number): number;
+  urdd_files_of_any_zip(zip: number, length: number): number;
   urdd_mesh(files: number, path: number, length: number): number;
   /** Missing in the module of a page in one file. */
   urdd_validate?: (files: number, name: number, length: number) => number;
@@ -24,12 +25,6 @@ export class UrddModule extends WasmModule<EngineExports> {
     return new UrddModule(instance.exports as unknown as EngineExports);
   }
 
-  nameFile(files: number, path: string, size: number): void {
-    this.with([encoded(path)], ([at, length]) =>
-      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff)),
-    );
-  }
-
   filesOfZip(name: string, zip: Uint8Array): number {
     const files = this.with([encoded(name), zip], ([at, length, data, size]) =>
       this.exports.urdd_files_of_zip(at, length, data, size),
@@ -39,6 +34,12 @@ export class UrddModule extends WasmModule<EngineExports> {
       throw new Error("this zip archive has no URDD");
     }
     return files;
+  }
+
+  /** The files of any .zip. */
+  unzipped(zip: Uint8Array): number {
+    const made = this.with([zip], ([at, length]) => this.json(this.exports.urdd_files_of_any_zip(at, length)));
+    return (made as { files: number }).files;
   }
 
   mesh(files: number, path: string): Uint8Array<ArrayBuffer> {

@@ -382,6 +382,8 @@ export interface Calls {
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];
+  /** The files of any .zip; null if it is one of a URDD, which stays as it is. */
+  unzip: [{ zip: Blob }, { path: string; file: Blob }[] | null];
   /** The module's memory, bytes. */
   memory: [Record<string, never>, number];
 }

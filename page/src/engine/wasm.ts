@@ -44,6 +44,12 @@ export class WasmModule<E extends Exports> {
     return this.with([encoded(name)], ([at, length]) => this.exports.urdd_files_new(at, length));
   }
 
+  nameFile(files: number, path: string, size: number): void {
+    this.with([encoded(path)], ([at, length]) =>
+      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff)),
+    );
+  }
+
   giveFile(files: number, path: string, bytes: Uint8Array): void {
     this.with([encoded(path), bytes], ([at, length, data, size]) =>
       this.exports.urdd_files_give(files, at, length, data, size),
@@ -56,6 +62,13 @@ export class WasmModule<E extends Exports> {
 
   read(files: number, path: string): Uint8Array<ArrayBuffer> {
     return this.with([encoded(path)], ([at, length]) => this.bytes(this.exports.urdd_files_read(files, at, length)));
+  }
+
+  /** The content of files, which are closed. The browser keeps it outside of the page's memory. */
+  contents(files: number): { path: string; file: Blob }[] {
+    const found = this.list(files).files.map(({ path }) => ({ path, file: new Blob([this.read(files, path)]) }));
+    this.closeFiles(files);
+    return found;
   }
 
   closeFiles(files: number): void {

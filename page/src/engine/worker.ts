@@ -1,6 +1,7 @@
 /** The worker: it owns the module, reads files and answers queries, one after another. */
 
 import { decompress } from "brotli/decompress";
+import { check, isUrddArchive } from "../given";
 import { UrddModule } from "./module";
 import { serve } from "./serve";
 import type { Handlers, OnProgress } from "./serve";
@@ -121,6 +122,18 @@ const handlers: Handlers<Calls> = {
 
   explain({ code }) {
     return engine().explain(code) as Calls["explain"][1];
+  },
+
+  async unzip({ zip }) {
+    const files = engine().unzipped(new Uint8Array(await zip.arrayBuffer()));
+    const { files: listed } = engine().list(files);
+    if (isUrddArchive(listed.map(({ path }) => path))) return null;
+    // Links in an archive may lead to one file many times.
+    check(
+      listed.length,
+      listed.reduce((sum, { size }) => sum + size, 0),
+    );
+    return engine().contents(files);
   },
 
   async validate({ name }, onProgress) {

@@ -6,11 +6,16 @@ export interface Format {
   title: string;
   /** What the file's name ends with; a folder has none. */
   ending: string;
+  /** Whether actuators can be chosen. */
+  hasActuators?: boolean;
 }
 
+/** Kinds of actuators, by MuJoCo's words. */
+export const ACTUATORS = ["position", "velocity", "motor"] as const;
+
 export const FORMATS: readonly Format[] = [
-  { word: "mjcf", title: "MuJoCo (MJCF)", ending: ".xml" },
-  { word: "usd", title: "Newton, Isaac, Omniverse (USD)", ending: ".usda" },
+  { word: "mjcf", title: "MuJoCo (MJCF)", ending: ".xml", hasActuators: true },
+  { word: "usd", title: "Newton, Isaac, Omniverse (USD)", ending: ".usda", hasActuators: true },
   { word: "sdf", title: "Gazebo (SDF)", ending: ".sdf" },
   { word: "drake", title: "Drake (URDF)", ending: ".urdf" },
   { word: "moveit", title: "MoveIt (package)", ending: "" },

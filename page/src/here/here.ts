@@ -9,6 +9,7 @@ import type { Draft, Drafting } from "./draft";
 import type { Keeper } from "./keeper";
 import { Kit } from "./kit";
 import { MadeRobot } from "./made";
+import { unmet } from "./missing";
 import type { Given } from "./protocol";
 import { Reader } from "./reader";
 import { Saver } from "./saver";
@@ -24,6 +25,8 @@ export class Here implements Keeper, Drafting {
   private count = 0;
   /** The robot that is open, or waited for. */
   private current: MadeRobot | null = null;
+  /** The one that was open before. */
+  private last: MadeRobot | null = null;
   private timers: ReturnType<typeof setTimeout>[] = [];
   private readonly lints: Latest<MadeRobot>;
 
@@ -47,12 +50,16 @@ export class Here implements Keeper, Drafting {
   }
 
   /** The descriptions among these files as robots. */
-  async take(given: Given[] | Blob): Promise<Entry[]> {
-    const files = given instanceof Blob ? await this.unzipped(given) : given;
+  async take(files: Given[], signal: AbortSignal): Promise<Entry[]> {
     const reader = new Reader(this.kit, files);
-    const found = await reader.descriptions();
-    if (found.length === 0) {
+    const stop = (): void => reader.end();
+    signal.addEventListener("abort", stop);
+    const found = await reader.descriptions().finally(() => {
+      signal.removeEventListener("abort", stop);
       reader.end();
+    });
+    signal.throwIfAborted();
+    if (found.length === 0) {
       throw new Error(
         "There is no robot description here: no .urdf, and no .xml or .sdf file that is an MJCF or an SDF by its content.",
       );
@@ -64,15 +71,19 @@ export class Here implements Keeper, Drafting {
     return robots.map(({ entry }) => entry);
   }
 
-  /** Takes back what was taken when nobody waits for it any more. */
-  forget(entries: Entry[]): void {
+  /** Removes robots, with all that is theirs. */
+  remove(entries: Entry[]): void {
     const gone = new Set(entries.map(({ id }) => id));
-    for (const robot of this.robots) if (gone.has(robot.entry.id)) robot.reader.end();
+    if (this.current && gone.has(this.current.entry.id)) this.leave();
     this.robots = this.robots.filter(({ entry }) => !gone.has(entry.id));
+    if (this.last && gone.has(this.last.entry.id)) this.last = null;
+    const { store } = this.app;
+    store.set({ entries: store.now.entries.filter(({ id }) => !gone.has(id)) });
   }
 
-  private async unzipped(zip: Blob): Promise<Given[]> {
-    return (await this.kit.once((maker) => maker.ask("unzip", { zip }))).files;
+  /** Whether closing the page loses a robot that was not saved. */
+  get isUnsaved(): boolean {
+    return this.robots.some(({ isSaved }) => !isSaved);
   }
 
   entries(): Entry[] {
@@ -106,16 +117,21 @@ export class Here implements Keeper, Drafting {
 
   /** Ends the making of the robot that is open. What is there stays. */
   stop(): void {
-    this.current?.stop("Stopped: the rest of this robot was not made.");
+    this.current?.stop("Stopped: the rest of this robot was not made.", true);
   }
 
-  /** The page shows something else. */
-  leave(): void {
+  /** The page shows something else: nothing of ours, or `next`. */
+  leave(next: MadeRobot | null = null): void {
     this.timers.forEach(clearTimeout);
-    this.current?.stop(null);
+    const { current } = this;
     this.current = null;
     this.app.drafting = null;
-    this.app.store.set({ draft: null });
+    this.app.store.set({ draft: null, wanted: [] });
+    if (!current) return;
+    current.close();
+    // Whoever goes back finds the last robot as it was. Those before it are made again.
+    if (this.last !== current && this.last !== next) this.last?.forget();
+    this.last = current;
   }
 
   /** Adds files that were missing, and makes the robot again. */
@@ -125,6 +141,15 @@ export class Here implements Keeper, Drafting {
     current.reader.add(more);
     this.lints.ask(current);
     void current.make();
+    this.want();
+  }
+
+  /** Says which files the description names that are not there. Those of a URDF are known once it is made. */
+  private want(): void {
+    const { current } = this;
+    const { draft } = this.app.store.now;
+    const wanted = !current || !draft || draft.format === "urdf" ? [] : unmet(draft.text, current.reader.files);
+    this.app.store.set({ wanted });
   }
 
   edit(text: string): void {
@@ -135,14 +160,17 @@ export class Here implements Keeper, Drafting {
     this.timers.forEach(clearTimeout);
     const examine = (): void => {
       current.reader.change(draft.path, text);
+      current.isSaved = false;
       current.stop(null);
       this.lints.ask(current);
+      this.want();
     };
     this.timers = [setTimeout(examine, SOON), setTimeout(() => void current.make(), LATER)];
   }
 
   saved(): void {
     const { draft } = this.app.store.now;
+    if (this.current) this.current.isSaved = true;
     if (draft) this.app.store.set({ draft: { ...draft, isChanged: false } });
   }
 
@@ -162,7 +190,7 @@ export class Here implements Keeper, Drafting {
   }
 
   private async begin(robot: MadeRobot): Promise<void> {
-    this.leave();
+    this.leave(robot);
     this.current = robot;
     const { path, format } = robot.description;
     const text = await robot.reader.text(path);
@@ -172,6 +200,7 @@ export class Here implements Keeper, Drafting {
       this.app.drafting = this;
       this.app.store.set({ draft, tab: "Findings" });
       this.lints.ask(robot);
+      this.want();
     }
     if (!robot.isWhole) await robot.make();
   }
@@ -191,8 +220,8 @@ export class Here implements Keeper, Drafting {
     const { current } = this;
     if (!robot || !current || robot.entry.id !== current.entry.id) return;
     if (robot.source.kind !== "local") return;
-    const { making, failure } = current.entry;
-    this.app.store.set({ making: { making, failure } });
+    const { making, failure, stopped } = current.entry;
+    this.app.store.set({ making: { making, failure, stopped } });
     // What is not made by now will not be: panels say so.
     const ended = making === null && failure !== null && robot.entry.making !== null;
     if (robot.source.files === current.files && !ended) return;

@@ -27,6 +27,8 @@ export class MadeRobot {
   report: Promise<Report> | null = null;
   /** Whether all of it was made of the present text. */
   isWhole = false;
+  /** Whether a person has it as files. */
+  isSaved = false;
   private turn = 0;
   private maker: Maker | null = null;
   private toldAt = -Infinity;
@@ -69,7 +71,7 @@ export class MadeRobot {
     this.stop(null);
     const turn = this.turn;
     this.isWhole = false;
-    this.set({ making: { what: "files", done: 0, of: 0 }, failure: null });
+    this.set({ making: { what: "files", done: 0, of: 0 }, failure: null, stopped: false });
     try {
       const maker = await this.reader.worker();
       if (turn !== this.turn) {
@@ -98,11 +100,26 @@ export class MadeRobot {
   }
 
   /** Ends the run. `failure` says why. */
-  stop(failure: string | null): void {
+  stop(failure: string | null, stopped = false): void {
     this.turn++;
     this.maker?.end();
     this.maker = null;
-    if (this.isRunning || failure !== null) this.set({ making: null, failure });
+    if (this.isRunning || failure !== null) this.set({ making: null, failure, stopped });
+  }
+
+  /** Gives back the memory of what can be had again. */
+  close(): void {
+    this.stop(null);
+    this.reader.end();
+    this.report = null;
+  }
+
+  /** Gives back the memory of what takes seconds to make again, too. */
+  forget(): void {
+    this.close();
+    this.files = [];
+    this.isWhole = false;
+    if (this.entry.ready) this.set({ ready: false });
   }
 
   private tell({ what, done, of }: Progress): void {

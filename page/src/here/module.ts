@@ -8,7 +8,7 @@ import type { Description, Exported, Imported, Made, MakeOptions } from "./proto
 
 interface MakeExports extends Exports {
   urdd_files_put: (files: number, path: number, length: number, data: number, size: number) => void;
-  urdd_files_of_any_zip: (zip: number, length: number) => number;
+  urdd_files_lost: (files: number, path: number, length: number) => void;
   urdd_descriptions: (files: number) => number;
   urdd_lint: (files: number, question: number, length: number) => number;
   urdd_generate: (files: number, donor: number, question: number, length: number) => number;
@@ -17,14 +17,38 @@ interface MakeExports extends Exports {
 }
 
 export class MakeModule extends WasmModule<MakeExports> {
-  static async of(module: WebAssembly.Module, tell: (progress: Progress) => void): Promise<MakeModule> {
-    const told: { made: MakeModule | null } = { made: null };
+  /** `tell` is told of progress, and `content` gives the content of a file that was named. */
+  static async of(
+    module: WebAssembly.Module,
+    tell: (progress: Progress) => void,
+    content: (path: string) => Uint8Array,
+  ): Promise<MakeModule> {
+    const used: { made: MakeModule | null } = { made: null };
     const progress = (at: number, length: number): void => {
-      if (told.made) tell(JSON.parse(told.made.text(at, length)) as Progress);
+      if (used.made) tell(JSON.parse(used.made.text(at, length)) as Progress);
     };
-    const instance = await WebAssembly.instantiate(module, { urdd: { progress } });
-    told.made = new MakeModule(instance.exports as unknown as MakeExports);
-    return told.made;
+    const read = (at: number, length: number): number =>
+      used.made ? used.made.lent(content(used.made.text(at, length))) : 0;
+    const instance = await WebAssembly.instantiate(module, { urdd: { progress, read } });
+    used.made = new MakeModule(instance.exports as unknown as MakeExports);
+    return used.made;
+  }
+
+  /** The address of an answer with these bytes; 0 if there is no memory for it. */
+  private lent(bytes: Uint8Array): number {
+    const at = this.exports.urdd_alloc(bytes.length + 5) >>> 0;
+    if (at === 0) return 0;
+    const { buffer } = this.exports.memory;
+    new DataView(buffer).setUint32(at, bytes.length + 1, true);
+    const answer = new Uint8Array(buffer, at + 4, bytes.length + 1);
+    answer[0] = 1;
+    answer.set(bytes, 1);
+    return at;
+  }
+
+  /** States that nobody knows where a file belongs; that names may lead out of the files, without a path. */
+  lose(files: number, path: string): void {
+    this.with([encoded(path)], ([at, length]) => this.exports.urdd_files_lost(files, at, length));
   }
 
   /** Sets the content of a file, in place of any that it had. */
@@ -32,12 +56,6 @@ export class MakeModule extends WasmModule<MakeExports> {
     this.with([encoded(path), bytes], ([at, length, data, size]) =>
       this.exports.urdd_files_put(files, at, length, data, size),
     );
-  }
-
-  /** The files of any .zip. */
-  unzipped(zip: Uint8Array): number {
-    const made = this.with([zip], ([at, length]) => this.json(this.exports.urdd_files_of_any_zip(at, length)));
-    return (made as { files: number }).files;
   }
 
   descriptions(files: number): Description[] {
@@ -58,7 +76,7 @@ export class MakeModule extends WasmModule<MakeExports> {
     return this.asked(files, { path }, this.exports.urdd_import) as Imported;
   }
 
-  exported(files: number, question: { format: string; output: string }): Exported {
+  exported(files: number, question: { format: string; output: string; actuators: string | null }): Exported {
     return this.asked(files, question, this.exports.urdd_export) as Exported;
   }
 

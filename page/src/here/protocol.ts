@@ -6,6 +6,16 @@ import type { Report } from "../engine/protocol";
 export interface Given {
   path: string;
   file: Blob;
+  /** Whether nobody knows the folder that it belongs into: it was dropped by itself, or later. */
+  isLost?: boolean;
+}
+
+export function lost(given: Given): Given {
+  return { ...given, isLost: true };
+}
+
+export function sizeOf(files: readonly Given[]): number {
+  return files.reduce((sum, { file }) => sum + file.size, 0);
 }
 
 /** A description among files. */
@@ -44,9 +54,7 @@ export interface Exported {
 /** The worker's queries and answers, by name. */
 export interface MakerCalls {
   init: [{ module: WebAssembly.Module }, null];
-  /** The files of a .zip. */
-  unzip: [{ zip: Blob }, { files: Given[] }];
-  /** Takes files, of which only those that a description may name are read. */
+  /** Takes files, each of which is read when it is needed. */
   take: [{ files: Given[] }, null];
   descriptions: [Record<string, never>, Description[]];
   /** Sets the content of a file that was taken. */
@@ -60,7 +68,10 @@ export interface MakerCalls {
   /** The files of the URDF that an MJCF or SDF becomes. */
   import: [{ path: string }, { main: string; files: Given[] }];
   /** Files for another program, of a URDD. */
-  export: [{ urdd: Given[]; format: string; output: string }, { main: string; notes: string[]; files: Given[] }];
+  export: [
+    { urdd: Given[]; format: string; output: string; actuators: string | null },
+    { main: string; notes: string[]; files: Given[] },
+  ];
   /** A .zip of files. */
   zip: [{ files: Given[] }, Blob];
   /** The module's memory, bytes. */

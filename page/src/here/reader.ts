@@ -3,6 +3,7 @@
 import { Trapped } from "../engine/link";
 import type { Report } from "../engine/protocol";
 import type { Kit, Maker } from "./kit";
+import { lost } from "./protocol";
 import type { Description, Given } from "./protocol";
 
 export class Reader {
@@ -35,10 +36,10 @@ export class Reader {
     void this.maker?.then((maker) => maker.ask("put", { path, text })).catch(() => this.end());
   }
 
-  /** Adds files, in place of those of the same path. */
+  /** Adds files, in place of those of the same path. They are found wherever they belong. */
   add(more: Given[]): void {
     const paths = new Set(more.map(({ path }) => path));
-    this.files = [...this.files.filter(({ path }) => !paths.has(path)), ...more];
+    this.files = [...this.files.filter(({ path }) => !paths.has(path)), ...more.map(lost)];
     this.end();
   }
 

@@ -20,7 +20,8 @@ export class Saver {
     const { name } = robot.entry;
     const texts = new Map(edited.map(({ path, text }) => [path, new Blob([text])]));
     const files = robot.files.map(({ path, file }) => ({ path: `${name}/${path}`, file: texts.get(path) ?? file }));
-    offer(await this.pack(files), `${name}.zip`);
+    offer(await this.pack(files), `${name}_urdd.zip`);
+    robot.isSaved = true;
   }
 
   /** The text as it is now. */
@@ -39,27 +40,27 @@ export class Saver {
     const maker = await robot.reader.worker();
     try {
       const { files } = await maker.ask("import", { path: robot.description.path });
-      await this.offered(files, robot.entry.name);
+      await this.offered(files, `${robot.entry.name}_urdf`);
     } finally {
       maker.end();
     }
   }
 
   /** Files for another program. Returns what is otherwise there. */
-  async exported({ word, ending }: Format): Promise<string[]> {
+  async exported({ word, ending }: Format, actuators: string): Promise<string[]> {
     const { robot } = this.open();
     const { name } = robot.entry;
     const output = (name.replace(/[^\p{L}\p{N}_-]+/gu, "_") || "robot") + ending;
-    const ask = { urdd: robot.files, format: word, output };
+    const ask = { urdd: robot.files, format: word, output, actuators: actuators || null };
     const made = await this.kit.once((maker) => maker.ask("export", ask));
     await this.offered(made.files, `${name}_${word}`);
     return made.notes;
   }
 
-  /** One file as it is, several as a .zip. */
+  /** One file as it is, several as a .zip. The names of two formats differ. */
   private async offered(files: Given[], name: string): Promise<void> {
     const [one, ...more] = files;
-    if (one && more.length === 0) offer(one.file, one.path);
+    if (one && more.length === 0) offer(one.file, name + (/\.[^./]+$/.exec(one.path)?.[0] ?? ""));
     else offer(await this.pack(files), `${name}.zip`);
   }
 

@@ -4,7 +4,7 @@ import type { App } from "../app";
 import { message } from "../app";
 import { button, fill, h } from "../ui/dom";
 import { name } from "../ui/format";
-import { FORMATS } from "./formats";
+import { ACTUATORS, FORMATS } from "./formats";
 import type { Here } from "./here";
 
 export function savingHere(app: App, here: Here): { element: HTMLDialogElement; open: () => void } {
@@ -17,6 +17,17 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
     { id: "save-format" },
     ...FORMATS.map(({ word, title }) => h("option", { value: word }, title)),
   );
+  const actuators = h(
+    "select",
+    { "aria-label": "Actuators" },
+    h("option", { value: "" }, "without actuators"),
+    ...ACTUATORS.map((kind) => h("option", { value: kind }, `with ${kind} actuators`)),
+  );
+  const choose = (): void => {
+    actuators.hidden = !(FORMATS.find(({ word }) => word === formats.value)?.hasActuators ?? false);
+  };
+  formats.addEventListener("change", choose);
+  choose();
   const urdd = button("Save the URDD", { class: "main" }, () =>
     act(async () => {
       const { skips } = app.store.now;
@@ -29,7 +40,7 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
   const other = button("Save", {}, () =>
     act(async () => {
       const format = FORMATS.find(({ word }) => word === formats.value);
-      const made = format && (await here.saver.exported(format));
+      const made = format && (await here.saver.exported(format, format.hasActuators ? actuators.value : ""));
       fill(notes, ...(made ?? []).map((note) => h("li", {}, name(note))));
     }),
   );
@@ -41,7 +52,14 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
     verdict,
     hint,
     h("h3", {}, "For another program"),
-    h("div", { class: "actions" }, h("label", { for: "save-format", class: "hint" }, "Format"), formats, other),
+    h(
+      "div",
+      { class: "actions" },
+      h("label", { for: "save-format", class: "hint" }, "Format"),
+      formats,
+      actuators,
+      other,
+    ),
     notes,
     wrong,
     h(

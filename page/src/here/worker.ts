@@ -3,39 +3,55 @@
 import { serve } from "../engine/serve";
 import type { OnProgress } from "../engine/serve";
 import { MakeModule } from "./module";
-import { needed } from "./needed";
 import { packed } from "./pack";
 import type { Given, MakerCalls } from "./protocol";
+import { bytes } from "../ui/format";
+
+/** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
+const MAX_ROBOT = 512 * 2 ** 20;
+/** Files that say what their folder is, or what a robot is: their places are known. */
+const HAS_PLACE = /(?:^|\/)(?:package\.xml|model\.config)$|\.(?:urdf|xacro|srdf|toml|ya?ml)$/i;
+
+/** As the libraries of TypeScript for pages do not have it. */
+declare class FileReaderSync {
+  readAsArrayBuffer(file: Blob): ArrayBuffer;
+}
 
 let module: MakeModule | null = null;
 /** What is told of the job that runs. */
 let tell: OnProgress = () => undefined;
-let taken: Given[] = [];
+const taken = new Map<string, Blob>();
 let files = 0;
-const read = new Set<string>();
+const read = new Set<Blob>();
+let size = 0;
 
 function maker(): MakeModule {
   if (!module) throw new Error("the module is not loaded");
   return module;
 }
 
-/** Passes the files that a description needs to the module, or all texts without one. */
-async function ensure(path: string | null, onProgress: OnProgress): Promise<void> {
-  const wanted = (await needed(taken, path)).filter((file) => !read.has(file.path));
-  let done = 0;
-  for (const { path, file } of wanted) {
-    onProgress(done++, wanted.length, "files");
-    maker().giveFile(files, path, new Uint8Array(await file.arrayBuffer()));
-    read.add(path);
-  }
+/** A job begins, which may read so much. */
+function begin(): void {
+  read.clear();
+  size = 0;
 }
 
-/** The content of files of the module, which are closed. The browser keeps it outside of the page's memory. */
-function content(address: number): Given[] {
-  const all = maker().list(address).files;
-  const found = all.map(({ path }) => ({ path, file: new Blob([maker().read(address, path)]) }));
-  maker().closeFiles(address);
-  return found;
+/** The content of a file that was taken, when the module needs it. */
+function content(path: string): Uint8Array {
+  const file = taken.get(path);
+  if (!file) throw new RangeError(`there is no file ${path}`);
+  if (!read.has(file)) size += file.size;
+  read.add(file);
+  // A worker that threw within the module is replaced, as after a RangeError.
+  if (size > MAX_ROBOT)
+    throw new RangeError(
+      `The files of this robot have more than ${bytes(MAX_ROBOT)}: too much for a browser. Use \`urdd view\` on this machine.`,
+    );
+  try {
+    return new Uint8Array(new FileReaderSync().readAsArrayBuffer(file));
+  } catch (error) {
+    throw new RangeError(`${path} cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+  }
 }
 
 async function opened(all: Given[]): Promise<number> {
@@ -47,58 +63,59 @@ async function opened(all: Given[]): Promise<number> {
 serve<MakerCalls>(
   {
     async init({ module: compiled }) {
-      module = await MakeModule.of(compiled, ({ what, done, of }) => tell(done, of, what));
+      module = await MakeModule.of(compiled, ({ what, done, of }) => tell(done, of, what), content);
       return null;
-    },
-
-    async unzip({ zip }) {
-      return { files: content(maker().unzipped(new Uint8Array(await zip.arrayBuffer()))) };
     },
 
     take({ files: all }) {
       maker().closeFiles(files);
       files = maker().newFiles("");
-      read.clear();
-      taken = all;
+      taken.clear();
+      // Names may lead out of the files, as of a URDF that was dropped alone.
+      maker().lose(files, "");
+      for (const { path, file, isLost } of all) {
+        taken.set(path, file);
+        maker().nameFile(files, path, file.size);
+        if (isLost && !HAS_PLACE.test(path)) maker().lose(files, path);
+      }
       return null;
     },
 
-    async descriptions(_, onProgress) {
-      await ensure(null, onProgress);
+    descriptions() {
+      begin();
       return maker().descriptions(files);
     },
 
     put({ path, text }) {
       maker().put(files, path, new TextEncoder().encode(text));
-      read.add(path);
       return null;
     },
 
-    async lint({ path }, onProgress) {
-      await ensure(path, onProgress);
+    lint({ path }) {
+      begin();
       return maker().lint(files, path);
     },
 
     async generate({ path, donor, options }, onProgress) {
-      await ensure(path, onProgress);
       const from = donor.length > 0 ? await opened(donor) : 0;
       tell = onProgress;
+      begin();
       const made = maker().generate(files, from, { path, ...options });
       maker().closeFiles(from);
-      return { ...made, files: content(made.files) };
+      return { ...made, files: maker().contents(made.files) };
     },
 
-    async import({ path }, onProgress) {
-      await ensure(path, onProgress);
+    import({ path }) {
+      begin();
       const made = maker().imported(files, path);
-      return { main: made.urdf, files: content(made.files) };
+      return { main: made.urdf, files: maker().contents(made.files) };
     },
 
-    async export({ urdd, format, output }) {
+    async export({ urdd, format, output, actuators }) {
       const from = await opened(urdd);
-      const made = maker().exported(from, { format, output });
+      const made = maker().exported(from, { format, output, actuators });
       maker().closeFiles(from);
-      return { main: made.main, notes: made.notes, files: content(made.files) };
+      return { main: made.main, notes: made.notes, files: maker().contents(made.files) };
     },
 
     zip({ files: all }) {

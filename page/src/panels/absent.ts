@@ -2,7 +2,7 @@
 
 import { drawnInstead } from "../absent";
 import type { App } from "../app";
-import { missingPackages } from "../here/missing";
+import { packagesOf } from "../here/missing";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { picker } from "../ui/picker";
@@ -10,30 +10,43 @@ import { picker } from "../ui/picker";
 /** Maximum number of meshes that are named. */
 const MAX_NAMED = 40;
 
-export function absent(app: App): HTMLElement {
+/** Asks for the files that the open robot lacks, or that a robot cannot be made without. */
+export function missingFiles(app: App, isDrawn: boolean): HTMLElement {
   const add = (files: File[]): void =>
     app.drafting?.add(files.map((file) => ({ path: file.webkitRelativePath || file.name, file })));
+  const text = h("p", {});
+  app.store.on(["robot", "absent", "wanted"], ({ robot, absent, wanted }) => {
+    const names = [...absent.map(({ filename }) => filename), ...wanted];
+    fill(text, ...(isDrawn === (robot !== null) ? prose(words(names)) : []));
+  });
+  return h(
+    "div",
+    { class: "wanted" },
+    text,
+    h("div", { class: "actions" }, picker("Choose a folder", true, add), picker("Choose files", false, add)),
+  );
+}
+
+export function absent(app: App): HTMLElement {
   const title = h("summary", {});
   const list = h("ul", {});
   const more = h("p", { class: "hint" });
-  const wanted = h("p", {});
-  const ask = h(
-    "div",
-    { class: "wanted" },
-    wanted,
-    h("div", { class: "actions" }, picker("Choose a folder", true, add), picker("Choose files", false, add)),
-  );
+  const ask = missingFiles(app, true);
   const away = button("✕", { class: "tiny", "aria-label": "Close the list of missing meshes" }, () => {
     element.hidden = true;
   });
   const details = h("details", {}, title, list, more);
   const element = h("div", { class: "absent", role: "status", hidden: true }, h("div", {}, details, ask), away);
-  app.store.on(["robot", "absent"], ({ robot, absent }) => {
-    element.hidden = !robot || absent.length === 0;
-    if (!robot || absent.length === 0) return;
+  app.store.on(["robot", "absent", "wanted"], ({ robot, absent, wanted }) => {
+    element.hidden = !robot || absent.length + wanted.length === 0;
+    if (!robot || element.hidden) return;
     ask.hidden = !robot.entry.here;
-    const packages = missingPackages(absent);
-    fill(wanted, ...prose(words(packages)));
+    if (absent.length === 0) {
+      fill(title, `${count(wanted.length, "file was", "files were")} not found`);
+      fill(list, ...wanted.slice(0, MAX_NAMED).map((file) => h("li", {}, h("code", {}, name(file)))));
+      fill(more, wanted.length > MAX_NAMED ? `and ${wanted.length - MAX_NAMED} more` : "");
+      return;
+    }
     const links = new Set(absent.map(({ link }) => link));
     fill(title, `${count(absent.length, "mesh was", "meshes were")} not found, of ${count(links.size, "link")}`);
     fill(
@@ -57,8 +70,17 @@ export function absent(app: App): HTMLElement {
   return element;
 }
 
-function words(packages: string[]): string {
-  if (packages.length === 0) return "Drop the missing files here, or choose them.";
+/** Maximum number of files that are named where they are asked for. */
+const MAX_ASKED = 5;
+
+function words(names: string[]): string {
+  const packages = packagesOf(names);
+  if (packages.length === 0) {
+    const files = [...new Set(names.map((path) => path.split(/[\\/]/).pop() ?? path))];
+    const shown = files.slice(0, MAX_ASKED).map((file) => `\`${name(file)}\``);
+    const rest = files.length > shown.length ? ` and ${files.length - shown.length} more` : "";
+    return `Drop the missing files here, or choose them: ${shown.join(", ")}${rest}.`;
+  }
   const named = packages.map((one) => `\`${name(one)}\``).join(", ");
   return `Drop the folder of ${named} here, or choose it.`;
 }

@@ -13,12 +13,15 @@ const AT_ONCE = 2;
 interface Card {
   entry: Entry;
   element: HTMLButtonElement;
+  /** With the button that removes it. */
+  whole: HTMLElement;
   show: (entry: Entry) => void;
 }
 
 export function gallery(
   app: App,
   open: (entry: Entry) => void,
+  remove: (entry: Entry) => void,
   choose: (files: File[], folder: boolean) => void,
 ): HTMLElement {
   const search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot" });
@@ -41,10 +44,10 @@ export function gallery(
   const filter = (): void => {
     const words = search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
     let shown = 0;
-    for (const { element, entry } of cards.values()) {
+    for (const { element, whole, entry } of cards.values()) {
       const text = `${entry.id} ${element.textContent}`.toLowerCase();
-      element.hidden = !words.every((word) => text.includes(word));
-      if (!element.hidden) shown++;
+      whole.hidden = !words.every((word) => text.includes(word));
+      if (!whole.hidden) shown++;
     }
     empty.hidden = shown > 0 || cards.size === 0;
   };
@@ -54,18 +57,24 @@ export function gallery(
       const known = cards.get(entry.id);
       if (known) known.show({ ...known.entry, ...listed(entry) });
       else {
-        const made = card(entry, open);
+        const made = card(entry, open, remove);
         cards.set(entry.id, made);
-        list.append(made.element);
+        list.append(made.whole);
         asker.watch(made);
       }
+    }
+    const known = new Set(entries.map(({ id }) => id));
+    for (const [id, { whole }] of cards) {
+      if (known.has(id)) continue;
+      whole.remove();
+      cards.delete(id);
     }
     title.textContent = entries.length > 0 ? count(entries.length, "robot") : "See and validate a robot";
     search.hidden = entries.length < 2;
     filter();
   });
-  app.store.on(["robot", "loading", "failure"], ({ robot, loading, failure }) => {
-    panel.hidden = robot !== null || loading !== null || failure !== null;
+  app.store.on(["robot", "loading", "failure", "taking"], ({ robot, loading, failure, taking }) => {
+    panel.hidden = robot !== null || loading !== null || failure !== null || taking !== null;
   });
   return panel;
 }
@@ -97,15 +106,17 @@ function dropHere(isLive: boolean, choose: (files: File[], folder: boolean) => v
   );
 }
 
-function card(first: Entry, open: (entry: Entry) => void): Card {
+function card(first: Entry, open: (entry: Entry) => void, remove: (entry: Entry) => void): Card {
   const picture = h("span", { class: "no-picture", "aria-hidden": "true" });
   const size = h("span", { class: "hint" });
   const verdict = h("span", { class: "verdict" });
   const heading = h("strong", { title: name(first.name) }, name(first.name));
   const element = button([picture, heading, size, verdict], { class: "card" }, () => open(made.entry));
+  const away = { class: "tiny remove", title: "Remove it from this page", "aria-label": `Remove ${name(first.name)}` };
   const made: Card = {
     entry: first,
     element,
+    whole: h("div", { class: "of-card" }, element, first.here && button("✕", away, () => remove(made.entry))),
     show(entry) {
       if (entry.picture !== null && entry.picture !== picture.dataset["of"]) {
         picture.dataset["of"] = entry.picture;

@@ -90,17 +90,19 @@ export function header(
     if (touching.textContent !== brief) touching.textContent = brief;
     chips.fit();
   });
-  app.store.on(["robot", "entries", "report", "absent", "making"], ({ robot, entries, report, absent, making }) => {
+  const shown = ["robot", "entries", "report", "absent", "making", "draft", "wanted"] as const;
+  app.store.on(shown, ({ robot, entries, report, absent, making, draft, wanted }) => {
     const several = entries.length > 1;
+    const isOpen = robot !== null || draft !== null;
     fill(
       title,
-      several && robot && button("☰", { class: "quiet back", "aria-label": "All robots" }, actions.gallery),
+      several && isOpen && button("☰", { class: "quiet back", "aria-label": "All robots" }, actions.gallery),
       h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
     );
     const found = report.report ? tally(report.report) : robot?.entry.findings;
     const chip = (severity: "error" | "warning"): Node | null => {
       const n = found?.[severity];
-      if (!n) return null;
+      if (!n || !isOpen) return null;
       return button(
         count(n, severity),
         {
@@ -114,7 +116,7 @@ export function header(
       touching,
       chip("error"),
       chip("warning"),
-      absentChip(app, robot ? absent.length : 0),
+      absentChip(app, robot ? absent.length || wanted.length : 0),
       ...(robot ? running(making, robot.entry, actions) : []),
       robot?.entry.temporary && h("span", { class: "chip", title: kept(robot.entry) }, "not saved"),
       robot &&

@@ -2,7 +2,7 @@
 
 import type { UrddReport } from "../engine/protocol";
 import { h } from "../ui/dom";
-import { name } from "../ui/format";
+import { count, name } from "../ui/format";
 
 /** The lines of the report, folded; nothing of a URDF. */
 export function imported({ imported }: UrddReport): HTMLElement | false {
@@ -13,7 +13,7 @@ export function imported({ imported }: UrddReport): HTMLElement | false {
     ...otherwise.map(({ what, count, how }) => `${what} (${count}): ${how ?? ""}`),
     ...notes,
   ];
-  const losses = lost.length > 0 ? `, ${lost.length} kinds of things are lost` : "";
+  const losses = lost.length > 0 ? `, ${count(lost.length, "kind of thing is", "kinds of things are")} lost` : "";
   return h(
     "details",
     { class: "imported" },

@@ -92,8 +92,8 @@ export function proximity(app: App): HTMLElement {
       if (at) show(at, widest, pair, open.has(at.links.join()));
     });
     if (kind.value !== shapes) kind.value = shapes;
-    state.textContent = answer ? verdict(app) : "";
-    state.className = `collision ${answer ? (answer.in_collision ? "bad" : "good") : ""}`;
+    state.textContent = answer?.pairs ? verdict(app) : "";
+    state.className = `collision ${answer?.pairs ? (answer.in_collision ? "bad" : "good") : ""}`;
     learned.show(answer);
     empty.hidden = nearest.length > 0;
     hint.hidden = nearest.length === 0;
@@ -113,6 +113,7 @@ function verdict(app: App): string {
 
 function said(error: string | null, answer: ProximityAnswer | null, open: boolean): string {
   if (error) return `Distances cannot be computed: ${error}`;
+  if (answer?.of === 0) return "There is no pair of shapes: there is nothing to measure.";
   if (answer) return answer.pairs === 0 ? "Every pair of shapes is skipped: there is nothing to measure." : "";
   return open ? "Reading shapes…" : "";
 }

@@ -32,6 +32,7 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   if (error !== null || !robot?.moves) return as("collisions unknown", "open", error ?? "the joints cannot be moved");
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
+  if (answer.pairs === 0) return as("no pair to check for collisions", "open", "");
   if (pairs.length === 0) return as("no self-collision", "good", "");
   const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
   const more = pairs.slice(0, NAMED).join(", ") + rest;

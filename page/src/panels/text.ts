@@ -166,7 +166,7 @@ export function text(app: App): HTMLElement {
     const where =
       marks.length > 0
         ? `Line ${line}: ${count(marks.length, "finding")}`
-        : `${count(all, "finding")}${marked < all ? `, of which the worst ${marked.toLocaleString("en")} are marked` : ""}`;
+        : `${count(all, "finding")} in this text${marked < all ? `, of which the worst ${marked.toLocaleString("en")} are marked` : ""}`;
     below.hidden = marked === 0;
     const now = [where, ...marks];
     if (now.length === listed.length && now.every((each, k) => each === listed[k])) return;

@@ -135,6 +135,9 @@ export function bytes(n: number): string {
   return `${number(value)} ${units[unit] ?? ""}`;
 }
 
+/** Maximum number of characters of a name that are shown; of longer ones, the beginning and the end. */
+const MAX_SHOWN = 2000;
+
 /** As `name`, for a text of several lines. */
 export function lines(text: string): string {
   return text.split("\n").map(name).join("\n");
@@ -142,6 +145,10 @@ export function lines(text: string): string {
 
 /** A name from a file on one line: invisible characters and marks of text direction are shown as their codes. */
 export function name(text: string): string {
+  if (text.length > MAX_SHOWN) {
+    const half = MAX_SHOWN / 4;
+    return `${name(text.slice(0, half))}… (${text.length.toLocaleString("en")} characters) …${name(text.slice(-half))}`;
+  }
   let shown = "";
   for (const char of text) {
     const code = char.codePointAt(0) ?? 0;

@@ -96,7 +96,7 @@ impl Archive {
         bytes: impl AsRef<[u8]> + Send + Sync + 'static,
     ) -> Result<Self, ArchiveFault> {
         let bytes = Bytes(Arc::new(bytes));
-        let mut members = members(&bytes)?;
+        let mut members = members(&bytes, exact)?;
         let folder = urdd_folder(&members)?;
         if !folder.is_empty() {
             members.retain_mut(|member| match member.path.split_once('/') {
@@ -111,7 +111,8 @@ impl Archive {
         Self::of(name, bytes, members)
     }
 
-    /// Opens an archive of any files, from its bytes. `name` names the root folder.
+    /// Opens an archive of any files, from its bytes, whatever program packed it: names may have backslashes if it is of
+    /// Windows, be in code page 437, and begin with `./`. `name` names the root folder.
     ///
     /// # Errors
     /// If it is no archive whose files can all be read.
@@ -120,8 +121,8 @@ impl Archive {
         bytes: impl AsRef<[u8]> + Send + Sync + 'static,
     ) -> Result<Self, ArchiveFault> {
         let bytes = Bytes(Arc::new(bytes));
-        let mut members = members(&bytes)?;
-        members.retain(|member| member.path.split('/').next() != Some(MACOS_FOLDER));
+        let mut members = members(&bytes, as_packed)?;
+        members.retain(|member| !matches!(member.path.split('/').next(), Some("" | MACOS_FOLDER)));
         Self::of(name, bytes, members)
     }
 
@@ -147,13 +148,35 @@ impl Source for Archive {
     }
 }
 
-/// All entries, verified to be readable.
-fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
+/// The name of an entry of a URDD.
+fn exact(entry: &Listed<'_>) -> String {
+    String::from_utf8_lossy(entry.name).into_owned()
+}
+
+/// The name of an entry, as the program meant it that packed it.
+fn as_packed(entry: &Listed<'_>) -> String {
+    let name = match std::str::from_utf8(entry.name) {
+        Ok(name) => name.to_owned(),
+        Err(_) => entry.name.iter().map(|byte| in_code_page_437(*byte)).collect(),
+    };
+    let name = if entry.is_of_windows { name.replace('\\', "/") } else { name };
+    name.strip_prefix("./").map(str::to_owned).unwrap_or(name)
+}
+
+fn in_code_page_437(byte: u8) -> char {
+    const UPPER: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐└┴┬├─┼╞╟╚╔╩╦╠═╬╧╨╤╥╙╘╒╓╫╪┘┌█▄▌▐▀\
+                         αßΓπΣσµτΦΘΩδ∞φε∩≡±≥≤⌠⌡÷≈°∙·√ⁿ²■\u{a0}";
+    let upper = byte.checked_sub(0x80).and_then(|at| UPPER.chars().nth(at.into()));
+    upper.unwrap_or(char::from(byte))
+}
+
+/// All entries, verified to be readable. `name_of` gives their names.
+fn members(bytes: &Bytes, name_of: fn(&Listed<'_>) -> String) -> Result<Vec<Member>, ArchiveFault> {
     let all = bytes.all();
     let listed = zip_list::read(all)?;
     let limit = MAX_INFLATED_BYTES.min(SMALL_ARCHIVE_BYTES + MAX_INFLATION * all.len() as u64);
     for entry in &listed {
-        check(entry).map_err(|fault| entry_fault(entry.name, fault))?;
+        check(entry, &name_of(entry)).map_err(|fault| entry_fault(entry.name, fault))?;
     }
     // Check the total size before inflating anything.
     let size = listed.iter().map(|entry| entry.packed.size).sum();
@@ -161,7 +184,7 @@ fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
         return Err(ArchiveFault::Inflates { size, limit });
     }
     let read = |entry: &Listed<'_>| {
-        member(bytes, entry).map_err(|error| {
+        member(bytes, entry, &name_of(entry)).map_err(|error| {
             let reason = error.to_string();
             entry_fault(entry.name, EntryFault::Damaged { reason })
         })
@@ -174,14 +197,16 @@ const KIND_FILE: u32 = 0o100_000;
 const KIND_LINK: u32 = 0o120_000;
 
 /// Checks an entry without inflating it.
-fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
+fn check(entry: &Listed<'_>, name: &str) -> Result<(), EntryFault> {
     let length = entry.name.len();
     let part = entry.name.split(|byte| *byte == b'/').map(<[u8]>::len).max();
     if length > MAX_NAME_BYTES || part > Some(MAX_PART_BYTES) {
         return Err(EntryFault::LongName { length, limit: MAX_NAME_BYTES, part: MAX_PART_BYTES });
     }
-    let name = String::from_utf8_lossy(entry.name);
-    if !is_inside(name.strip_suffix('/').unwrap_or(&name)) {
+    let path = name.strip_suffix('/').unwrap_or(name);
+    // What is packed from `.` has an entry for that.
+    let is_top = name.is_empty() && entry.name == b"./";
+    if !is_top && !is_inside(path) {
         return Err(EntryFault::Path);
     }
     if entry.is_encrypted {
@@ -202,9 +227,8 @@ fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
 }
 
 /// Reads an entry to its end.
-fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
-    let name = String::from_utf8_lossy(entry.name);
-    let path = name.strip_suffix('/').unwrap_or(&name).to_owned();
+fn member(bytes: &Bytes, entry: &Listed<'_>, name: &str) -> io::Result<Member> {
+    let path = name.strip_suffix('/').unwrap_or(name).to_owned();
     let data = entry.packed;
     let mut file = inflate(bytes, &data);
     let node = match entry.kind {

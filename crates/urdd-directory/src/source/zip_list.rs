@@ -23,6 +23,8 @@ const HAS_DESCRIPTOR: u16 = 1 << 3;
 
 /// Host systems whose entries have a Unix mode.
 const UNIX: [u8; 2] = [3, 19];
+/// Host systems of Microsoft: MS-DOS and NTFS.
+const MICROSOFT: [u8; 2] = [0, 10];
 
 /// An entry of the central directory.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +33,8 @@ pub struct Listed<'a> {
     pub name: &'a [u8],
     /// Whether it is encrypted.
     pub is_encrypted: bool,
+    /// Whether a program of Windows may have written it.
+    pub is_of_windows: bool,
     /// The file type bits of its Unix mode; 0 if it has none.
     pub kind: u32,
     /// Its content.
@@ -165,6 +169,7 @@ fn entry<'a>(
     let listed = Listed {
         name,
         is_encrypted: flags & ENCRYPTED != 0,
+        is_of_windows: MICROSOFT.contains(&fields.0[5]),
         kind: if has_mode { (fields.word(38) >> 16) & 0o170_000 } else { 0 },
         packed: Packed { method: fields.short(10), crc, size: size.into(), start, end },
     };

@@ -1,9 +1,10 @@
-//! JSON and YAML as text, compared with other readers.
+//! JSON and YAML as text, compared with other readers; archives of other programs.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod account;
+mod archives;
 mod canonical;
 mod digest;
 mod document;

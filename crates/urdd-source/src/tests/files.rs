@@ -113,3 +113,85 @@ fn xacro_does_not_run_on_a_set() {
         SourceMeshes::open(Path::new("a.xacro"), &settings, &Cancellation::default()).unwrap_err();
     assert!(matches!(error, SourceError::NoXacro { .. }), "{error}");
 }
+
+/// Of files that were dropped singly: where each name leads.
+fn searched(files: &[(&str, &str)], lost: &[&str], path: &str) -> Vec<Option<String>> {
+    let files = memory(files).expect("files");
+    let lost = |file: &Path| lost.iter().any(|lost| Path::new("/").join(lost) == file);
+    let settings = Settings { files: files.searched(lost), ..Settings::default() };
+    let source =
+        SourceMeshes::open(Path::new(path), &settings, &Cancellation::default()).expect("a robot");
+    let file = |mesh: &crate::SourceMesh| Some(mesh.file.as_ref().ok()?.display().to_string());
+    source.meshes.iter().map(file).collect()
+}
+
+#[test]
+fn lost_files_are_found_by_their_last_names_and_others_by_names_that_lead_out() {
+    let names = [
+        "meshes/lost.stl",
+        "../meshes/lost.stl",
+        "file:///home/me/arm/meshes/known.stl",
+        "meshes/known.stl",
+        "../../../../twice.stl",
+        "/somewhere/b/twice.stl",
+        "meshes/none.stl",
+    ];
+    let text = urdf(&names);
+    let files = [
+        ("arm/urdf/arm.urdf", text.as_str()),
+        ("lost.stl", STL),
+        ("arm/meshes/known.stl", STL),
+        ("a/twice.stl", STL),
+        ("b/twice.stl", STL),
+    ];
+    let found = searched(&files, &["lost.stl"], "arm/urdf/arm.urdf");
+    let known = Some("/arm/meshes/known.stl".to_owned());
+    let lost = Some("/lost.stl".to_owned());
+    let twice = Some("/b/twice.stl".to_owned());
+    assert_eq!(found, [lost.clone(), lost, known, None, None, twice, None]);
+    // Where nothing is searched, all is as on a disk.
+    let source = open(&files, "arm/urdf/arm.urdf");
+    assert!(source.meshes.iter().all(|mesh| mesh.file.is_err()));
+}
+
+#[test]
+fn manifests_are_never_searched() {
+    let files = [("arm.urdf", "<robot name='r'/>"), ("package.xml", PACKAGE), ("b/x.stl", STL)];
+    let files = memory(&files).expect("files").searched(|_| true);
+    assert_eq!(package_name(Path::new("/b"), &files), None);
+    assert_eq!(package_name(Path::new("/"), &files).as_deref(), Some("arm_description"));
+}
+
+/// Who has the bytes of a file, and counts who asks.
+#[derive(Debug, Default)]
+struct Counted(std::sync::atomic::AtomicUsize);
+
+impl crate::Lender for Counted {
+    fn size(&self) -> u64 {
+        STL.len() as u64
+    }
+
+    fn bytes(&self) -> std::io::Result<Arc<[u8]>> {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        Ok(Arc::from(STL.as_bytes()))
+    }
+}
+
+#[test]
+fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
+    let lent = Arc::new(Counted::default());
+    let asked = || lent.0.load(std::sync::atomic::Ordering::Relaxed);
+    let elsewhere = crate::Content::Elsewhere(Arc::clone(&lent) as Arc<dyn crate::Lender>);
+    let text = urdf(&["a.stl"]);
+    let here = crate::Content::Here(Arc::from(text.as_bytes()));
+    let files = [("arm.urdf".to_owned(), here), ("a.stl".to_owned(), elsewhere)];
+    let settings = Settings { files: Files::of(files).unwrap(), ..Settings::default() };
+    let source =
+        SourceMeshes::open(Path::new("arm.urdf"), &settings, &Cancellation::default()).unwrap();
+    let mesh = source.meshes[0].file.as_ref().expect("a file");
+    assert_eq!(asked(), 0);
+    assert_eq!(source.read(mesh).expect("a mesh").triangle_count(), 1);
+    assert_eq!(asked(), 1);
+    assert_eq!(settings.files.read(mesh, 10), Err(ReadError::TooLong { limit: 10 }));
+    assert_eq!(asked(), 1);
+}
