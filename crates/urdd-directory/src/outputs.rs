@@ -227,10 +227,13 @@ pub fn check_report(file: &Path, bytes: &[u8], replaces: bool) -> Result<(), Out
     check_name(file)?;
     let target = followed(file);
     let output = Output { path: name_of(&target).into(), bytes, replaces };
-    match is_stream(file) {
-        true => Ok(()),
-        false => check(Target::File(&target).folder(), &output).map(|_| ()),
+    if is_stream(file) {
+        return Ok(());
     }
+    let folder = Target::File(&target).folder();
+    // A folder that is not there is a slip of the person's.
+    fs::metadata(folder).map_err(|error| OutputError::Write { path: file.to_owned(), error })?;
+    check(folder, &output).map(|_| ())
 }
 
 /// Writes a file that is not there yet, in a folder of the program's own, and the folders above it.
