@@ -192,6 +192,21 @@ fn only_urdd_xml_names_the_parser_of_xml() {
     assert!(!root.contains("roxmltree.workspace"), "{WHAT_TO_DO}");
 }
 
+/// Who reads files around descriptions, beside what they name.
+const NAMED_FILES: &[(&str, &str)] = &[
+    ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
+    ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),
+    ("crates/urdd-source/src/gate.rs", "the gate"),
+    ("crates/urdd-source/src/import/imported.rs", "the description itself; 64 MiB"),
+    ("crates/urdd-source/src/inspect.rs", "meshes and their side files, for the gate alone"),
+    ("crates/urdd-source/src/load.rs", "the description itself; 64 MiB"),
+    ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
+    ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
+    ("wasm/src/files.rs", "what was given to the page, for the page"),
+    ("wasm/src/mesh.rs", "a mesh that was given to the page, for its picture"),
+    ("wasm/src/robot.rs", "the files of a URDD that was given to the page"),
+];
+
 /// The files of the libraries and programs of which the code, tests apart, has one of these words.
 fn files_with(words: &[&str]) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
@@ -241,5 +256,14 @@ fn whoever_reads_a_whole_file_has_a_limit() {
         &["fs::read(", "fs::read_to_string("],
         WHOLE_FILES,
         "read it by `urdd_directory::regular`",
+    );
+}
+
+#[test]
+fn whoever_reads_a_file_that_a_description_names_asks_the_gate() {
+    assert_listed(
+        &["files.read(", "files().read("],
+        NAMED_FILES,
+        "find and read it by `urdd_source::gate::Gate`, which decides folder, kind and size",
     );
 }

@@ -15,6 +15,28 @@ pub fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
     }
 }
 
+/// The statements of OBJ.
+const STATEMENTS: &[&[u8]] =
+    &[b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"usemtl", b"mtllib"];
+
+/// Whether all of a file is a mesh of the format that its name says, before its numbers are read: binary STL of the length
+/// that it states, or statements of OBJ with vertices. Of other meshes the content has to be read.
+pub fn is_plain_mesh(extension: &str, bytes: &[u8]) -> bool {
+    if extension == "stl" {
+        let count = bytes.get(80..84).and_then(|count| count.try_into().ok());
+        let count = u64::from(count.map_or(0, u32::from_le_bytes));
+        return count > 0 && 84 + 50 * count == bytes.len() as u64;
+    }
+    let mut has_vertices = false;
+    let mut is_statement = |line: &[u8]| {
+        let line = line.trim_ascii();
+        let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+        has_vertices |= word == b"v";
+        word.is_empty() || word.starts_with(b"#") || STATEMENTS.contains(&word)
+    };
+    extension == "obj" && bytes.split(|byte| *byte == b'\n').all(&mut is_statement) && has_vertices
+}
+
 /// Whether a file starts like a mesh, even if it cannot be read.
 fn is_marked(bytes: &[u8]) -> bool {
     const MAGIC: &[&[u8]] =

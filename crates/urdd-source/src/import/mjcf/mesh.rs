@@ -1,5 +1,6 @@
 //! Meshes: files, and those that are written in the text.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -24,6 +25,7 @@ use super::orientation::quaternion;
 use super::reading::{View, list, wrong};
 use crate::inspect::{Inspected, inspect_alone};
 use crate::resolve::FoundMesh;
+use crate::sniff::is_plain_mesh;
 
 /// The meshes of a model. A file is read when a shape needs it.
 pub struct Meshes<'d> {
@@ -58,12 +60,18 @@ struct Content {
 enum Triangles {
     /// They are in a file that was made of them: of another format, or of a text.
     Written(Mesh),
-    /// As they were read from it.
-    Read(Result<Arc<Scene>, String>),
+    /// As they are read from it, when they are needed.
+    Read(OnceCell<Result<Arc<Scene>, String>>),
 }
 
 /// What measuring a mesh costs for each of its vertices: its hull.
 const VERTEX: usize = 100;
+
+impl Content {
+    fn file(&self) -> String {
+        format!("{}.{}", self.name, self.extension)
+    }
+}
 
 impl<'d> Meshes<'d> {
     /// The meshes that a model defines.
@@ -134,6 +142,10 @@ impl<'d> Meshes<'d> {
         let mut mesh = match &content.triangles {
             Triangles::Written(mesh) => mesh.clone(),
             Triangles::Read(scene) => {
+                let scene = scene.get_or_init(|| {
+                    let bytes = content.bytes.clone()?;
+                    inspect_alone(bytes.to_vec(), &content.file()).scene
+                });
                 let unread = |why: &String| {
                     broken(name, asset.view.element.place, &format!("cannot be read: {why}"))
                 };
@@ -186,8 +198,7 @@ impl<'d> Meshes<'d> {
         if matches!(content.triangles, Triangles::Written(_)) {
             tally.count(features::WRITTEN_MESHES);
         }
-        let path = format!("{}.{}", content.name, content.extension);
-        let index = assets.add(&content.key, &path, Arc::clone(bytes), place)?;
+        let index = assets.add(&content.key, &content.file(), Arc::clone(bytes), place)?;
         let turn = asset.rotation.inverse();
         let moved = -(turn * asset.origin).component_mul(&Vector3::from(asset.scale));
         let frame = Isometry3::from_parts(Translation3::from(moved), turn);
@@ -253,10 +264,15 @@ impl MeshAsset<'_> {
             return Ok(Content { key, name: file, extension, bytes, triangles });
         }
         let bytes = if extension == "obj" { without_materials(bytes) } else { bytes };
+        if is_plain_mesh(&extension, &bytes) {
+            let (bytes, triangles) = (Ok(bytes.into()), Triangles::Read(OnceCell::new()));
+            return Ok(Content { key, name: file, extension, bytes, triangles });
+        }
         let Inspected { bytes, scene, .. } = inspect_alone(bytes, &format!("{stem}.{extension}"));
         let unread = || scene.as_ref().err().cloned().unwrap_or_default();
         let bytes = bytes.map(|bytes| Arc::unwrap_or_clone(bytes).into()).ok_or_else(unread);
-        Ok(Content { key, name: file, extension, bytes, triangles: Triangles::Read(scene) })
+        let triangles = Triangles::Read(OnceCell::from(scene));
+        Ok(Content { key, name: file, extension, bytes, triangles })
     }
 
     /// The mesh whose vertices are in the text.
