@@ -19,7 +19,7 @@ pub(super) fn link_pairs(
     options: &PairOptions,
 ) -> Result<Vec<LinkPair>, ExportError> {
     let reasons = options.reasons.as_deref();
-    let mut pairs = pairs(robot, options.shapes, reasons, options.keep_pairs)?;
+    let mut pairs = pairs::<ExportError>(robot, options.shapes, reasons, options.keep_pairs)?;
     count(robot, options.shapes, &mut pairs)?;
     Ok(pairs)
 }

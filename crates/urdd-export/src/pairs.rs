@@ -9,11 +9,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::error::ExportError;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, ShapeKind, Skips};
+use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,12 +115,12 @@ pub fn charge(bytes: usize, shapes: usize) -> Result<(), Overdrawn> {
 }
 
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
-pub(super) fn pairs(
+pub(super) fn pairs<E: From<RobotError> + From<Overdrawn>>(
     robot: &Robot,
     kind: ShapeKind,
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, ExportError> {
+) -> Result<Vec<LinkPair>, E> {
     let skips = robot.skips(kind)?;
     let links = robot.description()?.links.into_iter();
     let names: Vec<String> = links.map(|link| link.name).collect();

@@ -72,7 +72,7 @@ impl<'a> Subject<'a> {
             // MJCF handles pairs of pieces exactly.
             Options::Mjcf(of) => {
                 is_floating |= of.floating_base;
-                pairs(robot, shapes, of.reasons.as_deref(), false)?
+                pairs::<ExportError>(robot, shapes, of.reasons.as_deref(), false)?
             }
             Options::Usd(of) => {
                 is_floating |= of.floating_base;

@@ -10,6 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::around::Around;
 use super::files::Files;
+use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};
 use super::packages::Packages;
 use super::resolve::{FoundMesh, NotFound, resolve};
@@ -202,6 +203,17 @@ impl Gate {
 
     fn seen(&self) -> MutexGuard<'_, Seen> {
         self.seen.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Why a file that was not found cannot be read, under the name that the description has for it.
+pub(crate) fn unreachable(file: &str, why: NotFound) -> Unreachable {
+    match why.outside {
+        Some(outside) => {
+            let folder = outside.parent().unwrap_or(&outside).to_owned();
+            Unreachable::Outside { file: file.to_owned(), folder }
+        }
+        None => Unreachable::Missing(file.to_owned()),
     }
 }
 

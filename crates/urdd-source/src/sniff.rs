@@ -1,5 +1,6 @@
 //! Checks that a file's content matches its use; other files are not stored.
 
+use memchr::memchr_iter;
 use urdd_geometry::read::{Format, Scene};
 
 /// How many bytes at the start of a file are searched for format markers.
@@ -19,6 +20,9 @@ pub fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
 const STATEMENTS: &[&[u8]] =
     &[b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"mg", b"usemtl", b"mtllib"];
 
+/// Bytes of a line in which the white space behind a statement is.
+const LONGEST: usize = 8;
+
 /// Whether all of a file is a mesh of the format that its name says, before its numbers are read: binary STL of the length
 /// that it states, or statements of OBJ with vertices. Of other meshes the content has to be read.
 pub fn is_plain_mesh(extension: &str, bytes: &[u8]) -> bool {
@@ -29,12 +33,23 @@ pub fn is_plain_mesh(extension: &str, bytes: &[u8]) -> bool {
     }
     let mut has_vertices = false;
     let mut is_statement = |line: &[u8]| {
-        let line = line.trim_ascii();
-        let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+        let line = line.trim_ascii_start();
+        let end = line.iter().take(LONGEST).position(u8::is_ascii_whitespace);
+        let word = &line[..end.unwrap_or(line.len())];
         has_vertices |= word == b"v";
         word.is_empty() || word.starts_with(b"#") || STATEMENTS.contains(&word)
     };
-    extension == "obj" && bytes.split(|byte| *byte == b'\n').all(&mut is_statement) && has_vertices
+    extension == "obj" && lines(bytes).all(&mut is_statement) && has_vertices
+}
+
+/// The lines of a file, without the bytes that end them.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut start = 0;
+    memchr_iter(b'\n', bytes).chain([bytes.len()]).map(move |end| {
+        let line = &bytes[start..end];
+        start = end + 1;
+        line
+    })
 }
 
 /// Whether a file starts like a mesh, even if it cannot be read.

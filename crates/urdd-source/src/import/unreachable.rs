@@ -5,8 +5,6 @@ use std::path::PathBuf;
 use thiserror::Error;
 use urdd_directory::read_error::ReadError;
 
-use crate::resolve::NotFound;
-
 /// Why a file is not read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say it")]
@@ -28,17 +26,6 @@ pub enum Unreachable {
 }
 
 impl Unreachable {
-    /// Of a file that was not found, under the name that the description has for it.
-    pub fn not_found(file: &str, why: NotFound) -> Self {
-        match why.outside {
-            Some(outside) => {
-                let folder = outside.parent().unwrap_or(&outside).to_owned();
-                Unreachable::Outside { file: file.to_owned(), folder }
-            }
-            None => Unreachable::Missing(file.to_owned()),
-        }
-    }
-
     /// Of a file that was found, and not read.
     pub fn unread(file: &str, why: &ReadError) -> Self {
         Unreachable::Unreadable { file: file.to_owned(), reason: why.to_string() }

@@ -10,7 +10,7 @@ use super::super::place::{Place, TextFile, offset_of};
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
 use super::fault::MjcfFault;
-use crate::gate::Gate;
+use crate::gate::{Gate, unreachable};
 use crate::resolve::FoundMesh;
 
 /// An element.
@@ -158,7 +158,7 @@ pub fn first(
             Err(_) => {}
         }
     }
-    Err(Unreachable::not_found(name, fault.unwrap_or_default()))
+    Err(unreachable(name, fault.unwrap_or_default()))
 }
 
 fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {

@@ -25,7 +25,7 @@ use super::orientation::quaternion;
 use super::reading::{View, list, wrong};
 use crate::inspect::{Inspected, inspect_alone};
 use crate::resolve::FoundMesh;
-use crate::sniff::is_plain_mesh;
+use crate::sniff::{is_plain_mesh, lines};
 
 /// The meshes of a model. A file is read when a shape needs it.
 pub struct Meshes<'d> {
@@ -335,7 +335,7 @@ fn without_materials(bytes: Vec<u8>) -> Vec<u8> {
         let line = line.trim_ascii_start();
         line.starts_with(b"mtllib") || line.starts_with(b"usemtl")
     };
-    if !bytes.split(|byte| *byte == b'\n').any(names) {
+    if !lines(&bytes).any(names) {
         return bytes;
     }
     let lines = bytes.split_inclusive(|byte| *byte == b'\n');

@@ -12,7 +12,7 @@ use super::super::fault::ImportFault;
 use super::super::model::Asset;
 use super::super::unreachable::Unreachable;
 use super::part::Parts;
-use crate::gate::Gate;
+use crate::gate::{Gate, unreachable};
 use crate::inspect::Inspected;
 use crate::resolve::FoundMesh;
 use urdd_directory::path::file_name;
@@ -167,7 +167,7 @@ impl Assets {
 
 fn find(gate: &Gate, uri: &str, folder: &Path) -> Result<FoundMesh, ImportFault> {
     gate.account().charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()))?;
-    Ok(gate.find_from(uri, folder).map_err(|why| Unreachable::not_found(uri, why))?)
+    Ok(gate.find_from(uri, folder).map_err(|why| unreachable(uri, why))?)
 }
 
 fn whole(inspected: Inspected, file: &Path) -> Result<Whole, String> {

@@ -3,11 +3,11 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
-use super::super::unreachable::Unreachable;
 use super::fault::SdfFault;
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::tag::{Tag, is_true};
+use crate::gate::unreachable;
 use crate::resolve::FoundMesh;
 
 /// The files that say which file of a folder is the model.
@@ -80,11 +80,11 @@ fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
         if let Some((model, folder)) = newest(&text).zip(manifest.file.parent()) {
             let path = folder.join(model);
             let shown = path.display().to_string();
-            let found = gate.at(&path).map_err(|why| Unreachable::not_found(&shown, why));
+            let found = gate.at(&path).map_err(|why| unreachable(&shown, why));
             return found.or_else(|why| Refusal::at(tag.place(), why));
         }
     }
-    Refusal::at(tag.place(), Unreachable::not_found(uri, missing))
+    Refusal::at(tag.place(), unreachable(uri, missing))
 }
 
 /// The file of the newest version that a manifest names.
