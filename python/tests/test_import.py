@@ -56,6 +56,13 @@ def test_links_and_pipes_in_the_way_are_refused(tmp_path: Path) -> None:
     urdf = urdd.import_robot(source, out, ball="revolute").urdf
     robot = urdd.generate(urdf, tmp_path / "robot").load()
     elsewhere.mkdir()
+
+    def write(place: Path, force: bool) -> None:
+        if place == urdf:
+            urdd.import_robot(source, out, ball="revolute", force=force)
+        else:
+            urdd.export(robot, "mjcf", tmp_path / "made" / "r.xml", force=force)
+
     for place in (urdf, tmp_path / "made" / "r.xml", tmp_path / "made" / "r_meshes"):
         place.parent.mkdir(exist_ok=True)
         for obstacle in ("link", "pipe"):
@@ -67,14 +74,11 @@ def test_links_and_pipes_in_the_way_are_refused(tmp_path: Path) -> None:
                 os.mkfifo(place)
             for force in (False, True):
                 with pytest.raises(OSError, match=f"{place.name}: a {obstacle}.* is in the way"):
-                    if place == urdf:
-                        urdd.import_robot(source, out, ball="revolute", force=force)
-                    else:
-                        urdd.export(robot, "mjcf", tmp_path / "made" / "r.xml", force=force)
+                    write(place, force)
             place.unlink()
             assert list(elsewhere.iterdir()) == []
     # Meshes may be beside the folder of the file.
     urdd.export(robot, "mjcf", tmp_path / "made" / "r.xml", mesh_folder="../meshes")
     assert (tmp_path / "made" / "r.xml").is_file()
     assert list((tmp_path / "meshes").iterdir()) != []
-    assert not [path for path in tmp_path.rglob(".urdd-*")]
+    assert not list(tmp_path.rglob(".urdd-*"))
