@@ -32,6 +32,7 @@ __all__ = [
     "page_html",
     "set_num_threads",
     "validate",
+    "write_files",
 ]
 
 __version__: str
