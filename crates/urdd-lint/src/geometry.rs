@@ -217,10 +217,11 @@ fn facts(scene: &Scene) -> MeshFacts {
         a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
     });
     vertices.dedup();
-    let hull = ConvexHull::new(&vertices).ok();
-    let corners = hull.map_or(vertices, |hull| hull.into_mesh().vertices);
     MeshFacts {
-        solid: Solid::of(corners.into_iter().map(Vector3::from).collect()),
+        solid: match ConvexHull::new(&vertices) {
+            Ok(hull) => Solid::of_hull(hull),
+            Err(_) => Solid::of(vertices.into_iter().map(Vector3::from).collect()),
+        },
         triangles: scene.triangle_count(),
         format: scene.format,
         notes: scene.notes.clone(),

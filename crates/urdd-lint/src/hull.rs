@@ -24,7 +24,14 @@ pub struct Hull {
 impl Hull {
     /// The hull of points; `None` if they span no volume.
     pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
-        let hull = ConvexHull::new(&corners(points)).ok().filter(|hull| !hull.is_flat())?;
+        Hull::from(ConvexHull::new(&corners(points)).ok()?)
+    }
+
+    /// Of a hull of geometry; `None` without a volume.
+    pub fn from(hull: ConvexHull) -> Option<Self> {
+        if hull.is_flat() {
+            return None;
+        }
         let mesh = hull.into_mesh();
         let triangles = mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
         Hull::new(mesh.vertices.into_iter().map(Vector3::from).collect(), triangles)

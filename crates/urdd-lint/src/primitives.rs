@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::hull::Hull;
 use urdd_format::urdf::Geometry;
+use urdd_geometry::hull::ConvexHull;
 
 /// Corners of the polygon around a circle.
 const SIDES: usize = 32;
@@ -26,6 +27,12 @@ impl Solid {
     pub fn of(corners: Vec<Vector3<f64>>) -> Arc<Self> {
         let hull = Hull::of(corners.iter().copied());
         Arc::new(Solid { corners, hull })
+    }
+
+    /// Of a convex hull.
+    pub fn of_hull(hull: ConvexHull) -> Arc<Self> {
+        let corners = hull.mesh().vertices.iter().copied().map(Vector3::from).collect();
+        Arc::new(Solid { corners, hull: Hull::from(hull) })
     }
 }
 

@@ -338,8 +338,15 @@ fn without_materials(bytes: Vec<u8>) -> Vec<u8> {
     if !lines(&bytes).any(names) {
         return bytes;
     }
-    let lines = bytes.split_inclusive(|byte| *byte == b'\n');
-    lines.filter(|line| !names(line)).flatten().copied().collect()
+    let (mut kept, mut start) = (Vec::with_capacity(bytes.len()), 0);
+    for line in lines(&bytes) {
+        let end = (start + line.len() + 1).min(bytes.len());
+        if !names(line) {
+            kept.extend_from_slice(&bytes[start..end]);
+        }
+        start = end;
+    }
+    kept
 }
 
 fn broken(name: &str, place: Place, problem: &str) -> At {
