@@ -32,6 +32,7 @@ fn read(name: &str, body: Option<&str>) -> Model {
 /// Reads a text as if it were in a file.
 pub fn of_text(path: &Path, text: String, body: Option<&str>) -> Result<Model, Placed> {
     let gate = Gate::of_project(path.parent().unwrap(), &Settings::default());
+    gate.account().deposit(text.len());
     let bytes = text.as_bytes().into();
     let file = TextFile { shown: "m.xml".to_owned(), path: path.to_owned(), text, bytes };
     let options = ImportOptions { body: body.map(str::to_owned), ..ImportOptions::default() };
