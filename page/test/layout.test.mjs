@@ -33,7 +33,7 @@ function layout(page) {
       (element) => {
         if (!element.checkVisibility()) return false;
         // What scrolls may be out of sight.
-        if (element.closest(".tablist, .body, .rows")) return false;
+        if (element.closest(".tablist, .body, .rows, .views")) return false;
         const { left, right, top, bottom } = element.getBoundingClientRect();
         return left < -1 || right > width + 1 || top < -1 || bottom > height + 1;
       },
