@@ -272,7 +272,7 @@ pub struct Apart {
 }
 
 /// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
-pub const ENTRY: usize = 4000;
+pub const ENTRY: usize = 3000;
 /// The same, of a value of a joint or a pair.
 pub const PART: usize = 500;
 /// The same, of each byte of a name.

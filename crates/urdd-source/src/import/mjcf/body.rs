@@ -19,7 +19,7 @@ use super::orientation::{euler, pose};
 use super::reading::{View, integer, numbers, required, wrong};
 
 /// What an element costs beside what the model has of it, bytes.
-const RAW: usize = 1000;
+const RAW: usize = 2000;
 
 /// The world is the first body.
 pub const WORLD: usize = 0;
