@@ -6,6 +6,8 @@ use urdd_directory::account::{Account, Overdrawn};
 
 /// What a name costs beside its bytes.
 const NAME: usize = 100;
+/// Copies of a name until it is in a model: here, in a list and in a table.
+const COPIES: usize = 4;
 
 /// The names that are taken. Each is charged: names that are made of others may grow.
 #[derive(Debug)]
@@ -27,7 +29,7 @@ impl Names {
     /// # Errors
     /// If the account does not have its cost.
     pub fn take(&mut self, name: &str) -> Result<bool, Overdrawn> {
-        self.account.charge(NAME + name.len())?;
+        self.account.charge(NAME + COPIES * name.len())?;
         Ok(self.taken.insert(name.to_owned()))
     }
 
