@@ -1,8 +1,7 @@
 //! Meshes: files, and those that are written in the text.
 
-use std::cell::OnceCell;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 use urdd_geometry::Mesh;
@@ -61,7 +60,7 @@ enum Triangles {
     /// They are in a file that was made of them: of another format, or of a text.
     Written(Mesh),
     /// As they are read from it, when they are needed.
-    Read(OnceCell<Result<Arc<Scene>, String>>),
+    Read(OnceLock<Result<Arc<Scene>, String>>),
 }
 
 /// What measuring a mesh costs for each of its vertices: its hull.
@@ -265,13 +264,13 @@ impl MeshAsset<'_> {
         }
         let bytes = if extension == "obj" { without_materials(bytes) } else { bytes };
         if is_plain_mesh(&extension, &bytes) {
-            let (bytes, triangles) = (Ok(bytes.into()), Triangles::Read(OnceCell::new()));
+            let (bytes, triangles) = (Ok(bytes.into()), Triangles::Read(OnceLock::new()));
             return Ok(Content { key, name: file, extension, bytes, triangles });
         }
         let Inspected { bytes, scene, .. } = inspect_alone(bytes, &format!("{stem}.{extension}"));
         let unread = || scene.as_ref().err().cloned().unwrap_or_default();
         let bytes = bytes.map(|bytes| Arc::unwrap_or_clone(bytes).into()).ok_or_else(unread);
-        let triangles = Triangles::Read(OnceCell::from(scene));
+        let triangles = Triangles::Read(OnceLock::from(scene));
         Ok(Content { key, name: file, extension, bytes, triangles })
     }
 
