@@ -8,7 +8,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::around::Around;
 use super::files::Files;
 use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};
@@ -82,11 +81,6 @@ impl Gate {
     /// Where the files are.
     pub fn files(&self) -> &Files {
         self.roots.files()
-    }
-
-    /// The packages around the description.
-    pub fn around(&self) -> &[Around] {
-        self.roots.around(&self.folder)
     }
 
     /// Finds the file of a name as the description has it.
