@@ -64,10 +64,18 @@ pub fn are_near(one: &str, other: &str) -> bool {
         || are_materials && (is_of_robot(one) || is_of_robot(other))
 }
 
-/// Whether a part is in another, or the same. `joint/elbow/?` is something in the joint that no program knows.
+/// Whether a part is in another, or the same. `joint/elbow/?` is something in the joint that no program knows, and
+/// `link/arm…` a link whose name is longer than effects have it.
 fn is_in(part: &str, whole: &str) -> bool {
     let whole = whole.strip_suffix("/?").unwrap_or(whole);
-    part == whole || part.strip_prefix(whole).is_some_and(|rest| rest.starts_with('/'))
+    let begins =
+        |one: &str, other: &str| one.strip_suffix('…').is_some_and(|one| other.starts_with(one));
+    let mut names = part.split('/');
+    whole.split('/').all(|name| {
+        names
+            .next()
+            .is_some_and(|other| name == other || begins(name, other) || begins(other, name))
+    })
 }
 
 /// The element that a fact of the table is about: `-joint/elbow/upper` is about `joint/elbow/limit`. Names of visuals and
