@@ -2,10 +2,11 @@
 
 use serde_json::{Value, json};
 use urdd_document::robot::Element;
+use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::{MeshReference, OriginalMeshesModule};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
-use urdd_format::urdf::{Geometry, Material, UrdfModule};
+use urdd_format::urdf::Geometry;
 use urdd_robot::Robot;
 
 use crate::about::quaternion;
@@ -25,12 +26,15 @@ pub fn sources(robot: &Robot) -> Result<Value, String> {
         _ => None,
     };
     let description = robot.description().ok();
+    let colors = description.as_ref().map(Colors::of);
     let mut found = Vec::new();
     for (link, of) in known.links.iter().enumerate() {
         let visual = of.visual.iter().enumerate();
         for (k, element) in visual {
             let mut value = one(link, GeometryKind::Visual, k, element, originals);
-            value["rgba"] = json!(description.as_ref().and_then(|urdf| rgba(urdf, link, k)));
+            let visual = description.as_ref().and_then(|urdf| urdf.links.get(link)?.visual.get(k));
+            let material = visual.and_then(|visual| visual.material.as_ref());
+            value["rgba"] = json!(colors.as_ref().and_then(|colors| colors.get(material)));
             found.push(value);
         }
         let collision = of.collision.iter().enumerate();
@@ -68,16 +72,5 @@ fn one(
         "path": path,
         "side_files": file.map_or(&[][..], |file| &file.side_files),
         "rgba": null,
-    })
-}
-
-/// The colour of a visual element: its own, or that of the robot's material that it references.
-fn rgba(urdf: &UrdfModule, link: usize, element: usize) -> Option<[f64; 4]> {
-    let own = urdf.links.get(link)?.visual.get(element)?.material.as_ref()?;
-    let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
-    of(own).or_else(|| {
-        let name = own.name.as_ref()?;
-        let mut named = urdf.materials.iter();
-        of(named.find(|material| material.name.as_ref() == Some(name))?)
     })
 }

@@ -26,6 +26,8 @@ pub mod bundle;
 #[doc(hidden)]
 pub mod carried;
 pub mod chain;
+#[doc(hidden)]
+pub mod colors;
 pub mod composition;
 pub mod conformance;
 pub mod connections;
@@ -66,7 +68,6 @@ pub mod schema;
 pub mod self_collision_model;
 pub mod shape_kind;
 pub mod shapes;
-#[doc(hidden)]
 #[doc(hidden)]
 pub mod short;
 pub mod skips;

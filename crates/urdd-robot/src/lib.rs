@@ -55,6 +55,7 @@ mod robot;
 mod shapes;
 mod skip_edits;
 mod skips;
+mod source_visuals;
 mod space;
 mod statistics;
 mod textured;

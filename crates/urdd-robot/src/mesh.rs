@@ -53,7 +53,7 @@ impl<'a> Meshes<'a> {
         let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
         let of_format = paths.iter().find(|path| path.format == self.format);
         let path = of_format.or(paths.first()).ok_or(RobotError::Missing(self.meshes.kind))?;
-        let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+        let mut mesh = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?.merged();
         // STL repeats each vertex for each of its triangles.
         mesh.weld();
         match mesh.vertices.is_empty() {
@@ -72,7 +72,7 @@ impl<'a> Meshes<'a> {
             let glb = paths.clone().find(|path| path.format == Some(Format::Glb));
             let path = glb.or_else(|| paths.next());
             let path = path.ok_or(RobotError::Missing(self.meshes.kind))?;
-            let scene = read(self.part, self.meshes.profile, path.path)?;
+            let scene = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?;
             Ok(LinkVisual { link, parts: scene.parts })
         };
         links.collect::<Vec<_>>().into_par_iter().map(visual).collect()
@@ -103,13 +103,19 @@ fn fault(path: &str, reason: String) -> RobotError {
     RobotError::Mesh { path: path.to_owned(), reason }
 }
 
-fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
+/// Reads a mesh file. In the URDD's own .glb files z is up.
+pub(super) fn read(
+    part: &Urdd,
+    profile: Profile,
+    path: &str,
+    gltf_up: GltfUp,
+) -> Result<Scene, RobotError> {
     let fail = |reason: String| fault(path, reason);
     let bytes = MeshFiles::new(part).read(profile, path).map_err(|absence| match absence {
         Absence::Other(error) => of_read(part.root(), error, |error| fail(error.to_string())),
         absence => fail(absence.to_string()),
     })?;
-    let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
+    let options = Options { gltf_up, ..Options::default() };
     read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
         fail(match &error.place {
             Some(place) => format!("{place}: {}", error.fault),

@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use urdd_robot::{Robot, RobotError};
+use urdd_robot::{LinkVisual, Robot, RobotError};
 
 /// What the page's first picture, the joints and the sliders need of a URDD, with the core class.
 pub const MODULES: &[&str] = &["plain_meshes"];
@@ -40,7 +40,7 @@ struct Facet {
 pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
     let poses = robot.link_poses(&robot.configurations()?.zero())?;
     let mut facets = Vec::new();
-    for visual in robot.visuals()? {
+    for visual in visuals(robot)? {
         let Some(pose) = poses.get(visual.link) else {
             continue;
         };
@@ -57,6 +57,14 @@ pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
         }
     }
     Ok(drawn(&facets).and_then(|pixels| encoded(&pixels)))
+}
+
+/// The plain meshes, or what the URDF says where a URDD has none.
+fn visuals(robot: &Robot) -> Result<Vec<LinkVisual>, RobotError> {
+    match robot.visuals() {
+        Err(RobotError::Missing(_)) => robot.source_visuals(),
+        visuals => visuals,
+    }
 }
 
 /// A point of a link, in the picture's axes.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::size::{TriangleBudget, check_resolved};
+use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::urdf::{Geometry, Link, Material, Origin, UrdfModule};
@@ -57,6 +58,7 @@ pub(crate) fn link_geometries(
         GeometryKind::Collision => GeometryKind::Visual,
     };
     let quaternions = origin::has_quaternions(robot.version.as_deref());
+    let colors = Colors::of(robot);
     let budget = TriangleBudget::default();
     let links: Vec<_> = robot.links.iter().enumerate().collect();
     let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
@@ -76,7 +78,7 @@ pub(crate) fn link_geometries(
                 }
                 let parts: Vec<Part> = elements
                     .iter()
-                    .flat_map(|element| placed(element, &robot.materials, quaternions))
+                    .flat_map(|element| placed(element, &colors, quaternions))
                     .collect();
                 if !elements.is_empty() {
                     check_resolved(&link.name, &parts)?;
@@ -140,7 +142,7 @@ fn num_triangles(element: &Element) -> usize {
 }
 
 /// The parts of an element in the link's frame, rounded to the precision of files.
-fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<Part> {
+fn placed(element: &Element, colors: &Colors<'_>, quaternions: bool) -> Vec<Part> {
     let mut scale = [1.0; 3];
     let parts = match (element.geometry, element.scene) {
         (None, _) | (Some(Geometry::Mesh(_)), None) => return Vec::new(),
@@ -155,7 +157,8 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
         (Some(Geometry::Capsule(of)), _) => vec![primitives::capsule(of.radius, of.length).into()],
         (Some(Geometry::Sphere(of)), _) => vec![primitives::sphere(of.radius).into()],
     };
-    let color = color(element.material, materials);
+    // Values must be in the range that a .glb allows.
+    let color = colors.get(element.material).map(|rgba| rgba.map(|part| part.clamp(0.0, 1.0)));
     let pose = origin::of(element.origin, quaternions);
     let rotation = pose.rotation.to_rotation_matrix();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
@@ -194,19 +197,4 @@ fn tidy(mut mesh: Mesh, place: &nalgebra::Matrix4<f64>) -> Mesh {
     mesh.drop_degenerate();
     mesh.drop_unused_vertices();
     mesh
-}
-
-/// An element's colour: its own, or that of the robot's first coloured material with the same name.
-fn color(material: Option<&Material>, materials: &[Material]) -> Option<[f64; 4]> {
-    let material = material?;
-    let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
-    let named = || {
-        let name = material.name.as_ref()?;
-        let mut named = materials.iter().filter(|m| m.name.as_ref() == Some(name));
-        named.find_map(of)
-    };
-    of(material)
-        .or_else(named)
-        // Values must be in the range that a .glb allows.
-        .map(|rgba| rgba.map(|part| part.clamp(0.0, 1.0)))
 }

@@ -11,6 +11,7 @@ mod exporting;
 mod following;
 mod keeping;
 mod living;
+mod pictures;
 mod refusing;
 mod saving;
 mod served;
