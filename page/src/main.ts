@@ -34,6 +34,9 @@ import { offer } from "./ui/offer";
 import { startTheme } from "./ui/theme";
 import { tabs } from "./ui/tabs";
 
+/** Width of the pictures on cards, pixels. */
+const CARD = 320;
+
 function start(): void {
   startTheme();
   const mode = (document.querySelector<HTMLMetaElement>('meta[name="urdd-mode"]')?.content ?? "static") as Mode;
@@ -59,6 +62,10 @@ function start(): void {
   comparing(app);
   const here = mode === "inline" ? null : new Here(app);
   site.here = here;
+  if (here && stage) {
+    const { view } = stage;
+    stage.settled = () => void here.drawn(view.small(CARD));
+  }
   const address = new Address(app, stage, here);
 
   const failure = h("div", { class: "failure", role: "alert" });

@@ -78,6 +78,8 @@ export class Stage {
   firstPicture: number | null = null;
   /** The robot that is completely drawn, with the camera set. */
   settledOn: RobotModel | null = null;
+  /** Called then. */
+  settled: () => void = () => undefined;
 
   constructor(private readonly app: App) {
     const canvas = h("canvas", { id: "picture", tabindex: "0", "aria-label": "The robot" });
@@ -276,6 +278,7 @@ export class Stage {
     this.settle(scene, model.entry.id);
     this.settledOn = model;
     this.app.settled();
+    this.settled();
   }
 
   /** The layers of the present scene that are loading. */

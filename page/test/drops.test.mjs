@@ -5,7 +5,7 @@ import { spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, truncateSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { exported } from "./exported.mjs";
-import { answered, drawn, dropOn, inPage, namesOf, open, repository, setting, soon, state } from "./world.mjs";
+import { answered, drawn, dropOn, inPage, namesOf, open, press, repository, setting, soon, state } from "./world.mjs";
 
 const set = setting(["single_link", "gripper"], exported);
 const archives = join(repository, "testkit/archives");
@@ -53,6 +53,15 @@ async function whole(page, name, before = null) {
   });
   await drawn(page, name);
   return (await state(page, "robot")).entry.id;
+}
+
+/** The number of colours of an image. */
+async function colours(image) {
+  await image.decode();
+  const context = new globalThis.OffscreenCanvas(image.naturalWidth, image.naturalHeight).getContext("2d");
+  context.drawImage(image, 0, 0);
+  const { data } = context.getImageData(0, 0, image.naturalWidth, image.naturalHeight);
+  return new Set(new Uint32Array(data.buffer)).size;
 }
 
 const gallery = (page) => page.waitForSelector(".gallery:not([hidden])");
@@ -293,6 +302,11 @@ inPage(set, "Back leads to the gallery and Forward to the robot, and leaving ask
   await gallery(page);
   const cards = await page.locator(".card:visible strong").allTextContents();
   assert.deepEqual(cards.slice().sort(), ["gripper", "one", "single_link", "two"]);
+  // What was drawn is on its card: more than the colour of the ground.
+  for (const name of ["one", "two"]) {
+    const image = page.locator(".card", { has: page.locator(`strong:text-is("${name}")`) }).locator("img");
+    assert.ok((await image.evaluate(colours)) > 20, name);
+  }
   await page.goForward();
   await whole(page, "one");
   const text = urdf("one", box(1), box(2), box(3));
@@ -490,12 +504,7 @@ inPage(set, "Stop says nothing in red, and the gallery has nothing of the robot 
   cpSync(join(repository, "conformance/robots/meshes/welding_arm/forearm.stl"), place("ball.stl"));
   await dropOn(page, place("long.urdf"), place("ball.stl"));
   await drawn(page, "long");
-  const press = async (name) => {
-    const more = page.locator(".chip.more");
-    if (await more.isVisible()) await more.click();
-    await page.getByRole("button", { name, exact: true }).click();
-  };
-  await press("Stop");
+  await press(page, "Stop");
   await state(page, "making", ({ making, stopped }) => making === null && stopped);
   assert.equal(await page.locator(".broken:visible").count(), 0);
   await state(page, "proximity", ({ error }) => /Generate the rest/.test(error ?? ""));

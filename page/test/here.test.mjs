@@ -5,7 +5,7 @@ import { spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { exported } from "./exported.mjs";
-import { drawn, dropOn, inPage, repository, run, setting, soon, state } from "./world.mjs";
+import { drawn, dropOn, inPage, press, repository, run, setting, soon, state } from "./world.mjs";
 
 const set = setting(["gripper", "single_link"], exported);
 const robots = join(repository, "conformance/robots");
@@ -189,17 +189,11 @@ inPage(set, "Stop keeps what is there, and the rest is made when it is asked for
   long(folder);
   await dropped(page, folder);
   await drawn(page, "long");
-  // The header folds what has no room.
-  const press = async (name) => {
-    const more = page.locator(".chip.more");
-    if (await more.isVisible()) await more.click();
-    await page.getByRole("button", { name, exact: true }).click();
-  };
-  await press("Stop");
+  await press(page, "Stop");
   await state(page, "making", ({ making, failure }) => making === null && /Stopped/.test(failure));
   await drawn(page, "long");
   assert.equal((await state(page, "robot")).entry.making, null);
-  await press("Generate the rest");
+  await press(page, "Generate the rest");
   await state(page, "robot", (robot) => robot?.about.meshes.pieces?.length === 40);
 });
 

@@ -201,6 +201,13 @@ export async function open(page, name) {
   await drawn(page, name);
 }
 
+/** Presses a button of the header, which folds what has no room. */
+export async function press(page, name) {
+  const more = page.locator(".chip.more");
+  if (await more.isVisible()) await more.click();
+  await page.getByRole("button", { name, exact: true }).click();
+}
+
 export async function drawn(page, name) {
   const isDrawn = (name) => {
     const { robot, loading } = globalThis.urdd?.app.store.now ?? {};

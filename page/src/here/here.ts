@@ -74,6 +74,7 @@ export class Here implements Keeper, Drafting {
   /** Removes robots, with all that is theirs. */
   remove(entries: Entry[]): void {
     const gone = new Set(entries.map(({ id }) => id));
+    for (const robot of this.robots) if (gone.has(robot.entry.id)) robot.draw(null);
     if (this.current && gone.has(this.current.entry.id)) this.leave();
     this.robots = this.robots.filter(({ entry }) => !gone.has(entry.id));
     if (this.last && gone.has(this.last.entry.id)) this.last = null;
@@ -103,6 +104,14 @@ export class Here implements Keeper, Drafting {
     const robot = this.found(entry);
     if (this.current !== robot) void this.begin(robot);
     return robot.entry;
+  }
+
+  /** The robot that is open is drawn: a small picture of it is for its card. */
+  async drawn(picture: Promise<Blob | null>): Promise<void> {
+    const { current } = this;
+    if (!current || this.app.store.now.robot?.entry.id !== current.entry.id) return;
+    const blob = await picture;
+    if (blob && this.robots.includes(current)) current.draw(blob);
   }
 
   /** The robot that is open. */

@@ -6,7 +6,6 @@ import type { Progress } from "../engine/link";
 import { unknown } from "../model";
 import type { Entry } from "../model";
 import type { Maker } from "./kit";
-import { inOriginal } from "./original";
 import type { Description, Given, MakeOptions } from "./protocol";
 import type { Reader } from "./reader";
 
@@ -54,15 +53,8 @@ export class MadeRobot {
   }
 
   lint(): Promise<Report> {
-    this.report = this.linted();
+    this.report = this.reader.lint(this.description.path);
     return this.report;
-  }
-
-  private async linted(): Promise<Report> {
-    const { path, format } = this.description;
-    if (format === "urdf") return this.reader.lint(path);
-    const text = await this.reader.text(path);
-    return inOriginal(await this.reader.lint(path), text);
   }
 
   /** Makes all of it, from the beginning. */
@@ -112,6 +104,12 @@ export class MadeRobot {
     this.stop(null);
     this.reader.end();
     this.report = null;
+  }
+
+  /** Takes the picture for its card; null gives back the last one. */
+  draw(picture: Blob | null): void {
+    if (this.entry.picture !== null) URL.revokeObjectURL(this.entry.picture);
+    this.set({ picture: picture && URL.createObjectURL(picture) });
   }
 
   /** Gives back the memory of what takes seconds to make again, too. */

@@ -15,6 +15,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { h } from "../ui/dom";
 
 /** Width of the picture that shadows are made from, pixels. */
 const SHADOW_SIZE = 1024;
@@ -158,6 +159,15 @@ export class View {
   picture(): Promise<Blob | null> {
     this.draw();
     return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+  }
+
+  /** The picture in this width, as a PNG. */
+  small(width: number): Promise<Blob | null> {
+    this.draw();
+    const { canvas } = this;
+    const small = h("canvas", { width, height: Math.round((width * canvas.height) / canvas.width) });
+    small.getContext("2d")?.drawImage(canvas, 0, 0, small.width, small.height);
+    return new Promise((resolve) => small.toBlob(resolve, "image/png"));
   }
 
   private resize(): void {
