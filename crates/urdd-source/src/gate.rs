@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::files::Files;
+use super::import::fault::ImportFault;
 use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};
 use super::packages::Packages;
@@ -145,12 +146,24 @@ impl Gate {
         inspected
     }
 
-    /// Reads an image that was found; `None` if it is not one.
+    /// Reads an image that was found and that begins with these bytes; `None` if it is not one, which is charged: it may be
+    /// named, and so read, many times. `shown` is its name in errors.
     ///
     /// # Errors
-    /// If it cannot be read.
-    pub fn image(&self, found: &FoundMesh) -> Result<Option<Vec<u8>>, ReadError> {
-        Ok(Some(self.bytes(found, MAX_DOCUMENT_BYTES)?).filter(|bytes| is_image(bytes)))
+    /// If it cannot be read, or costs too much.
+    pub fn image(
+        &self,
+        found: &FoundMesh,
+        start: &[u8],
+        shown: &str,
+    ) -> Result<Option<Vec<u8>>, ImportFault> {
+        let bytes = self.bytes(found, MAX_DOCUMENT_BYTES);
+        let bytes = bytes.map_err(|why| Unreachable::unread(shown, &why))?;
+        if bytes.starts_with(start) && is_image(&bytes) {
+            return Ok(Some(bytes));
+        }
+        self.account.charge(bytes.len())?;
+        Ok(None)
     }
 
     /// Reads a file that was found, of at most `limit` bytes: a text, or what a program reads of a mesh. It is not to be

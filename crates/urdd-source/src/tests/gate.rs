@@ -96,3 +96,37 @@ fn files_from_elsewhere_are_named() {
     );
     assert_eq!(outside.len(), 3, "its own are not named: {outside:?}");
 }
+
+/// A file that is no image, by a name and as a texture of many materials, in MJCF and SDF.
+#[test]
+fn what_is_no_image_is_charged_each_time_that_it_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path();
+    // 2 MB, so that the account is overdrawn by some 200 uses and not by 40.
+    fs::write(root.join("t.png"), vec![b'x'; 2 << 20]).unwrap();
+    let sdf = |uses: usize| {
+        let visual = "<visual name=\"v\"><geometry><sphere><radius>1</radius></sphere></geometry>\
+            <material><pbr><metal><albedo_map>t.png</albedo_map></metal></pbr></material></visual>";
+        let visuals = visual.repeat(uses);
+        format!(
+            "<sdf version=\"1.7\"><model name=\"m\"><link name=\"l\">{visuals}</link></model></sdf>"
+        )
+    };
+    let mjcf = |uses: usize| {
+        let many = |of: &dyn Fn(usize) -> String| (0..uses).map(of).collect::<String>();
+        let materials = many(&|n| format!("<material name=\"m{n}\" texture=\"t\"/>"));
+        let geoms = many(&|n| format!("<geom size=\"1\" material=\"m{n}\"/>"));
+        format!(
+            "<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"t.png\"/>{materials}</asset>\
+            <worldbody><body>{geoms}</body></worldbody></mujoco>"
+        )
+    };
+    for (name, few, many) in [("r.sdf", sdf(40), sdf(300)), ("r.xml", mjcf(40), mjcf(300))] {
+        let path = root.join(name);
+        fs::write(&path, few).unwrap();
+        assert!(import(&path, &Settings::default()).is_ok(), "{name}");
+        fs::write(&path, many).unwrap();
+        let refused = import(&path, &Settings::default()).unwrap_err().to_string();
+        assert!(refused.contains("more would be made"), "{name}: {refused}");
+    }
+}

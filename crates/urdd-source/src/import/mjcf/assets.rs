@@ -99,6 +99,17 @@ impl<'f> Assets<'f> {
         self.gate.bytes(found, MAX_DOCUMENT_BYTES).map_err(unread)
     }
 
+    /// Reads an image that was found and that begins with these bytes; `None` if it is not one.
+    pub fn image(
+        &self,
+        found: &FoundMesh,
+        start: &[u8],
+        place: Place,
+    ) -> Fallible<Option<Vec<u8>>> {
+        let image = self.gate.image(found, start, &found.file.display().to_string());
+        image.map_err(|why| at(place, why))
+    }
+
     /// Charges what is made at a place, in bytes.
     pub fn charge(&self, bytes: usize, place: Place) -> Fallible<()> {
         self.gate.account().charge(bytes).map_err(|why| at(place, why))

@@ -12,7 +12,6 @@ use super::fault::MjcfFault;
 use super::geom::Geom;
 use super::mesh::Meshes;
 use super::reading::View;
-use crate::sniff::is_image;
 
 /// The colour of a shape that names none: the material goes before it.
 const GREY: [f64; 4] = [0.5, 0.5, 0.5, 1.0];
@@ -108,13 +107,10 @@ impl<'d> Materials<'d> {
             tally.count(features::TEXTURES);
             return Ok(Some(known));
         }
-        let bytes = assets.bytes(&found, texture.place)?;
-        // What is made of it each time that it is named and not an image.
-        assets.charge(bytes.len(), texture.place)?;
-        if !bytes.starts_with(PNG) || !is_image(&bytes) {
+        let Some(bytes) = assets.image(&found, PNG, texture.place)? else {
             tally.count(features::MADE_TEXTURES);
             return Ok(None);
-        }
+        };
         tally.count(features::TEXTURES);
         let stem = found.file.file_stem().unwrap_or_default().to_string_lossy();
         let path = format!("textures/{stem}.png");

@@ -95,7 +95,7 @@ impl Assets {
         if let Some(known) = self.known.get(&found.file) {
             return Ok(*known);
         }
-        match gate.image(&found).map_err(|why| Unreachable::unread(uri, &why))? {
+        match gate.image(&found, b"", uri)? {
             Some(bytes) => self.add(gate, vec![(found.file, bytes.into())]),
             None => Err(Unreachable::NotImage { file: uri.to_owned() }.into()),
         }
