@@ -1,10 +1,10 @@
 //! Lints the URDF that an import makes, and says of each finding where the original has what it is about.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::examine::examined;
 use crate::settings::LintSettings;
-use crate::written::{named, say_where};
+use crate::written::{named, say_where, seen_from};
 use urdd_findings::examined::Examined;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
@@ -12,29 +12,36 @@ use urdd_format::report::{ImportedFrom, ImportedPart, StaleIgnore, WrittenAt};
 use urdd_source::SourceError;
 use urdd_source::import::Imported;
 
-/// What is found in the URDF of an import, and the comments in it that matched nothing.
+/// What is found in the URDF of an import of the file `name` in `folder`, and the comments in it that matched nothing.
 ///
 /// # Errors
 /// If its files are more than memory may hold.
 pub(crate) fn examined_import(
     imported: &Imported,
+    (folder, name): (PathBuf, String),
     settings: &LintSettings,
 ) -> Result<(Examined, Vec<StaleIgnore>), SourceError> {
     let settings =
         LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
+    let folder = settings.source.files.canonicalize(&folder).unwrap_or(folder);
     let text = imported.text();
-    let (mut examined, unused) =
-        examined(text, text.as_bytes(), &imported.urdf, Path::new("/"), &settings);
-    say_where(&mut examined.checks, |subject| {
-        let (kind, name) = named(subject)?;
-        let (file, line, column) = imported.place(kind, name)?;
+    let (mut examined, unused) = examined(text, text.as_bytes(), &name, Path::new("/"), &settings);
+    let find = |subject: &str| {
+        let (kind, part) = named(subject)?;
+        let (file, line, column) = imported.place(kind, part)?;
+        let is_main = file == imported.shown;
         Some(WrittenAt {
-            file: file.to_owned(),
+            file: if is_main { name.clone() } else { seen_from(Path::new(file), &folder) },
             line: Some(Count(line)),
             column: Some(Count(column)),
             macro_name: None,
         })
-    });
+    };
+    say_where(&mut examined.checks, find);
+    for effect in examined.report.programs.iter_mut().flat_map(|program| &mut program.effects) {
+        let written = effect.part.as_deref().and_then(find).filter(|at| at.file == name);
+        (effect.line, effect.column) = written.map_or((None, None), |at| (at.line, at.column));
+    }
     // The text is in memory: there is nothing to mend.
     let findings = examined.checks.iter_mut().flat_map(|check| &mut check.findings);
     for place in findings.flat_map(Finding::places_mut) {

@@ -164,8 +164,8 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
     let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
-                let found = imports::examined_import(&imported, settings)?;
-                text = Some(imported.text().to_owned());
+                let found = imports::examined_import(&imported, stems(path), settings)?;
+                text = Some(imported.original);
                 found
             }
             None => {

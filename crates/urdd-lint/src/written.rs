@@ -137,7 +137,7 @@ pub fn fixed_parts(name: &str) -> Vec<String> {
 }
 
 /// The path of a file as seen from a folder, with forward slashes.
-fn seen_from(file: &Path, folder: &Path) -> String {
+pub fn seen_from(file: &Path, folder: &Path) -> String {
     let mut up = String::new();
     for above in folder.ancestors() {
         if let Ok(inside) = file.strip_prefix(above) {

@@ -19,6 +19,10 @@ use urdd_format::report::{
 /// The report on examined URDDs, with severities, ignores and the selection of the settings applied.
 pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     let stale_ignores = settings.apply(&mut examined);
+    for one in examined.iter_mut().filter(|one| one.report.imported.is_some()) {
+        let findings = one.checks.iter_mut().flat_map(|check| &mut check.findings);
+        findings.flat_map(Found::places_mut).for_each(in_original);
+    }
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let urdds: Vec<Urdd> = examined.into_iter().map(|examined| urdd(examined, fail_on)).collect();
     let total = |severity: Severity| {
@@ -38,6 +42,15 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
         },
         urdds,
     }
+}
+
+/// Moves a place to where the original of an import has what it is about: nobody has the URDF that the import makes. Until
+/// here, places in that URDF tell which findings follow from others.
+fn in_original(place: &mut Place) {
+    let written = place.written_at.take();
+    (place.line, place.column) = written.as_ref().map_or((None, None), |at| (at.line, at.column));
+    place.file = written.map(|at| at.file).or(place.file.take());
+    place.related.iter_mut().for_each(in_original);
 }
 
 pub(super) fn urdd(examined: Examined, fail_on: Severity) -> Urdd {

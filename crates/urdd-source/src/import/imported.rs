@@ -56,6 +56,8 @@ pub struct Imported {
     pub origin: Value,
     /// The description, as the user named it.
     pub shown: String,
+    /// Its text.
+    pub original: String,
     /// The other files that were read: what it includes, meshes, images.
     pub read: Vec<PathBuf>,
     /// The place of each link and joint in the original, by kind and name: file, line, column.
@@ -248,6 +250,7 @@ fn written(
         skips: companions::skips(&model),
         report,
         origin: origin(format, &model.files),
+        original: model.files.first().map_or_else(String::new, |file| file.text.clone()),
         urdf: name,
         files,
         shown,
