@@ -21,13 +21,12 @@ pub(crate) fn examined_import(
     (folder, name): (PathBuf, String),
     settings: &LintSettings,
 ) -> Result<(Examined, Vec<StaleIgnore>), SourceError> {
+    let folder = settings.source.files.canonicalize(&folder).unwrap_or(folder);
     let settings =
         LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
-    let folder = settings.source.files.canonicalize(&folder).unwrap_or(folder);
     let text = imported.text();
     let (mut examined, unused) = examined(text, text.as_bytes(), &name, Path::new("/"), &settings);
-    let find = |subject: &str| {
-        let (kind, part) = named(subject)?;
+    let find = |kind: &str, part: &str| {
         let (file, line, column) = imported.place(kind, part)?;
         let is_main = file == imported.shown;
         Some(WrittenAt {
@@ -37,9 +36,20 @@ pub(crate) fn examined_import(
             macro_name: None,
         })
     };
-    say_where(&mut examined.checks, find);
+    say_where(&mut examined.checks, |subject| {
+        let (kind, part) = named(subject)?;
+        find(kind, part)
+    });
     for effect in examined.report.programs.iter_mut().flat_map(|program| &mut program.effects) {
-        let written = effect.part.as_deref().and_then(find).filter(|at| at.file == name);
+        // Such as `joint/elbow/limit`; a name may have slashes too.
+        let part = effect.part.as_deref().and_then(|part| part.split_once('/'));
+        let written = part.filter(|(kind, _)| matches!(*kind, "link" | "joint"));
+        let written = written.and_then(|(kind, part)| {
+            let ends = part.match_indices('/').map(|(end, _)| end).chain([part.len()]);
+            ends.rev().find_map(|end| find(kind, &part[..end]))
+        });
+        // An effect has a line, and no file.
+        let written = written.filter(|at| at.file == name);
         (effect.line, effect.column) = written.map_or((None, None), |at| (at.line, at.column));
     }
     // The text is in memory: there is nothing to mend.

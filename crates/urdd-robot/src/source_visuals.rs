@@ -101,7 +101,7 @@ impl<'a> Carried<'a> {
 
     /// The mesh of an element; nothing if it names none, or one that cannot be read.
     fn of(&mut self, place: Place) -> &[Part] {
-        let Some(path) = self.paths.get(&place) else { return &[] };
+        let Some(&path) = self.paths.get(&place) else { return &[] };
         self.read.entry(path).or_insert_with(|| {
             let scene = read(self.urdd, Profile::V1, path, GltfUp::Turn);
             scene.map(|scene| scene.parts).unwrap_or_default()

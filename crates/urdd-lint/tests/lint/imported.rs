@@ -45,7 +45,8 @@ fn check_programs(urdf: &Urdd) {
     let lines: Vec<&str> = ARM.lines().collect();
     let mut count = [0; 2];
     for effect in urdf.programs.iter().flat_map(|program| &program.effects) {
-        let name = effect.part.as_deref().and_then(name).unwrap_or_default();
+        let name = effect.part.as_deref().and_then(|part| part.split('/').nth(1));
+        let name = name.unwrap_or_default();
         let line = effect.line.map(|line| lines[line.get() as usize - 1]);
         assert!(line.is_none_or(|line| line.contains(&format!("name=\"{name}\""))), "{effect:?}");
         count[usize::from(line.is_some())] += 1;
