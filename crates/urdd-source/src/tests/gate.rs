@@ -105,9 +105,13 @@ fn what_is_no_image_is_charged_each_time_that_it_is_read() {
     // 2 MB, so that the account is overdrawn by some 200 uses and not by 40.
     fs::write(root.join("t.png"), vec![b'x'; 2 << 20]).unwrap();
     let sdf = |uses: usize| {
-        let visual = "<visual name=\"v\"><geometry><sphere><radius>1</radius></sphere></geometry>\
-            <material><pbr><metal><albedo_map>t.png</albedo_map></metal></pbr></material></visual>";
-        let visuals = visual.repeat(uses);
+        let visual = |number| {
+            format!(
+                "<visual name=\"v{number}\"><geometry><sphere><radius>1</radius></sphere></geometry>\
+                <material><pbr><metal><albedo_map>t.png</albedo_map></metal></pbr></material></visual>"
+            )
+        };
+        let visuals: String = (0..uses).map(visual).collect();
         format!(
             "<sdf version=\"1.7\"><model name=\"m\"><link name=\"l\">{visuals}</link></model></sdf>"
         )
