@@ -56,7 +56,7 @@ fn check_programs(urdf: &Urdd) {
 
 #[test]
 fn places_are_those_of_the_original() {
-    let folder = testkit::temporary::folder();
+    let folder = tempfile::tempdir().expect("a folder");
     let arm = folder.path().join("arm.xml");
     fs::create_dir(folder.path().join("parts")).expect("a folder");
     fs::write(&arm, ARM).expect("written");
