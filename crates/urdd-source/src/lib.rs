@@ -51,4 +51,4 @@ pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::Settings;
-pub use xacro::XacroSettings;
+pub use xacro::{XACRO_TIMEOUT, XacroSettings};
