@@ -5,6 +5,7 @@
 //! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
 
 mod around;
+pub mod beside;
 mod cycles;
 mod decode;
 pub mod dropped;
