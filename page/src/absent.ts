@@ -16,7 +16,7 @@ export interface AbsentMesh {
 export async function absentMeshes(engine: Engine, robot: RobotModel): Promise<AbsentMesh[]> {
   // Unknown for a legacy URDD, or if the URDF cannot be read. Findings report that.
   const sources = await engine.ask("sources", {}).catch(() => []);
-  const files = new Set(robot.files.map(({ path }) => path));
+  const files = new Set([...robot.files.map(({ path }) => path), ...(robot.entry.left_out ?? [])]);
   const isAbsent = ({ shape, path }: SourceShape): boolean =>
     shape?.Mesh !== undefined && (path === null || !files.has(path));
   const there = sources.filter((shape) => shape.geometry === "Visual" && shape.shape !== null && !isAbsent(shape));

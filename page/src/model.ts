@@ -31,6 +31,8 @@ export interface Entry {
   follows?: boolean;
   /** Whether this page makes it. */
   here?: boolean;
+  /** Original meshes that a page in one file leaves out, since it draws the plain ones. */
+  left_out?: string[];
   /** The paths of its list of files and its report on a site. */
   files?: string;
   report?: string;

@@ -51,6 +51,8 @@ inPage(set, "a robot is drawn in a sandboxed frame, moves, and has its report", 
   const frame = await inside(page);
   const q = () => frame.evaluate(() => globalThis.urdd.app.store.now.q);
   const poses = () => frame.evaluate(() => [...globalThis.urdd.app.store.now.poses]);
+  // It draws plain meshes for those that the file leaves out: none of them is missing.
+  assert.deepEqual(await frame.evaluate(() => globalThis.urdd.app.store.now.absent), []);
   const [before, placed] = [await q(), await poses()];
   const slider = frame.locator('.joints input[type="range"]').first();
   await slider.focus();

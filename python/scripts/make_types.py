@@ -325,7 +325,7 @@ def report_file() -> str:
     types = Types()
     readers = ""
     names = []
-    for schema, version, command in [("report", "1.1.0", "validate"), ("diff_report", "1.1.0", "diff")]:
+    for schema, version, command in [("report", "1.1.0", "validate"), ("diff_report", "1.2.0", "diff")]:
         root = types.add(read_schema(schema, version))
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")

@@ -22,10 +22,6 @@ pub fn diff(
     packages: Vec<(String, PathBuf)>,
     allowed_folders: Vec<PathBuf>,
 ) -> PyResult<String> {
-    if !(0.0..=f64::MAX).contains(&tolerance) {
-        let message = format!("tolerance must be a number that is not negative, not {tolerance}");
-        return Err(PyValueError::new_err(message));
-    }
     let (packages, allowed_folders) =
         places(&packages, allowed_folders).map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| -> Result<_, DiffError> {
@@ -34,10 +30,13 @@ pub fn diff(
         options.urdf.allowed_folders = allowed_folders;
         options.cancellation = cancellation.clone();
         let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
-        Ok(report::json(&compare(&before, &after, tolerance)))
+        Ok(compare(&before, &after, tolerance))
     })?;
     match outcome {
-        Ok(text) => text.map_err(|error| PyRuntimeError::new_err(error.to_string())),
+        Ok(report) => {
+            let report = report.map_err(|error| PyValueError::new_err(error.to_string()))?;
+            report::json(&report).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+        }
         Err(error) => Err(raise(py, "OpenError", error, &[])),
     }
 }

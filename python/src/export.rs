@@ -7,6 +7,7 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd_directory::limits::MAX_SRDF_BYTES;
+use urdd_directory::range::OutOfRange;
 use urdd_directory::regular;
 use urdd_export::{
     ActuatorKind, Choices, Detail, ExportError, Format, Setup, SetupError, SphereBudget,
@@ -55,8 +56,7 @@ impl Options {
         });
         let detail = match self.detail {
             None => Detail::Full,
-            Some(ratio) if ratio < 1.0 => Detail::Ratio(ratio),
-            Some(count) => Detail::Triangles(count as usize),
+            Some(given) => Detail::new(given).map_err(of_range)?,
         };
         let kind = self.shapes.parse::<urdd_robot::ShapeKind>();
         let actuator = |word: String| {
@@ -85,6 +85,39 @@ impl Options {
     }
 }
 
+/// A robot, and the options of a format for it.
+fn subject(
+    py: Python<'_>,
+    robot: &Robot,
+    format: &str,
+    options: Options,
+) -> PyResult<(Arc<urdd_robot::Robot>, urdd_export::Options)> {
+    let words = Format::ALL.iter().map(|format| format.word());
+    let format = Format::named(format).ok_or_else(|| none_of("is no format", format, words))?;
+    let path = robot.path.clone();
+    let robot = Arc::clone(robot.read(py)?);
+    let options = options.choices(py, &path, &robot)?.options(format);
+    let options = options.map_err(|misfit| PyValueError::new_err(misfit.to_string()))?;
+    Ok((robot, options))
+}
+
+/// Where a free base is in a configuration, or in a named one: x, y, z, and the quaternion w, x, y, z.
+#[pyfunction]
+pub fn base_pose(
+    py: Python<'_>,
+    robot: &Robot,
+    format: &str,
+    options: Options,
+    name: Option<String>,
+    configuration: Vec<f64>,
+) -> PyResult<Option<[f64; 7]>> {
+    let (robot, options) = subject(py, robot, format, options)?;
+    let found = work::run(py, move |_| {
+        urdd_export::base_pose(&robot, &options, name.as_deref(), &configuration)
+    })?;
+    found.map_err(|error| of_export(py, error))
+}
+
 /// A robot in another format, in memory.
 #[pyfunction]
 pub fn export<'py>(
@@ -93,12 +126,7 @@ pub fn export<'py>(
     format: &str,
     options: Options,
 ) -> PyResult<Made<'py>> {
-    let words = Format::ALL.iter().map(|format| format.word());
-    let format = Format::named(format).ok_or_else(|| none_of("is no format", format, words))?;
-    let path = robot.path.clone();
-    let robot = Arc::clone(robot.read(py)?);
-    let options = options.choices(py, &path, &robot)?.options(format);
-    let options = options.map_err(|misfit| PyValueError::new_err(misfit.to_string()))?;
+    let (robot, options) = subject(py, robot, format, options)?;
     let made = work::run(py, move |_| urdd_export::export(&robot, &options))?;
     let made = made.map_err(|error| of_export(py, error))?;
     let files = made.files.iter();
@@ -154,8 +182,13 @@ fn of_setup(py: Python<'_>, error: SetupError) -> PyErr {
 fn of_export(py: Python<'_>, error: ExportError) -> PyErr {
     match error {
         ExportError::Robot(error) => of_robot(py, &error),
+        ExportError::Range(error) => of_range(error),
         error => raise(py, "ExportError", advice::of_export(&error), &[]),
     }
+}
+
+fn of_range(error: OutOfRange) -> PyErr {
+    PyValueError::new_err(error.to_string())
 }
 
 fn none_of(what: &str, word: &str, words: impl Iterator<Item = &'static str>) -> PyErr {

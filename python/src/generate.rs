@@ -41,10 +41,6 @@ impl Options {
                 .map_err(|error| format!("modules: {error}"))?,
         };
         let source = self.source.settings()?;
-        let length = |metres: f64| metres > 0.0 && metres.is_finite();
-        if !self.piece_tolerance.is_none_or(length) {
-            return Err("piece_tolerance must be a number of metres above 0".to_owned());
-        }
         let skip = self.skip.map(|words| {
             let each = words.iter().map(|word| skipped_reason(word));
             each.collect::<Result<Vec<_>, _>>()
@@ -58,7 +54,7 @@ impl Options {
             }
         }
         let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
-        Ok(Settings {
+        let settings = Settings {
             selection,
             source,
             preferred_geometry: match self.geometry.as_str() {
@@ -79,7 +75,9 @@ impl Options {
             force: self.force,
             donors: Vec::new(),
             cancellation: Cancellation::default(),
-        })
+        };
+        settings.check().map_err(|error| error.to_string())?;
+        Ok(settings)
     }
 }
 

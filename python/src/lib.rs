@@ -21,6 +21,7 @@ mod page;
 mod parts;
 mod proximity;
 mod queries;
+mod ranges;
 mod robot;
 mod shapes;
 mod source;
@@ -42,7 +43,7 @@ mod _urdd {
     #[pymodule_export]
     use crate::diff::diff;
     #[pymodule_export]
-    use crate::export::{export, joint_groups};
+    use crate::export::{base_pose, export, joint_groups};
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]
@@ -69,9 +70,15 @@ mod _urdd {
     use crate::world::WorldProximity;
 
     use pyo3::prelude::*;
+    use pyo3::types::PyDict;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let ranges = PyDict::new(module.py());
+        for (option, ends) in crate::ranges::all() {
+            ranges.set_item(option, ends)?;
+        }
+        module.add("RANGES", ranges)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

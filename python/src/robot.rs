@@ -15,7 +15,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
 use urdd_robot::{
     GravitySettings, InverseSettings, Payload, Queries, RobotError, ShapeKind, Target, Verdict,
-    fill,
+    check_margin, fill,
 };
 
 use crate::arrays::{Batch, answers, copy, shaped};
@@ -287,7 +287,8 @@ impl Robot {
             explain: true,
         };
         let (robot, point, weights) = (&self.robot, options.point, options.weights);
-        let (free_of, margin) = (options.free_of, options.margin);
+        let margin = check_margin(options.margin).map_err(|error| of_robot(py, &error))?;
+        let free_of = options.free_of;
         let accepts = |q: &[f64]| free_of.iter().all(|shapes| shapes.is_free(q, margin));
         let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
             let target = match is_pose {

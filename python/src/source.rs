@@ -1,7 +1,6 @@
 //! How descriptions are found and read.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use pyo3::prelude::*;
 use urdd_generate::{Packages, SourceSettings, XacroSettings};
@@ -24,14 +23,11 @@ impl Source {
     /// Descriptions are read from the disk.
     pub fn settings(self) -> Result<SourceSettings, String> {
         let (packages, allowed_folders) = places(&self.packages, self.allowed_folders)?;
-        let seconds = self.xacro_timeout;
-        if !(seconds > 0.0 && seconds < 1e9) {
-            return Err("xacro_timeout must be a number of seconds above 0".to_owned());
-        }
         let xacro = XacroSettings {
             expand_urdf: self.xacro,
             arguments: self.xacro_arguments,
-            time_limit: Duration::from_secs_f64(seconds),
+            time_limit: XacroSettings::seconds(self.xacro_timeout)
+                .map_err(|error| error.to_string())?,
         };
         let import = ImportOptions {
             body: self.body,

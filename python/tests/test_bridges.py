@@ -175,7 +175,7 @@ def test_options_of_mjcf_are_refused_elsewhere(arm: urdd.Robot) -> None:
         urdd.export(arm, "urdf", actuators="position")
     with pytest.raises(ValueError, match="give output"):
         urdd.export(arm, "mjcf", scene=True)
-    with pytest.raises(ValueError, match="to 100 Hz"):
+    with pytest.raises(ValueError, match="to 1,000 Hz"):
         urdd.export(arm, "mjcf", bandwidth=float("nan"))
     with pytest.raises(ValueError, match="no actuators `x`"):
         urdd.export(arm, "mjcf", actuators="x")  # type: ignore[arg-type]
@@ -360,3 +360,96 @@ def test_rotations_and_planes() -> None:
         matrix = _joints.pose([0, 0, 0], one.tolist())[:3, :3]
         found = _joints.quaternion_of_matrix(matrix)
         np.testing.assert_allclose(np.abs(found @ one), 1, atol=1e-14)
+
+
+LEGGED = """<robot name="legged"><link name="trunk">
+  <inertial><mass value="2"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><box size="0.4 0.2 0.1"/></geometry></collision></link>
+{legs}</robot>"""
+LEG = """<link name="{side}_thigh">
+  <inertial><mass value="0.5"/><inertia ixx="0.002" iyy="0.002" izz="0.002" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><origin xyz="0 0 -0.15"/><geometry><box size="0.02 0.02 0.3"/></geometry></collision></link>
+<joint name="{side}_hip_pitch" type="revolute"><parent link="trunk"/><child link="{side}_thigh"/>
+  <origin xyz="0 {y} -0.05"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="50" velocity="10"/></joint>"""
+
+
+@pytest.fixture(scope="module")
+def legged(tmp_path_factory: pytest.TempPathFactory) -> urdd.Robot:
+    """Two legs of 0.3 m below a trunk; at home they are turned by 0.5 rad."""
+    folder = tmp_path_factory.mktemp("legged")
+    legs = LEG.format(side="left", y=0.06) + LEG.format(side="right", y=-0.06)
+    (folder / "legged.urdf").write_text(LEGGED.format(legs=legs))
+    made = urdd.generate(folder / "legged.urdf", folder / "legged", modules=["shapes"])
+    positions = [f"{side}_hip_pitch=0.5" for side in ("left", "right")]
+    command = [sys.executable, "-m", "urdd", "configurations", "set", str(made.path), "home", *positions]
+    subprocess.run(command, check=True, capture_output=True)
+    (folder / "legged.export.toml").write_text(
+        'robot = "legged"\n[base]\nfloating = true\n'
+        '[actuators.joint]\n"*_hip_*" = { kp = 80.0, kv = 3.0 }\n"left*" = { armature = 0.5 }\n'
+    )
+    return made.load()
+
+
+def test_mujoco_starts_at_home_on_the_floor_with_its_targets(legged: urdd.Robot, mujoco: Any) -> None:
+    peer = legged.to_mujoco(actuators="position", start="home")
+    assert peer.joint_names == ("floating_base", "left_hip_pitch", "right_hip_pitch")
+    assert peer.actuator_names == ("left_hip_pitch", "right_hip_pitch")
+    # The lower edges of a box of 0.3 m, 0.02 m wide, turned by 0.5 rad about the hip, 0.05 m below the base.
+    height = 0.05 + 0.3 * np.cos(0.5) + 0.01 * np.sin(0.5)
+    np.testing.assert_allclose(peer.start, [0, 0, height, 1, 0, 0, 0, 0.5, 0.5], atol=1e-6)
+    data = peer.data()
+    np.testing.assert_array_equal(data.qpos, peer.start)
+    np.testing.assert_allclose(data.ctrl, [0.5, 0.5])
+    low = min(
+        (data.geom_xpos[geom] + data.geom_xmat[geom].reshape(3, 3) @ vertex)[2]
+        for geom in range(peer.model.ngeom)
+        for vertex in _corners(peer.model, geom, mujoco)
+    )
+    assert abs(low) < 2e-6
+    # The gains of the pattern, and the armature of one side.
+    np.testing.assert_allclose(peer.model.actuator_gainprm[:, 0], [80, 80])
+    np.testing.assert_allclose(peer.model.dof_armature[6:], [0.5, 0])
+    # Nothing else is where MuJoCo would have it without a start.
+    np.testing.assert_allclose(legged.to_mujoco(start=[0.1, -0.1]).start[7:], [0.1, -0.1])
+    assert legged.to_mujoco().start[2] == pytest.approx(0.35, abs=1e-6)
+    with pytest.raises(urdd.UnknownNameError, match="there is no named configuration `hom`; there are: home"):
+        legged.to_mujoco(start="hom")
+
+
+def _corners(model: Any, geom: int, mujoco: Any) -> Any:
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+        mesh = model.geom_dataid[geom]
+        first = model.mesh_vertadr[mesh]
+        return model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
+    size = model.geom_size[geom]
+    return [size * [x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+
+def test_a_base_is_where_the_setup_has_it(legged: urdd.Robot, tmp_path: Path, mujoco: Any) -> None:
+    setup = tmp_path / "other.export.toml"
+    setup.write_text('robot = "legged"\n[base]\nfloating = true\nposes.home = [1, 2, 3, 0, 0, 0, 2]\n')
+    peer = legged.to_mujoco(start="home", setup=setup)
+    np.testing.assert_allclose(peer.start[:7], [1, 2, 3, 0, 0, 0, 1])
+    # The keyframe of the file has it too.
+    np.testing.assert_allclose(peer.model.key("home").qpos[:7], [1, 2, 3, 0, 0, 0, 1])
+
+
+def test_a_bridge_is_printed_in_a_few_lines(legged: urdd.Robot, pin: Any) -> None:
+    shown = [repr(legged.to_mujoco(actuators="position")), repr(legged.to_pinocchio())]
+    for text in shown:
+        assert len(text) < 400, text
+        assert "left_hip_pitch, right_hip_pitch" in text
+    assert "actuators: left_hip_pitch" in shown[0]
+
+
+def test_newton_starts_at_home_on_the_floor_with_its_targets(legged: urdd.Robot) -> None:
+    pytest.importorskip("newton")
+    peer = legged.to_newton(actuators="position", start="home")
+    height = 0.05 + 0.3 * np.cos(0.5) + 0.01 * np.sin(0.5)
+    names = peer.joint_names
+    assert sorted(names[1:]) == ["left_hip_pitch", "right_hip_pitch"]
+    np.testing.assert_allclose(peer.start, [0, 0, height, 0, 0, 0, 1, 0.5, 0.5], atol=1e-6)
+    np.testing.assert_allclose(peer.model.joint_q.numpy(), peer.start, atol=1e-6)
+    np.testing.assert_allclose(peer.model.joint_target_q.numpy()[7:], [0.5, 0.5], atol=1e-6)
+    assert sorted(peer.drive_names) == ["left_hip_pitch", "right_hip_pitch"]
+    assert len(repr(peer)) < 400

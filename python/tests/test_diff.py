@@ -55,7 +55,7 @@ def test_a_tolerance_holds_for_modules_too(tmp_path: Path) -> None:
 def test_bad_input(tmp_path: Path) -> None:
     path = robot(tmp_path, "a")
     for tolerance in (-1.0, float("nan"), float("inf")):
-        with pytest.raises(ValueError, match="tolerance must be a number that is not negative"):
+        with pytest.raises(ValueError, match="`tolerance` must be at least 0"):
             urdd.diff(path, path, tolerance=tolerance)
     with pytest.raises(urdd.OpenError, match="nothing"):
         urdd.diff(path, tmp_path / "nothing")

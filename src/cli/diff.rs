@@ -9,7 +9,7 @@ use super::foreign;
 use super::output::{self, Failure};
 use super::packages::PackageArguments;
 use super::signals::{self, Signals};
-use urdd_diff::{DiffError, Options, Side, compare, markdown, text};
+use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_validate::report;
 
 /// Exit status: the robots differ.
@@ -40,7 +40,7 @@ pub struct DiffArguments {
     no_findings: bool,
 
     /// Takes numbers that differ by at most this, in the unit of each value, as equal. Meshes are compared exactly.
-    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = |word: &str| TOLERANCE.parse::<f64>(word))]
     tolerance: f64,
 
     #[command(flatten)]
@@ -51,17 +51,10 @@ pub struct DiffArguments {
 enum Format {
     /// Text for people.
     Text,
-    /// JSON; its schema is `urdd schema show diff_report@1.1.0`.
+    /// JSON; its schema is `urdd schema show diff_report@1.2.0`.
     Json,
     /// Markdown, for a comment on a pull request.
     Markdown,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(number @ 0.0..=f64::MAX) => Ok(number),
-        _ => Err("write a number that is not negative, such as 1e-9".to_owned()),
-    }
 }
 
 /// Runs `urdd diff`.
@@ -92,7 +85,7 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
         (Err(a), Err(b)) if a != b => return Err(format!("{a}\nurdd: {b}").into()),
         (Err(error), _) | (_, Err(error)) => return Err(error.into()),
     };
-    let found = compare(&before, &after, arguments.tolerance);
+    let found = compare(&before, &after, arguments.tolerance)?;
     match arguments.format {
         Format::Text => output::print(&text(&found))?,
         Format::Markdown => output::print_raw(&markdown(&found))?,

@@ -8,7 +8,9 @@ use super::packages::PackageArguments;
 use super::signals::Signals;
 use super::words::{Preferred, Skip};
 use super::xacro::XacroArguments;
-use urdd_generate::{Effort, MeshFormats, Pieces, Selection, Settings};
+use urdd_generate::{
+    Effort, MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, SAMPLES, Selection, Settings,
+};
 
 /// How a URDD is made.
 #[derive(Args)]
@@ -37,16 +39,16 @@ pub(super) struct MakingArguments {
     mesh_formats: Vec<MeshFormat>,
 
     /// Maximum number of convex pieces per link.
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = |word: &str| PIECES.parse::<u8>(word))]
     pieces: u8,
 
     /// Stops adding pieces to a link once the estimated mean distance from their outside to its surface is at most this,
     /// in metres. By default, stops once another piece would save too little in proportion to the link's size.
-    #[arg(long, value_name = "METRES", value_parser = length)]
+    #[arg(long, value_name = "METRES", value_parser = |word: &str| PIECE_TOLERANCE.parse::<f64>(word))]
     piece_tolerance: Option<f64>,
 
     /// Number of sampled configurations for the distance statistics, at most 100,000.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = |word: &str| SAMPLES.parse::<u32>(word))]
     samples: u32,
 
     /// Reasons for which collision checks skip pairs of shapes, separated by commas. Default: those of the URDD that is
@@ -87,14 +89,6 @@ enum MeshFormat {
     Stl,
     /// Wavefront OBJ.
     Obj,
-}
-
-/// A length in metres, above 0.
-fn length(word: &str) -> Result<f64, String> {
-    match word.parse() {
-        Ok(length) if length > 0.0 && f64::is_finite(length) => Ok(length),
-        _ => Err("expected a number above 0, in metres".to_owned()),
-    }
 }
 
 impl MakingArguments {

@@ -104,6 +104,7 @@ fn table() -> String {
             | Subject::Report
             | Subject::DiffReport
             | Subject::FirstDiffReport
+            | Subject::SecondDiffReport
             | Subject::ProducerResult
             | Subject::ValidatorResult => (Profile::V1, None, "-"),
             Subject::RootMetadata => (Profile::V1, None, "."),

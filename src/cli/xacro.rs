@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use urdd_source::XacroSettings;
+use urdd_source::{XACRO_TIMEOUT, XacroSettings};
 
 /// How xacro files are expanded.
 #[derive(Args)]
@@ -15,18 +15,19 @@ pub(super) struct XacroArguments {
     pub(super) xacro: bool,
 
     /// Time limit for xacro per file, in seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
-    xacro_timeout: u32,
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = timeout)]
+    xacro_timeout: Duration,
+}
+
+fn timeout(word: &str) -> Result<Duration, String> {
+    let seconds = XACRO_TIMEOUT.parse(word)?;
+    XacroSettings::seconds(seconds).map_err(|error| error.to_string())
 }
 
 impl XacroArguments {
     /// Settings that use them, with these arguments for the files.
     pub(super) fn settings(&self, arguments: Vec<String>) -> XacroSettings {
-        XacroSettings {
-            expand_urdf: self.xacro,
-            arguments,
-            time_limit: Duration::from_secs(self.xacro_timeout.into()),
-        }
+        XacroSettings { expand_urdf: self.xacro, arguments, time_limit: self.xacro_timeout }
     }
 }
 

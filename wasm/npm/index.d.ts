@@ -83,9 +83,9 @@ export interface GenerateOptions extends ImportOptions {
   mesh_formats?: ("glb" | "stl" | "obj")[];
   /** Maximum number of convex pieces of a link, 1 to 64; by default 7. */
   pieces?: number;
-  /** Mean distance from the outside of pieces to the link's surface, metres. */
+  /** Mean distance from the outside of pieces to the link's surface, metres; above 0. */
   piece_tolerance?: number;
-  /** Sampled configurations of the distance statistics; by default 1000. */
+  /** Sampled configurations of the distance statistics, 1 to 100,000; by default 1000. */
   samples?: number;
   /** Refuses a robot of which a mesh is missing, or something has to be assumed. */
   strict?: boolean;
@@ -138,13 +138,16 @@ export interface ExportOptions {
   output?: string;
   shapes?: ShapeKind;
   keep_pairs?: boolean;
+  /** Maximum number of spheres of a link, 1 to 10,000. */
   spheres?: number;
+  /** Maximum number of spheres of all links, 1 to 65,535. */
   total_spheres?: number;
+  /** Configurations in which spheres are measured, 100 to 1,000,000; by default 10,000. */
   samples?: number;
   /** Whether visual meshes are written; by default they are. */
   visuals?: boolean;
   actuators?: "position" | "velocity" | "motor";
-  /** Of position actuators, Hz. */
+  /** Of position and velocity actuators, Hz, 0.01 to 1,000; by default 10. */
   bandwidth?: number;
   floating_base?: boolean;
   /** The content of an `export.toml`. */

@@ -102,7 +102,7 @@ export class Urdd {
 
   /** `question`: the path of the URDF, and the programs that it is `for`. */
   lint(files, question) {
-    const bytes = encode(JSON.stringify(question));
+    const bytes = encode(asked(question));
     return this.#with([bytes], (at) =>
       this.#json(this.exports.urdd_lint(files, at[0], bytes.length)),
     );
@@ -118,7 +118,7 @@ export class Urdd {
    * from the files of `donor`, which this made before.
    */
   generate(files, question, donor = 0) {
-    const bytes = encode(JSON.stringify(question));
+    const bytes = encode(asked(question));
     return this.#with([bytes], (at) =>
       this.#json(
         this.exports.urdd_generate(files, donor, at[0], bytes.length),
@@ -128,7 +128,7 @@ export class Urdd {
 
   /** The URDF of an MJCF or SDF among files, likewise. */
   importRobot(files, question) {
-    const bytes = encode(JSON.stringify(question));
+    const bytes = encode(asked(question));
     return this.#with([bytes], (at) =>
       this.#json(this.exports.urdd_import(files, at[0], bytes.length)),
     );
@@ -136,7 +136,7 @@ export class Urdd {
 
   /** The robot of a URDD for another program, likewise. */
   export(files, question) {
-    const bytes = encode(JSON.stringify(question));
+    const bytes = encode(asked(question));
     return this.#with([bytes], (at) =>
       this.#json(this.exports.urdd_export(files, at[0], bytes.length)),
     );
@@ -173,7 +173,7 @@ export class Urdd {
   }
 
   ask(handle, question) {
-    const bytes = encode(JSON.stringify(question));
+    const bytes = encode(asked(question));
     return this.#with([bytes], (at) =>
       this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)),
     );
@@ -222,6 +222,16 @@ export class Urdd {
       throw new Error(new TextDecoder().decode(answer.slice(1)));
     return answer.slice(1);
   }
+}
+
+/** A question as JSON, which has no infinite numbers and would drop them. */
+function asked(question) {
+  return JSON.stringify(question, (key, value) => {
+    if (typeof value === "number" && !Number.isFinite(value)) {
+      throw new RangeError(`${key} must be a finite number, not ${value}`);
+    }
+    return value;
+  });
 }
 
 function encode(text) {

@@ -5,8 +5,12 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use urdd_directory::range::Range;
 use urdd_directory::source::Memory;
-use urdd_export::{ActuatorKind, Choices, Format, Setup, SphereBudget, export as exported};
+use urdd_export::{
+    ActuatorKind, Choices, Format, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
+    export as exported,
+};
 use urdd_robot::Robot;
 
 use crate::files::Files;
@@ -23,9 +27,9 @@ struct Question {
     shapes: Option<String>,
     #[serde(default)]
     keep_pairs: bool,
-    spheres: Option<usize>,
-    total_spheres: Option<usize>,
-    samples: Option<usize>,
+    spheres: Option<f64>,
+    total_spheres: Option<f64>,
+    samples: Option<f64>,
     visuals: Option<bool>,
     actuators: Option<String>,
     bandwidth: Option<f64>,
@@ -71,9 +75,16 @@ fn export(files: &Files, question: &[u8]) -> Result<Value, String> {
 }
 
 fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
+    let count = |range: Range, given: Option<f64>| -> Result<Option<usize>, String> {
+        let count = given.map(|given| range.check(given)).transpose().map_err(words)?;
+        Ok(count.map(|count| count as usize))
+    };
     let mut choices = Choices {
         keep_pairs: question.keep_pairs,
-        spheres: SphereBudget::new(question.spheres, question.total_spheres),
+        spheres: SphereBudget::new(
+            count(SPHERES, question.spheres)?,
+            count(TOTAL_SPHERES, question.total_spheres)?,
+        ),
         output: Some(question.output.clone().into()),
         bandwidth: question.bandwidth,
         floating_base: question.floating_base,
@@ -87,7 +98,7 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         choices.actuators =
             Some(kind.ok_or_else(|| format!("there are no actuators `{}`", word.escape_debug()))?);
     }
-    choices.samples = question.samples.unwrap_or(choices.samples);
+    choices.samples = count(SAMPLES, question.samples)?.unwrap_or(choices.samples);
     choices.visuals = choices.visuals.filter(|_| question.visuals != Some(false));
     if let Some(text) = &question.setup {
         choices.setup = Some(Setup::from_toml(text, "export.toml", robot).map_err(words)?);

@@ -2,9 +2,12 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use urdd_directory::range::OutOfRange;
 use urdd_directory::source::Memory;
 use urdd_format::meshes::GeometryKind;
-use urdd_generate::{Generated, MeshFormats, Selection, Settings, generate_in_memory};
+use urdd_generate::{
+    Generated, MeshFormats, PIECES, SAMPLES, Selection, Settings, generate_in_memory,
+};
 
 use crate::around::Given;
 use crate::files::Files;
@@ -21,9 +24,9 @@ struct Question {
     modules: Option<Vec<String>>,
     geometry: Option<Geometry>,
     mesh_formats: Option<Vec<Mesh>>,
-    pieces: Option<u8>,
+    pieces: Option<f64>,
     piece_tolerance: Option<f64>,
-    samples: Option<u32>,
+    samples: Option<f64>,
     #[serde(default)]
     strict: bool,
     body: Option<String>,
@@ -89,9 +92,15 @@ fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Val
         let (stl, obj) = (formats.contains(&Mesh::Stl), formats.contains(&Mesh::Obj));
         settings.mesh_formats = MeshFormats { stl, obj };
     }
-    settings.pieces.most = question.pieces.unwrap_or(settings.pieces.most);
+    let refused = |error: OutOfRange| error.to_string();
+    if let Some(most) = question.pieces {
+        settings.pieces.most = PIECES.check(most).map_err(refused)? as u8;
+    }
     settings.pieces.tolerance = question.piece_tolerance;
-    settings.num_samples = question.samples.unwrap_or(settings.num_samples);
+    if let Some(count) = question.samples {
+        settings.num_samples = SAMPLES.check(count).map_err(refused)? as u32;
+    }
+    settings.check().map_err(refused)?;
     let made = generate_in_memory(&path, &settings, &Told);
     let (made, files) = made.map_err(|error| error.to_string())?;
     let root = Memory::new(&made.robot_name, files).map_err(|(path, fault)| {

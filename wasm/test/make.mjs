@@ -84,6 +84,7 @@ const DIGESTS = new Set(["sha256", "size"]);
 
 const made = mkdtempSync(join(tmpdir(), "urdd-make-"));
 let compared = 0;
+let urdds;
 try {
   const robots = folder("conformance/robots");
   const all = urdd.files("robots", robots);
@@ -115,7 +116,7 @@ try {
     assert.match(run("validate", "--fail-on", "info", written), /1 passed\. 0 findings/);
 
     // Of the same URDD.
-    const urdds = urdd.files(name, folder(own));
+    urdds = urdd.files(name, folder(own));
     for (const [format, file] of [["mjcf", "r.xml"], ["sdf", "r.sdf"], ["usd", "r.usda"], ["srdf", "r.srdf"]]) {
       const target = join(made, `${name}_${format}`);
       run("export", format, own, "-o", join(target, file));
@@ -139,6 +140,15 @@ try {
     [() => urdd.generate(all, { path: "none.urdf" }), /there is no file `none.urdf`/],
     [() => urdd.generate(all, { path: "hand.urdf", moduls: [] }), /unknown field/],
     [() => urdd.export(all, { format: "mjcf", output: "x" }), /urdf_module/],
+    [() => urdd.generate(all, { path: "hand.urdf", pieces: 65 }), /`pieces` must be a whole number from 1 to 64, not 65/],
+    [() => urdd.generate(all, { path: "hand.urdf", samples: -1 }), /`samples` must be a whole number from 1 to/],
+    [() => urdd.generate(all, { path: "hand.urdf", piece_tolerance: 0 }), /`piece_tolerance` must be above 0/],
+    [() => urdd.export(urdds, { format: "foam", output: "x", spheres: 0 }), /`spheres` must be .* from 1 to 10,000, not 0/],
+    [() => urdd.export(urdds, { format: "foam", output: "x", total_spheres: 0 }), /`total_spheres` must be/],
+    [() => urdd.export(urdds, { format: "foam", output: "x", samples: 0 }), /`samples` must be .* from 100 to/],
+    [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: -5 }), /`bandwidth` must be from 0.01 to 1,000 Hz/],
+    [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: 1e300 }), /`bandwidth` must be from/],
+    [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: NaN }), /bandwidth must be a finite number/],
     [() => urdd.export(all, { format: "pdf", output: "x" }), /there is no format `pdf`/],
   ];
   for (const [call, pattern] of refused) assert.throws(call, pattern);

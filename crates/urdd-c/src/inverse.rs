@@ -4,7 +4,7 @@ use std::mem;
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::pose;
-use urdd_robot::{InverseSettings, Queries, RobotError, Target as RobotTarget, fill};
+use urdd_robot::{InverseSettings, Queries, RobotError, Target as RobotTarget, check_margin, fill};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at};
@@ -163,10 +163,7 @@ impl FreeOf<'_> {
             let message = format!("`{what}` is of a robot with {found} DOFs: expected {dofs}");
             return Err(Failure::new(Status::Length, message));
         }
-        match self.margin >= 0.0 && self.margin.is_finite() {
-            true => Ok(()),
-            false => Err(Failure::new(Status::Value, "`margin` is not finite, or below 0 m")),
-        }
+        Ok(check_margin(self.margin).map(drop)?)
     }
 }
 

@@ -34,6 +34,18 @@ impl Fields {
         self.numbers(name, unit, value.map(|value| [value]));
     }
 
+    /// Adds a text, which is compared as numbers if each of its words is one.
+    pub fn value(&mut self, name: impl Into<String>, text: &str) {
+        let words: Option<Vec<f64>> = text
+            .split_ascii_whitespace()
+            .map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
+            .collect();
+        let numbers = words.unwrap_or_default();
+        let shown = if numbers.is_empty() { text.to_owned() } else { self::numbers(&numbers) };
+        let (name, key) = (name.into(), shown.clone());
+        self.0.push(Field { name, unit: "", key, shown, numbers });
+    }
+
     /// Adds several numbers as one value.
     pub fn numbers<const N: usize>(
         &mut self,
@@ -62,6 +74,11 @@ impl Fields {
         shown: String,
     ) {
         self.0.push(Field { name: name.into(), unit, key, shown, numbers: Vec::new() });
+    }
+
+    /// Whether there is no value.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// The same values, by name.

@@ -6,6 +6,7 @@
 //! values with URDF's defaults filled in (`fields`), so that formatting, the order of attributes, and how a number is
 //! written make no difference.
 
+mod beside;
 mod configurations;
 mod count;
 mod dof_state;
@@ -30,18 +31,27 @@ mod shapes;
 mod side;
 mod side_urdd;
 mod side_urdf;
+mod words;
 
 pub use render::{markdown, text};
 pub use side::{DiffError, Options, Side};
 
 use self::fields::Fields;
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
 use urdd_format::report::Tool;
 use urdd_xml::other_parts::Owner;
 
+/// The tolerance of numbers, each in its own unit.
+pub const TOLERANCE: Range = Range::real("tolerance", 0.0, f64::MAX, "");
+
 /// Compares two robots. Numbers that differ by at most `tolerance`, in the unit of each value, are equal; 0 compares
 /// exactly.
-pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
+///
+/// # Errors
+/// If the tolerance is out of the range of [`TOLERANCE`].
+pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport, OutOfRange> {
+    TOLERANCE.check(tolerance)?;
     let parts = |parts: &dyn Fn(&Side) -> Vec<(String, Fields)>| -> Vec<PartDifference> {
         parts::differences(&parts(before), &parts(after), tolerance)
     };
@@ -57,6 +67,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
         );
     }
     let pairs = pairs::differences(before, after, &mut notes);
+    let beside = beside::differences(before, after, tolerance, &mut notes);
     let mut report = DiffReport {
         tool: Tool::urdd(),
         before: before.summary(),
@@ -71,13 +82,16 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
         dofs: dofs::differences(before, after, tolerance),
         pairs,
         configurations: configurations::differences(before, after, tolerance),
+        srdf: beside.srdf,
+        setup: beside.setup,
+        lost: beside.lost,
         modules: None,
         findings: findings::differences(before, after),
         notes,
     };
     report.modules = modules::differences(before, after, &report, tolerance);
     report.same = count::count(&report) == 0;
-    report
+    Ok(report)
 }
 
 /// Differences of the robot itself.

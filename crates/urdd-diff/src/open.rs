@@ -60,7 +60,7 @@ impl Side {
         // All that is compared is of one moment, also where a program writes to the folder meanwhile.
         let loaded = Root::open(path).and_then(|root| Loaded::read(root.kept()));
         let loaded = Arc::new(loaded.map_err(|error| failed(&error))?);
-        let mut side = side_urdd::open(Urdd::new(Arc::clone(&loaded)), shown)?;
+        let mut side = side_urdd::open(Urdd::new(Arc::clone(&loaded)), path, shown)?;
         side.validation = validation(options, |settings| validate_loaded(loaded, name, settings))?;
         Ok(side)
     }

@@ -11,9 +11,13 @@ use crate::fields::Fields;
 /// The elements as parts: each with a name such as `transmission "t1"`, and with all its values. Equal names get a
 /// number.
 pub(super) fn parts(elements: &[String]) -> Vec<(String, Fields)> {
+    numbered(elements.iter().map(|text| part(text)))
+}
+
+/// Gives a number to each part whose name one before it has.
+pub(super) fn numbered(parts: impl Iterator<Item = (String, Fields)>) -> Vec<(String, Fields)> {
     let mut counts: HashMap<String, usize> = HashMap::new();
-    let parts = elements.iter().map(|text| {
-        let (label, fields) = part(text);
+    let parts = parts.map(|(label, fields)| {
         let count = counts.entry(label.clone()).or_default();
         *count += 1;
         match count {

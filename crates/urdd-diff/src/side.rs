@@ -14,6 +14,7 @@ use urdd_format::escape;
 use urdd_format::index::Count;
 use urdd_format::report::{self, Kind};
 use urdd_format::urdf::UrdfModule;
+use urdd_source::beside::Beside;
 use urdd_source::{Settings as SourceSettings, SourceError};
 use urdd_xml::other_parts::OtherParts;
 
@@ -86,6 +87,8 @@ pub struct Side {
     pub(super) urdd: Option<Urdd>,
     /// Its validation, if findings are compared.
     pub(super) validation: Option<report::Urdd>,
+    /// What stands beside it.
+    pub(super) beside: Beside,
     pub(super) notes: Vec<String>,
 }
 

@@ -1,12 +1,16 @@
 //! A URDD as a side.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::dof_state;
 use crate::shapes::{Place, Shapes, mesh_at, shapes};
 use crate::side::{DiffError, Side};
+use urdd_directory::layout::setup_beside;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::path::beside;
+use urdd_directory::regular;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_document::urdd::Urdd;
@@ -15,13 +19,14 @@ use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::report::Kind;
 use urdd_format::urdf::Geometry;
 use urdd_geometry::read::{Scene, read};
+use urdd_source::beside::{Beside, Companion};
 use urdd_xml::other_parts::other_parts;
 
 /// Reads the original meshes of a URDD.
 ///
 /// # Errors
 /// If it does not say what its robot is.
-pub(super) fn open(urdd: Urdd, shown: String) -> Result<Side, DiffError> {
+pub(super) fn open(urdd: Urdd, path: &Path, shown: String) -> Result<Side, DiffError> {
     let robot = match urdd.description() {
         Some(module) => module.clone(),
         None => {
@@ -48,8 +53,17 @@ pub(super) fn open(urdd: Urdd, shown: String) -> Result<Side, DiffError> {
         robot,
         urdd: Some(urdd),
         validation: None,
+        beside: Beside { setup: setup(path), ..Beside::default() },
         notes,
     })
+}
+
+/// What stands beside it for exports, if it is there.
+fn setup(urdd: &Path) -> Option<Companion> {
+    let path = setup_beside(urdd);
+    path.symlink_metadata().ok()?;
+    let bytes = regular::read(&path, MAX_SETUP_BYTES).map_err(|error| error.to_string());
+    Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
 }
 
 /// A mesh file of a URDD, by its path as the module has it.

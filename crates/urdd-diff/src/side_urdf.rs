@@ -34,6 +34,7 @@ pub(super) fn open(
         other_parts: Some(other_parts(&source.text)),
         view,
         shapes,
+        beside: source.beside(path),
         robot: source.robot,
         urdd: None,
         validation: None,

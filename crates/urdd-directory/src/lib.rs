@@ -25,6 +25,7 @@ pub mod number_text;
 pub mod outputs;
 pub mod path;
 pub mod position;
+pub mod range;
 pub mod read_error;
 pub mod regular;
 pub mod rehash;

@@ -34,5 +34,8 @@ pub const MAX_PART_BYTES: usize = 1020;
 /// Largest `VERSION` file of a module, bytes.
 pub const MAX_VERSION_BYTES: u64 = 1024;
 
+/// Largest `NAME.export.toml`, bytes.
+pub const MAX_SETUP_BYTES: u64 = 1 << 20;
+
 /// Largest SRDF, and largest xacro file that is searched for names, bytes.
 pub const MAX_SRDF_BYTES: u64 = 16 << 20;

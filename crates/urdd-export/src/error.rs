@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
 use urdd_directory::account::Overdrawn;
+use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};
@@ -16,6 +17,9 @@ pub enum ExportError {
     /// A query on the URDD failed.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// An option is out of its range.
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// Names are so long, and in so many pairs, that more would be written than [`Overdrawn`] allows.
     #[error(transparent)]
     Overdrawn(#[from] Overdrawn),

@@ -57,6 +57,7 @@ mod output;
 pub mod pairs;
 #[doc(hidden)]
 pub mod parts;
+mod ranges;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
@@ -96,6 +97,7 @@ pub use options::{
 };
 pub use output::Export;
 pub use pairs::Contacts;
+pub use ranges::{BANDWIDTH, SAMPLES, SPHERES, TOTAL_SPHERES};
 pub use setup::{Setup, SetupError};
 pub use spheres::SphereRates;
 pub use srdf_document::SrdfError;
@@ -105,11 +107,31 @@ pub use states_import::{ImportedStates, import_states};
 
 use subject::Subject;
 
+/// Where a free base is in a configuration, as keyframes of MJCF have it: x, y, z in m, and the quaternion w, x, y, z. In a
+/// named configuration, where the setup says; otherwise on the floor. `None` where the base is fixed.
+///
+/// # Errors
+/// Those of [`export`].
+pub fn base_pose(
+    robot: &Robot,
+    options: &Options,
+    name: Option<&str>,
+    configuration: &[f64],
+) -> Result<Option<[f64; 7]>, ExportError> {
+    let subject = Subject::new(robot, options)?;
+    if !subject.has_free_base() {
+        return Ok(None);
+    }
+    stand::Stand::new(&subject, false)?.base(&subject, name, configuration).map(Some)
+}
+
 /// Exports a robot.
 ///
 /// # Errors
-/// If a required module is missing or unusable, and in the other cases of [`ExportError`].
+/// If an option is out of its range, if a required module is missing or unusable, and in the other cases of
+/// [`ExportError`].
 pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
+    options.check()?;
     let mut subject = Subject::new(robot, options)?;
     subject.lost = carried::lost(&subject);
     let mut made = match options {

@@ -30,8 +30,23 @@ impl Stand {
         Ok(stand)
     }
 
+    /// Where a free base is in a configuration: x, y, z in m, and the quaternion w, x, y, z. In a named one, where a person
+    /// or an import says; otherwise on the floor.
+    pub fn base(
+        &self,
+        subject: &Subject,
+        name: Option<&str>,
+        configuration: &[f64],
+    ) -> Result<[f64; 7], ExportError> {
+        let poses = subject.given.map(|setup| &setup.base_poses);
+        if let Some(pose) = poses.and_then(|poses| poses.get(name?)) {
+            return Ok(*pose);
+        }
+        Ok([0.0, 0.0, self.height(subject, configuration)?, 1.0, 0.0, 0.0, 0.0])
+    }
+
     /// The height of a free base at which the lowest shape touches z = 0, m, to a micrometre.
-    pub fn height(&self, subject: &Subject, configuration: &[f64]) -> Result<f64, ExportError> {
+    fn height(&self, subject: &Subject, configuration: &[f64]) -> Result<f64, ExportError> {
         let poses = subject.robot.link_poses(configuration)?;
         let lowest = self
             .shapes

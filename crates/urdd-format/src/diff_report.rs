@@ -6,7 +6,7 @@ use super::report::{Kind, Severity, Tool, Verdict};
 use super::types::module;
 
 /// Version of the format.
-pub const DIFF_REPORT_VERSION: &str = "1.1.0";
+pub const DIFF_REPORT_VERSION: &str = "1.2.0";
 
 module! {
     /// How two robots differ in meaning. Values are texts, as a URDF would have them; numbers are in
@@ -38,8 +38,16 @@ module! {
         /// Pairs of links that collision checks gain or lose; null where one robot states no skips.
         pub pairs: Option<Vec<PairDifference>>,
         /// Named configurations that are new or gone, or have other positions (fields named as their DOFs); null where
-        /// one of the two is a URDF. Since 1.1.0.
+        /// neither is a URDD, or one is a URDF that was not imported. Since 1.1.0.
         pub configurations: Option<Vec<PartDifference>>,
+        /// What the SRDFs beside two URDFs, or those of imports, say differently: pairs that are not checked, named
+        /// configurations, groups; null where one of the two is a URDD, or an SRDF cannot be read. Since 1.2.0.
+        pub srdf: Option<Vec<PartDifference>>,
+        /// What the files `NAME.export.toml` beside the robots, or those of imports, say differently: gains, the base,
+        /// frictions; null where that of a URDD is missing, or one cannot be read. Since 1.2.0.
+        pub setup: Option<Vec<PartDifference>>,
+        /// What the imports of two descriptions lose in another number; null unless both are imported. Since 1.2.0.
+        pub lost: Option<Vec<PartDifference>>,
         /// Modules that are new or gone, of another version, or with other content. What other lists of this
         /// report compare in detail is not repeated here. Null where one of the two is a URDF.
         pub modules: Option<Vec<ModuleDifference>>,

@@ -29,6 +29,8 @@ pub enum Subject {
     DiffReport,
     /// The same in its first version, without named configurations.
     FirstDiffReport,
+    /// The same in its second version, without what stands beside the robots.
+    SecondDiffReport,
     /// Output of `urdd conformance producer --format json`.
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
@@ -109,6 +111,7 @@ impl Subject {
             Subject::FirstReport,
             Subject::Report,
             Subject::FirstDiffReport,
+            Subject::SecondDiffReport,
             Subject::DiffReport,
             Subject::ProducerResult,
             Subject::ValidatorResult,
@@ -135,7 +138,9 @@ impl Subject {
         match self {
             Subject::RootMetadata => "root_metadata",
             Subject::Report | Subject::FirstReport => "report",
-            Subject::DiffReport | Subject::FirstDiffReport => "diff_report",
+            Subject::DiffReport | Subject::FirstDiffReport | Subject::SecondDiffReport => {
+                "diff_report"
+            }
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
@@ -146,6 +151,7 @@ impl Subject {
     pub fn version(self) -> &'static str {
         match self {
             Subject::RootMetadata | Subject::FirstReport | Subject::FirstDiffReport => "1.0.0",
+            Subject::SecondDiffReport => "1.1.0",
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
             Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
@@ -171,7 +177,11 @@ impl Subject {
                 &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
             ),
             Subject::FirstDiffReport => {
-                without(schemars::schema_for!(DiffReport), &["configurations"], &[])
+                let beside = ["configurations", "srdf", "setup", "lost"];
+                without(schemars::schema_for!(DiffReport), &beside, &[])
+            }
+            Subject::SecondDiffReport => {
+                without(schemars::schema_for!(DiffReport), &["srdf", "setup", "lost"], &[])
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),

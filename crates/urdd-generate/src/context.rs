@@ -59,7 +59,7 @@ impl<'a> Context<'a> {
     /// Builds what nearly every stage needs and takes no time.
     ///
     /// # Errors
-    /// If mimic joints or poses overflow binary64.
+    /// If a setting is out of its range, or mimic joints or poses overflow binary64.
     pub fn new(
         source: &'a Source,
         settings: &'a Settings,
@@ -67,6 +67,7 @@ impl<'a> Context<'a> {
         decisions: Decisions,
         progress: &'a dyn Progress,
     ) -> Result<Self, GenerateError> {
+        settings.check()?;
         let reading = &source.reading;
         let refused = |fault| GenerateError::from(source.refused(fault));
         let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::position::Position;
+use urdd_directory::range::OutOfRange;
 use urdd_directory::staging::StagingError;
 use urdd_format::escape;
 use urdd_source::SourceError;
@@ -22,6 +23,9 @@ pub enum GenerateError {
     /// The source cannot be read, or is not a valid robot description.
     #[error(transparent)]
     Source(SourceError),
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
     /// The URDF names files outside its folders; it must not make the user publish them.
     #[error("{}", outside_meshes(file, meshes))]
     Outside {
@@ -120,6 +124,7 @@ impl GenerateError {
     pub fn code(&self) -> &'static str {
         match self {
             GenerateError::Source(error) => error.code(),
+            GenerateError::Range(_) => "range",
             GenerateError::Outside { .. } => "outside",
             GenerateError::Strict { .. } => "strict",
             GenerateError::Edits { .. } => "edits",

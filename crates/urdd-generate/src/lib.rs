@@ -66,7 +66,7 @@ pub use progress::Progress;
 pub(crate) use robot::generate_composed;
 pub use robot::{Generated, UrddFiles, generate, generate_in_memory, generate_text};
 pub use selection::{Selection, UnknownModule};
-pub use settings::{MeshFormats, Pieces, Settings};
+pub use settings::{MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, SAMPLES, Settings};
 pub(crate) use size::MOST_LINKS;
 pub use urdd_learned::train::Effort;
 pub use urdd_source::{

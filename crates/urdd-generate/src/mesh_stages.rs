@@ -90,7 +90,7 @@ pub(super) const DECOMPOSITION: &str = "urdd cut and merge 2";
 
 pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
     decompose::Settings {
-        max_pieces: usize::from(settings.pieces.most.clamp(1, 64)),
+        max_pieces: usize::from(settings.pieces.most),
         standoff_tolerance: settings.pieces.tolerance.unwrap_or(0.0),
         ..decompose::Settings::default()
     }

@@ -2,10 +2,20 @@
 
 use super::selection::Selection;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_learned::train::Effort;
+
+/// [`Pieces::most`].
+pub const PIECES: Range = Range::whole("pieces", 1, 64);
+
+/// [`Pieces::tolerance`].
+pub const PIECE_TOLERANCE: Range = Range::above_zero("piece_tolerance", "metres");
+
+/// [`Settings::num_samples`].
+pub const SAMPLES: Range = Range::whole("samples", 1, 100_000);
 
 /// Settings of the generator.
 #[derive(Debug, Clone)]
@@ -20,7 +30,7 @@ pub struct Settings {
     pub mesh_formats: MeshFormats,
     /// How finely links are divided into convex pieces.
     pub pieces: Pieces,
-    /// Sampled configurations of the distance statistics.
+    /// Sampled configurations of the distance statistics: [`SAMPLES`].
     pub num_samples: u32,
     /// The reasons for which pairs are skipped. `None` keeps those of the URDD that is replaced, or uses the usual ones
     /// for a new URDD.
@@ -64,10 +74,10 @@ impl Default for MeshFormats {
 /// How finely links are divided into convex pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pieces {
-    /// Maximum number of pieces of a link, clamped to 1 to 64.
+    /// Maximum number of pieces of a link: [`PIECES`].
     pub most: u8,
     /// Mean distance, metres, from the pieces' outside to the link's surface. The search uses no more pieces than this
-    /// needs, by its estimate. `None` uses as many pieces as save enough, in proportion to the link.
+    /// needs, by its estimate: [`PIECE_TOLERANCE`]. `None` uses as many pieces as save enough, in proportion to the link.
     pub tolerance: Option<f64>,
 }
 
@@ -75,6 +85,18 @@ impl Default for Pieces {
     /// At most 7.
     fn default() -> Self {
         Pieces { most: 7, tolerance: None }
+    }
+}
+
+impl Settings {
+    /// Checks that each number is in its range, as generation does.
+    ///
+    /// # Errors
+    /// If one is not.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        PIECES.check(self.pieces.most.into())?;
+        self.pieces.tolerance.map(|length| PIECE_TOLERANCE.check(length)).transpose()?;
+        SAMPLES.check(self.num_samples.into()).map(drop)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use urdd_directory::layout::setup_beside;
 use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_source::import::Imported;
 use urdd_source::note::{Note, NoteKind};
@@ -9,9 +10,7 @@ use urdd_source::note::{Note, NoteKind};
 /// Writes the file, unless there is one: it may be a person's. Says so then, and where it cannot be written.
 pub(super) fn write(imported: &Imported, target: &Path) -> Option<Note> {
     let text = imported.setup()?;
-    let mut name = target.file_name()?.to_owned();
-    name.push(".export.toml");
-    let path = target.with_file_name(name);
+    let path = setup_beside(target);
     let own = Output { path: path.file_name()?.into(), bytes: text, replaces: false };
     let assumed = match outputs::write(Target::File(&path), vec![own]).err()? {
         OutputError::Exists(_) => {

@@ -56,7 +56,10 @@ pub trait Checked: Sync {
 }
 
 /// A margin, m: finite, and not negative.
-pub(super) fn check_margin(margin: f64) -> Result<f64, RobotError> {
+///
+/// # Errors
+/// If it is not.
+pub fn check_margin(margin: f64) -> Result<f64, RobotError> {
     match margin.is_finite() && margin >= 0.0 {
         true => Ok(margin),
         false => Err(RobotError::Setting("a margin is finite, and not below 0 m")),

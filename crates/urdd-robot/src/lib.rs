@@ -62,6 +62,7 @@ mod textured;
 mod workspace;
 pub mod world;
 
+pub use checked::check_margin;
 pub use description::SourceFile;
 pub use edge::{EdgeSettings, FirstContact};
 pub use error::RobotError;

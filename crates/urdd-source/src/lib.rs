@@ -5,6 +5,7 @@
 //! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
 
 mod around;
+pub mod beside;
 mod cycles;
 mod decode;
 pub mod dropped;
@@ -51,4 +52,4 @@ pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::Settings;
-pub use xacro::XacroSettings;
+pub use xacro::{XACRO_TIMEOUT, XacroSettings};

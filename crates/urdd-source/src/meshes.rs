@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::around::NearPackage;
+use super::beside::Beside;
 use super::error::SourceError;
 use super::gate::Gate;
 use super::import::import;
@@ -28,6 +29,8 @@ pub struct SourceMeshes {
     pub text: String,
     gate: Gate,
     found: BTreeMap<PathBuf, FoundMesh>,
+    /// What an import writes beside its URDF.
+    imported: Option<Beside>,
 }
 
 /// A mesh reference of a URDF.
@@ -100,7 +103,13 @@ impl SourceMeshes {
         };
         let settings = imported.settings(settings)?;
         let source = imported.load(&settings, cancellation)?;
-        Ok(with_meshes(source, &settings))
+        let made = with_meshes(source, &settings);
+        Ok(SourceMeshes { imported: Some(Beside::of(imported)), ..made })
+    }
+
+    /// What stands beside the description at the path that it was opened at, or what its import writes there.
+    pub fn beside(&self, path: &Path) -> Beside {
+        self.imported.clone().unwrap_or_else(|| Beside::read(path, &self.gate))
     }
 
     /// As [`SourceMeshes::open`], from a text. Relative names refer to `folder`; `shown` names it in errors.
@@ -159,5 +168,6 @@ fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
         meshes,
         gate,
         found,
+        imported: None,
     }
 }

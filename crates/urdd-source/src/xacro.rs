@@ -16,6 +16,7 @@ use crate::package_index::PackageIndex;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 use urdd_format::escape;
@@ -37,6 +38,19 @@ pub struct XacroSettings {
     pub arguments: Vec<String>,
     /// Time limit of the program.
     pub time_limit: Duration,
+}
+
+/// [`XacroSettings::time_limit`], in seconds.
+pub const XACRO_TIMEOUT: Range = Range::real("xacro_timeout", 0.001, 1e9, "seconds");
+
+impl XacroSettings {
+    /// A time limit in seconds.
+    ///
+    /// # Errors
+    /// If it is out of the range of [`XACRO_TIMEOUT`].
+    pub fn seconds(given: f64) -> Result<Duration, OutOfRange> {
+        XACRO_TIMEOUT.check(given).map(Duration::from_secs_f64)
+    }
 }
 
 impl Default for XacroSettings {

@@ -79,7 +79,9 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         hash(&script),
         hash(&style),
     );
-    let Published { root, report, entry } = published(robot)?;
+    let Published { root, report, mut entry } = published(robot)?;
+    let (zip, left_out) = archive(robot, &root)?;
+    entry["left_out"] = json!(left_out);
     let mut carried = String::new();
     let mut carry = |id: &str, packed: &[u8]| {
         let text = STANDARD.encode(packed);
@@ -90,7 +92,7 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         ("robots.json", json!([entry]).to_string().into_bytes()),
         ("rules.json", rules.to_string().into_bytes()),
         ("report.json", report.into_bytes()),
-        ("robot.zip", archive(robot, &root)?),
+        ("robot.zip", zip),
         ("app.js", script.into_bytes()),
         ("worker.js", asset("worker.js")?),
     ] {
@@ -126,13 +128,16 @@ fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-/// The files that the page needs, in an archive.
-fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
+/// The files that the page needs, in an archive, and the original meshes that it leaves out: it draws the plain ones.
+fn archive(robot: &Shown, root: &Root) -> Result<(Vec<u8>, Vec<String>), ExportError> {
     let unread = |error: ReadError| unread(robot, error);
     let listing = root.list().map_err(unread)?;
     let files = || listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
     let needed = needed(root, &files().map(|file| file.path.as_str()).collect());
     let is_needed = |path: &str| needed.contains(path);
+    let originals = files().filter(|file| is_below(&file.path, ModuleKind::OriginalMeshes));
+    let left_out = originals.filter(|file| !is_needed(&file.path)).map(|file| file.path.clone());
+    let left_out = left_out.collect();
     let size = files().filter(|file| is_needed(&file.path)).map(|file| file.size).sum();
     if size > MAX_ROBOT_BYTES {
         return Err(ExportError::TooLarge(robot.name.clone(), size));
@@ -154,7 +159,7 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
             Err(error) => return Err(unread(error)),
         }
     }
-    Ok(zip.finish().map_err(failed)?.into_inner())
+    Ok((zip.finish().map_err(failed)?.into_inner(), left_out))
 }
 
 /// Rounds the normals in a .glb written by urdd to multiples of 1/128: an invisible change of less than half a degree,

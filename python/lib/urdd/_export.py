@@ -12,9 +12,9 @@ from typing import Literal, TypeAlias
 from . import _urdd
 from ._answers import ShapeKind
 from ._description import RobotDescription
-from ._options import ExportOptions, whole, words
+from ._options import ExportOptions, ranged, words
 
-__all__ = ["Actuators", "Export", "Format", "export"]
+__all__ = ["Actuators", "Export", "Format", "export", "export_options", "exported_with"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
@@ -23,10 +23,6 @@ and Omniverse."""
 
 Actuators: TypeAlias = Literal["position", "velocity", "motor"]
 """What actuators are told: positions (rad or m), velocities (rad/s or m/s), or torques and forces (N m or N)."""
-
-#: Limits of the arguments of :func:`export`.
-MAX_SPHERES = 10_000
-MAX_SAMPLES = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -102,7 +98,7 @@ def export(
         mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
         actuators: MJCF and USD: what the actuators of joints of one DOF are told; by default there are none. Gains are
             computed from the inertia that each joint moves.
-        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By
+        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 1,000. By
             default that of ``setup``, or 10.
         floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
@@ -119,28 +115,76 @@ def export(
         ExportError: if the format cannot hold the robot, or ``setup`` is wrong.
         FileExistsError: if a file exists with other content.
     """
-    for name, count in (("spheres", spheres), ("total_spheres", total_spheres)):
-        if count is not None:
-            whole(count, name, 1, MAX_SPHERES)
-    whole(samples, "samples", 100, MAX_SAMPLES)
     if scene and output is None:
         raise ValueError("a scene includes the file that is written: give output")
-    if bandwidth is not None and not 0.01 <= bandwidth <= 100:
-        raise ValueError("bandwidth must be from 0.01 to 100 Hz")
-    detail = None if isinstance(visuals, bool) else float(visuals)
-    if detail is not None and not (0 < detail < 1 or (detail >= 1 and detail.is_integer())):
-        raise ValueError("visuals must be a part between 0 and 1, or a number of triangles")
+    options = export_options(
+        shapes=shapes,
+        reasons=reasons,
+        keep_pairs=keep_pairs,
+        spheres=spheres,
+        total_spheres=total_spheres,
+        cover=cover,
+        samples=samples,
+        visuals=visuals,
+        mesh_folder=mesh_folder,
+        actuators=actuators,
+        bandwidth=bandwidth,
+        floating_base=floating_base,
+        sensors=sensors,
+        scene=scene,
+        output=output,
+        setup=setup,
+        package=package,
+        robot_file=robot_file,
+    )
     subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
-    options = ExportOptions(
+    exported = exported_with(subject, format, options)
+    if output is not None:
+        exported.write(output, force=force)
+    return exported
+
+
+def exported_with(robot: RobotDescription, format: Format, options: ExportOptions) -> Export:  # noqa: A002
+    """As :func:`export`, in memory."""
+    text, path, files, notes, report = _urdd.export(robot.core, format, options)
+    return Export(text, dict(files), notes, json.loads(report), path)
+
+
+def export_options(
+    *,
+    shapes: ShapeKind = "pieces",
+    reasons: Iterable[str] | None = None,
+    keep_pairs: bool = False,
+    spheres: int | None = None,
+    total_spheres: int | None = None,
+    cover: bool = False,
+    samples: int = 10_000,
+    visuals: bool | float = True,
+    mesh_folder: str | None = None,
+    actuators: Actuators | None = None,
+    bandwidth: float | None = None,
+    floating_base: bool = False,
+    sensors: bool = False,
+    scene: bool = False,
+    output: str | os.PathLike[str] | None = None,
+    setup: str | os.PathLike[str] | None = None,
+    package: str | None = None,
+    robot_file: str | None = None,
+) -> ExportOptions:
+    """The options of :func:`export`, with their types checked."""
+    for name, count in (("spheres", spheres), ("total_spheres", total_spheres)):
+        if count is not None:
+            ranged(count, f"export.{name}")
+    return ExportOptions(
         shapes=shapes,
         reasons=None if reasons is None else words(reasons, "reasons"),
         keep_pairs=bool(keep_pairs),
         spheres=spheres,
         total_spheres=total_spheres,
         cover=bool(cover),
-        samples=samples,
+        samples=ranged(samples, "export.samples"),
         visuals=bool(visuals),
-        detail=detail,
+        detail=None if isinstance(visuals, bool) else float(visuals),
         mesh_folder=mesh_folder,
         actuators=actuators,
         bandwidth=None if bandwidth is None else float(bandwidth),
@@ -152,8 +196,3 @@ def export(
         package=package,
         robot_file=robot_file,
     )
-    text, path, files, notes, report = _urdd.export(subject.core, format, options)
-    exported = Export(text, dict(files), notes, json.loads(report), path)
-    if output is not None:
-        exported.write(output, force=force)
-    return exported

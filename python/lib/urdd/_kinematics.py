@@ -308,10 +308,6 @@ class RobotKinematics(RobotDescription):
             limits = numbers(bounds, "bounds")
             if limits.shape != (self.num_dofs, 2):
                 raise ConfigurationError(f"bounds must have the shape ({self.num_dofs}, 2), not {limits.shape}")
-        if not (position_tolerance >= 0 and rotation_tolerance >= 0):
-            raise ConfigurationError("tolerances must be numbers, and not negative")
-        if not 0 <= margin < np.inf:
-            raise ConfigurationError(f"margin must be finite and not negative, not {margin}")
         given: list[object] = [free_of] if isinstance(free_of, Proximity | WorldProximity) else [*free_of]
         shapes = [one for one in given if isinstance(one, Proximity | WorldProximity)]
         if len(shapes) != len(given):

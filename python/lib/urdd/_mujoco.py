@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,14 @@ from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
 from ._arrays import Floats, configurations, positions
-from ._export import Actuators, export
+from ._export import Actuators, export_options, exported_with
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
 from ._kinematics import RobotKinematics
 from ._need import need
+from ._start import brief, start_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class MujocoRobot:
     """A robot for MuJoCo. Its ``qpos`` is in MuJoCo's own order: :meth:`q` and :meth:`dofs` map configurations.
 
@@ -30,7 +32,36 @@ class MujocoRobot:
     """The DOFs here."""
     notes: list[str]
     """What MuJoCo's format cannot express, or expresses differently."""
+    start: Floats
+    """(nq,): the ``qpos`` of the start, a free base included."""
+    targets: Floats
+    """(nu,): the controls that hold the start: the positions of position actuators, 0 of others."""
     _places: tuple[tuple[Joint, tuple[int, ...]], ...]
+
+    def data(self) -> Any:
+        """``mujoco.MjData`` at the start: :attr:`start`, and the controls are :attr:`targets`."""
+        import mujoco
+
+        data = mujoco.MjData(self.model)
+        data.qpos[:] = self.start
+        data.ctrl[:] = self.targets
+        mujoco.mj_forward(self.model, data)
+        return data
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The joints of the model, in the order of its ``qpos``."""
+        return tuple(self.model.joint(joint).name for joint in range(self.model.njnt))
+
+    @property
+    def actuator_names(self) -> tuple[str, ...]:
+        """The actuators of the model, in the order of its ``ctrl``."""
+        return tuple(self.model.actuator(actuator).name for actuator in range(self.model.nu))
+
+    def __repr__(self) -> str:
+        return brief(
+            self, dofs=self.dof_names, joints=self.joint_names, actuators=self.actuator_names, notes=len(self.notes)
+        )
 
     def q(self, q: ArrayLike) -> Floats:
         """(..., nq): MuJoCo's ``qpos`` of one of our configurations (..., dofs)."""
@@ -69,18 +100,21 @@ def to_mujoco(
     actuators: Actuators | None = None,
     bandwidth: float | None = None,
     floating_base: bool = False,
+    start: str | ArrayLike | None = None,
+    setup: str | os.PathLike[str] | None = None,
 ) -> MujocoRobot:
     """As :meth:`urdd.Robot.to_mujoco`."""
     mujoco = need("mujoco", "mujoco", "to_mujoco")
-    exported = export(
-        robot,
-        "mjcf",
+    options = export_options(
         shapes=shapes,
         visuals=visuals,
         actuators=actuators,
         bandwidth=bandwidth,
         floating_base=floating_base,
+        setup=setup,
     )
+    q, base = start_of(robot, "mjcf", options, start)
+    exported = exported_with(robot, "mjcf", options)
     model = mujoco.MjModel.from_xml_string(exported.text, exported.files)
 
     def at(name: str) -> int:
@@ -96,4 +130,12 @@ def to_mujoco(
         if joint.kind == "Floating":
             names = [*(f"{joint.name}/trans_{part}" for part in "xyz"), joint.name]
         places.append((joint, tuple(at(name) for name in names)))
-    return MujocoRobot(model, robot.dof_names, exported.notes, tuple(places))
+    nothing = np.zeros(0)
+    found = MujocoRobot(model, robot.dof_names, exported.notes, nothing, nothing, tuple(places))
+    qpos = found.q(q)
+    if base is not None:
+        qpos[:7] = base
+    targets = np.zeros(model.nu)
+    if actuators == "position":
+        targets = qpos[model.jnt_qposadr[model.actuator_trnid[:, 0]]]
+    return replace(found, start=qpos, targets=targets)

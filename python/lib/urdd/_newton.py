@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +13,14 @@ from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
 from ._arrays import Floats, configurations, positions
-from ._export import Actuators, export
+from ._export import Actuators, export_options, exported_with
 from ._joints import Joint, joints_of, pose, quaternion_of, quaternion_of_matrix, rotation_vector_of
 from ._kinematics import RobotKinematics
 from ._need import need
+from ._start import brief, start_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NewtonRobot:
     """A robot for Newton. Its ``joint_q`` is in Newton's own order: :meth:`q` and :meth:`dofs` map configurations.
 
@@ -28,21 +30,34 @@ class NewtonRobot:
     """
 
     model: Any
-    """``newton.Model``, in the default configuration."""
+    """``newton.Model``, at the start, which is the target of position drives too."""
     builder: Any
     """``newton.ModelBuilder`` that it was made by: for a ground, or many worlds."""
     dof_names: tuple[str, ...]
     """The DOFs here."""
     notes: list[str]
     """What USD cannot express, or expresses differently."""
-    _start: Floats
+    joint_names: tuple[str, ...]
+    """The joints of the model, in the order of its ``joint_q``; a free base is ``floating_base``."""
+    start: Floats
+    """(joint_coord_count,): the ``joint_q`` of the start, a free base included."""
     _zero: Floats
     _places: tuple[tuple[Joint, slice], ...]
+
+    @property
+    def drive_names(self) -> tuple[str, ...]:
+        """The joints with a drive, in the order of :attr:`joint_names`."""
+        modes, starts = self.builder.joint_target_mode, [*self.builder.joint_qd_start, len(self.builder.joint_qd)]
+        each = zip(self.joint_names, starts[:-1], starts[1:], strict=True)
+        return tuple(name for name, at, end in each if any(modes[at:end]))
+
+    def __repr__(self) -> str:
+        return brief(self, dofs=self.dof_names, joints=self.joint_names, drives=self.drive_names, notes=len(self.notes))
 
     def q(self, q: ArrayLike) -> Floats:
         """(..., joint_coord_count): Newton's ``joint_q`` of one of our configurations (..., dofs)."""
         rows, batch = configurations(q, self.dof_names)
-        found = np.tile(self._start, (len(rows), 1))
+        found = np.tile(self.start, (len(rows), 1))
         for joint, at in self._places:
             if joint.kind in ("Spherical", "Floating"):
                 quaternions = quaternion_of(rows[:, joint.dofs[-3:]])
@@ -52,11 +67,11 @@ class NewtonRobot:
                 found[:, at] = np.concatenate([rows[:, joint.dofs[:-3]], turns], axis=1)
             else:
                 found[:, at] = rows[:, joint.dofs] if joint.kind == "Planar" else joint.position(rows)
-        return found.reshape(*batch, len(self._start))
+        return found.reshape(*batch, len(self.start))
 
     def dofs(self, q: ArrayLike) -> Floats:
         """(..., dofs): our configuration of Newton's ``joint_q``. Ignores the values of mimic joints."""
-        rows, batch = positions(q, len(self._start), "Newton's")
+        rows, batch = positions(q, len(self.start), "Newton's")
         # A joint that its limits hold is fixed here.
         found = np.tile(self._zero, (len(rows), 1))
         for joint, at in self._places:
@@ -96,19 +111,22 @@ def to_newton(
     actuators: Actuators | None = None,
     bandwidth: float | None = None,
     floating_base: bool = False,
+    start: str | ArrayLike | None = None,
+    setup: str | os.PathLike[str] | None = None,
 ) -> NewtonRobot:
     """As :meth:`urdd.Robot.to_newton`."""
     newton = need("newton", "newton", "to_newton")
     pxr = need("pxr.Usd", "newton", "to_newton")
-    exported = export(
-        robot,
-        "usd",
+    options = export_options(
         shapes=shapes,
         visuals=visuals,
         actuators=actuators,
         bandwidth=bandwidth,
         floating_base=floating_base,
+        setup=setup,
     )
+    configuration, base = start_of(robot, "usd", options, start)
+    exported = exported_with(robot, "usd", options)
     builder = newton.ModelBuilder()
     # The attributes of MuJoCo's solver are those of the builder, and a model without them is refused there.
     newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
@@ -127,8 +145,19 @@ def to_newton(
         for joint in joints_of(robot.modules)
         if joint.kind != "Fixed" and at[joint.name].stop > at[joint.name].start
     )
-    start = np.array(builder.joint_q, dtype=np.float64)
-    found = NewtonRobot(None, builder, robot.dof_names, exported.notes, start, robot.zero, places)
-    start[:] = found.q(robot.zero)
-    builder.joint_q[:] = start.tolist()
-    return NewtonRobot(builder.finalize(), builder, robot.dof_names, exported.notes, start, robot.zero, places)
+    names = [""] * len(builder.joint_label)
+    for name, place in at.items():
+        names[builder.joint_q_start.index(place.start)] = name
+    joint_q = np.array(builder.joint_q, dtype=np.float64)
+    found = NewtonRobot(None, builder, robot.dof_names, exported.notes, tuple(names), joint_q, robot.zero, places)
+    joint_q[:] = found.q(configuration)
+    free = [
+        at for at, kind in zip(builder.joint_q_start, builder.joint_type, strict=True) if kind == newton.JointType.FREE
+    ]
+    if base is not None and free:
+        x, y, z, *turn = base
+        joint_q[free[0] : free[0] + 7] = [x, y, z, *turn[1:], turn[0]]
+    builder.joint_q[:] = joint_q.tolist()
+    if actuators == "position":
+        builder.joint_target_q[:] = joint_q.tolist()
+    return replace(found, model=builder.finalize(), start=joint_q)

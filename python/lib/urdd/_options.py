@@ -25,6 +25,7 @@ __all__ = [
     "Source",
     "ValidateOptions",
     "options_of",
+    "ranged",
     "source",
     "whole",
     "words",
@@ -199,9 +200,9 @@ def options_of(
         ),
         geometry=given.get("geometry", "visual"),
         mesh_formats=words(given.get("mesh_formats", ("glb", "stl", "obj")), "mesh_formats"),
-        pieces=whole(given.get("pieces", 7), "pieces", 1, 64),
+        pieces=ranged(given.get("pieces", 7), "generate.pieces"),
         piece_tolerance=None if tolerance is None else float(tolerance),
-        samples=whole(given.get("samples", 1000), "samples", 1, 100_000),
+        samples=ranged(given.get("samples", 1000), "generate.samples"),
         skip=None if skip is None else words(skip, "skip"),
         strict=bool(given.get("strict", False)),
         drop_edits=bool(given.get("drop_edits", False)),
@@ -239,6 +240,12 @@ def whole(given: SupportsIndex, what: str, least: int, most: int) -> int:
     if not least <= number <= most:
         raise ValueError(f"{what} must be from {least:,} to {most:,}, not {number:,}")
     return number
+
+
+def ranged(given: SupportsIndex, option: str) -> int:
+    """A whole number in the range of an option, such as ``export.samples``."""
+    least, most = _urdd.RANGES[option]
+    return whole(given, option.rpartition(".")[2], least, most)
 
 
 def words(given: Iterable[str], what: str) -> list[str]:

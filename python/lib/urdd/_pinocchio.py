@@ -23,6 +23,7 @@ from ._kinematics import RobotKinematics
 from ._need import need
 from ._proximity import Proximity
 from ._shapes import shapes as shapes_of
+from ._start import brief
 from .errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ class _Place:
     v: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PinocchioRobot:
     """A robot for Pinocchio. The order of its joints is Pinocchio's own: :meth:`q` and :meth:`dofs` map configurations.
 
@@ -53,6 +54,9 @@ class PinocchioRobot:
     dof_names: tuple[str, ...]
     """The DOFs here."""
     _places: tuple[_Place, ...]
+
+    def __repr__(self) -> str:
+        return brief(self, dofs=self.dof_names, joints=tuple(self.model.names)[1:])
 
     def q(self, q: ArrayLike) -> Floats:
         """(..., nq): Pinocchio's configuration of one of ours (..., dofs)."""

@@ -19,6 +19,7 @@ from ._kinematics import RobotKinematics
 from ._need import need
 from ._proximity import Proximity
 from ._shapes import skips
+from ._start import brief
 from .errors import ExportError
 
 #: Reasons of skipped pieces that touch always, or often at rest.
@@ -27,7 +28,7 @@ _TOUCHING = {"always", "adjacent", "default"}
 _SAMPLES = 1000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PybulletRobot:
     """A robot in PyBullet. Its joints are in PyBullet's own order: :meth:`q` and :meth:`dofs` map configurations.
 
@@ -48,6 +49,10 @@ class PybulletRobot:
     notes: list[str]
     """What PyBullet cannot express: the pairs of links of which only some pieces are skipped."""
     _moving: tuple[Joint, ...]
+
+    def __repr__(self) -> str:
+        joints = tuple(joint.name for joint in self._moving)
+        return brief(self, body=self.body, dofs=self.dof_names, joints=joints, notes=len(self.notes))
 
     def q(self, q: ArrayLike) -> Floats:
         """(..., joints): PyBullet's positions, one for each of :attr:`joints`, of one of our configurations

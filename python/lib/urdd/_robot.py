@@ -202,6 +202,8 @@ class Robot(RobotKinematics):
         actuators: Actuators | None = None,
         bandwidth: float | None = None,
         floating_base: bool = False,
+        start: str | ArrayLike | None = None,
+        setup: str | os.PathLike[str] | None = None,
     ) -> MujocoRobot:
         """A MuJoCo model, with shapes of this kind as geoms, and the skips as excluded pairs.
 
@@ -210,14 +212,28 @@ class Robot(RobotKinematics):
             visuals: whether the model has visual geometry; or the largest part of its triangles to keep, or the most.
             actuators: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
                 from the inertia that each joint moves.
-            bandwidth: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100; by default that of
-                ``NAME.export.toml`` beside the URDD, which is read if it is there, or 10.
+            bandwidth: the frequency below which a joint follows its actuator, Hz, from 0.01 to 1,000; by default that
+                of ``setup``, or 10.
             floating_base: the root link moves freely, by a free joint ``floating_base``.
+            start: the named configuration, or the configuration (dofs,), of :meth:`MujocoRobot.data`; by default the
+                default one. A free base is where ``setup`` has it in the named configuration, or on the floor at z = 0.
+            setup: gains, the base and frictions, as ``urdd export init`` writes them; by default ``NAME.export.toml``
+                beside the URDD, if it is there.
+
+        Raises:
+            UnknownNameError: if there is no named configuration ``start``.
         """
         from ._mujoco import to_mujoco
 
         return to_mujoco(
-            self, shapes, visuals=visuals, actuators=actuators, bandwidth=bandwidth, floating_base=floating_base
+            self,
+            shapes,
+            visuals=visuals,
+            actuators=actuators,
+            bandwidth=bandwidth,
+            floating_base=floating_base,
+            start=start,
+            setup=setup,
         )
 
     def to_newton(
@@ -228,16 +244,25 @@ class Robot(RobotKinematics):
         actuators: Actuators | None = None,
         bandwidth: float | None = None,
         floating_base: bool = False,
+        start: str | ArrayLike | None = None,
+        setup: str | os.PathLike[str] | None = None,
     ) -> NewtonRobot:
         """A Newton model, with shapes of this kind as convex colliders, and the skips as filtered pairs.
 
         It goes through our USD. For the arguments, see :meth:`to_mujoco`; what drives joints are drives, and a free
-        base is Newton's own free joint.
+        base is Newton's own free joint. The model is at ``start``, and so are the targets of position drives.
         """
         from ._newton import to_newton
 
         return to_newton(
-            self, shapes, visuals=visuals, actuators=actuators, bandwidth=bandwidth, floating_base=floating_base
+            self,
+            shapes,
+            visuals=visuals,
+            actuators=actuators,
+            bandwidth=bandwidth,
+            floating_base=floating_base,
+            start=start,
+            setup=setup,
         )
 
     def to_pybullet(

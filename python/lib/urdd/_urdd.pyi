@@ -11,6 +11,7 @@ from ._answers import ShapeKind
 from ._options import ExportOptions, GenerateOptions, InverseOptions, LintOptions, Source, ValidateOptions
 
 __all__ = [
+    "RANGES",
     "CollisionModel",
     "Obstacle",
     "Page",
@@ -18,6 +19,7 @@ __all__ = [
     "Robot",
     "WorldProximity",
     "__version__",
+    "base_pose",
     "combine",
     "diff",
     "explain",
@@ -36,6 +38,9 @@ __all__ = [
 ]
 
 __version__: str
+
+RANGES: dict[str, tuple[int, int]]
+"""The least and the greatest number of options, by function and argument."""
 
 _Near: TypeAlias = tuple[list[str], list[int], float, float | None, list[list[float]]]
 _NearObstacle: TypeAlias = tuple[str, int, int, float, list[list[float]]]
@@ -219,6 +224,13 @@ def import_robot(file: Path, source: Source) -> tuple[str, list[tuple[str, bytes
 def lint(paths: Sequence[Path], options: LintOptions) -> str: ...
 def validate(paths: Sequence[Path], options: ValidateOptions) -> str: ...
 def explain(code: str) -> tuple[str, str, str, str]: ...
+def base_pose(
+    robot: Robot,
+    format: str,  # noqa: A002
+    options: ExportOptions,
+    name: str | None,
+    configuration: list[float],
+) -> list[float] | None: ...
 def export(
     robot: Robot,
     format: str,  # noqa: A002

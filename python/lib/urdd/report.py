@@ -859,7 +859,18 @@ class DiffReport:
 
     configurations: list[PartDifference] | None
     """Named configurations that are new or gone, or have other positions (fields named as their DOFs); null where
-    one of the two is a URDF. Since 1.1.0."""
+    neither is a URDD, or one is a URDF that was not imported. Since 1.1.0."""
+
+    srdf: list[PartDifference] | None
+    """What the SRDFs beside two URDFs, or those of imports, say differently: pairs that are not checked, named
+    configurations, groups; null where one of the two is a URDD, or an SRDF cannot be read. Since 1.2.0."""
+
+    setup: list[PartDifference] | None
+    """What the files `NAME.export.toml` beside the robots, or those of imports, say differently: gains, the base,
+    frictions; null where that of a URDD is missing, or one cannot be read. Since 1.2.0."""
+
+    lost: list[PartDifference] | None
+    """What the imports of two descriptions lose in another number; null unless both are imported. Since 1.2.0."""
 
     modules: list[ModuleDifference] | None
     """Modules that are new or gone, of another version, or with other content. What other lists of this report
@@ -1219,6 +1230,9 @@ def _diff_report(v: Any) -> DiffReport:
         dofs=[_dof_difference(x) for x in v["dofs"]],
         pairs=None if v["pairs"] is None else [_pair_difference(x) for x in v["pairs"]],
         configurations=None if v["configurations"] is None else [_part_difference(x) for x in v["configurations"]],
+        srdf=None if v["srdf"] is None else [_part_difference(x) for x in v["srdf"]],
+        setup=None if v["setup"] is None else [_part_difference(x) for x in v["setup"]],
+        lost=None if v["lost"] is None else [_part_difference(x) for x in v["lost"]],
         modules=None if v["modules"] is None else [_module_difference(x) for x in v["modules"]],
         findings=None if v["findings"] is None else [_finding_difference(x) for x in v["findings"]],
         notes=v["notes"],

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::mjcf::MjcfArguments;
 use crate::cli::words::{Shapes, Skip};
-use urdd_export::{Detail, Format};
+use urdd_export::{Detail, Format, SAMPLES, SPHERES, TOTAL_SPHERES};
 
 /// Arguments of `urdd export`.
 #[derive(Args)]
@@ -51,11 +51,11 @@ pub struct ExportArguments {
     pub keep_pairs: bool,
 
     /// Maximum number of spheres per link. Default: 12 on average and at most 150 in total; with `--cover`, 8.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = |word: &str| SPHERES.parse::<u16>(word))]
     pub spheres: Option<u16>,
 
     /// Maximum number of spheres for all links together; each link has at least one.
-    #[arg(long, value_name = "N", conflicts_with = "spheres", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", conflicts_with = "spheres", value_parser = |word: &str| TOTAL_SPHERES.parse::<u16>(word))]
     pub total_spheres: Option<u16>,
 
     /// Makes the spheres enclose each link completely. No collision is missed then, but often every configuration is in
@@ -64,7 +64,7 @@ pub struct ExportArguments {
     pub cover: bool,
 
     /// Number of sampled configurations in which spheres are measured; fewer where that would take long.
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = |word: &str| SAMPLES.parse::<u32>(word))]
     pub samples: u32,
 
     /// Leaves out visual geometry.
@@ -107,11 +107,8 @@ pub struct ExportArguments {
 
 /// A part of all triangles, or a number of them.
 fn detail(word: &str) -> Result<Detail, String> {
-    let count = word.parse::<usize>().ok().filter(|count| *count > 0);
-    let ratio = || word.parse::<f64>().ok().filter(|ratio| *ratio > 0.0 && *ratio < 1.0);
-    (count.map(Detail::Triangles))
-        .or_else(|| ratio().map(Detail::Ratio))
-        .ok_or_else(|| "a part between 0 and 1, such as 0.1, or a number of triangles".to_owned())
+    let detail = word.parse().ok().and_then(|number| Detail::new(number).ok());
+    detail.ok_or_else(|| "a part between 0 and 1, such as 0.1, or a number of triangles".to_owned())
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

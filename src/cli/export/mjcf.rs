@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use urdd_export::{ActuatorKind, Choices};
+use urdd_export::{ActuatorKind, BANDWIDTH, Choices};
 
 /// Arguments of MJCF alone.
 #[derive(Args)]
@@ -13,7 +13,7 @@ pub struct MjcfArguments {
 
     /// MJCF and USD: the frequency below which a joint follows its actuator, Hz.
     /// Default: that of `NAME.export.toml`, or 10.
-    #[arg(long, value_name = "HZ", value_parser = bandwidth)]
+    #[arg(long, value_name = "HZ", value_parser = |word: &str| BANDWIDTH.parse::<f64>(word))]
     bandwidth: Option<f64>,
 
     /// MJCF: a gyroscope and an accelerometer at each IMU frame of `NAME.export.toml`.
@@ -35,13 +35,6 @@ enum Actuators {
     Velocity,
     /// They are told torques or forces, N m or N.
     Motor,
-}
-
-/// A frequency in Hz.
-fn bandwidth(word: &str) -> Result<f64, String> {
-    let hertz = word.parse::<f64>().ok();
-    let hertz = hertz.filter(|hertz| (0.01..=100.0).contains(hertz));
-    hertz.ok_or_else(|| "a bandwidth is between 0.01 and 100 Hz".to_owned())
 }
 
 impl MjcfArguments {

@@ -184,7 +184,7 @@ fn options(format: Format, setup: Setup) -> Choices {
     Choices {
         setup: Some(setup),
         spheres: SphereBudget::PerLink(1),
-        samples: 50,
+        samples: 100,
         // With all that an option adds.
         robot_file: (format == Format::Curobo).then(|| "robot.urdf".to_owned()),
         package: (format == Format::Drake).then(|| "r_description".to_owned()),

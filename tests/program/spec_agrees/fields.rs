@@ -18,6 +18,7 @@ pub fn tables() -> String {
             Subject::Report
             | Subject::DiffReport
             | Subject::FirstDiffReport
+            | Subject::SecondDiffReport
             | Subject::ProducerResult
             | Subject::ValidatorResult => continue,
             _ => {}

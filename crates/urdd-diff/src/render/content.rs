@@ -103,6 +103,9 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
     add("DOFs", dofs(&report.dofs));
     add("Pairs of links in collision checks", pairs(report.pairs.as_deref().unwrap_or_default()));
     add("Named configurations", parts(report.configurations.as_deref().unwrap_or_default()));
+    add("SRDF", parts(report.srdf.as_deref().unwrap_or_default()));
+    add("What exports need", parts(report.setup.as_deref().unwrap_or_default()));
+    add("Lost in the imports", parts(report.lost.as_deref().unwrap_or_default()));
     add("Modules", modules(report.modules.as_deref().unwrap_or_default()));
     add("Findings", findings(report.findings.as_deref().unwrap_or_default()));
     let note = |note: &String| Line { depth: 0, spans: vec![value(note)] };

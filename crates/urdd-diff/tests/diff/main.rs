@@ -4,6 +4,7 @@
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod bad_input;
+mod beside;
 mod by_rules;
 mod findings;
 mod same;
@@ -28,7 +29,7 @@ fn open(path: &Path) -> Side {
 }
 
 fn differences(before: &Path, after: &Path) -> DiffReport {
-    compare(&open(before), &open(after), 0.0)
+    compare(&open(before), &open(after), 0.0).unwrap()
 }
 
 /// The first change of each kind, and the last one where `URDD_TRIALS` is above 1: the others repeat what these show.
@@ -86,9 +87,16 @@ fn places(report: &DiffReport) -> Vec<String> {
         let kinds = pair.shapes.join(",");
         places.push(format!("pairs/{a}-{b}/{}/{kinds}", pair.change));
     }
-    for configuration in report.configurations.iter().flatten() {
-        let name = format!("configurations/{}", configuration.name);
-        add(&mut places, &name, configuration.presence, &configuration.changes);
+    for (list, parts) in [
+        ("configurations", &report.configurations),
+        ("srdf", &report.srdf),
+        ("setup", &report.setup),
+        ("lost", &report.lost),
+    ] {
+        for part in parts.iter().flatten() {
+            let name = format!("{list}/{}", part.name);
+            add(&mut places, &name, part.presence, &part.changes);
+        }
     }
     for module in report.modules.iter().flatten() {
         places.push(format!("modules/{}/{}", module.name, module.presence));

@@ -84,7 +84,7 @@ fn numbers_within_the_tolerance_are_equal() {
     let (before, after) = (robot("a.urdf", 0.0), robot("b.urdf", step));
     let named = ["joints/j/limit.upper", "joints/j/origin.xyz", "links/a/inertial.mass"];
     for (tolerance, expected) in [(0.0, &named[..]), (step / 2.0, &named), (step, &[])] {
-        let report = compare(&before, &after, tolerance);
+        let report = compare(&before, &after, tolerance).unwrap();
         let mut found = places(&report);
         found.sort();
         assert_eq!(found, expected, "{tolerance}");
@@ -143,7 +143,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
         };
         std::fs::write(shop.path(&other), bytes).unwrap();
         let text = text.replace("meshes/welding_arm/UPPER_ARM.STL", &other);
-        let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0);
+        let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0).unwrap();
         // glTF is y-up: it is turned when it is read, which is another mesh.
         let expected = if end == "obj" { 0 } else { 2 };
         assert_eq!(places(&report).len(), expected, "{end}: {:?}", places(&report));
@@ -155,7 +155,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
     )
     .unwrap();
     let text = text.replace("UPPER_ARM.STL", "moved.obj");
-    let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0);
+    let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0).unwrap();
     let expected = ["visual", "collision"].map(|kind| format!("links/upper_arm/{kind}[0].mesh"));
     assert_eq!(places(&report), expected);
 }

@@ -19,7 +19,7 @@ fn replaced(text: &str, range: Range<usize>, by: &str) -> String {
 fn changed(shop: &Workshop, before: &Side, text: &str) -> Option<Vec<String>> {
     let path = shop.write("changed.urdf", text);
     let after = Side::open(&path, &super::quick()).ok()?;
-    Some(places(&compare(before, &after, 0.0)))
+    Some(places(&compare(before, &after, 0.0).unwrap()))
 }
 
 /// Runs `check` for every robot of ours, with its text and document.

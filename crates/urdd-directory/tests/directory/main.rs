@@ -16,6 +16,7 @@ mod number_text;
 mod outputs;
 mod path;
 mod position;
+mod range;
 mod source_tree;
 mod string_text;
 mod temporary;

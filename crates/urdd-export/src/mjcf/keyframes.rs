@@ -32,16 +32,11 @@ pub(super) fn keyframes(
         || (0..subject.view.joints.len()).any(is_away);
     if named.is_empty() && is_needed {
         let zero = subject.robot.configurations()?.zero();
-        keyframes.push(keyframe(subject, DEFAULT, actuators, &zero, stand.base_height)?);
+        keyframes.push(keyframe(subject, DEFAULT, actuators, &zero, stand)?);
     }
     for named in named {
-        let height = if subject.has_free_base() {
-            stand.height(subject, &named.configuration)?
-        } else {
-            0.0
-        };
         let name = named.name.as_str();
-        keyframes.push(keyframe(subject, name, actuators, &named.configuration, height)?);
+        keyframes.push(keyframe(subject, name, actuators, &named.configuration, stand)?);
     }
     Ok(keyframes)
 }
@@ -51,7 +46,7 @@ fn keyframe(
     name: &str,
     actuators: Option<ActuatorKind>,
     configuration: &[f64],
-    height: f64,
+    stand: &Stand,
 ) -> Result<Element, ExportError> {
     let dofs = subject.robot.dof_names()?.iter();
     let values: HashMap<&str, f64> =
@@ -60,7 +55,7 @@ fn keyframe(
     let mut positions = Vec::new();
     let mut controls = Vec::new();
     if subject.has_free_base() {
-        positions.extend([0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0]);
+        positions.extend(stand.base(subject, Some(name), configuration)?);
     }
     // MuJoCo numbers joints as it meets their bodies: depth first, children in their order.
     let mut links = vec![subject.tree.root];

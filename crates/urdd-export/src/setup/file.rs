@@ -9,6 +9,14 @@ use super::JointGains;
 
 pub(super) type Name = Spanned<String>;
 
+/// A value, or the byte offset of what is wrong, and what.
+pub(super) type Placed<T> = Result<T, (usize, String)>;
+
+/// What is wrong with a value, and where.
+pub(super) fn wrong<T, V>(value: &Spanned<V>, reason: String) -> Placed<T> {
+    Err((value.span().start, reason))
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
@@ -36,6 +44,8 @@ pub(super) struct File {
 pub(super) struct BaseTable {
     #[serde(default)]
     pub floating: bool,
+    #[serde(default)]
+    pub poses: BTreeMap<String, Spanned<Vec<f64>>>,
 }
 
 #[derive(Deserialize)]

@@ -73,6 +73,7 @@ impl Guesser<'_> {
                 value: floating,
                 why: why.to_owned(),
             },
+            base_poses: BTreeMap::new(),
             groups: self.groups,
             end_effectors: self.ends,
             tools: Guess {

@@ -6,6 +6,7 @@
 mod chains;
 mod error;
 mod file;
+mod gains;
 mod guess;
 mod guesser;
 mod read;
@@ -26,6 +27,8 @@ pub struct Setup {
     pub(super) of: (String, [usize; 2]),
     /// Whether the root link moves freely in the world.
     pub(super) floating: Guess<bool>,
+    /// Where the base is in named configurations, if it moves freely: x, y, z in m, and the quaternion w, x, y, z.
+    pub(super) base_poses: BTreeMap<String, [f64; 7]>,
     pub(super) groups: Vec<Guess<Group>>,
     pub(super) end_effectors: Vec<Guess<EndEffector>>,
     /// Links whose frames are tools, the one that cuRobo plans for first.

@@ -8,31 +8,23 @@ use toml::Spanned;
 use super::super::error::unknown;
 use super::super::nested::{contains_itself, within};
 use super::error::SetupError;
-use super::file::{EndEffectorTable, File, GroupTable, Name};
+use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, wrong};
+use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
 use super::{Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup};
+use crate::ranges::BANDWIDTH;
 use crate::structure::Structure;
+use urdd_directory::layout::setup_beside;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::position::LineIndex;
+use urdd_directory::range::Range;
 use urdd_directory::regular;
 use urdd_robot::Robot;
-
-/// Maximum size of the file, in bytes.
-const MAX_BYTES: u64 = 1 << 20;
-
-/// A value, or the byte offset of what is wrong, and what.
-type Placed<T> = Result<T, (usize, String)>;
 
 impl Setup {
     /// The path of the file for a URDD: `NAME.export.toml` beside the folder `NAME` or the archive `NAME.zip`.
     #[must_use]
     pub fn path(urdd: &Path) -> PathBuf {
-        // `.` and `..` have no name of their own.
-        let named = match urdd.file_name() {
-            Some(_) => urdd.to_owned(),
-            None => urdd.canonicalize().unwrap_or_else(|_| urdd.to_owned()),
-        };
-        let name = named.file_name().unwrap_or_default().to_string_lossy();
-        let stem = name.strip_suffix(".zip").unwrap_or(&name);
-        named.with_file_name(format!("{stem}.export.toml"))
+        setup_beside(urdd)
     }
 
     /// Reads a file, or without one that beside the URDD, if it is there.
@@ -57,7 +49,7 @@ impl Setup {
         let shown = file.display().to_string();
         let unreadable = |reason: String| SetupError::Unreadable { file: shown.clone(), reason };
         let bytes =
-            regular::read(file, MAX_BYTES).map_err(|error| unreadable(error.to_string()))?;
+            regular::read(file, MAX_SETUP_BYTES).map_err(|error| unreadable(error.to_string()))?;
         let text =
             String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
         Setup::from_toml(&text, &shown, robot)
@@ -75,7 +67,8 @@ impl Setup {
             reason,
         };
         let file: File = toml::from_str(text).map_err(|error| {
-            refused(error.span().map(|span| span.start), error.message().to_owned())
+            let place = error.span().map(|span| span.start);
+            refused(place, error.message().to_owned() + advice(error.message()))
         })?;
         let structure = Structure::new(robot)?;
         let configurations: Vec<String> = robot
@@ -113,13 +106,16 @@ impl Reader<'_> {
             ends.push(self.end_effector(end, &names, &ends)?);
         }
         let mut gains = Gains {
-            bandwidth: number("bandwidth", file.actuators.bandwidth.as_ref())?,
+            bandwidth: ranged(BANDWIDTH, file.actuators.bandwidth.as_ref())?,
             joints: BTreeMap::new(),
         };
-        for (name, of) in &file.actuators.joint {
-            let joint = self.driven(name)?;
-            gains.joints.insert(joint, joint_gains(of)?);
+        let mut chosen = Chosen::default();
+        for (name, of) in by_breadth(&file.actuators.joint) {
+            for joint in self.matching(name)? {
+                chosen.add(joint, name, joint_gains(of)?)?;
+            }
         }
+        gains.joints = chosen.gains;
         let mut curobo = Curobo {
             ee_link: file.curobo.ee_link.as_ref().map(|link| self.link(link)).transpose()?,
             locked: BTreeMap::new(),
@@ -139,9 +135,12 @@ impl Reader<'_> {
         let links = |names: &[Name]| -> Placed<Vec<usize>> {
             names.iter().map(|name| self.link(name)).collect()
         };
+        let poses = file.base.poses.iter();
+        let poses = poses.map(|(name, pose)| Ok((name.clone(), base_pose(pose)?)));
         Ok(Setup {
             of: self.structure.identity(),
             floating: Guess::read(file.base.floating),
+            base_poses: poses.collect::<Placed<_>>()?,
             groups: groups.into_iter().map(Guess::read).collect(),
             end_effectors: ends.into_iter().map(Guess::read).collect(),
             tools: Guess::read(links(&file.frames.tools)?),
@@ -239,6 +238,23 @@ impl Reader<'_> {
         find(name, "link", links.iter().map(|link| link.name.as_str()))
     }
 
+    /// The joint of a name that something can drive, or all such joints that a pattern stands for.
+    fn matching(&self, name: &Name) -> Placed<Vec<usize>> {
+        let joints = &self.structure.view.joints;
+        let is_name = joints.iter().any(|joint| joint.name == *name.get_ref());
+        if is_name || !is_pattern(name.get_ref()) {
+            return Ok(vec![self.driven(name)?]);
+        }
+        let fits = |at: &usize| stands_for(name.get_ref(), &joints[*at].name);
+        let found: Vec<usize> =
+            (0..joints.len()).filter(fits).filter(|at| self.structure.moves(*at)).collect();
+        if found.is_empty() {
+            let shown = name.get_ref().escape_debug();
+            return wrong(name, format!("no joint that something drives is called as `{shown}`"));
+        }
+        Ok(found)
+    }
+
     /// A joint that something can drive.
     fn driven(&self, name: &Name) -> Placed<usize> {
         let joints = &self.structure.view.joints;
@@ -256,9 +272,16 @@ impl Reader<'_> {
     }
 }
 
-/// What is wrong with a value, and where.
-fn wrong<T, V>(value: &Spanned<V>, reason: String) -> Placed<T> {
-    Err((value.span().start, reason))
+/// Where a free base is, with a quaternion of length 1.
+fn base_pose(given: &Spanned<Vec<f64>>) -> Placed<[f64; 7]> {
+    if let Ok([x, y, z, w, i, j, k]) = <[f64; 7]>::try_from(given.get_ref().as_slice()) {
+        let length = w.hypot(i).hypot(j.hypot(k));
+        let is_finite = [x, y, z, length].into_iter().all(f64::is_finite);
+        if is_finite && length > 1e-6 {
+            return Ok([x, y, z, w / length, i / length, j / length, k / length]);
+        }
+    }
+    wrong(given, "a pose is 7 numbers: x, y, z in m, and a quaternion w, x, y, z".to_owned())
 }
 
 fn find<'n>(
@@ -273,6 +296,25 @@ fn find<'n>(
 fn twice<T>(what: &str, name: &Name) -> Placed<T> {
     let shown = name.get_ref().escape_debug();
     wrong(name, format!("another {what} is called `{shown}`: give it another name"))
+}
+
+/// What to write instead of gains in another place.
+fn advice(message: &str) -> &'static str {
+    let is_gain = |word: &&str| message.starts_with(&format!("unknown field `{word}`"));
+    match ["kp", "kv", "armature"].iter().any(is_gain) {
+        true => {
+            "; gains are those of a joint: `[actuators.joint.NAME]`, or of all that a pattern stands for: `[actuators.joint.\"*_hip_*\"]`"
+        }
+        false => "",
+    }
+}
+
+/// A number in a range.
+fn ranged(range: Range, value: Option<&Spanned<f64>>) -> Placed<Option<f64>> {
+    let check = |value: &Spanned<f64>| {
+        range.check(*value.get_ref()).or_else(|error| wrong(value, error.to_string()))
+    };
+    value.map(check).transpose()
 }
 
 /// A number above 0.

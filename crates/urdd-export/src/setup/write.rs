@@ -74,7 +74,12 @@ impl Setup {
             curobo.locked.iter().map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
         let locked = (!locked.is_empty()).then(|| format!("{{ {} }}", locked.join(", ")));
         let bandwidth = self.gains.bandwidth.unwrap_or(MjcfOptions::BANDWIDTH);
-        let floating = format!("{}floating = {}", guess(&self.floating.why), self.floating.value);
+        let mut floating =
+            format!("{}floating = {}", guess(&self.floating.why), self.floating.value);
+        for (name, pose) in &self.base_poses {
+            let _ =
+                write!(floating, "\nposes.{} = {}", quoted(name), list(pose.map(real).into_iter()));
+        }
         let retract = curobo.retract.as_deref().map(quoted);
         let values = [
             ("ROBOT", quoted(&structure.view.name)),

@@ -22,6 +22,7 @@ mod names;
 mod other_attributes;
 mod pairs;
 mod pairs_of_formats;
+mod ranges;
 mod robot_file;
 mod sdf;
 mod setup;

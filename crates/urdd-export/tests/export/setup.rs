@@ -110,11 +110,47 @@ fn what_a_person_set_is_written_again() {
         .replace("# acceleration = 5.0", "acceleration = 3.0")
         .replace("# jerk = 100.0", "jerk = 30.0")
         .replace("# friction = 0.8", "friction = 0.6")
+        .replace(
+            "floating = true",
+            "floating = true\nposes.\"up\" = [0.5, 0.0, 2.0, 0.0, 1.0, 0.0, 0.0]",
+        )
         .replace("# ee_link = \"NAME\"", "ee_link = \"j4_link\"")
         .replace("# locked = { finger = 0.04 }", "locked = { \"f1\" = 0.01 }");
     let read = Setup::from_toml(&mine, "x", &robot).expect("read");
     assert_eq!(said(&read.to_toml(&robot).expect("text")), said(&mine));
-    assert_eq!(said(&mine).len(), said(&guess).len() + 8);
+    assert_eq!(said(&mine).len(), said(&guess).len() + 9);
+}
+
+/// The gains of a joint, as the text of a setup has them.
+fn gains(text: &str, joint: &str) -> Vec<String> {
+    let lines = said(text);
+    let at = lines.iter().position(|line| *line == format!("[actuators.joint.\"{joint}\"]"));
+    let after = at.map_or(&[][..], |at| &lines[at + 1..]);
+    let own = after.iter().take_while(|line| !line.starts_with('['));
+    own.map(|line| (*line).to_owned()).collect()
+}
+
+#[test]
+fn a_pattern_stands_for_joints_and_what_says_more_counts() {
+    let (_folder, path) = made_of(&mobile());
+    let robot = Robot::open(path).expect("a robot");
+    let read = |joints: &str| {
+        let text = format!("robot = \"m\"\n[actuators.joint]\n{joints}");
+        let setup = Setup::from_toml(&text, "x", &robot).expect("read");
+        setup.to_toml(&robot).expect("text")
+    };
+    let text = read(
+        "\"*\" = { kp = 1, kv = 2 }\n\"j*\" = { kp = 3 }\nj2 = { kp = 4, armature = 5 }\n\"*2\" = { kv = 6 }",
+    );
+    assert_eq!(gains(&text, "j1"), ["kp = 3.0", "kv = 2.0"]);
+    assert_eq!(gains(&text, "j2"), ["kp = 4.0", "kv = 6.0", "armature = 5.0"]);
+    assert_eq!(gains(&text, "w1"), ["kp = 1.0", "kv = 2.0"]);
+    assert_eq!(gains(&text, "w2"), ["kp = 1.0", "kv = 6.0"]);
+    // A fixed joint is passed over.
+    assert_eq!(gains(&text, "mount"), Vec::<String>::new());
+    let text = read("\"j1\" = { kp = 1 }\n\"*j*1*\" = { kp = 2, kv = 3 }");
+    assert_eq!(gains(&text, "j1"), ["kp = 1.0", "kv = 3.0"]);
+    assert_eq!(gains(&text, "j2"), Vec::<String>::new());
 }
 
 #[test]
@@ -156,10 +192,35 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
             ),
             ":7:9: there is no group `x`",
         ),
-        ("robot = \"m\"\n[actuators]\nbandwidth = 0.0", ":3:13: `bandwidth` is a number above 0"),
-        ("robot = \"m\"\n[actuators]\nbandwidth = nan", "`bandwidth` is a number above 0"),
+        (
+            "robot = \"m\"\n[actuators]\nbandwidth = 0.0",
+            ":3:13: `bandwidth` must be from 0.01 to 1,000 Hz, not 0",
+        ),
+        (
+            "robot = \"m\"\n[actuators]\nbandwidth = nan",
+            "`bandwidth` must be from 0.01 to 1,000 Hz",
+        ),
+        (
+            "robot = \"m\"\n[actuators]\nbandwidth = 1e300",
+            "`bandwidth` must be from 0.01 to 1,000 Hz",
+        ),
         ("robot = \"m\"\n[actuators.joint.j1]\nkp = -1.0", "`kp` is a number that is not below 0"),
         ("robot = \"m\"\n[actuators.joint.j1]\nki = 1.0", ":3:1: unknown field `ki`"),
+        (
+            "robot = \"m\"\n[actuators]\nkp = 1.0",
+            ":3:1: unknown field `kp`, expected `bandwidth` or `joint`; gains are those of a joint: `[actuators.joint.NAME]`, or of all that a pattern stands for",
+        ),
+        (
+            "robot = \"m\"\n[actuators.joint.\"x*\"]\nkp = 1.0",
+            ":2:18: no joint that something drives is called as `x*`",
+        ),
+        (
+            "robot = \"m\"\n[actuators.joint]\n\"j*\" = { kp = 1.0 }\n\"*1\" = { kp = 2.0 }",
+            "say `kp` of one joint, and neither is longer",
+        ),
+        ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1]", ":3:11: a pose is 7 numbers"),
+        ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1, 0, 0, 0, 0]", "a pose is 7 numbers"),
+        ("robot = \"m\"\n[base]\nposes.x = [nan, 0, 1, 1, 0, 0, 0]", "a pose is 7 numbers"),
         (
             "robot = \"m\"\n[curobo]\nretract = \"home\"",
             ":3:11: there is no named configuration `home`",

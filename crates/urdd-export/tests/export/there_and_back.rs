@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use nalgebra::Isometry3;
-use urdd_export::{Choices, Format};
+use urdd_export::{Choices, Format, Setup};
 use urdd_format::urdf::UrdfModule;
 use urdd_generate::{Selection, Settings};
 use urdd_robot::Robot;
@@ -105,4 +105,28 @@ fn poses_masses_limits_and_followers_come_back() {
             }
         }
     }
+}
+
+/// A keyframe of a free root has its pose, in the URDD's setup and in the MJCF that is made of it.
+#[test]
+fn the_pose_of_a_free_root_in_a_keyframe_comes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("hopper.xml");
+    // A quaternion that is not of length 1, as MuJoCo takes it.
+    fs::write(
+        &file,
+        "<mujoco model='hopper'><worldbody><body name='hip' pos='0 0 1'><freejoint/><geom size='0.1' mass='1'/>\
+         <body name='shin'><joint name='knee' axis='0 1 0'/><geom size='0.05' mass='1'/></body></body></worldbody>\
+         <keyframe><key name='home' qpos='0.25 -0.5 0.75 0 0 2 0 0.3'/></keyframe></mujoco>",
+    )
+    .expect("written");
+    let path = folder.path().join("hopper");
+    urdd_generate::generate(&file, &path, &Default::default(), &()).expect("a URDD");
+    let robot = Robot::open(&path).expect("a robot");
+    let setup = Setup::find(None, &path, &robot).expect("read");
+    assert!(setup.is_some());
+    let choices = Choices { setup, ..Choices::default() };
+    let made = export(&robot, Format::Mjcf, &choices).expect("an export");
+    let key = "<key name=\"home\" qpos=\"0.25 -0.5 0.75 0 0 1 0 0.3\"/>";
+    assert!(made.text.contains(key), "{}", made.text);
 }

@@ -34,6 +34,32 @@ fn it_has_the_bytes_of_the_one_on_a_disk() {
 }
 
 #[test]
+fn settings_out_of_their_ranges_are_refused() {
+    let urdf = b"<robot name=\"r\"><link name=\"a\"/></robot>".to_vec();
+    let settings = of_memory(BTreeMap::from([("r.urdf".to_owned(), urdf)]));
+    let said = |settings: &Settings| {
+        let made = generate_in_memory(Path::new("r.urdf"), settings, &());
+        made.err().map(|error| (error.code(), error.to_string()))
+    };
+    assert_eq!(said(&settings), None);
+    let wrong = |change: &dyn Fn(&mut Settings), expected: &str| {
+        let mut settings = settings.clone();
+        change(&mut settings);
+        assert_eq!(said(&settings), Some(("range", expected.to_owned())));
+    };
+    let pieces = "`pieces` must be a whole number from 1 to 64, not";
+    wrong(&|of| of.pieces.most = 0, &format!("{pieces} 0"));
+    wrong(&|of| of.pieces.most = 65, &format!("{pieces} 65"));
+    let samples = "`samples` must be a whole number from 1 to 100,000, not";
+    wrong(&|of| of.num_samples = 0, &format!("{samples} 0"));
+    wrong(&|of| of.num_samples = 100_001, &format!("{samples} 100001"));
+    for length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let expected = format!("`piece_tolerance` must be above 0 metres, not {length}");
+        wrong(&|of| of.pieces.tolerance = Some(length), &expected);
+    }
+}
+
+#[test]
 fn what_is_not_in_memory_is_not_there() {
     let error = generate_in_memory(Path::new("/etc/hostname"), &of_memory(BTreeMap::new()), &());
     let error = error.unwrap_err();

@@ -130,6 +130,10 @@ pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
             joints.insert(edge.name.clone(), Value::Table(gains));
         }
     }
+    let named = model.configurations.iter().filter(|of| ConfigurationName::new(&of.name).is_some());
+    let poses =
+        named.filter_map(|of| Some((of.name.clone(), of.base?.map(Value::Float).to_vec().into())));
+    let poses: Table = poses.collect();
     if joints.is_empty() && !model.is_floating && model.friction.is_none() {
         return None;
     }
@@ -137,7 +141,11 @@ pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
     let mut file = Table::new();
     file.insert("robot".to_owned(), Value::String(model.name.clone()));
     if model.is_floating {
-        file.insert("base".to_owned(), table("floating", Value::Boolean(true)));
+        let mut base = Table::from_iter([("floating".to_owned(), Value::Boolean(true))]);
+        if !poses.is_empty() {
+            base.insert("poses".to_owned(), Value::Table(poses));
+        }
+        file.insert("base".to_owned(), Value::Table(base));
     }
     if !joints.is_empty() {
         file.insert("actuators".to_owned(), table("joint", Value::Table(joints)));

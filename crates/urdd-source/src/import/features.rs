@@ -83,7 +83,7 @@ features! {
     CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere;
     FRICTIONS = "coefficients of friction that differ", No, No;
     CONTROLS = "velocities, activations and controls of named configurations", No, Elsewhere;
-    BASE_POSES = "poses of the free root in named configurations", No, Elsewhere;
+    BASE_POSES = "poses of the free root in named configurations", SETUP, Elsewhere;
     MEASURED = "sensors", No, Elsewhere;
     OWN_DATA = "data of users", No, Elsewhere;
     SETTINGS = "settings of the simulator and the viewer", No, No;

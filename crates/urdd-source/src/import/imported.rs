@@ -37,6 +37,8 @@ const HEAD: u64 = 1 << 20;
 
 /// What is put behind a name for the file that exports read.
 const SETUP: &str = ".export.toml";
+/// The same for named configurations and pairs.
+const SRDF: &str = ".srdf";
 
 /// A description of another format as a URDF and its companions, in memory.
 #[derive(Debug, Clone)]
@@ -106,8 +108,17 @@ impl Imported {
 
     /// What exports need and a URDF does not say: the content of `NAME.export.toml`.
     pub fn setup(&self) -> Option<&[u8]> {
+        self.beside(SETUP)
+    }
+
+    /// The named configurations, and the pairs that never collide: the content of `NAME.srdf`.
+    pub fn srdf(&self) -> Option<&[u8]> {
+        self.beside(SRDF)
+    }
+
+    fn beside(&self, ending: &str) -> Option<&[u8]> {
         let name = self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf);
-        self.files.get(&(name.to_owned() + SETUP)).map(|bytes| &**bytes)
+        self.files.get(&(name.to_owned() + ending)).map(|bytes| &**bytes)
     }
 
     /// The text of the URDF.
@@ -208,7 +219,7 @@ fn written(
     let text = urdf(&model, &tree, &original);
     files.insert(name.clone(), text.into_bytes().into());
     if let Some(srdf) = companions::srdf(&model, &tree, &original) {
-        files.insert(format!("{base}.srdf"), srdf.into_bytes().into());
+        files.insert(base.to_owned() + SRDF, srdf.into_bytes().into());
     }
     if let Some(setup) = companions::setup(&model, &tree) {
         files.insert(base.to_owned() + SETUP, setup.into_bytes().into());

@@ -245,6 +245,8 @@ pub struct Configuration {
     pub name: String,
     /// Values of joints, in the order of bodies and of their joints.
     pub values: Charged<JointValue>,
+    /// Where the free root is in the world, if it is said: x, y, z in m, and the quaternion w, x, y, z.
+    pub base: Option<[f64; 7]>,
 }
 
 /// The value of a joint in a named configuration.

@@ -108,6 +108,20 @@ fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
             (path.ends_with(".stl") || path.ends_with(".obj")) && !path.contains("original");
         assert!(!is_second, "{path}");
     }
+    // Each original mesh is there, or named as one that the page need not draw: none is missing.
+    let entries: Value = serde_json::from_slice(&carried(&page, "robots.json")).expect("JSON");
+    let left_out = entries[0]["left_out"].as_array().expect("a list").iter();
+    let mut originals: Vec<&str> = left_out.filter_map(Value::as_str).collect();
+    assert!(!originals.is_empty());
+    assert!(originals.iter().all(|left| !files.iter().any(|path| path == left)));
+    originals.extend(files.iter().map(String::as_str));
+    let module = "mesh_modules/original_meshes_module/module.json";
+    let module = fs::read(path.join(module)).expect("a module");
+    let module: Value = serde_json::from_slice(&module).expect("JSON");
+    for reference in module["references"].as_array().expect("references") {
+        let path = reference["path"].as_str().expect("a path");
+        assert!(originals.contains(&path), "{path}");
+    }
     // The rest is enough to place its links and to measure between its hulls and pieces.
     let (part, whole) = (Robot::of(root), Robot::open(&path).expect("a robot"));
     let zero = whole.configurations().expect("it").zero();

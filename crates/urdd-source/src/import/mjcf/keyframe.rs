@@ -56,15 +56,19 @@ pub fn configurations(
         }
         let too_much = |why| at(key.place, why);
         account.charge(JOINT * joints().count()).map_err(too_much)?;
-        let mut values = Charged::default();
+        let (mut values, mut base) = (Charged::default(), None);
         let mut rest = &numbers[..];
         for (place, joint) in joints() {
             let (own, after) = rest.split_at(joint.positions().min(rest.len()));
             rest = after;
             if joint.kind == Kind::Free && bodies.all[place.0].parent.is_some() {
                 let is_root = made.index.get(&place.0) == Some(&0);
-                if is_root && !own.is_empty() {
+                if let (true, [x, y, z, turn @ ..]) = (is_root, own)
+                    && let [w, i, j, k] = turn
+                {
                     tally.count(features::BASE_POSES);
+                    let q = unit(Quaternion::new(*w, *i, *j, *k));
+                    base = Some([*x, *y, *z, q.w, q.i, q.j, q.k]);
                 }
                 continue;
             }
@@ -82,7 +86,7 @@ pub fn configurations(
         tally.count(features::POSES);
         let name = key.text("name").map_or_else(|| format!("key_{number}"), str::to_owned);
         let name = names.free(&name).map_err(too_much)?;
-        configurations.push(Configuration { name, values }, account).map_err(too_much)?;
+        configurations.push(Configuration { name, values, base }, account).map_err(too_much)?;
     }
     Ok(configurations)
 }

@@ -1,0 +1,72 @@
+//! Gains of joints by name, and by patterns: `*_hip_*` stands for all joints whose names have it.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+
+use super::JointGains;
+use super::file::{Name, Placed, wrong};
+
+/// Whether a name is a pattern, if no joint has it.
+pub(super) fn is_pattern(name: &str) -> bool {
+    name.contains('*')
+}
+
+/// Whether a pattern stands for a name: `*` stands for any letters, or none.
+pub(super) fn stands_for(pattern: &str, name: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let first = parts.next().unwrap_or_default();
+    let Some(mut rest) = name.strip_prefix(first) else { return false };
+    let Some(last) = parts.next_back() else { return rest.is_empty() };
+    for part in parts {
+        let Some(at) = rest.find(part) else { return false };
+        rest = &rest[at + part.len()..];
+    }
+    rest.ends_with(last)
+}
+
+/// The tables of joints: what says more about a joint comes later, and counts. That is a name, or the longer pattern.
+pub(super) fn by_breadth(
+    all: &BTreeMap<Name, Spanned<JointGains>>,
+) -> Vec<(&Name, &Spanned<JointGains>)> {
+    let mut all: Vec<_> = all.iter().collect();
+    all.sort_by_key(|(name, _)| breadth(name.get_ref()));
+    all
+}
+
+/// The number of letters of a pattern; that of a name is above all.
+fn breadth(name: &str) -> usize {
+    if is_pattern(name) { name.replace('*', "").len() } else { usize::MAX }
+}
+
+/// The gains of joints, and for each of their words what set it.
+#[derive(Default)]
+pub(super) struct Chosen<'a> {
+    pub gains: BTreeMap<usize, JointGains>,
+    by: BTreeMap<(usize, &'static str), &'a str>,
+}
+
+impl<'a> Chosen<'a> {
+    /// Adds what a table says of a joint, over what others said.
+    pub fn add(&mut self, joint: usize, name: &'a Name, own: JointGains) -> Placed<()> {
+        let all = self.gains.entry(joint).or_default();
+        for (word, from, to) in [
+            ("kp", own.kp, &mut all.kp),
+            ("kv", own.kv, &mut all.kv),
+            ("armature", own.armature, &mut all.armature),
+        ] {
+            let Some(value) = from else { continue };
+            let other = self.by.insert((joint, word), name.get_ref());
+            let is_even = |other: &&str| breadth(other) == breadth(name.get_ref());
+            if let Some(other) = other.filter(is_even) {
+                let [one, other] = [name.get_ref().as_str(), other].map(str::escape_debug);
+                let why = format!(
+                    "`{other}` and `{one}` say `{word}` of one joint, and neither is longer: say it in a table of the joint"
+                );
+                return wrong(name, why);
+            }
+            *to = Some(value);
+        }
+        Ok(())
+    }
+}

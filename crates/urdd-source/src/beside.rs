@@ -1,0 +1,72 @@
+//! What stands beside a URDF and says what it cannot: `NAME.srdf` (pairs that are not checked, named configurations,
+//! groups) and `NAME.export.toml` (gains, the base, frictions). An import writes both.
+
+use std::path::Path;
+
+use crate::gate::Gate;
+use crate::import::Imported;
+use urdd_directory::limits::{MAX_SETUP_BYTES, MAX_SRDF_BYTES};
+use urdd_format::named_configurations::ConfigurationEdit;
+
+/// The text of a file, or why it cannot be read.
+pub type Companion = Result<String, String>;
+
+/// What stands beside a URDF.
+#[derive(Debug, Clone, Default)]
+pub struct Beside {
+    /// `NAME.srdf`, if it is there.
+    pub srdf: Option<Companion>,
+    /// `NAME.export.toml`, if it is there.
+    pub setup: Option<Companion>,
+    /// What only an import knows.
+    pub import: Option<Carried>,
+}
+
+/// What an import carries in another way, and what it lost.
+#[derive(Debug, Clone)]
+pub struct Carried {
+    /// The named configurations, which are in the SRDF too.
+    pub configurations: Vec<ConfigurationEdit>,
+    /// What is lost, and how many.
+    pub lost: Vec<(String, usize)>,
+}
+
+impl Beside {
+    /// What an import writes beside its URDF.
+    pub(super) fn of(imported: Imported) -> Beside {
+        let text = |bytes: &[u8]| Ok(String::from_utf8_lossy(bytes).into_owned());
+        Beside {
+            srdf: imported.srdf().map(text),
+            setup: imported.setup().map(text),
+            import: Some(Carried {
+                lost: imported.report.lost().map(|(what, n)| (what.to_owned(), n)).collect(),
+                configurations: imported.configurations,
+            }),
+        }
+    }
+
+    /// Reads what stands beside a URDF.
+    pub(super) fn read(urdf: &Path, gate: &Gate) -> Beside {
+        let at = |ending: &str, limit| companion(&urdf.with_extension(ending), limit, gate);
+        Beside {
+            srdf: at("srdf", MAX_SRDF_BYTES),
+            setup: at("export.toml", MAX_SETUP_BYTES),
+            import: None,
+        }
+    }
+}
+
+fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companion> {
+    let found = match gate.at(path) {
+        Ok(found) => found,
+        Err(missing) => {
+            let outside = missing.outside?;
+            return Some(Err(format!(
+                "it is {}, outside of the robot's folders",
+                outside.display()
+            )));
+        }
+    };
+    let bytes = gate.bytes(&found, limit).map_err(|error| error.to_string());
+    Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
+}
