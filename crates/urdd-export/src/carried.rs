@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::error::Note;
 use super::format::Format;
+use super::order;
 use super::other_attributes::is_kept;
 use super::output::Export;
 use super::subject::Subject;
@@ -255,7 +256,9 @@ pub(super) fn report(subject: &Subject, made: &Export) -> String {
     let parts = carried(subject).chain(textures(made));
     let parts: Vec<Part> = parts.map(|(name, count, how)| (name.to_owned(), count, how)).collect();
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
-    carried::report(&subject.urdf.name, subject.format.name(), &parts, &notes)
+    let order = order::report(subject.format, &subject.urdf, &subject.structure);
+    let more = [("order", order)];
+    carried::report_with(&subject.urdf.name, subject.format.name(), &parts, &notes, more)
 }
 
 /// The table of docs/export.md, in Markdown.

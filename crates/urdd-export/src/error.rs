@@ -205,6 +205,11 @@ pub enum Note {
     /// What the format cannot carry: what, and how many.
     #[error("left out, since the format has no place for them: {0}")]
     Lost(String),
+    /// Programs that have the joints in another order than the URDD.
+    #[error(
+        "the joints are in another order than in the URDD in {0}: `urdd info --order` lists it"
+    )]
+    Order(String),
     /// A texture that is not in the export.
     #[error("texture `{}` is left out, and what it covers has a plain colour: {reason}", .texture.escape_debug())]
     LostTexture {

@@ -36,3 +36,33 @@ pub fn held(inertia: [f64; 6], positive: bool) -> Option<[f64; 6]> {
     let more = 2.0 * FOUND * most;
     Some([xx + more, xy, xz, yy + more, yz, zz + more])
 }
+
+/// The mean of the moments of inertia.
+pub(super) fn mean([xx, _, _, yy, _, zz]: [f64; 6]) -> f64 {
+    (xx + yy + zz) / 3.0
+}
+
+/// The mass of a link that has moments of inertia alone, kg: far less than any body's, and Drake keeps the moments.
+const LEAST_MASS: f64 = 1e-9;
+
+const MASSLESS: &str =
+    "moments of inertia without mass, for which Drake assumes 1 kg: exported with 1e-9 kg";
+const NEGATIVE: &str =
+    "a negative mass, for which Drake assumes 1 kg: exported without it, as no mass";
+const IMPOSSIBLE: &str = "moments of inertia that no body has, for which Drake assumes 1 kg: exported with their mean about each axis";
+
+/// A mass and an inertia that Drake takes as they are: it assumes a body of 1 kg for others. And what was changed.
+pub fn for_drake(mass: f64, inertia: [f64; 6]) -> (f64, [f64; 6], Option<&'static str>) {
+    let held = held(inertia, false);
+    let mut said = held.is_none().then_some(IMPOSSIBLE);
+    let mean = mean(inertia).max(0.0);
+    let inertia = held.unwrap_or([mean, 0.0, 0.0, mean, 0.0, mean]);
+    let has_moments = inertia != [0.0; 6];
+    if mass < 0.0 {
+        said = Some(NEGATIVE);
+    } else if mass == 0.0 && has_moments {
+        said = said.or(Some(MASSLESS));
+    }
+    let least = if has_moments { LEAST_MASS } else { 0.0 };
+    (if mass > 0.0 { mass } else { least }, inertia, said)
+}

@@ -47,10 +47,12 @@ mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
 mod moveit;
+mod mujoco_png;
 #[doc(hidden)]
 pub mod names;
 mod nested;
 mod options;
+mod order;
 mod other_attributes;
 mod output;
 #[doc(hidden)]
@@ -95,6 +97,7 @@ pub use options::{
     MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
     UrdfOptions, UsdOptions,
 };
+pub use order::{JointOrder, joint_orders};
 pub use output::Export;
 pub use pairs::Contacts;
 pub use ranges::{BANDWIDTH, SAMPLES, SPHERES, TOTAL_SPHERES};
@@ -147,6 +150,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Usd(of) => usd::export(&subject, of),
     }?;
     made.notes.extend(subject.lost.clone());
+    made.notes.extend(order::note(subject.format, &subject.structure));
     made.report = carried::report(&subject, &made);
     Ok(made)
 }

@@ -5,6 +5,7 @@ use urdd_document::mimics::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
 use urdd_document::tree::Tree;
 use urdd_format::urdf::UrdfModule;
+use urdd_kinematics::rotation::unit_axis;
 use urdd_robot::Robot;
 
 /// The joints of a robot as a tree.
@@ -62,6 +63,23 @@ impl Structure {
     pub fn locked_at(&self, joint: usize) -> Option<f64> {
         let limits = self.view.joints[joint].position_limits().filter(|_| self.moves(joint));
         limits.filter(|(lower, upper)| lower == upper).map(|(lower, _)| lower)
+    }
+
+    /// Whether a joint follows one that is fixed.
+    pub fn follows_fixed(&self, joint: usize) -> bool {
+        let mimic = self.mimics.by_joint[joint].as_ref();
+        mimic.is_some_and(|mimic| self.view.joints[mimic.driver].num_dofs() == 0)
+    }
+
+    /// The position of a joint of one DOF that never moves: fixed, without an axis, locked, or as it follows such a one.
+    pub fn stands_at(&self, joint: usize) -> Option<f64> {
+        let view = &self.view.joints[joint];
+        let has_axis = unit_axis(view.axis).is_some();
+        match &self.mimics.by_joint[joint] {
+            _ if view.num_dofs() == 0 || (view.num_dofs() == 1 && !has_axis) => Some(0.0),
+            Some(mimic) => Some(mimic.multiplier * self.stands_at(mimic.driver)? + mimic.offset),
+            None => self.locked_at(joint),
+        }
     }
 
     /// Whether an actuator of a simulation drives a joint.

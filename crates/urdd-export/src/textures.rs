@@ -11,6 +11,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::mujoco_png::for_mujoco;
 use super::subject::Subject;
 use urdd_geometry::Mesh;
 use urdd_geometry::read::{Part, Texture};
@@ -125,6 +126,10 @@ impl<'a> Images<'a> {
             let mut reader = decoder.read_info().map_err(|_| BROKEN)?;
             while reader.next_row().map_err(|_| BROKEN)?.is_some() {}
             reader.finish().map_err(|_| BROKEN)?;
+            let bytes = match self.subject.format {
+                Format::Mjcf => for_mujoco(&bytes).map_err(|_| BROKEN)?,
+                _ => bytes,
+            };
             return Ok(Image { bytes: bytes.into(), ending: "png", is_converted: false });
         }
         if !bytes.starts_with(&[0xff, 0xd8, 0xff]) {

@@ -1,10 +1,12 @@
 //! The elements of a URDF: links with the URDD's shapes, and joints.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Isometry3;
 use urdd_xml::{Document, Node};
 
 use super::error::{ExportError, Note};
-use super::inertia::held;
+use super::inertia::{for_drake, held};
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::options::MeshOptions;
@@ -13,7 +15,7 @@ use super::output::Files;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
-use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
+use urdd_format::urdf::{Inertial, Joint, JointType, Origin};
 use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
@@ -31,6 +33,19 @@ pub(super) enum Geometry {
     Plain,
     /// For Drake: OBJ, declared as convex, and no flat boxes.
     Drake,
+}
+
+impl Geometry {
+    /// The name of a visual or a collision element. Drake drops spaces and tabs around it, and refuses an empty one and
+    /// two that differ in these alone; of two that are the same, it changes one.
+    fn name(self, name: Option<&str>) -> Option<&str> {
+        match self {
+            Geometry::Plain => name,
+            Geometry::Drake => {
+                name.map(|of| of.trim_matches([' ', '\t'])).filter(|of| !of.is_empty())
+            }
+        }
+    }
 }
 
 /// The empty `robot` element.
@@ -57,17 +72,25 @@ pub(super) fn links(
     let friction = subject.friction().filter(|_| geometry == Geometry::Drake);
     let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
+    let mut changed: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
     let each = each.zip(shapes.into_iter().zip(looks(subject, meshes, notes)?));
     for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
-        let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
+        let mut element = Element::new("link").with("name", link.name.as_str());
+        if let Some((inertial, view)) = link.inertial.as_ref().zip(view.inertial.as_ref()) {
+            let (inertial, said) = element_of_inertial(inertial, view, quaternions, geometry);
+            element.push(inertial);
+            if let Some(said) = said {
+                changed.entry(said).or_default().push(link.name.clone());
+            }
+        }
         other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
-        let mut names = link.visual.iter().map(|visual| visual.name.as_deref());
+        let mut names = link.visual.iter().map(|visual| geometry.name(visual.name.as_deref()));
         for (look, place) in looks.into_iter().zip(0..) {
             let name = names.next().flatten();
             element.push(visual(idx, place, name, look, &mut files)?);
         }
-        let mut names = link.collision.iter().map(|collision| collision.name.as_deref());
+        let mut names = link.collision.iter().map(|of| geometry.name(of.name.as_deref()));
         for shape in shapes {
             let name = names.next().flatten();
             let mut collision = collision(idx, name, shape, geometry, &mut files)?;
@@ -82,6 +105,7 @@ pub(super) fn links(
         }
         elements.push(element);
     }
+    notes.extend(changed.into_iter().map(|(what, links)| Note::Links { links, what }));
     Ok((elements, files.into_files()))
 }
 
@@ -151,27 +175,28 @@ pub(super) const IN_JOINT: &[&str] = &[
     "calibration",
 ];
 
-fn element_of_link(link: &Link, view: Option<&InertialView>, quaternions: bool) -> Element {
-    let mut element = Element::new("link").with("name", link.name.as_str());
-    if let Some((inertial, view)) = link.inertial.as_ref().zip(view) {
-        element.push(element_of_inertial(inertial, view, quaternions));
-    }
-    element
-}
-
-fn element_of_inertial(inertial: &Inertial, view: &InertialView, quaternions: bool) -> Element {
+/// The mass properties, and what had to be changed.
+fn element_of_inertial(
+    inertial: &Inertial,
+    view: &InertialView,
+    quaternions: bool,
+    geometry: Geometry,
+) -> (Element, Option<&'static str>) {
     let mut element = Element::new("inertial");
     if let Some(origin) = &inertial.origin {
         let plain = without_quaternion(origin, &view.origin, quaternions);
         element.push(element_of_origin(&plain));
     }
     // Most programs reject an element without one of these. Missing values are 0 (SPEC 6.1.8).
-    let inertia = view.inertia.unwrap_or_default();
-    let inertia = held(inertia, false).unwrap_or(inertia);
-    element.push(Element::new("mass").with("value", number(view.mass.unwrap_or(0.0))));
+    let (mass, inertia) = (view.mass.unwrap_or(0.0), view.inertia.unwrap_or_default());
+    let (mass, inertia, said) = match geometry {
+        Geometry::Plain => (mass, held(inertia, false).unwrap_or(inertia), None),
+        Geometry::Drake => for_drake(mass, inertia),
+    };
+    element.push(Element::new("mass").with("value", number(mass)));
     let inertia = INERTIA.into_iter().zip(inertia.map(Some));
     element.push(Element::new("inertia").with_numbers(inertia));
-    element
+    (element, said)
 }
 
 /// The names of moments and products of inertia.

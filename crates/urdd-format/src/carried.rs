@@ -26,6 +26,18 @@ pub type Part = (String, usize, How);
 /// The report on a robot, as JSON: what is carried, what otherwise, what is lost, and the notes.
 #[must_use]
 pub fn report(robot: &str, format: &str, parts: &[Part], notes: &[String]) -> String {
+    report_with(robot, format, parts, notes, [])
+}
+
+/// The same, with more keys.
+#[must_use]
+pub fn report_with<const N: usize>(
+    robot: &str,
+    format: &str,
+    parts: &[Part],
+    notes: &[String],
+    more: [(&str, Value); N],
+) -> String {
     let of = |wanted: fn(How) -> bool| -> Value {
         let found = parts.iter().filter(|(_, _, how)| wanted(*how));
         let entry = |(name, count, how): &Part| match how {
@@ -34,7 +46,7 @@ pub fn report(robot: &str, format: &str, parts: &[Part], notes: &[String]) -> St
         };
         found.map(entry).collect()
     };
-    let document = json!({
+    let mut document = json!({
         "robot": robot,
         "format": format,
         "program": PROGRAM_VERSION,
@@ -43,6 +55,9 @@ pub fn report(robot: &str, format: &str, parts: &[Part], notes: &[String]) -> St
         "lost": of(|how| how == How::No),
         "notes": notes,
     });
+    for (key, value) in more {
+        document[key] = value;
+    }
     let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
     escape::json(&text).into_owned()
 }

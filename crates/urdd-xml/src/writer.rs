@@ -110,6 +110,14 @@ impl Element {
         }
     }
 
+    /// Keeps the child elements for which `is_kept` returns true; it may change them.
+    pub fn retain(&mut self, mut is_kept: impl FnMut(&mut Element) -> bool) {
+        self.children.retain_mut(|child| match child {
+            Child::Element(element) => is_kept(element),
+            _ => true,
+        });
+    }
+
     /// Removes the child elements of a name; whether there were any.
     pub fn remove(&mut self, name: &str) -> bool {
         let before = self.children.len();

@@ -6,12 +6,13 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::names::{safe, widest};
+use super::order::{self, OrderInfo};
 use super::parts::{self, PartInfo};
 use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
-use urdd_format::escape;
 use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::self_collision_model::ModelEvaluation;
@@ -39,6 +40,9 @@ pub struct Info {
     /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
     pub modules: Vec<ModuleInfo>,
+    /// The joints in the order of each program, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<Vec<OrderInfo>>,
     /// What holds the robot still against gravity, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub statics: Option<Statics>,
@@ -174,6 +178,7 @@ impl Info {
                     }
                 })
                 .collect(),
+            order: None,
             statics: None,
         })
     }
@@ -204,16 +209,6 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
             }
         })
         .collect()
-}
-
-fn safe(text: &str) -> String {
-    escape::line(text).into_owned()
-}
-
-/// The width of the longest of these names, in characters.
-fn widest<'a>(names: impl Iterator<Item = &'a String>) -> usize {
-    let widths = names.map(|name| safe(name).chars().count());
-    widths.max().unwrap_or(0)
 }
 
 /// Writes the contents of a URDD for people.
@@ -265,6 +260,9 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             module.files,
             module.bytes.div_ceil(1000)
         )?;
+    }
+    if let Some(orders) = &info.order {
+        order::write(orders, out)?;
     }
     info.statics.as_ref().map_or(Ok(()), |statics| statics.write(out))
 }

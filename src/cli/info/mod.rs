@@ -1,6 +1,8 @@
 //! `urdd info`.
 
 mod contents;
+mod names;
+mod order;
 mod parts;
 mod statics;
 
@@ -10,10 +12,13 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
+use super::inputs;
 use super::output::{self, Failure, one_line};
 use contents::Info;
+use order::OrderInfo;
 use statics::{Statics, StaticsArguments};
 use urdd_directory::discover::{Found, discover};
+use urdd_export::joint_orders;
 use urdd_format::escape;
 use urdd_validate::report;
 
@@ -27,6 +32,10 @@ pub struct InfoArguments {
     /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
+
+    /// Also list the joints that move, and the actuators, in the order of each program that loads an export.
+    #[arg(long)]
+    order: bool,
 
     #[command(flatten)]
     statics: StaticsArguments,
@@ -54,6 +63,11 @@ fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
             let mut info = info.map_err(|error| about(&error))?;
             let statics = Statics::of(&path, &arguments.statics);
             info.statics = statics.map_err(|error| about(&error))?;
+            if arguments.order {
+                let robot = inputs::open(&path).map_err(|error| about(&error))?;
+                let orders = joint_orders(&robot).map_err(|error| about(&error))?;
+                info.order = Some(orders.into_iter().map(OrderInfo::from).collect());
+            }
             infos.push(info);
         }
     }

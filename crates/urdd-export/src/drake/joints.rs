@@ -8,6 +8,7 @@ use super::super::error::{ExportError, Note};
 use super::super::joints::joints as resolved;
 use super::super::names::check_unique;
 use super::super::parts::Moves;
+use super::super::structure::Structure;
 use super::super::subject::Subject;
 use super::super::urdf_elements::{element_of_joint, type_name};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
@@ -86,8 +87,8 @@ pub(super) fn joints<'a>(
 }
 
 /// Whether Drake supports a floating joint: its child moves freely in the world.
-fn is_free(subject: &Subject, view: &View) -> bool {
-    let root = &subject.links[subject.tree.root];
+pub(in super::super) fn is_free(of: &Structure, view: &View) -> bool {
+    let root = &of.view.links[of.tree.root].name;
     root == "world" && view.parent == *root && view.origin == ViewOrigin::default()
 }
 

@@ -13,10 +13,14 @@ use super::options::DrakeOptions;
 use super::other_attributes;
 use super::output::Export;
 use super::parts::Taken;
+use super::structure::Structure;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
 };
+use joints::Driven;
+pub(super) use joints::is_free;
+use urdd_format::urdf::UrdfModule;
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 
@@ -43,7 +47,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     }
     let mut kept = transmissions::kept(&urdf.unknown_elements, &joints.driven, &mut notes);
     lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
-    robot.extend(kept.others(subject));
+    robot.extend(kept.others(&subject.structure));
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
@@ -56,6 +60,20 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     files.extend(package::files(subject, options)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
+}
+
+/// The names of the actuators, in their order.
+pub(super) fn actuators(urdf: &UrdfModule, of: &Structure) -> Vec<String> {
+    let names = |is_wanted: &dyn Fn(usize) -> bool| {
+        let joints = of.view.joints.iter().enumerate().filter(|(index, _)| is_wanted(*index));
+        joints.map(|(_, joint)| joint.name.clone()).collect()
+    };
+    let is_fixed = |joint: usize| of.view.joints[joint].num_dofs() == 0 || of.follows_fixed(joint);
+    let of_one = names(&|joint| of.view.joints[joint].num_dofs() == 1 && !is_fixed(joint));
+    let driven = Driven { of_one, fixed: names(&is_fixed) };
+    let mut kept = transmissions::kept(&urdf.unknown_elements, &driven, &mut Vec::new());
+    kept.others(of);
+    kept.order
 }
 
 /// One collision filter group for each link in a pair. It ignores the groups of its partners with a higher index. SDF has

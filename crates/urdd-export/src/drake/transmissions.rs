@@ -6,7 +6,7 @@ use urdd_xml::Node;
 
 use super::super::error::Note;
 use super::super::parts::Taken;
-use super::super::subject::Subject;
+use super::super::structure::Structure;
 use super::joints::Driven;
 use urdd_xml::Kind;
 use urdd_xml::writer::Element;
@@ -18,19 +18,22 @@ pub(super) struct Kept {
     actuated: HashSet<String>,
     actuators: Taken,
     transmissions: Taken,
+    /// The actuators, in their order.
+    pub order: Vec<String>,
 }
 
 impl Kept {
     /// Transmissions of the joints that have none: each is driven directly. A joint without effort is not.
-    pub fn others(&mut self, subject: &Subject) -> Vec<Element> {
+    pub fn others(&mut self, of: &Structure) -> Vec<Element> {
         let mut others = Vec::new();
-        for (index, joint) in subject.view.joints.iter().enumerate() {
+        for (index, joint) in of.view.joints.iter().enumerate() {
             let is_weak = joint.limit.and_then(|limit| limit.effort) == Some(0.0);
-            if is_weak || !subject.is_driven(index) || self.actuated.contains(&joint.name) {
+            if is_weak || !of.is_driven(index) || self.actuated.contains(&joint.name) {
                 continue;
             }
             let name = self.actuators.free(joint.name.clone());
             let transmission = self.transmissions.free(format!("{name}_transmission"));
+            self.order.push(name.clone());
             others.push(
                 Element::new("transmission")
                     .with("name", transmission)
@@ -46,6 +49,7 @@ impl Kept {
 pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Kept {
     let [mut actuators, mut actuated, mut transmissions] =
         [HashSet::new(), HashSet::new(), HashSet::new()];
+    let mut order = Vec::new();
     let mut is_kept = |text: &String| {
         let Ok(document) = urdd_xml::parse(text, Kind::Other) else {
             return true;
@@ -54,7 +58,7 @@ pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> 
         let (element, reason) = match root.tag_name().name() {
             "transmission" => {
                 transmissions.extend(root.attribute("name").map(str::to_owned));
-                let refused = refused(root, driven, &mut actuators, &mut actuated);
+                let refused = refused(root, driven, (&mut actuators, &mut order), &mut actuated);
                 ("transmission", refused)
             }
             "loop_joint" => ("loop_joint", Some("Drake has no loops in a URDF")),
@@ -66,14 +70,14 @@ pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> 
     };
     let texts = texts.iter().filter(|text| is_kept(text)).cloned().collect();
     let [actuators, transmissions] = [&actuators, &transmissions].map(Taken::new);
-    Kept { texts, actuated, actuators, transmissions }
+    Kept { texts, actuated, actuators, transmissions, order }
 }
 
 /// Why Drake rejects a transmission.
 fn refused(
     transmission: Node,
     driven: &Driven,
-    actuators: &mut HashSet<String>,
+    (actuators, order): (&mut HashSet<String>, &mut Vec<String>),
     actuated: &mut HashSet<String>,
 ) -> Option<&'static str> {
     let child = |name: &str| {
@@ -105,6 +109,7 @@ fn refused(
         return Some("its joint does not exist, or has several DOFs");
     }
     if actuators.insert(actuator.to_owned()) {
+        order.push(actuator.to_owned());
         actuated.insert(joint.to_owned());
         None
     } else {

@@ -1,17 +1,18 @@
 //! What `<gazebo>` elements say, where SDF has it: as libsdformat's own converter from URDF places it (`parser_urdf.cc`).
 //! Fixed joints stay fixed joints here, as `preserveFixedJoint` asks for; without it, the converter joins their links.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 use super::super::error::Note;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
 use super::super::urdf_elements::document;
+use super::foreign::Mended;
 use urdd_xml::element::wrapped;
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 
-const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
+const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked: Drake refuses those that SDF does not define";
 
 /// The elements of a model, a link or a joint in SDF 1.9 to 1.11. Left out are those that may stand there once, where ours
 /// are (`<pose>`, `<inertial>`, `<axis>`), and `<include>`, which names another file. Drake refuses what is not defined,
@@ -91,7 +92,7 @@ impl Gazebo {
         let joints = subject.view.joints.iter().map(|joint| &joint.name);
         let names: HashSet<&String> = subject.links.iter().chain(joints).collect();
         let mut said: HashMap<String, Vec<Element>> = HashMap::new();
-        let mut faults = BTreeSet::new();
+        let mut mended = Mended::default();
         let mut unreadable = 0;
         for text in &subject.urdf.unknown_elements {
             // Prefixes that only the source declares do not matter: what has them is left out.
@@ -108,15 +109,17 @@ impl Gazebo {
             }
             let reference = root.attribute("reference").unwrap_or_default().to_owned();
             if !reference.is_empty() && !names.contains(&reference) {
-                faults.insert(("gazebo", "it refers to what is neither a link nor a joint"));
+                mended.faults.insert(("gazebo", "it refers to what is neither a link nor a joint"));
                 continue;
             }
+            let is_of_part = !reference.is_empty();
             let said = said.entry(reference).or_default();
             for mut element in root.children().filter(|node| node.is_element()).map(Element::of) {
                 if element.child_mut("imu").is_some_and(|imu| imu.remove("noise")) {
-                    faults.insert(("noise", OLD_NOISE));
+                    mended.faults.insert(("noise", OLD_NOISE));
                 }
-                let fault = match word(&element).map(|word| word.2) {
+                let known = word(&element).map(|word| word.2);
+                let fault = match known {
                     Some(Number) if !own(&element).parse().is_ok_and(f64::is_finite) => {
                         Some("a number in it is not one")
                     }
@@ -128,16 +131,28 @@ impl Gazebo {
                 };
                 match fault {
                     Some(fault) => {
-                        faults.insert(("gazebo", fault));
+                        mended.faults.insert(("gazebo", fault));
                     }
-                    None => said.push(element),
+                    None if is_of_part && element.name() == "plugin" => {
+                        mended.move_plugin(&mut element);
+                    }
+                    // A visual and a collision of a link have no name here.
+                    None if known.is_some() => {
+                        mended.mend_inside(&mut element);
+                        said.push(element);
+                    }
+                    None => said.extend(mended.mend(&mut element).then_some(element)),
                 }
             }
             // Words overwrite what such elements have.
             said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
         }
-        let faults = faults.into_iter();
+        let faults = mended.faults.into_iter();
         notes.extend(faults.map(|(element, reason)| Note::Element { element, reason }));
+        notes.extend(mended.changes.into_iter().map(Note::Robot));
+        if !mended.plugins.is_empty() {
+            said.entry(String::new()).or_default().extend(mended.plugins);
+        }
         if unreadable > 0 {
             notes.push(Note::Elements(unreadable));
         }

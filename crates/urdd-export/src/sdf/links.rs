@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::super::error::{ExportError, Note};
-use super::super::inertia::held;
+use super::super::inertia::{held, mean};
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::options::MeshOptions;
 use super::super::output::Files;
@@ -135,8 +135,7 @@ fn inertial(of: &Inertial) -> (Element, bool) {
     let mass = of.mass.unwrap_or(0.0);
     let inertia = of.inertia.unwrap_or_default();
     let held = held(inertia, true).filter(|[xx, _, _, yy, _, zz]| xx.min(*yy).min(*zz) > 0.0);
-    let mean = (inertia[0] + inertia[3] + inertia[5]) / 3.0;
-    let mean = if mean > 0.0 { mean } else { LEAST };
+    let mean = Some(mean(inertia)).filter(|mean| *mean > 0.0).unwrap_or(LEAST);
     let tensor = held.unwrap_or([mean, 0.0, 0.0, mean, 0.0, mean]);
     (self::tensor(&pose, mass, tensor), held.is_none())
 }

@@ -4,6 +4,7 @@
 //! are chains of simple joints with light links between them. SDF takes a link without `<inertial>` for 1 kg, so that
 //! links without mass get the smallest that its reader accepts.
 
+mod foreign;
 mod gazebo;
 mod joints;
 mod links;

@@ -26,6 +26,8 @@ const STANDS: &str =
     "it mimics a joint that never moves; it is a fixed joint at the position that follows";
 const OTHER: &str = "it mimics a joint of another kind, for which Newton's schema defines no units; Newton takes rad and m";
 
+const UNLIMITED: &str = "it mimics a joint, and one of the two has no limits: PhysX couples only joints with limits, so that it moves freely there; Newton couples them";
+
 /// The axes of a generic joint.
 const AXES: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
 
@@ -60,18 +62,6 @@ enum Motion {
 }
 
 impl Joints<'_> {
-    /// The position of a joint of one DOF that never moves.
-    fn stands_at(&self, index: usize) -> Option<f64> {
-        let subject = self.subject;
-        let joint = &subject.view.joints[index];
-        let has_axis = unit_axis(joint.axis).is_some();
-        match &subject.mimics.by_joint[index] {
-            _ if joint.num_dofs() == 0 || (joint.num_dofs() == 1 && !has_axis) => Some(0.0),
-            Some(mimic) => Some(mimic.multiplier * self.stands_at(mimic.driver)? + mimic.offset),
-            None => subject.locked_at(index),
-        }
-    }
-
     /// The position of a joint of one DOF in the configuration of the bodies.
     fn position(&self, index: usize) -> f64 {
         match &self.subject.mimics.by_joint[index] {
@@ -85,7 +75,7 @@ impl Joints<'_> {
 
     fn motion(&self, index: usize, notes: &mut Vec<Note>) -> Motion {
         let joint = &self.subject.view.joints[index];
-        if let Some(position) = self.stands_at(index) {
+        if let Some(position) = self.subject.stands_at(index) {
             let what = if joint.num_dofs() == 0 {
                 None
             } else if unit_axis(joint.axis).is_none() {
@@ -247,19 +237,23 @@ impl Joints<'_> {
         prim.relate("newton:mimicJoint", driver);
         prim.set("float newton:mimicCoef0", float(mimic.offset * unit));
         prim.set("float newton:mimicCoef1", float(mimic.multiplier));
-        // PhysX has own + gearing * other + offset = 0.
-        let of = |joint: &Joint, axis: &str| {
-            format!("{}{axis}", if slides(joint) { "trans" } else { "rot" })
+        let is_limited = |joint: &Joint| {
+            let limits = joint.position_limits();
+            limits.is_some_and(|(lower, upper)| lower <= upper && (upper - lower).is_finite())
         };
-        let instance = of(own, axis);
+        if !is_limited(own) || !is_limited(other) {
+            note(UNLIMITED);
+            return;
+        }
+        // PhysX has own + gearing * other + offset = 0. It knows an axis by `rotX`, `rotY` or `rotZ` also where a joint
+        // slides, and passes over any other name.
+        let instance = format!("rot{axis}");
         let other_axis = unit_axis(other.axis).map_or("X", |axis| aligned(&axis).0);
         prim.apply(format!("PhysxMimicJointAPI:{instance}"));
         prim.relate(&format!("physxMimicJoint:{instance}:referenceJoint"), driver);
         let name = |name: &str| format!("physxMimicJoint:{instance}:{name}");
-        prim.set(
-            &format!("uniform token {}", name("referenceJointAxis")),
-            format!("\"{}\"", of(other, other_axis)),
-        );
+        let axis_name = format!("uniform token {}", name("referenceJointAxis"));
+        prim.set(&axis_name, format!("\"rot{other_axis}\""));
         prim.set(&format!("float {}", name("gearing")), float(-mimic.multiplier));
         prim.set(&format!("float {}", name("offset")), float(-mimic.offset * unit));
     }

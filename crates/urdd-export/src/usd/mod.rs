@@ -9,7 +9,7 @@ mod filters;
 mod joints;
 mod looks;
 mod mass;
-mod names;
+pub(super) mod names;
 mod prim;
 mod shapes;
 mod surface;

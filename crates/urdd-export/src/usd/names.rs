@@ -57,6 +57,11 @@ pub(super) fn last(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
+/// The names of the prims of joints.
+pub(in super::super) fn names_of_joints(joints: &[String]) -> Vec<String> {
+    names(joints, &mut Taken::default(), &mut Vec::new())
+}
+
 /// The names of prims in one place, in order. A name that USD can have stays, so that another one with the same mended
 /// name gets a number.
 fn names(wanted: &[String], taken: &mut Taken, mended: &mut Vec<String>) -> Vec<String> {

@@ -1,5 +1,7 @@
 //! Meshes: points and triangles, and what is bound to them.
 
+use nalgebra::Vector3;
+
 use super::prim::Prim;
 use super::value::{array, float, floats};
 use urdd_geometry::Mesh;
@@ -12,11 +14,20 @@ pub(super) fn set(prim: &mut Prim, mesh: &Mesh, uv: &[[f64; 2]]) {
     prim.set("int[] faceVertexIndices", array(corners));
     prim.set("point3f[] points", array(mesh.vertices.iter().map(|point| floats(point))));
     extent(prim, &mesh.vertices);
+    let normals = array(mesh.triangles.iter().map(|triangle| floats(&normal(mesh, *triangle))));
+    prim.set("normal3f[] normals", format!("{normals} (interpolation = \"uniform\")"));
     prim.set("uniform token subdivisionScheme", "\"none\"");
     if !uv.is_empty() {
         let places = array(uv.iter().map(|place| floats(place)));
         prim.set("texCoord2f[] primvars:st", format!("{places} (interpolation = \"vertex\")"));
     }
+}
+
+/// The normal of a triangle, to 5 digits; that of one without area is z.
+fn normal(mesh: &Mesh, triangle: [u32; 3]) -> [f64; 3] {
+    let [a, b, c] = mesh.corners(triangle).map(Vector3::from);
+    let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or(Vector3::z());
+    normal.map(|of| (of * 1e5).round() / 1e5).into()
 }
 
 /// The box around points.

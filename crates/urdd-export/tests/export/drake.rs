@@ -154,3 +154,74 @@ fn a_frame_that_drake_needs_is_not_a_links_name() {
     let error = export(&robot, Format::Drake, &Choices::default()).expect_err("a name");
     assert!(matches!(&error, ExportError::Name { name, .. } if name == "j_parent"), "{error}");
 }
+
+/// Drake 1.51 makes each of these a body of 1 kg, but for what is expected here, which it takes as it is.
+#[test]
+fn masses_and_moments_are_those_that_drake_takes() {
+    let tensor = |ixx: f64, iyy: f64, izz: f64| {
+        format!("<inertia ixx='{ixx}' iyy='{iyy}' izz='{izz}' ixy='0' ixz='0' iyz='0'/>")
+    };
+    let cases = [
+        ("0", tensor(0.05, 0.06, 0.03), [1e-9, 0.05, 0.06, 0.03], "1e-9 kg"),
+        // Mass is missing.
+        ("", tensor(0.05, 0.06, 0.03), [1e-9, 0.05, 0.06, 0.03], "1e-9 kg"),
+        ("-2", tensor(0.05, 0.06, 0.03), [1e-9, 0.05, 0.06, 0.03], "a negative mass"),
+        ("-2", String::new(), [0.0; 4], "a negative mass"),
+        ("5", tensor(0.25, 0.25, 1.0), [5.0, 0.5, 0.5, 0.5], "their mean"),
+        ("5", tensor(-0.25, 0.5, 0.5), [5.0, 0.25, 0.25, 0.25], "their mean"),
+        ("5", tensor(-1.0, 0.5, 0.25), [5.0, 0.0, 0.0, 0.0], "their mean"),
+        ("5", tensor(0.25, 0.25, 0.25), [5.0, 0.25, 0.25, 0.25], ""),
+        ("0", String::new(), [0.0; 4], ""),
+        ("0.5", String::new(), [0.5, 0.0, 0.0, 0.0], ""),
+    ];
+    for (mass, inertia, expected, said) in cases {
+        let mass = match mass {
+            "" => String::new(),
+            mass => format!("<mass value='{mass}'/>"),
+        };
+        let urdf = format!(
+            "<robot name='r'><link name='a'><inertial>{mass}{inertia}</inertial></link></robot>"
+        );
+        let (text, notes) = exported(&urdf);
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
+        let of = |tag: &str, key: &str| -> f64 {
+            let node = document.descendants().find(|node| node.has_tag_name(tag));
+            node.and_then(|node| node.attribute(key)).expect(key).parse().expect("a number")
+        };
+        let found =
+            [of("mass", "value"), of("inertia", "ixx"), of("inertia", "iyy"), of("inertia", "izz")];
+        assert_eq!(found, expected, "{mass} {inertia}");
+        assert_eq!(notes.len(), usize::from(!said.is_empty()), "{notes:?}");
+        assert!(notes.iter().all(|note| note.to_string().contains(said)), "{notes:?}");
+    }
+}
+
+/// Drake drops spaces and tabs around the name of a shape, refuses an empty one, and two that differ in these alone.
+#[test]
+fn names_of_shapes_are_those_that_drake_takes() {
+    let shape = |kind: &str, name: &str| {
+        format!("<{kind}{name}><geometry><box size='1 1 1'/></geometry></{kind}>")
+    };
+    for (name, expected) in [
+        ("", None),
+        (" name=''", None),
+        (" name=' '", None),
+        (" name='&#9; '", None),
+        (" name=' a '", Some("a")),
+        (" name='a b'", Some("a b")),
+        (" name='\u{a0}'", Some("\u{a0}")),
+    ] {
+        let urdf = format!(
+            "<robot name='r'><link name='l'>{}{}</link></robot>",
+            shape("visual", name),
+            shape("collision", name)
+        );
+        let (text, _) = exported(&urdf);
+        let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
+        let shapes = document
+            .descendants()
+            .filter(|node| node.has_tag_name("visual") || node.has_tag_name("collision"));
+        let names: Vec<Option<&str>> = shapes.map(|node| node.attribute("name")).collect();
+        assert_eq!(names, [expected, expected], "{name:?}");
+    }
+}

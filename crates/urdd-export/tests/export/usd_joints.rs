@@ -108,7 +108,8 @@ fn followers_follow_in_newton_and_in_physx() {
     let driver = read.joint("driver").path.clone();
     for (name, kind, unit, [offset, factor]) in [
         ("turns", "rotY", DEGREES, [0.125, -2.0]),
-        ("slides", "transY", 1.0, [0.125, -2.0]),
+        // PhysX knows `rotX`, `rotY` and `rotZ` alone, also where a joint slides (IsaacSim#731).
+        ("slides", "rotY", 1.0, [0.125, -2.0]),
         // Of the driver of its driver: -2 (-2 q + 0.125) + 0.125.
         ("again", "rotY", DEGREES, [-0.125, 4.0]),
     ] {
@@ -131,6 +132,50 @@ fn followers_follow_in_newton_and_in_physx() {
     let said = notes(&made);
     assert!(said.contains("`slides`: it mimics a joint of another kind"), "{said}");
     assert!(!said.contains("`turns`: it mimics"), "{said}");
+}
+
+/// PhysX refuses the mimic of a joint without finite limits (IsaacSim#305).
+#[test]
+fn joints_without_limits_follow_in_newton_alone() {
+    let limits = r#"<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>"#;
+    let endless = r#"<axis xyz="0 0 1"/>"#;
+    let follow = |driver: &str| format!(r#"<mimic joint="{driver}" multiplier="2"/>"#);
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let parts = names.map(|name| link(name, "")).concat()
+        + &joint("wheel", "continuous", "a", "b", endless)
+        + &joint("hinge", "revolute", "a", "c", limits)
+        + &joint(
+            "wheel_of_wheel",
+            "continuous",
+            "a",
+            "d",
+            &format!("{endless}{}", follow("wheel")),
+        )
+        + &joint("hinge_of_wheel", "revolute", "a", "e", &format!("{limits}{}", follow("wheel")))
+        + &joint(
+            "wheel_of_hinge",
+            "continuous",
+            "a",
+            "f",
+            &format!("{endless}{}", follow("hinge")),
+        );
+    let (_folder, robot) = robot(&urdf(&parts));
+    let made = exported(&robot, Format::Usd);
+    let (read, said) = (Read::new(&made.text), notes(&made));
+    for name in ["wheel_of_wheel", "hinge_of_wheel", "wheel_of_hinge"] {
+        let prim = read.joint(name);
+        assert!(prim.applies("NewtonMimicAPI"), "{name}");
+        is_near(prim, "newton:mimicCoef1", 2.0);
+        assert!(prim.properties.keys().all(|key| !key.starts_with("physxMimicJoint")), "{name}");
+        assert!(!prim.applies("PhysxMimicJointAPI:rotZ"), "{name}");
+        assert!(
+            said.contains(&format!(
+                "`{name}`: it mimics a joint, and one of the two has no limits"
+            ))
+        );
+    }
+    // No limits are invented.
+    assert!(!read.joint("wheel_of_hinge").properties.contains_key("physics:lowerLimit"));
 }
 
 #[test]

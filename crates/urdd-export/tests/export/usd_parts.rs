@@ -290,3 +290,45 @@ fn the_robot_is_one_articulation_whose_parts_say_what_they_are() {
     let file = parsed(&made.text);
     assert!(file.metadata["doc"].text().contains(name), "{:?}", file.metadata["doc"]);
 }
+
+/// Each mesh has a normal for each triangle: of length 1, perpendicular to its sides, outwards by its winding.
+#[test]
+fn meshes_have_normals() {
+    let mut count = 0;
+    for (name, urdf) in testkit::robots::our_robots() {
+        let (_folder, path) = testkit::robots::made(&urdf);
+        let robot = urdd_robot::Robot::open(path).expect("a robot");
+        let made = crate::made::exported(&robot, urdd_export::Format::Usd);
+        let files = made.files.iter().filter(|(path, _)| path.ends_with(".usda"));
+        let texts = files.map(|(_, bytes)| std::str::from_utf8(bytes).expect("text"));
+        for text in texts.chain([made.text.as_str()]) {
+            for mesh in testkit::usda::parsed(text).children[0].all() {
+                if mesh.kind != "Mesh" || !mesh.properties.contains_key("points") {
+                    continue;
+                }
+                let three = |key: &str| -> Vec<nalgebra::Vector3<f64>> {
+                    let numbers = mesh.numbers(key);
+                    numbers.chunks(3).map(nalgebra::Vector3::from_column_slice).collect()
+                };
+                let (points, normals) = (three("points"), three("normals"));
+                let faces = mesh.numbers("faceVertexIndices");
+                assert_eq!(normals.len(), faces.len() / 3, "{name}");
+                for (face, normal) in faces.chunks(3).zip(&normals) {
+                    let [a, b, c] = [0, 1, 2].map(|k| points[face[k] as usize]);
+                    let across = (b - a).cross(&(c - a));
+                    assert!((normal.norm() - 1.0).abs() < 1e-4, "{name}: {normal}");
+                    // Points are binary32: the direction of a sliver is known to its height.
+                    let long = (b - a).norm().max((c - a).norm()).max((c - b).norm());
+                    let off = 1e-4
+                        + 1e-6 * long * points.iter().map(|p| p.amax()).fold(long, f64::max)
+                            / across.norm();
+                    assert!(
+                        (normal - across.normalize()).amax() < off.min(2.0) || across.norm() == 0.0
+                    );
+                    count += 1;
+                }
+            }
+        }
+    }
+    assert!(count > 5000, "{count}");
+}
