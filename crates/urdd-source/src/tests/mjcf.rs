@@ -381,4 +381,5 @@ fn attached_models_bring_what_is_theirs() {
     let shell =
         model.bodies.iter().find(|body| body.name == "left/palm").unwrap().shapes[0].clone();
     assert_eq!(shell.material.unwrap().name.as_deref(), Some("left/red"));
+    assert_eq!(model.tally.all_unread().get("keys of attached models"), Some(&2));
 }

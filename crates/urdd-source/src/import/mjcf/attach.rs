@@ -12,6 +12,8 @@ use super::fault::MjcfFault;
 
 /// The tag of the default classes of a model that is attached. No element of XML has it.
 pub const CLASSES: &str = "default classes of a model";
+/// The tag of the keys of such a model, which have the positions of all of it, and are not read.
+pub const KEYS: &str = "keys of a model";
 /// What holds names that are those of an element itself.
 const OWN: &str = "name class childclass";
 /// What holds names of others: each gets the prefix.
@@ -104,7 +106,9 @@ fn rest(model: &Element, bodies: &Element, prefix: &str) -> Vec<Element> {
     classes.set("class", main.clone());
     let mut known = HashSet::new();
     names(bodies, &mut known);
-    let mut parts = vec![classes];
+    let mut keys = Element::new(KEYS.to_owned(), Vec::new(), model.place);
+    keys.children = model.sections("keyframe").cloned().collect();
+    let mut parts = vec![classes, keys];
     // Actuators name tendons.
     for tag in ["compiler", CLASSES, "asset", "tendon", "contact", "equality", "actuator", "sensor"]
     {

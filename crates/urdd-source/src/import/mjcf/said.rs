@@ -1,7 +1,7 @@
 //! What a model says that is not for the robot, or is not read: all of it is counted.
 
 use super::super::features::{self, Tally};
-use super::attach::CLASSES;
+use super::attach::{CLASSES, KEYS};
 use super::element::Element;
 
 /// Attributes that are read, by whatever element, or counted with it.
@@ -46,6 +46,7 @@ pub fn say(root: &Element, tally: &mut Tally) {
             "tendon" => count(section, features::TENDONS, tally),
             "sensor" => count(section, features::MEASURED, tally),
             "deformable" => count(section, features::SOFT, tally),
+            KEYS => section.children.iter().for_each(|_| tally.unread("keys of attached models")),
             "custom" => count(section, features::OWN_DATA, tally),
             tag => tally.unread(format!("<{tag}>")),
         }
