@@ -17,6 +17,7 @@ pub struct Source {
     body: Option<String>,
     model: Option<String>,
     ball: String,
+    massless: String,
 }
 
 impl Source {
@@ -38,6 +39,14 @@ impl Source {
                 other => {
                     let other = other.escape_debug();
                     return Err(format!("ball: `{other}` is neither spherical nor revolute"));
+                }
+            },
+            has_tiny_masses: match self.massless.as_str() {
+                "none" => false,
+                "tiny" => true,
+                other => {
+                    let other = other.escape_debug();
+                    return Err(format!("massless: `{other}` is neither none nor tiny"));
                 }
             },
         };

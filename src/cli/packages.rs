@@ -32,6 +32,20 @@ pub(super) struct PackageArguments {
     /// joints.
     #[arg(long, value_enum, default_value_t = Ball::Spherical, value_name = "JOINTS")]
     ball: Ball,
+
+    /// The mass of the links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m², which
+    /// MuJoCo asks of what moves.
+    #[arg(long, value_enum, default_value_t = Massless::None, value_name = "MASS")]
+    massless: Massless,
+}
+
+/// The mass of links between joints.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Massless {
+    /// None.
+    None,
+    /// 1e-9 kg and 1e-9 kg m².
+    Tiny,
 }
 
 /// How a ball joint is written.
@@ -61,6 +75,7 @@ impl PackageArguments {
                 body: self.body.clone(),
                 model: self.model.clone(),
                 has_revolute_balls: self.ball == Ball::Revolute,
+                has_tiny_masses: self.massless == Massless::Tiny,
             },
             ..Settings::default()
         })

@@ -69,6 +69,8 @@ export interface ImportOptions {
   model?: string;
   /** How a ball joint is written; by default `spherical`. */
   ball?: "spherical" | "revolute";
+  /** The mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m²; by default `none`. */
+  massless?: "none" | "tiny";
 }
 
 /** As the options of `urdd.generate` in Python. */

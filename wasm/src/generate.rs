@@ -11,7 +11,7 @@ use urdd_generate::{
 
 use crate::around::Given;
 use crate::files::Files;
-use crate::import::Ball;
+use crate::import::{Ball, Massless};
 use crate::progress::Told;
 use crate::{answer, import, memory};
 
@@ -32,6 +32,7 @@ struct Question {
     body: Option<String>,
     model: Option<String>,
     ball: Option<Ball>,
+    massless: Option<Massless>,
 }
 
 #[derive(Deserialize)]
@@ -73,7 +74,8 @@ fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Val
     let given = Given::of(files)?;
     let path = given.place(&question.path);
     let mut source = given.settings(&question.path)?;
-    source.import = import::options(question.body, question.model, question.ball);
+    source.import =
+        import::options(question.body, question.model, question.ball, question.massless);
     let mut settings = Settings {
         source,
         strict: question.strict,

@@ -24,9 +24,26 @@ pub enum Ball {
     Revolute,
 }
 
+/// The mass of links between the joints of one body.
+#[derive(Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Massless {
+    /// None.
+    None,
+    /// 1e-9 kg and 1e-9 kg m².
+    Tiny,
+}
+
 /// What is chosen of a description that is no URDF, as in `urdd.import_robot` in Python.
-pub fn options(body: Option<String>, model: Option<String>, ball: Option<Ball>) -> ImportOptions {
-    ImportOptions { body, model, has_revolute_balls: ball == Some(Ball::Revolute) }
+pub fn options(
+    body: Option<String>,
+    model: Option<String>,
+    ball: Option<Ball>,
+    massless: Option<Massless>,
+) -> ImportOptions {
+    let has_revolute_balls = ball == Some(Ball::Revolute);
+    let has_tiny_masses = massless == Some(Massless::Tiny);
+    ImportOptions { body, model, has_revolute_balls, has_tiny_masses }
 }
 
 /// What is asked.
@@ -38,6 +55,7 @@ struct Question {
     body: Option<String>,
     model: Option<String>,
     ball: Option<Ball>,
+    massless: Option<Massless>,
 }
 
 /// Imports an MJCF or SDF among these files. The question is a [`Question`] as JSON. The answer has the address of `files`
@@ -60,7 +78,7 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
     let given = Given::of(files)?;
     let mut settings = given.settings(&question.path)?;
-    settings.import = options(question.body, question.model, question.ball);
+    settings.import = options(question.body, question.model, question.ball, question.massless);
     let path = given.place(&question.path);
     let imported = import_whole(&path, &settings, &Cancellation::default());
     let (imported, _) = imported.map_err(|error| error.to_string())?;

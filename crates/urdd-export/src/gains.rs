@@ -21,6 +21,7 @@ const SEVERAL: &str = "it has several DOFs; it has no actuator";
 /// The gains of an actuator: N m/rad and N m s/rad, or N/m and N s/m. 0 for what its kind does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gains {
+    pub kind: ActuatorKind,
     pub kp: f64,
     pub kv: f64,
 }
@@ -41,14 +42,16 @@ pub(super) fn gains(
         let chosen = subject.gains(index);
         let inertia = inertia?.max(LEAST) + chosen.armature.unwrap_or(0.0);
         let or = |chosen: Option<f64>, computed: f64| chosen.unwrap_or_else(|| rounded(computed));
-        Some(match kind {
-            ActuatorKind::Position => Gains {
-                kp: or(chosen.kp, inertia * frequency * frequency),
-                kv: or(chosen.kv, 2.0 * inertia * frequency),
-            },
-            ActuatorKind::Velocity => Gains { kp: 0.0, kv: or(chosen.kv, inertia * frequency) },
-            ActuatorKind::Motor => Gains { kp: 0.0, kv: 0.0 },
-        })
+        let kind = subject.actuator_kind(index, kind);
+        let [kp, kv] = match kind {
+            ActuatorKind::Position => [
+                or(chosen.kp, inertia * frequency * frequency),
+                or(chosen.kv, 2.0 * inertia * frequency),
+            ],
+            ActuatorKind::Velocity => [0.0, or(chosen.kv, inertia * frequency)],
+            ActuatorKind::Motor => [0.0; 2],
+        };
+        Some(Gains { kind, kp, kv })
     };
     let all = inertias(subject)?.into_iter().enumerate().map(of_joint).collect();
     let bandwidth = number(bandwidth);

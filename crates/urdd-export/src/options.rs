@@ -186,7 +186,8 @@ impl MjcfOptions {
 }
 
 /// What an actuator is told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ActuatorKind {
     /// A position, rad or m.
     Position,

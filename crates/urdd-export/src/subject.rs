@@ -9,7 +9,7 @@ use super::contacts::link_pairs;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::names;
-use super::options::Options;
+use super::options::{ActuatorKind, Options};
 use super::pairs::{LinkPair, pairs};
 use super::parts::JointNames;
 use super::setup::{JointGains, Setup};
@@ -114,7 +114,15 @@ impl<'a> Subject<'a> {
 
     /// What a person set for the actuator of a joint.
     pub fn gains(&self, joint: usize) -> JointGains {
-        self.given.and_then(|setup| setup.gains.joints.get(&joint)).copied().unwrap_or_default()
+        self.given.and_then(|setup| setup.gains.joints.get(&joint)).cloned().unwrap_or_default()
+    }
+
+    /// What the actuator of a joint is told: where positions are asked for, what a person set.
+    pub fn actuator_kind(&self, joint: usize, asked: ActuatorKind) -> ActuatorKind {
+        match asked {
+            ActuatorKind::Position => self.gains(joint).kind.unwrap_or(asked),
+            ActuatorKind::Velocity | ActuatorKind::Motor => asked,
+        }
     }
 
     /// The coefficient of friction of all shapes, if a person set one.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::endings::Endings;
 use super::files::Files;
+use super::fragments::{imported, parts};
 use super::import::format::Format;
-use super::import::format_of;
 use super::robots::{Job, named};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::path;
@@ -15,8 +15,6 @@ use urdd_directory::path;
 const MAX_PACKAGES: usize = 1000;
 /// The prefixes of names of files in a package.
 const IN_PACKAGE: [&str; 2] = ["package://", "model://"];
-/// Extensions of files that are an MJCF or SDF, if their content is.
-const OTHERS: [&str; 4] = ["xml", "sdf", "mjcf", "world"];
 
 /// A description in a set of files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +48,7 @@ impl Kind {
 }
 
 /// The descriptions among files in memory, in the order of their paths; none of files on a disk. Hidden folders are passed
-/// over, and URDDs, and a `.urdf.xacro` beside its `.urdf`.
+/// over, and URDDs, a `.urdf.xacro` beside its `.urdf`, and an MJCF that is a part of another.
 pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let Files::Memory(all) = files else {
         return Vec::new();
@@ -63,7 +61,15 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     };
     let found = all.paths().filter(|file| !is_passed(file));
     let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
-    let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.unzip();
+    let mut found: Vec<(PathBuf, Kind)> = found.collect();
+    let is_mjcf = |(_, kind): &&(PathBuf, Kind)| *kind == Kind::Imported(Format::Mjcf);
+    let mjcfs = found.iter().filter(is_mjcf).map(|(file, _)| file.as_path());
+    let parts = parts(mjcfs, files);
+    // A part alone is shown with what is wrong with it.
+    if found.iter().any(|(file, _)| !parts.contains(file)) {
+        found.retain(|(file, _)| !parts.contains(file));
+    }
+    let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.into_iter().unzip();
     named(paths).into_iter().zip(kinds).map(|(job, kind)| Dropped { job, kind }).collect()
 }
 
@@ -75,8 +81,7 @@ fn kind(file: &Path, files: &Files) -> Option<Kind> {
         "xacro" if stem.ends_with(".urdf") => {
             (!files.is_file(&file.with_extension(""))).then_some(Kind::Xacro)
         }
-        _ if OTHERS.contains(&extension) => format_of(file, files).map(Kind::Imported),
-        _ => None,
+        _ => imported(file, files).map(Kind::Imported),
     }
 }
 
@@ -168,7 +173,8 @@ mod tests {
             ("a/urdf/hand.urdf.xacro", "<robot/>"),
             ("a/urdf/macros.xacro", "<robot/>"),
             ("a/.git/old.urdf", "<robot/>"),
-            ("b/robot.xml", "<mujoco/>"),
+            ("b/robot.xml", "<mujoco><include file='../b/legs.xml'/><worldbody/></mujoco>"),
+            ("b/legs.xml", "<mujoco/>"),
             ("b/package.xml", "<package/>"),
             ("c/model.sdf", "<sdf version='1.7'/>"),
             ("c/model.config", "<model/>"),

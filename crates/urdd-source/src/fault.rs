@@ -47,6 +47,10 @@ pub enum Fault {
         "link `{link}` is the child of joint `{joint}`, and already of joint `{first}`: a URDF must be a tree"
     )]
     TwoParents { link: Short, joint: Short, first: Short },
+    #[error(
+        "`<robot>` contains no `<link>`, but elements of an SRDF; give the URDF that the SRDF belongs to"
+    )]
+    IsSrdf,
     #[error("`<robot>` contains no `<link>`")]
     NoLinks,
     #[error(

@@ -13,6 +13,7 @@ mod endings;
 mod error;
 pub mod fault;
 mod files;
+mod fragments;
 pub mod gate;
 pub mod import;
 mod includes;

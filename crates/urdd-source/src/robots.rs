@@ -6,6 +6,10 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use super::files::Files;
+use super::fragments::{self, imported, may_be_imported};
+use super::import::format::Format;
+
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
 use urdd_directory::path;
@@ -31,7 +35,7 @@ pub enum BatchError {
         "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
     TooDeep { path: String },
-    #[error("{path}: there is no .urdf or .urdf.xacro file at any depth")]
+    #[error("{path}: there is no .urdf or .urdf.xacro file, and no MJCF or SDF, at any depth")]
     Empty { path: String },
 }
 
@@ -41,8 +45,9 @@ pub fn is_batch(paths: &[PathBuf]) -> bool {
 }
 
 /// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.urdf.xacro`
-/// without a `.urdf` beside it. The search skips hidden folders, symbolic links to folders, and URDDs, which contain
-/// copies of their URDFs. Duplicate paths count once.
+/// without a `.urdf` beside it; one without these, for every SDF, and for every MJCF that is no part of another. The search
+/// skips hidden folders, symbolic links to folders, and URDDs, which contain copies of their URDFs. Duplicate paths count
+/// once.
 ///
 /// Each robot is named after its file, without the extension. Where names collide, as many parent folder names as
 /// necessary are prepended, joined by `-`. If they still collide, a number is appended.
@@ -60,7 +65,12 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
             continue;
         }
         let before = sources.len();
-        search(path, 0, &mut sources)?;
+        let mut found = Found::default();
+        search(path, 0, &mut found)?;
+        match found.urdfs.is_empty() {
+            false => sources.append(&mut found.urdfs),
+            true => sources.extend(others(found.others)),
+        }
         if sources.len() == before {
             return Err(BatchError::Empty { path: shown });
         }
@@ -76,7 +86,28 @@ pub(crate) fn named(sources: Vec<PathBuf>) -> Vec<Job> {
     sources.into_iter().zip(names).map(|(source, name)| Job { source, name }).collect()
 }
 
-fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(), BatchError> {
+/// What a folder holds.
+#[derive(Default)]
+struct Found {
+    /// URDFs and xacro files.
+    urdfs: Vec<PathBuf>,
+    /// What may be of another format.
+    others: Vec<PathBuf>,
+}
+
+/// The MJCFs and SDFs among files, without those that are parts of others.
+fn others(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
+    let format = |file: &PathBuf| imported(file, &Files::Disk);
+    let found = files.into_iter().filter_map(|file| Some((format(&file)?, file)));
+    let found: Vec<(Format, PathBuf)> = found.collect();
+    let mjcfs = found.iter().filter(|(format, _)| *format == Format::Mjcf);
+    let found_in = fragments::parts(mjcfs.map(|(_, file)| file.as_path()), &Files::Disk);
+    let is_part =
+        move |file: &PathBuf| file.canonicalize().is_ok_and(|file| found_in.contains(&file));
+    found.into_iter().map(|(_, file)| file).filter(move |file| !is_part(file))
+}
+
+fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchError> {
     let unreadable = |error: std::io::Error| BatchError::Unreadable {
         path: folder.display().to_string(),
         reason: error.to_string(),
@@ -99,12 +130,14 @@ fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(),
         let lower = name.to_lowercase();
         if is_folder {
             if !name.starts_with('.') {
-                search(&path, depth + 1, sources)?;
+                search(&path, depth + 1, found)?;
             }
         } else if lower.ends_with(".urdf")
             || (lower.ends_with(".urdf.xacro") && !path.with_extension("").is_file())
         {
-            sources.push(path);
+            found.urdfs.push(path);
+        } else if may_be_imported(&path) {
+            found.others.push(path);
         }
     }
     Ok(())

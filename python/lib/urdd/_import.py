@@ -45,6 +45,7 @@ def import_robot(
     body: str | None = None,
     model: str | None = None,
     ball: Literal["spherical", "revolute"] = "spherical",
+    massless: Literal["none", "tiny"] = "none",
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
     force: bool = False,
@@ -58,6 +59,8 @@ def import_robot(
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint is written: as a spherical joint, which few programs read, or as three revolute joints.
+        massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m², which MuJoCo
+            asks of what moves.
         packages: the folders of ROS packages and of models, by name.
         allowed_folders: folders besides that of the file and its project from which files may be read.
         force: overwrites files that exist with other content.
@@ -66,7 +69,7 @@ def import_robot(
         GenerateError: if the file cannot be imported; ``places`` say where and why.
         FileExistsError: if a file exists with other content, unless ``force``.
     """
-    options = source(packages, allowed_folders, body=body, model=model, ball=ball)
+    options = source(packages, allowed_folders, body=body, model=model, ball=ball, massless=massless)
     urdf, files, report = _urdd.import_robot(Path(file), options)
     folder = Path(output)
     # The URDF, which names the others, is last.

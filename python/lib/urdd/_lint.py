@@ -28,6 +28,7 @@ def lint(
     body: str | None = None,
     model: str | None = None,
     ball: Literal["spherical", "revolute"] = "spherical",
+    massless: Literal["none", "tiny"] = "none",
     baseline: str | os.PathLike[str] | None = None,
     fail_on: Literal["error", "warning", "info"] | None = None,
     config: str | os.PathLike[str] | None = None,
@@ -59,6 +60,7 @@ def lint(
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
+        massless: the mass of links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m².
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
         config: a settings file such as ``urdd.toml``. No such file is read by default.
@@ -83,6 +85,7 @@ def lint(
             body=body,
             model=model,
             ball=ball,
+            massless=massless,
         ),
         baseline=None if baseline is None else Path(baseline),
         reporting=reporting(fail_on, config, select, ignore, exclude),

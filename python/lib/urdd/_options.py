@@ -65,6 +65,8 @@ class MakingOptions(TypedDict, total=False):
     """The model of an SDF file that has several."""
     ball: Literal["spherical", "revolute"]
     """How a ball joint of an MJCF or SDF is written."""
+    massless: Literal["none", "tiny"]
+    """The mass of links between several joints of one body of an MJCF or SDF."""
     drop_edits: bool
     """Discards the edits of skips in the URDD that is replaced."""
     force: bool
@@ -83,6 +85,7 @@ class Source:
     body: str | None
     model: str | None
     ball: str
+    massless: str
 
 
 @dataclass(frozen=True)
@@ -197,6 +200,7 @@ def options_of(
             body=given.get("body"),
             model=given.get("model"),
             ball=given.get("ball", "spherical"),
+            massless=given.get("massless", "none"),
         ),
         geometry=given.get("geometry", "visual"),
         mesh_formats=words(given.get("mesh_formats", ("glb", "stl", "obj")), "mesh_formats"),
@@ -220,6 +224,7 @@ def source(
     body: str | None = None,
     model: str | None = None,
     ball: str = "spherical",
+    massless: str = "none",
 ) -> Source:
     """How descriptions are found and read."""
     return Source(
@@ -231,6 +236,7 @@ def source(
         body=body,
         model=model,
         ball=ball,
+        massless=massless,
     )
 
 

@@ -21,7 +21,7 @@ class Wrong(list):
         self.append(what if found is None else f"{what}: {found}, MuJoCo has {expected}")
 
 
-def compare(model, folder, has_ratios=False):
+def compare(model, folder):
     urdf = Urdf(next(folder.glob("*.urdf")))
     wrong = Wrong()
     links = urdf.bodies()
@@ -46,10 +46,11 @@ def compare(model, folder, has_ratios=False):
     far = poses(model, urdf, by_body, joints, wrong)
     masses(model, urdf, by_body, wrong)
     ranges(model, urdf, joints, wrong)
-    forces(model, folder, joints, has_ratios, wrong)
+    forces(model, folder, joints, wrong)
+    robot_geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] in by_body and model.geom_bodyid[g]]
     for body, link in by_body.items():
         if body:
-            shapes(model, urdf, body, link, wrong)
+            shapes(model, urdf, body, link, robot_geoms, wrong)
     companions(model, folder, by_body, joints, wrong)
     sites(model, urdf, by_body, links[len(bodies):], wrong)
     return wrong, {"bodies": len(bodies), "joints": len(joints), "far": far}
@@ -195,7 +196,7 @@ def ranges(model, urdf, joints, wrong):
             wrong.say(f"friction of {element.get('name')}", friction, model.dof_frictionloss[dof])
 
 
-def forces(model, folder, joints, has_ratios, wrong):
+def forces(model, folder, joints, wrong):
     """The greatest force of each joint, and its gains, by what the compiled model says."""
     setup = {}
     for path in folder.glob("*.export.toml"):
@@ -208,49 +209,80 @@ def forces(model, folder, joints, has_ratios, wrong):
         if model.jnt_type[joint] == BALL:
             continue
         name = element.get("name")
-        total, kp, kv = 0.0, 0.0, 0.0
+        low, high, kp, kv = 0.0, 0.0, 0.0, 0.0
         for a in of[joint]:
-            gear = abs(model.actuator_gear[a, 0])
+            gear = model.actuator_gear[a, 0]
             fixed = model.actuator_gaintype[a] == 0
             plain = fixed and model.actuator_biastype[a] == 0 and model.actuator_dyntype[a] == 0
-            if model.actuator_forcelimited[a]:
-                total += gear * np.abs(model.actuator_forcerange[a]).max()
-            elif plain and model.actuator_ctrllimited[a]:
-                total += gear * abs(model.actuator_gainprm[a, 0]) * np.abs(model.actuator_ctrlrange[a]).max()
-            else:
-                total = np.inf
+            least, most = model.actuator_forcerange[a] if model.actuator_forcelimited[a] else (-np.inf, np.inf)
+            if plain and model.actuator_ctrllimited[a]:
+                least, most = np.clip(np.sort(model.actuator_gainprm[a, 0] * model.actuator_ctrlrange[a]), least, most)
+            ends = np.sort(model.actuator_gear[a, 0] * np.array([least, most]))
+            low, high = low + ends[0], high + ends[1]
             if fixed and model.actuator_biastype[a] == 1:
                 kp -= gear**2 * model.actuator_biasprm[a, 1]
                 kv -= gear**2 * model.actuator_biasprm[a, 2]
-        if not of[joint]:
-            total = np.inf
+        if not of[joint] or np.isinf(low + high):
+            low, high = -np.inf, np.inf
         if model.jnt_actfrclimited[joint]:
-            total = min(total, np.abs(model.jnt_actfrcrange[joint]).max())
+            low, high = np.clip([low, high], *model.jnt_actfrcrange[joint])
+        total = max(-low, high)
         expected = 1000.0 if np.isinf(total) else total
         found = float(element.find("limit").get("effort"))
         if abs(found - expected) > EXACT * max(1, expected):
             wrong.say(f"effort of {name}", found, expected)
         armature = model.dof_armature[model.jnt_dofadr[joint]]
         armature += sum(model.actuator_gear[a, 0] ** 2 * model.actuator_armature[a] for a in of[joint])
+        if element.find("mimic") is not None:
+            continue
         for key, expected in (("kp", kp), ("kv", kv), ("armature", armature)):
             found = setup.get(name, {}).get(key, 0.0)
-            # MuJoCo makes a damping of `dampratio`; an import names it as lost.
-            if key == "kv" and found == 0.0 and has_ratios:
-                continue
             if abs(found - expected) > 1e-6 * max(1, abs(expected)):
                 wrong.say(f"{key} of {name}", found, expected)
 
 
-def shapes(model, urdf, body, link, wrong):
+def is_seen(model, geom, geoms, solid, all_geoms):
+    """As in MuJoCo's viewer: groups 0 to 2, and not transparent; but what only is seen goes before what it covers."""
+    shown = {g for g in all_geoms if model.geom_group[g] <= 2} or set(all_geoms)
+    material, rgba = model.geom_matid[geom], model.geom_rgba[geom]
+    if material >= 0 and (rgba == [0.5, 0.5, 0.5, 1]).all():
+        rgba = model.mat_rgba[material]
+    if geom not in shown or rgba[3] == 0:
+        return False
+    looks = {g for g in shown if is_look(model, g) and model.geom_group[g] <= 2}
+    over = [g for g in geoms if g in looks]
+    if geom not in solid or not over or model.geom_group[geom] in {model.geom_group[g] for g in looks}:
+        return True
+    boxes = [box(model, g) for g in over]
+    least, most = np.min([of[0] for of in boxes], 0), np.max([of[1] for of in boxes], 0)
+    margin = 0.25 * (most - least).max()
+    own = box(model, geom)
+    return bool((own[0] < least - margin).any() or (own[1] > most + margin).any())
+
+
+def is_look(model, geom):
+    paired = geom in model.pair_geom1 or geom in model.pair_geom2
+    return not (model.geom_contype[geom] or model.geom_conaffinity[geom] or paired)
+
+
+def box(model, geom):
+    centre, half = model.geom_aabb[geom, :3], model.geom_aabb[geom, 3:]
+    axes = of_quaternion(model.geom_quat[geom])
+    corners = [centre + half * signs for signs in itertools.product((-1, 1), repeat=3)]
+    if model.geom_type[geom] == MESH:
+        mesh = model.geom_dataid[geom]
+        first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+        corners = np.asarray(model.mesh_vert[first:first + count], float)
+    points = np.array(corners) @ axes.T + model.geom_pos[geom]
+    return points.min(0), points.max(0)
+
+
+def shapes(model, urdf, body, link, robot_geoms, wrong):
     geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body and model.geom_type[g] not in (PLANE, HFIELD)]
     element = urdf.links[link]
     paired = {*model.pair_geom1, *model.pair_geom2}
     solid = [g for g in geoms if model.geom_contype[g] or model.geom_conaffinity[g] or g in paired]
-    seen = [g for g in geoms if g not in solid]
-    if not seen:
-        clear = [g for g in geoms if model.geom_matid[g] < 0 and model.geom_rgba[g, 3] == 0 or
-                 model.geom_rgba[g, 3] == 0]
-        seen = [g for g in geoms if g not in clear]
+    seen = [g for g in geoms if is_seen(model, g, geoms, solid, robot_geoms)]
     for kind, wanted in (("collision", solid), ("visual", seen)):
         parts = [part for geom in wanted for part in expand(model, geom)]
         found = element.findall(kind)

@@ -53,8 +53,7 @@ def one(program, path, options):
         from compare import compare
 
         try:
-            has_ratios = any("dampratio" in of.read_text(errors="replace") for of in path.parent.glob("*.xml"))
-            wrong, facts = compare(model, pathlib.Path(folder) / "out", has_ratios)
+            wrong, facts = compare(model, pathlib.Path(folder) / "out")
         except Exception as error:
             import traceback
 

@@ -1,7 +1,10 @@
 //! Actuators of the joints of one DOF.
 
+use std::collections::HashSet;
+
 use super::super::error::{ExportError, Note};
 use super::super::gains::gains;
+use super::super::names::{ANOTHER, check_names};
 use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
 use urdd_xml::number::{number, numbers};
@@ -21,31 +24,49 @@ pub(super) fn actuators(
 ) -> Result<Actuators, ExportError> {
     let (gains, said) = gains(subject, bandwidth, kind, notes)?;
     let mut element = Element::new("actuator");
-    for (joint, gains) in subject.view.joints.iter().zip(gains) {
+    let mut names = subject.names.taken.clone();
+    let given = |joint: usize| subject.gains(joint).name;
+    let taken: HashSet<String> = (0..gains.len()).filter_map(given).collect();
+    check_names(subject.format, "actuator", taken.iter().map(String::as_str), ANOTHER)?;
+    for name in &taken {
+        names.free(name.clone());
+    }
+    for (index, gains) in gains.into_iter().enumerate() {
         let Some(gains) = gains else {
             continue;
+        };
+        let joint = &subject.view.joints[index];
+        let chosen = subject.gains(index);
+        let name = match chosen.name {
+            Some(name) => name,
+            None if taken.contains(&joint.name) => names.free(joint.name.clone()),
+            None => joint.name.clone(),
         };
         let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
         let effort = positive(joint.limit.and_then(|limit| limit.effort));
         let velocity = positive(joint.limit.and_then(|limit| limit.velocity));
-        let either_way = |most: Option<f64>| most.map(|most| numbers(&[-most, most]));
-        let actuator = Element::new(kind.word()).with("name", joint.name.as_str());
-        let actuator = actuator.with("joint", joint.name.as_str());
-        element.push(match kind {
-            ActuatorKind::Position => {
-                let range = joint.position_limits().filter(|(lower, upper)| lower < upper);
-                actuator
-                    .with("kp", number(gains.kp))
-                    .with("kv", number(gains.kv))
-                    .with_some("ctrlrange", range.map(|(lower, upper)| numbers(&[lower, upper])))
-                    .with_some("forcerange", either_way(effort))
-            }
-            ActuatorKind::Velocity => actuator
-                .with("kv", number(gains.kv))
-                .with_some("ctrlrange", either_way(velocity))
-                .with_some("forcerange", either_way(effort)),
-            ActuatorKind::Motor => actuator.with_some("ctrlrange", either_way(effort)),
-        });
+        let either_way = |most: Option<f64>| most.map(|most| [-most, most]);
+        let limits = joint.position_limits().map(|(lower, upper)| [lower, upper]);
+        let limits = limits.filter(|[lower, upper]| lower < upper);
+        // What was set is of the kind that was set.
+        let is_other = chosen.kind.unwrap_or(ActuatorKind::Position) != gains.kind;
+        let told = chosen.ctrlrange.filter(|_| !is_other);
+        let force = chosen.forcerange.or(either_way(effort));
+        let (told, force) = match gains.kind {
+            ActuatorKind::Position => (told.or(limits), force),
+            ActuatorKind::Velocity => (told.or(either_way(velocity)), force),
+            ActuatorKind::Motor => (force, None),
+        };
+        let (has_kp, has_kv) =
+            (gains.kind == ActuatorKind::Position, gains.kind != ActuatorKind::Motor);
+        let actuator = Element::new(gains.kind.word())
+            .with("name", name)
+            .with("joint", joint.name.as_str())
+            .with_some("kp", has_kp.then(|| number(gains.kp)))
+            .with_some("kv", has_kv.then(|| number(gains.kv)))
+            .with_some("ctrlrange", told.map(|told| numbers(&told)))
+            .with_some("forcerange", force.map(|force| numbers(&force)));
+        element.push(actuator);
     }
     Ok(Actuators { element, said })
 }

@@ -97,7 +97,10 @@ fn keyframe(
     // Actuators are in the order of joints.
     for (index, joint) in subject.view.joints.iter().enumerate() {
         if subject.is_actuated(index) {
-            controls.push(value(&joint.name));
+            // A servo of speed stands still.
+            let asked = ActuatorKind::Position;
+            let is_position = subject.actuator_kind(index, asked) == asked;
+            controls.push(if is_position { value(&joint.name) } else { 0.0 });
         }
     }
     let is_position = actuators == Some(ActuatorKind::Position);

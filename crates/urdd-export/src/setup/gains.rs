@@ -1,6 +1,6 @@
 //! Gains of joints by name, and by patterns: `*_hip_*` stands for all joints whose names have it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use toml::Spanned;
 
@@ -49,24 +49,44 @@ pub(super) struct Chosen<'a> {
 impl<'a> Chosen<'a> {
     /// Adds what a table says of a joint, over what others said.
     pub fn add(&mut self, joint: usize, name: &'a Name, own: JointGains) -> Placed<()> {
-        let all = self.gains.entry(joint).or_default();
-        for (word, from, to) in [
-            ("kp", own.kp, &mut all.kp),
-            ("kv", own.kv, &mut all.kv),
-            ("armature", own.armature, &mut all.armature),
-        ] {
-            let Some(value) = from else { continue };
-            let other = self.by.insert((joint, word), name.get_ref());
-            let is_even = |other: &&str| breadth(other) == breadth(name.get_ref());
-            if let Some(other) = other.filter(is_even) {
-                let [one, other] = [name.get_ref().as_str(), other].map(str::escape_debug);
-                let why = format!(
-                    "`{other}` and `{one}` say `{word}` of one joint, and neither is longer: say it in a table of the joint"
-                );
-                return wrong(name, why);
-            }
-            *to = Some(value);
-        }
+        let JointGains { kp, kv, armature, name: called, kind, ctrlrange, forcerange } = own;
+        let mut all = self.gains.remove(&joint).unwrap_or_default();
+        self.set((joint, "kp"), name, kp, &mut all.kp)?;
+        self.set((joint, "kv"), name, kv, &mut all.kv)?;
+        self.set((joint, "armature"), name, armature, &mut all.armature)?;
+        self.set((joint, "name"), name, called, &mut all.name)?;
+        self.set((joint, "kind"), name, kind, &mut all.kind)?;
+        self.set((joint, "ctrlrange"), name, ctrlrange, &mut all.ctrlrange)?;
+        self.set((joint, "forcerange"), name, forcerange, &mut all.forcerange)?;
+        self.gains.insert(joint, all);
         Ok(())
+    }
+
+    fn set<T>(
+        &mut self,
+        place: (usize, &'static str),
+        name: &'a Name,
+        from: Option<T>,
+        to: &mut Option<T>,
+    ) -> Placed<()> {
+        let Some(value) = from else { return Ok(()) };
+        let other = self.by.insert(place, name.get_ref());
+        let is_even = |other: &&str| breadth(other) == breadth(name.get_ref());
+        if let Some(other) = other.filter(is_even) {
+            let [one, other] = [name.get_ref().as_str(), other].map(str::escape_debug);
+            let word = place.1;
+            let why = format!(
+                "`{other}` and `{one}` say `{word}` of one joint, and neither is longer: say it in a table of the joint"
+            );
+            return wrong(name, why);
+        }
+        *to = Some(value);
+        Ok(())
+    }
+
+    /// Whether two actuators have one name.
+    pub fn is_name_given_twice(&self) -> bool {
+        let mut names = BTreeSet::new();
+        self.gains.values().filter_map(|of| of.name.as_ref()).any(|name| !names.insert(name))
     }
 }

@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 
 pub use error::SetupError;
 
+use crate::options::ActuatorKind;
+
 /// What exports need and a URDD does not say.
 ///
 /// It belongs to the robot that it was read or guessed for: it refers to links and joints by index.
@@ -99,8 +101,8 @@ pub(super) struct Gains {
     pub joints: BTreeMap<usize, JointGains>,
 }
 
-/// What a person set for a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Deserialize)]
+/// What a person set for the actuator of a joint.
+#[derive(Debug, Clone, PartialEq, Default, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct JointGains {
     /// N m/rad or N/m.
@@ -109,6 +111,14 @@ pub(super) struct JointGains {
     pub kv: Option<f64>,
     /// The inertia of the motor, as the joint sees it, kg m² or kg.
     pub armature: Option<f64>,
+    /// Its name, if it is not that of the joint.
+    pub name: Option<String>,
+    /// What it is told, where positions are asked for.
+    pub kind: Option<ActuatorKind>,
+    /// The least and greatest position or speed that it can be told, if these are not the limits of the joint.
+    pub ctrlrange: Option<[f64; 2]>,
+    /// The least and greatest force, if it is not the effort of the joint either way, N or N m.
+    pub forcerange: Option<[f64; 2]>,
 }
 
 /// What cuRobo's robot file needs.

@@ -114,6 +114,9 @@ impl Reader<'_> {
             for joint in self.matching(name)? {
                 chosen.add(joint, name, joint_gains(of)?)?;
             }
+            if chosen.is_name_given_twice() {
+                return wrong(of, "another actuator has the same `name`: change one".to_owned());
+            }
         }
         gains.joints = chosen.gains;
         let mut curobo = Curobo {
@@ -328,12 +331,20 @@ fn number(key: &str, value: Option<&Spanned<f64>>) -> Placed<Option<f64>> {
 }
 
 fn joint_gains(table: &Spanned<JointGains>) -> Placed<JointGains> {
-    let gains = *table.get_ref();
+    let gains = table.get_ref().clone();
     let each = [("kp", gains.kp), ("kv", gains.kv), ("armature", gains.armature)];
     let is_wrong =
         |value: Option<f64>| value.is_some_and(|value| !(value.is_finite() && value >= 0.0));
-    match each.into_iter().find(|(_, value)| is_wrong(*value)) {
-        Some((key, _)) => wrong(table, format!("`{key}` is a number that is not below 0")),
-        None => Ok(gains),
+    if let Some((key, _)) = each.into_iter().find(|(_, value)| is_wrong(*value)) {
+        return wrong(table, format!("`{key}` is a number that is not below 0"));
     }
+    let rises = |ends: [f64; 2]| ends[0].is_finite() && ends[1].is_finite() && ends[0] < ends[1];
+    let ranges = [("ctrlrange", gains.ctrlrange), ("forcerange", gains.forcerange)];
+    if let Some((key, _)) = ranges.into_iter().find(|(_, of)| of.is_some_and(|of| !rises(of))) {
+        return wrong(table, format!("`{key}` is two numbers, the first below the second"));
+    }
+    if gains.name.as_ref().is_some_and(String::is_empty) {
+        return wrong(table, "`name` of an actuator must not be empty".to_owned());
+    }
+    Ok(gains)
 }

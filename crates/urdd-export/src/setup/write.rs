@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Guess, Members, Setup};
 use crate::error::ExportError;
-use crate::options::MjcfOptions;
+use crate::options::{ActuatorKind, MjcfOptions};
 use crate::structure::Structure;
 use crate::template::fill;
 use crate::yaml::{quoted, real};
@@ -65,8 +65,18 @@ impl Setup {
         let mut joints = String::new();
         for (place, of) in &self.gains.joints {
             let _ = writeln!(joints, "[actuators.joint.{}]", joint(place));
+            let words = [("name", of.name.as_deref()), ("kind", of.kind.map(ActuatorKind::word))];
+            for (key, word) in words {
+                joints.extend(word.map(|word| format!("{key} = {}\n", quoted(word))));
+            }
             for (key, value) in [("kp", of.kp), ("kv", of.kv), ("armature", of.armature)] {
                 joints.extend(value.map(|value| format!("{key} = {}\n", real(value))));
+            }
+            for (key, ends) in [("ctrlrange", of.ctrlrange), ("forcerange", of.forcerange)] {
+                let text = |[least, most]: [f64; 2]| {
+                    format!("{key} = [{}, {}]\n", real(least), real(most))
+                };
+                joints.extend(ends.map(text));
             }
         }
         let curobo = &self.curobo;

@@ -31,17 +31,12 @@ const UNLIMITED: &str = "it mimics a joint, and one of the two has no limits: Ph
 /// The axes of a generic joint.
 const AXES: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
 
-/// What moves joints.
-pub(super) struct Drives {
-    pub kind: ActuatorKind,
-    pub gains: Vec<Option<Gains>>,
-}
-
 pub(super) struct Joints<'a> {
     pub subject: &'a Subject<'a>,
     pub paths: &'a Paths,
     pub filters: &'a Filters,
-    pub drives: Option<Drives>,
+    /// What moves each joint.
+    pub drives: Option<Vec<Option<Gains>>>,
     /// The configuration in which the bodies are.
     pub values: HashMap<&'a str, f64>,
 }
@@ -198,9 +193,7 @@ impl Joints<'_> {
             prim.apply(format!("PhysicsJointStateAPI:{instance}"));
             prim.set(&format!("float state:{instance}:physics:position"), float(position * unit));
         }
-        let Some((drives, gains)) =
-            self.drives.as_ref().zip(self.drives.as_ref().and_then(|drives| drives.gains[index]))
-        else {
+        let Some(gains) = self.drives.as_ref().and_then(|drives| drives[index]) else {
             return;
         };
         prim.apply(format!("PhysicsDriveAPI:{instance}"));
@@ -212,7 +205,7 @@ impl Joints<'_> {
         if let Some(effort) = self.limit_of(index, |limit| limit.effort) {
             set("maxForce", effort);
         }
-        if drives.kind == ActuatorKind::Position {
+        if gains.kind == ActuatorKind::Position {
             set("targetPosition", position * unit);
         }
     }

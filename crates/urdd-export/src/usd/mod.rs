@@ -25,7 +25,7 @@ use super::output::Export;
 use super::stand::Stand;
 use super::subject::Subject;
 use filters::Filters;
-use joints::{Drives, Joints};
+use joints::Joints;
 use looks::Materials;
 use names::{Paths, last};
 use prim::Prim;
@@ -77,7 +77,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     if let Some(kind) = options.actuators {
         let (gains, said) = gains(subject, options.bandwidth, kind, &mut notes)?;
         what += &said;
-        drives = Some(Drives { kind, gains });
+        drives = Some(gains);
     }
     let values = joints::values(subject, &zero)?;
     if values.values().any(|value| *value != 0.0) {

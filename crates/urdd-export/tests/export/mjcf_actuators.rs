@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::made::export;
-use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format};
+use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Setup};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::Robot;
 use urdd_xml::{Document, Node};
@@ -184,4 +184,47 @@ fn a_root_called_world_stays_and_that_is_said() {
     assert!(!made.text.contains("<freejoint"));
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     assert!(notes.len() == 1 && notes[0].contains("never moves"), "{notes:?}");
+}
+
+/// What a file says of an actuator goes before the limits of its joint.
+#[test]
+fn actuators_are_as_a_file_says() {
+    let (_folder, path) = made_of(URDF);
+    let robot = Robot::open(path).expect("a robot");
+    let setup = r#"robot = "r"
+[actuators.joint.turn]
+name = "push"
+kind = "velocity"
+kp = 0.0
+kv = 12.5
+ctrlrange = [-6.0, 12.0]
+forcerange = [-3.0, 8.0]
+[actuators.joint.push]
+kp = 40.0
+kv = 2.0
+ctrlrange = [0.125, 0.25]"#;
+    let setup = Setup::from_toml(setup, "x", &robot).expect("a setup");
+    let made = |kind| {
+        let choices = Choices { setup: Some(setup.clone()), ..with(kind) };
+        mjcf(&robot, choices).text
+    };
+    let of = |text: &str, tag: &str, joint: &str| -> Vec<String> {
+        let document = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
+        let is_one = |n: &Node| n.has_tag_name(tag) && n.attribute("joint") == Some(joint);
+        let found = document.descendants().find(is_one).expect("an actuator");
+        let keys = ["name", "kp", "kv", "ctrlrange", "forcerange"];
+        keys.map(|key| found.attribute(key).unwrap_or("-").to_owned()).to_vec()
+    };
+    let text = made(ActuatorKind::Position);
+    assert_eq!(of(&text, "velocity", "turn"), ["push", "-", "12.5", "-6 12", "-3 8"]);
+    // Two actuators cannot have one name.
+    assert_eq!(of(&text, "position", "push"), ["push_2", "40", "2", "0.125 0.25", "-20 20"]);
+    // A servo of speed stands in the first keyframe, and the slide is where it is.
+    assert!(text.contains(r#"ctrl="0 0.1""#), "{text}");
+    // Who asks for motors has motors.
+    let text = made(ActuatorKind::Motor);
+    assert_eq!(of(&text, "motor", "turn"), ["push", "-", "-", "-3 8", "-"]);
+    // A range of positions is none of speeds.
+    let text = made(ActuatorKind::Velocity);
+    assert_eq!(of(&text, "velocity", "push")[2..], ["2", "-0.5 0.5", "-20 20"]);
 }

@@ -105,7 +105,7 @@ fn what_a_person_set_is_written_again() {
     let mine = guess
         .replace(
             "bandwidth = 10.0\n",
-            "bandwidth = 7.5\n[actuators.joint.\"j1\"]\nkp = 500.0\narmature = 0.1\n",
+            "bandwidth = 7.5\n[actuators.joint.\"j1\"]\nname = \"a\"\nkind = \"motor\"\nkp = 500.0\narmature = 0.1\nctrlrange = [-1.0, 2.0]\nforcerange = [-3.0, 4.0]\n",
         )
         .replace("# acceleration = 5.0", "acceleration = 3.0")
         .replace("# jerk = 100.0", "jerk = 30.0")
@@ -118,7 +118,7 @@ fn what_a_person_set_is_written_again() {
         .replace("# locked = { finger = 0.04 }", "locked = { \"f1\" = 0.01 }");
     let read = Setup::from_toml(&mine, "x", &robot).expect("read");
     assert_eq!(said(&read.to_toml(&robot).expect("text")), said(&mine));
-    assert_eq!(said(&mine).len(), said(&guess).len() + 9);
+    assert_eq!(said(&mine).len(), said(&guess).len() + 13);
 }
 
 /// The gains of a joint, as the text of a setup has them.
@@ -221,6 +221,20 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
         ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1]", ":3:11: a pose is 7 numbers"),
         ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1, 0, 0, 0, 0]", "a pose is 7 numbers"),
         ("robot = \"m\"\n[base]\nposes.x = [nan, 0, 1, 1, 0, 0, 0]", "a pose is 7 numbers"),
+        (
+            "robot = \"m\"\n[actuators.joint.j1]\nctrlrange = [1.0, 1.0]",
+            ":3:1: `ctrlrange` is two numbers, the first below the second",
+        ),
+        (
+            "robot = \"m\"\n[actuators.joint.j1]\nforcerange = [0, inf]",
+            "`forcerange` is two numbers",
+        ),
+        ("robot = \"m\"\n[actuators.joint.j1]\nkind = \"servo\"", "unknown variant `servo`"),
+        ("robot = \"m\"\n[actuators.joint.j1]\nname = \"\"", "must not be empty"),
+        (
+            "robot = \"m\"\n[actuators.joint.j1]\nname = \"a\"\n[actuators.joint.j2]\nname = \"a\"",
+            ":5:1: another actuator has the same `name`",
+        ),
         (
             "robot = \"m\"\n[curobo]\nretract = \"home\"",
             ":3:11: there is no named configuration `home`",

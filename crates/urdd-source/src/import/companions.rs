@@ -11,7 +11,7 @@ use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
-use super::model::{JointKind, Model};
+use super::model::{Joint, JointKind, Model};
 use super::tree::{Edge, Tree};
 
 /// The group whose states are the named configurations.
@@ -78,13 +78,14 @@ pub fn configurations(model: &Model, tree: &Tree) -> Vec<ConfigurationEdit> {
     (0..model.configurations.len()).filter_map(edit).collect()
 }
 
-/// The pairs that are never checked, as a URDD has them. That of neighbours needs no edit.
+/// The pairs that are never checked, and those that are, as a URDD has them. That of neighbours needs no edit.
 pub fn skips(model: &Model) -> Vec<SkipEdit> {
     let apart = model.apart.iter().filter(|apart| apart.reason != "Adjacent");
-    let edit = apart.map(|apart| {
-        let [link_a, link_b] = apart.bodies.map(|body| model.bodies[body].name.clone());
-        let reason = format!("imported: {}", apart.reason);
-        SkipEdit { link_a, link_b, skip: true, reason }
+    let apart = apart.map(|apart| (apart, true));
+    let checked = model.checked.iter().map(|pair| (pair, false));
+    let edit = apart.chain(checked).map(|(pair, skip)| {
+        let [link_a, link_b] = pair.bodies.map(|body| model.bodies[body].name.clone());
+        SkipEdit { link_a, link_b, skip, reason: format!("imported: {}", pair.reason) }
     });
     edit.collect()
 }
@@ -119,13 +120,10 @@ pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
 /// The text of `NAME.export.toml`; none where it would say nothing.
 pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
     let mut joints = Table::new();
-    for edge in &tree.joints {
+    // Nothing drives a joint that follows another.
+    for edge in movable(tree) {
         let Some((body, place)) = edge.joint else { continue };
-        let joint = &model.bodies[body].joints[place];
-        let mut gains = Table::new();
-        for (key, value) in [("kp", joint.kp), ("kv", joint.kv), ("armature", joint.armature)] {
-            gains.extend(value.map(|value| (key.to_owned(), Value::Float(value))));
-        }
+        let gains = gains(&model.bodies[body].joints[place]);
         if !gains.is_empty() {
             joints.insert(edge.name.clone(), Value::Table(gains));
         }
@@ -155,4 +153,23 @@ pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
     }
     let head = "# `urdd import` made this file; `urdd export --setup` reads it.\n";
     toml::to_string(&file).ok().map(|text| head.to_owned() + &text)
+}
+
+/// What exports read of the actuator of a joint.
+fn gains(joint: &Joint) -> Table {
+    let mut table = Table::new();
+    let actuator = &joint.actuator;
+    let word = |word: &str| Value::String(word.to_owned());
+    table.extend(actuator.name.as_ref().map(|name| ("name".to_owned(), word(name))));
+    table.extend(actuator.is_of_speed.then(|| ("kind".to_owned(), word("velocity"))));
+    for (key, value) in [("kp", joint.kp), ("kv", joint.kv), ("armature", joint.armature)] {
+        table.extend(value.map(|value| (key.to_owned(), Value::Float(value))));
+    }
+    // A force that is as great either way is the effort of the URDF.
+    let force = actuator.force.filter(|[least, most]| *least != -*most);
+    for (key, ends) in [("ctrlrange", actuator.control), ("forcerange", force)] {
+        let ends = ends.map(|ends| Value::Array(ends.map(Value::Float).to_vec()));
+        table.extend(ends.map(|ends| (key.to_owned(), ends)));
+    }
+    table
 }

@@ -216,7 +216,7 @@ fn written(
     let base = base.strip_suffix(SETUP).unwrap_or(&base);
     let name = format!("{base}.urdf");
     let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
-    let text = urdf(&model, &tree, &original);
+    let text = urdf(&model, &tree, &original, options);
     files.insert(name.clone(), text.into_bytes().into());
     if let Some(srdf) = companions::srdf(&model, &tree, &original) {
         files.insert(base.to_owned() + SRDF, srdf.into_bytes().into());

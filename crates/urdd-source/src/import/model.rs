@@ -29,6 +29,8 @@ pub struct Model {
     pub configurations: Charged<Configuration>,
     /// Pairs of bodies that are never checked for collisions, by index.
     pub apart: Charged<Apart>,
+    /// Pairs of bodies that are checked, though a joint connects them.
+    pub checked: Charged<Apart>,
     /// What stands in the URDF as it is.
     pub elements: Charged<GazeboElement>,
     /// The coefficient of friction of all shapes, where all have the same.
@@ -132,8 +134,23 @@ pub struct Joint {
     pub kv: Option<f64>,
     #[expect(missing_docs, reason = "above")]
     pub armature: Option<f64>,
+    /// What else its actuator says.
+    pub actuator: Actuator,
     /// Where it stands.
     pub place: Place,
+}
+
+/// What an actuator says beside its gains, in the units of its joint.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Actuator {
+    /// Its name, where the joint has one actuator, of another name.
+    pub name: Option<String>,
+    /// Whether it is told a speed.
+    pub is_of_speed: bool,
+    /// The least and greatest position or speed that it can be told: rad or m, rad/s or m/s.
+    pub control: Option<[f64; 2]>,
+    /// The least and greatest force, N or N m.
+    pub force: Option<[f64; 2]>,
 }
 
 impl Joint {
@@ -154,6 +171,7 @@ impl Joint {
             kp: None,
             kv: None,
             armature: None,
+            actuator: Actuator::default(),
             place,
         }
     }
@@ -264,12 +282,12 @@ pub struct JointValue {
 #[derive(Debug, Clone, PartialEq)]
 pub struct GazeboElement(pub String);
 
-/// Two bodies that are never checked for collisions with each other, and why.
+/// Two bodies that are never checked for collisions with each other, or always, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Apart {
     /// Their indices.
     pub bodies: [usize; 2],
-    /// The reason, in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
+    /// The reason; of those that are never checked in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
     pub reason: &'static str,
 }
 
@@ -288,7 +306,9 @@ impl Cost for Body {
 
 impl Cost for Joint {
     fn cost(&self) -> usize {
-        ENTRY + LETTER * (self.name.len() + self.mimic.as_ref().map_or(0, |of| of.joint.len()))
+        let leader = self.mimic.as_ref().map(|of| &of.joint);
+        let others = leader.into_iter().chain(&self.actuator.name);
+        ENTRY + LETTER * (self.name.len() + others.map(String::len).sum::<usize>())
     }
 }
 

@@ -9,4 +9,6 @@ pub struct ImportOptions {
     pub model: Option<String>,
     /// Whether a ball is written as three revolute joints.
     pub has_revolute_balls: bool,
+    /// Whether links between the joints of one body get a tiny mass, which MuJoCo asks of what moves.
+    pub has_tiny_masses: bool,
 }

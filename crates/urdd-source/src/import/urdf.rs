@@ -1,26 +1,30 @@
 //! Writes the URDF of a [`Model`].
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3};
 use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
 use super::model::{Geometry, Inertial, Material, Model, Shape, Use};
+use super::options::ImportOptions;
+use super::place::Place;
 use super::tree::{Edge, Link, Tree};
 
 /// The limits of a slide that has none, m.
 const FAR: f64 = 10.0;
 /// What a joint can do, of which it is not said: N, N m, m/s or rad/s.
 const MUCH: f64 = 1000.0;
+/// The mass and the moments of a link between the joints of a body, kg and kg m²: what exports to MJCF assume, too.
+const TINY: f64 = 1e-9;
 /// The file of the mesh that ellipsoids are made of: a sphere of radius 1.
 pub const UNIT_SPHERE: &str = "meshes/unit_sphere.obj";
 
 /// The text of the URDF.
-pub fn urdf(model: &Model, tree: &Tree, original: &str) -> String {
+pub fn urdf(model: &Model, tree: &Tree, original: &str, options: &ImportOptions) -> String {
     let mut robot = Element::new("robot").with("name", &*model.name);
     let mut edges = tree.joints.iter();
     for link in &tree.links {
-        robot.push(link_element(model, link));
+        robot.push(link_element(model, link, options));
         // Each link but the root follows the joint that leads to it.
         if link.name == tree.links[0].name {
             continue;
@@ -36,9 +40,10 @@ pub fn urdf(model: &Model, tree: &Tree, original: &str) -> String {
     robot.document(&[format!("`urdd import` made this file from {original}.")])
 }
 
-fn link_element(model: &Model, link: &Link) -> Element {
+fn link_element(model: &Model, link: &Link, options: &ImportOptions) -> Element {
     let mut element = Element::new("link").with("name", &*link.name);
     let Some(body) = link.body.map(|body| &model.bodies[body]) else {
+        element.extend(options.has_tiny_masses.then(|| inertial(&tiny(link.place))));
         return element;
     };
     element.extend(body.inertial.as_ref().map(inertial));
@@ -60,6 +65,11 @@ fn link_element(model: &Model, link: &Link) -> Element {
         }
     }
     element
+}
+
+fn tiny(place: Place) -> Inertial {
+    let inertia = Matrix3::from_diagonal_element(TINY);
+    Inertial { mass: TINY, centre: Point3::origin(), inertia, place }
 }
 
 /// A shape as shapes of URDF 1.0, each with what is put behind its name.

@@ -281,10 +281,17 @@ fn actuators_give_forces_speeds_and_gains() {
         let joint = joint(&model, name);
         (joint.effort, joint.velocity, joint.kp, joint.kv)
     };
-    // A gear multiplies forces, its square gains; what has no limit has no greatest force.
-    assert_eq!(of("a"), (Some(10.0), None, Some(80.0), Some(0.0)));
+    // A gear multiplies forces, its square gains; what has no limit has no greatest force. The dampings of `a` and `c` are
+    // ratios: MuJoCo's compiled model has these.
+    let ratio = |name, gear: f64, damping: f64| {
+        let kv = joint(&model, name).kv.unwrap();
+        assert!((kv - damping * gear * gear).abs() < 1e-7, "{name}: {kv}");
+    };
+    ratio("a", 2.0, 1.14741187);
+    ratio("c", 1.0, 1.30351513);
+    assert_eq!((of("a").0, of("a").2), (Some(10.0), Some(80.0)));
     assert_eq!(of("b"), (Some(3.0), None, None, None));
-    assert_eq!(of("c"), (None, None, Some(30.0), Some(0.0)));
+    assert_eq!((of("c").0, of("c").2), (None, Some(30.0)));
     assert_eq!(of("d"), (Some(9.0), None, Some(100.0), Some(5.0)));
     assert_eq!(of("e"), (None, Some(1.0), Some(0.0), Some(36.0)));
     // 3 times 2 of one motor, 4 of another; nobody knows how much of the muscle.
@@ -294,8 +301,7 @@ fn actuators_give_forces_speeds_and_gains() {
     assert_eq!(of("i"), (None, None, Some(0.0), Some(12.0)));
     let e = joint(&model, "e");
     assert!((e.damping - 1.2).abs() < 1e-12 && (e.armature.unwrap() - 1.8).abs() < 1e-12);
-    let unread: Vec<&str> = model.tally.all_unread().keys().map(String::as_str).collect();
-    assert_eq!(unread, ["ratios of damping (dampratio) of actuators"]);
+    assert!(model.tally.all_unread().is_empty());
 }
 
 #[test]
@@ -355,4 +361,25 @@ fn the_robot_of_a_scene_is_what_is_driven() {
     assert!(matches!(world.bodies[0].shapes[..], [Shape { used: Use::Both, .. }]));
     let remarks = read("scene", None).tally.remarks;
     assert!(remarks.iter().any(|of| of.text.contains("`drawer`, `target`")), "{remarks:?}");
+}
+
+#[test]
+fn attached_models_bring_what_is_theirs() {
+    // Poses, masses, shapes and limits are those of `mjcf.json`.
+    let model = read("attached", None);
+    let mimic = |name| joint(&model, name).mimic.clone().map(|of| (of.joint, of.multiplier));
+    assert_eq!(mimic("left/curl"), Some(("left/bend".to_owned(), 2.0)));
+    assert_eq!(mimic("right/curl"), Some(("right/bend".to_owned(), 2.0)));
+    let bend = joint(&model, "right/bend");
+    assert_eq!((bend.kp, bend.actuator.name.as_deref()), (Some(7.0), Some("right/grip")));
+    // MuJoCo's own.
+    assert!((bend.kv.unwrap() - 0.01126647).abs() < 1e-8, "{:?}", bend.kv);
+    let excluded = model.apart.iter().filter(|of| of.reason == "User");
+    let name = |index: usize| model.bodies[index].name.as_str();
+    let excluded: Vec<[&str; 2]> = excluded.map(|of| of.bodies.map(name)).collect();
+    assert_eq!(excluded, [["left/thumb", "left/finger"], ["right/thumb", "right/finger"]]);
+    let shell =
+        model.bodies.iter().find(|body| body.name == "left/palm").unwrap().shapes[0].clone();
+    assert_eq!(shell.material.unwrap().name.as_deref(), Some("left/red"));
+    assert_eq!(model.tally.all_unread().get("keys of attached models"), Some(&2));
 }

@@ -57,7 +57,8 @@ fn what_is_wrong_is_said() {
             "<replicate count=\"1000000000\"><geom size=\"1\"/></replicate>",
             "more would be made of the description",
         ),
-        ("<attach model=\"x\" prefix=\"y\"/>", "`<attach>` is not supported"),
+        ("<attach model=\"x\" prefix=\"y\"/>", "`<attach>` names the model `x`"),
+        ("<attach model=\"x\"/>", "`<attach>` needs the attribute `prefix`"),
         ("<include file=\"x.xml\"/>", "`x.xml` was not found"),
         ("<include/>", "`<include>` needs the attribute `file`"),
         ("<include file=\"m.xml\"/>", "`m.xml` is already included"),
@@ -120,6 +121,36 @@ fn a_fault_is_placed_in_the_file_that_has_it() {
     assert!(fault.fault.to_string().contains("already included"), "{fault:?}");
     let fault = of_text(&path, world("<include file=\"/etc/passwd\"/>"), None).unwrap_err();
     assert!(fault.fault.to_string().contains("outside"), "{fault:?}");
+}
+
+#[test]
+fn models_that_are_attached_are_bounded() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().canonicalize().unwrap().join("m.xml");
+    let attach = |name: &str, times: usize| {
+        let each: String = (0..times)
+            .map(|at| format!("<attach model=\"x\" prefix=\"{at}/{}\"/>", "p".repeat(20)))
+            .collect();
+        format!(
+            "<mujoco><asset><model name=\"x\" file=\"{name}\"/></asset><worldbody><body><joint/><geom size=\"1\"/></body>{each}</worldbody></mujoco>"
+        )
+    };
+    let refused = |text: String| of_text(&path, text, None).unwrap_err().fault.to_string();
+    std::fs::write(&path, attach("m.xml", 1)).unwrap();
+    assert!(refused(attach("m.xml", 1)).contains("attached in each other, or one to itself"));
+    assert!(refused(attach("/etc/passwd", 1)).contains("outside"));
+    // Each has ten of the next one: a million bodies.
+    for level in 0..6 {
+        let next = format!("{}.xml", level + 1);
+        std::fs::write(folder.path().join(format!("{level}.xml")), attach(&next, 10)).unwrap();
+    }
+    std::fs::write(folder.path().join("6.xml"), world("<joint/><geom size=\"1\"/>")).unwrap();
+    let start = Instant::now();
+    assert!(refused(attach("0.xml", 10)).contains("more would be made of the description"));
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+    // A body that the model does not have.
+    let text = attach("6.xml", 1).replace("<attach ", "<attach body=\"no\" ");
+    assert!(refused(text).contains("names the body `no`"));
 }
 
 #[test]

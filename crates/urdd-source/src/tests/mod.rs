@@ -8,6 +8,8 @@ mod files;
 mod gate;
 mod mjcf;
 mod mjcf_faults;
+mod mjcf_meaning;
+mod mjcf_seen;
 mod origin;
 mod sdf;
 mod sniff;

@@ -116,11 +116,19 @@ fn plain(name: &str) -> String {
     name.trim().to_lowercase()
 }
 
+/// Elements of an SRDF.
+const SRDF: [&str; 4] = ["<group", "<disable_collisions", "<virtual_joint", "<end_effector"];
+
 fn one_root(reader: &mut Reader, robot_at: usize) {
     let robot = &reader.reading.robot;
     let ends = &reader.reading.tree.ends;
     if robot.links.is_empty() {
-        let fault = if reader.reading.has_xacro { Fault::OnlyMacros } else { Fault::NoLinks };
+        let mut elements = robot.unknown_elements.iter();
+        let fault = match elements.any(|text| SRDF.iter().any(|tag| text.starts_with(tag))) {
+            _ if reader.reading.has_xacro => Fault::OnlyMacros,
+            true => Fault::IsSrdf,
+            false => Fault::NoLinks,
+        };
         reader.fault(robot_at, fault);
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::is_limited;
 use super::reading::{list, number_of, numbers, word};
@@ -47,6 +47,10 @@ pub struct Actuator {
     pub stiffness: f64,
     /// Below 0: a ratio of damping, negated.
     pub damping: f64,
+    /// A force that is always there.
+    pub constant: f64,
+    /// By how much the range of the joint is the range of its control; 0: it is not.
+    inherited: f64,
     /// What it adds to its joint.
     pub joint_damping: f64,
     pub armature: f64,
@@ -70,6 +74,8 @@ impl Default for Actuator {
             gain: 1.0,
             stiffness: 0.0,
             damping: 0.0,
+            constant: 0.0,
+            inherited: 0.0,
             joint_damping: 0.0,
             armature: 0.0,
             force: Range::default(),
@@ -122,6 +128,7 @@ impl Actuator {
                 self.gain = stiffness.unwrap_or(self.gain);
                 self.stiffness = self.gain;
                 self.damping = damping.unwrap_or(self.damping);
+                self.inherited = number_of(element, "inheritrange")?.unwrap_or(self.inherited);
                 let constant = number_of(element, "timeconst")?;
                 self.has_state = element.tag == "intvelocity"
                     || constant.map_or(self.has_state, |constant| constant != 0.0);
@@ -156,37 +163,66 @@ impl Actuator {
         if element.get("biasprm").is_some() {
             let bias = list(element, "biasprm", 10)?;
             let of = |place: usize, now: f64| bias.get(place).map_or(now, |bias| -bias);
+            self.constant = of(0, self.constant);
             self.stiffness = of(1, self.stiffness);
             self.damping = of(2, self.damping);
         }
         Ok(())
     }
 
-    /// The greatest force at its joint; none without a limit.
-    pub fn effort(&self, element: &Element, compiler: &Compiler) -> Fallible<Option<f64>> {
-        let greatest = |ends: [f64; 2]| ends[0].abs().max(ends[1].abs());
+    /// The least and greatest force at its joint; none without a limit.
+    pub fn force(&self, element: &Element, compiler: &Compiler) -> Fallible<Option<[f64; 2]>> {
         let force = self.force.limits(element, "forcelimited", compiler)?;
         let control = self.control.limits(element, "ctrllimited", compiler)?;
         let control = control.filter(|_| self.law == Law::Gain && !self.has_state);
-        let most = match (force, control) {
-            (Some(force), _) => Some(greatest(force)),
-            (None, control) => control.map(|control| greatest(control) * self.gain.abs()),
+        let control = control.map(|control| times(control, self.gain));
+        let both = match (force, control) {
+            (Some([least, most]), Some(control)) => {
+                Some(control.map(|force| force.max(least).min(most)))
+            }
+            (force, control) => force.or(control),
         };
-        Ok(most.map(|most| most * self.gear.abs()))
+        Ok(both.map(|force| times(force, self.gear)))
     }
 
-    /// The greatest speed that its control asks of its joint, if it is a servo of speed.
-    pub fn velocity(&self, element: &Element, compiler: &Compiler) -> Fallible<Option<f64>> {
-        let is_of_speed = self.law == Law::Servo
-            && self.stiffness == 0.0
-            && self.damping > 0.0
-            && self.damping.to_bits() == self.gain.to_bits()
-            && !self.has_state
-            && self.gear != 0.0;
-        let control = self.control.limits(element, "ctrllimited", compiler)?;
-        let most = control.filter(|_| is_of_speed).map(|ends| ends[0].abs().max(ends[1].abs()));
-        Ok(most.filter(|most| *most > 0.0).map(|most| most / self.gear.abs()))
+    /// Whether its damping is a ratio: MuJoCo takes it for one in a servo of position.
+    pub fn is_ratio(&self) -> bool {
+        self.damping < 0.0 && self.gain.to_bits() == self.stiffness.to_bits()
     }
+
+    /// Whether it is a servo of speed.
+    pub fn is_of_speed(&self) -> bool {
+        self.law == Law::Servo && self.stiffness == 0.0 && self.damping > 0.0 && !self.has_state
+    }
+
+    /// The least and greatest position of its joint that a servo can be told, or speed. `joint` is the joint's range.
+    pub fn told(
+        &self,
+        element: &Element,
+        compiler: &Compiler,
+        joint: Option<[f64; 2]>,
+    ) -> Fallible<Option<[f64; 2]>> {
+        let own = self.control.limits(element, "ctrllimited", compiler)?;
+        let inherited = joint.filter(|_| self.inherited > 0.0).map(|[least, most]| {
+            let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0 * self.inherited);
+            [middle - half, middle + half]
+        });
+        let against = if self.is_of_speed() { self.damping } else { self.stiffness };
+        let per = self.gain / (against * self.gear);
+        let is_told = self.law == Law::Servo && !self.has_state && per.is_finite() && per != 0.0;
+        Ok(inherited.or(own).filter(|_| is_told).map(|told| times(told, per)))
+    }
+}
+
+/// A range times a factor, the least first.
+fn times(ends: [f64; 2], factor: f64) -> [f64; 2] {
+    let [a, b] = ends.map(|end| end * factor);
+    [a.min(b), a.max(b)]
+}
+
+/// The greatest force of a range, either way.
+pub fn greatest([least, most]: [f64; 2]) -> f64 {
+    least.abs().max(most.abs())
 }
 
 impl Range {

@@ -15,7 +15,7 @@ use super::super::names::Names;
 use super::super::place::{Place, TextFile};
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
-use super::compiler::Compiler;
+use super::compiler::{Compiler, Compilers};
 use super::document::first;
 use crate::gate::Gate;
 use crate::resolve::FoundMesh;
@@ -59,7 +59,7 @@ const LOOKED_AT: usize = 20;
 /// The files that the URDF names, and where they are read.
 pub struct Assets<'f> {
     gate: &'f Gate,
-    compiler: &'f Compiler,
+    compilers: &'f Compilers,
     files: &'f [TextFile],
     by_key: HashMap<String, usize>,
     /// In lower case.
@@ -69,12 +69,12 @@ pub struct Assets<'f> {
 
 impl<'f> Assets<'f> {
     /// None yet.
-    pub fn new(gate: &'f Gate, compiler: &'f Compiler, files: &'f [TextFile]) -> Fallible<Self> {
+    pub fn new(gate: &'f Gate, compilers: &'f Compilers, files: &'f [TextFile]) -> Fallible<Self> {
         let mut names = Names::new(gate.account());
         // That of the mesh of ellipsoids.
         names.take("meshes/unit_sphere").map_err(|why| at(Place::default(), why))?;
         let (by_key, all) = (HashMap::new(), Charged::default());
-        Ok(Assets { gate, compiler, files, by_key, names, all })
+        Ok(Assets { gate, compilers, files, by_key, names, all })
     }
 
     /// Finds a file that an element names.
@@ -82,8 +82,9 @@ impl<'f> Assets<'f> {
         let folder_of = |file: Option<&'f TextFile>| {
             file.and_then(|file| file.path.parent()).unwrap_or(Path::new("/"))
         };
-        let [base, own] = [self.files.first(), self.files.get(place.file)].map(folder_of);
-        let places = places(file, self.compiler, folder, base, own);
+        let first_file = self.compilers.first_file(place);
+        let [base, own] = [first_file, place.file].map(|of| folder_of(self.files.get(of)));
+        let places = places(file, self.compilers.at(place), folder, base, own);
         let bytes: usize = places.iter().map(|place| place.as_os_str().len()).sum();
         self.charge(LOOKED_AT * bytes, place)?;
         let found = first(self.gate, places, file);

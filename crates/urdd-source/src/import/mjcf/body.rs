@@ -9,9 +9,9 @@ use super::super::features::{self, Tally};
 use super::super::model::LETTER;
 use super::super::place::Place;
 use super::at::{Fallible, at};
-use super::compiler::Compiler;
+use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN, PASSED};
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::geom::{Geom, between};
 use super::joint::{self, RawJoint};
@@ -33,6 +33,8 @@ pub struct RawBody<'d> {
     /// Its `pos`, without the frame that it is in.
     pub written_position: Vector3<f64>,
     pub inertial: Option<View<'d>>,
+    /// How many it has: the last counts.
+    pub inertials: usize,
     pub joints: Vec<RawJoint>,
     pub geoms: Vec<Geom<'d>>,
     pub frames: Vec<RawFrame>,
@@ -63,13 +65,13 @@ pub struct Bodies<'d> {
 pub fn bodies<'d>(
     root: &'d Element,
     defaults: &'d Defaults<'d>,
-    compiler: &'d Compiler,
+    compilers: &'d Compilers,
     tally: &mut Tally,
     account: &Account,
 ) -> Fallible<Bodies<'d>> {
     let bodies =
         Bodies { all: vec![RawBody::default()], suffixes: HashMap::new(), is_partial: false };
-    let mut builder = Builder { bodies, defaults, compiler, tally, account };
+    let mut builder = Builder { bodies, defaults, compilers, tally, account };
     let suffix = String::new();
     for section in root.all("worldbody") {
         builder.bodies.all[WORLD].place = section.place;
@@ -83,7 +85,7 @@ pub fn bodies<'d>(
 struct Builder<'d, 't> {
     bodies: Bodies<'d>,
     defaults: &'d Defaults<'d>,
-    compiler: &'d Compiler,
+    compilers: &'d Compilers,
     tally: &'t mut Tally,
     account: &'t Account,
 }
@@ -114,12 +116,14 @@ impl<'d> Builder<'d, '_> {
                 "inertial" => {
                     let view = View::new(element, self.defaults, scope.class)?;
                     self.bodies.all[scope.body].inertial = Some(view);
+                    self.bodies.all[scope.body].inertials += 1;
                 }
                 "joint" | "freejoint" => self.joint(element, scope)?,
                 "geom" => {
                     let name = self.name(element, scope);
                     let view = View::new(element, self.defaults, scope.class)?;
-                    let geom = Geom::read(view, name, &scope.frame, self.compiler)?;
+                    let geom =
+                        Geom::read(view, name, &scope.frame, self.compilers.at(element.place))?;
                     self.bodies.all[scope.body].geoms.push(geom);
                 }
                 "site" => self.site(element, "site", scope)?,
@@ -127,9 +131,6 @@ impl<'d> Builder<'d, '_> {
                 "composite" | "flexcomp" => {
                     self.tally.count(features::SOFT);
                     self.bodies.is_partial = true;
-                }
-                "attach" => {
-                    return Err(at(element.place, MjcfFault::Unsupported(element.tag.clone())));
                 }
                 _ => {}
             }
@@ -155,7 +156,7 @@ impl<'d> Builder<'d, '_> {
 
     fn body(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
         let view = View::new(element, self.defaults, scope.class)?;
-        let own = pose(view, self.compiler)?;
+        let own = pose(view, self.compilers.at(element.place))?;
         let class = self.defaults.scope(element, scope.class)?;
         let body = RawBody {
             name: self.name(element, scope),
@@ -191,7 +192,7 @@ impl<'d> Builder<'d, '_> {
 
     fn frame(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
         let view = View::new(element, self.defaults, scope.class)?;
-        let frame = scope.frame * pose(view, self.compiler)?;
+        let frame = scope.frame * pose(view, self.compilers.at(element.place))?;
         let class = self.defaults.scope(element, scope.class)?;
         self.children(element, Scope { frame, class, ..scope })
     }
@@ -211,7 +212,8 @@ impl<'d> Builder<'d, '_> {
         for number in 0..count {
             self.charge(element, scope)?;
             #[expect(clippy::cast_precision_loss, reason = "as many as can be charged")]
-            let turn = euler(angles.map(|angle| angle * number as f64), self.compiler);
+            let turn =
+                euler(angles.map(|angle| angle * number as f64), self.compilers.at(element.place));
             let at = Isometry3::from_parts(Translation3::from(position), turn);
             position += turn * offset;
             let suffix = format!("{separator}{number:0width$}{}", scope.suffix);
@@ -227,7 +229,13 @@ impl<'d> Builder<'d, '_> {
             "freejoint" => RawJoint::free(element, name),
             _ => {
                 let view = View::new(element, self.defaults, scope.class)?;
-                RawJoint::read(view, name, &scope.frame, self.compiler, self.tally)?
+                RawJoint::read(
+                    view,
+                    name,
+                    &scope.frame,
+                    self.compilers.at(element.place),
+                    self.tally,
+                )?
             }
         };
         self.bodies.all[scope.body].joints.push(joint);
@@ -238,7 +246,7 @@ impl<'d> Builder<'d, '_> {
         let view = View::new(element, self.defaults, scope.class)?;
         let pose = match between(view)? {
             Some((pose, _)) => pose,
-            None => pose(view, self.compiler)?,
+            None => pose(view, self.compilers.at(element.place))?,
         };
         let frame = RawFrame {
             name: self.name(element, scope),

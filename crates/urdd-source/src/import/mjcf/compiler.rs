@@ -2,8 +2,9 @@
 
 use std::ops::RangeInclusive;
 
+use super::super::place::Place;
 use super::at::{Fallible, at};
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::{flag, number_of, numbers, word, wrong};
 
@@ -42,10 +43,45 @@ pub struct Compiler {
     pub fits_boxes: bool,
 }
 
+/// How a model and those that it attaches are read: each by its own settings.
+pub struct Compilers {
+    all: Vec<Compiler>,
+    /// The model that each file is of.
+    models: Vec<usize>,
+}
+
+impl Compilers {
+    /// What the `<compiler>`s of the models say, the last one last. `models` has the model of each file.
+    pub fn of(root: &Element, models: Vec<usize>) -> Fallible<Self> {
+        let count = models.iter().max().map_or(1, |last| last + 1);
+        let all = (0..count).map(|_| Compiler::new()).collect();
+        let mut compilers = Compilers { all, models };
+        for element in root.all("compiler") {
+            let model = compilers.model(element.place);
+            compilers.all[model].read(element)?;
+        }
+        Ok(compilers)
+    }
+
+    fn model(&self, place: Place) -> usize {
+        self.models.get(place.file).copied().unwrap_or(0)
+    }
+
+    /// How the model is read that has a place.
+    pub fn at(&self, place: Place) -> &Compiler {
+        &self.all[self.model(place)]
+    }
+
+    /// The first file of the model that has a place.
+    pub fn first_file(&self, place: Place) -> usize {
+        let model = self.model(place);
+        self.models.iter().position(|of| *of == model).unwrap_or(0)
+    }
+}
+
 impl Compiler {
-    /// What the `<compiler>`s of a model say, the last one last.
-    pub fn of(root: &Element) -> Fallible<Self> {
-        let mut compiler = Compiler {
+    fn new() -> Self {
+        Compiler {
             angle: 1.0_f64.to_radians(),
             euler: ['x', 'y', 'z'],
             has_auto_limits: true,
@@ -60,11 +96,7 @@ impl Compiler {
             total_mass: None,
             discards_visuals: false,
             fits_boxes: false,
-        };
-        for element in root.all("compiler") {
-            compiler.read(element)?;
         }
-        Ok(compiler)
     }
 
     fn read(&mut self, element: &Element) -> Fallible<()> {

@@ -6,7 +6,8 @@ use urdd_directory::account::Account;
 
 use super::super::place::Place;
 use super::at::{Fallible, at};
-use super::document::Element;
+use super::attach::CLASSES;
+use super::element::Element;
 use super::fault::MjcfFault;
 
 /// The class that all others are in.
@@ -53,6 +54,13 @@ impl<'d> Defaults<'d> {
             }
             defaults.section(section, MAIN, 0)?;
         }
+        for section in root.all(CLASSES) {
+            let main =
+                defaults.new_class(section, section.text("class").unwrap_or_default(), None)?;
+            for class in &section.children {
+                defaults.section(class, main, 0)?;
+            }
+        }
         Ok(defaults)
     }
 
@@ -74,14 +82,24 @@ impl<'d> Defaults<'d> {
         for nested in section.all("default") {
             let name = nested.text("class");
             let name = name.ok_or_else(|| at(nested.place, MjcfFault::DefaultWithoutClass))?;
-            let inner = self.classes.len();
-            if self.by_name.insert(name, inner).is_some() {
-                return Err(at(nested.place, MjcfFault::ClassTwice(name.to_owned())));
-            }
-            self.classes.push(Class { around: Some((class, number)), ..Class::default() });
+            let inner = self.new_class(nested, name, Some((class, number)))?;
             self.section(nested, inner, depth + 1)?;
         }
         Ok(())
+    }
+
+    fn new_class(
+        &mut self,
+        section: &Element,
+        name: &'d str,
+        around: Option<(usize, usize)>,
+    ) -> Fallible<usize> {
+        let class = self.classes.len();
+        if self.by_name.insert(name, class).is_some() {
+            return Err(at(section.place, MjcfFault::ClassTwice(name.to_owned())));
+        }
+        self.classes.push(Class { around, ..Class::default() });
+        Ok(class)
     }
 
     /// A class by name.

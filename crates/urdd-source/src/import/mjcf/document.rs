@@ -1,6 +1,7 @@
 //! An MJCF as one tree of elements: each `<include>` replaced by what is in its file.
 
 use std::collections::HashSet;
+use std::mem::replace;
 use std::path::{Path, PathBuf};
 
 use urdd_xml::{Kind, MAX_LEVELS, Node};
@@ -9,85 +10,119 @@ use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile, offset_of};
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
+use super::attach::{self, Models};
+use super::element::Element;
 use super::fault::MjcfFault;
+use super::reading::required;
 use crate::gate::{Gate, unreachable};
 use crate::resolve::FoundMesh;
 
-/// An element.
-#[derive(Debug)]
-pub struct Element {
-    pub tag: String,
-    /// By name, in order.
-    attributes: Vec<(String, String)>,
-    pub children: Vec<Element>,
-    pub place: Place,
+/// Models that are attached, each to the one before.
+const DEEPEST: usize = 10;
+
+/// What a description and all that it includes and attaches say.
+pub struct Whole {
+    /// The files, the description first.
+    pub files: Vec<TextFile>,
+    /// The model that each file is of: 0 is the description, others are attached.
+    pub models: Vec<usize>,
+    pub root: Fallible<Element>,
 }
 
-impl Element {
-    /// The text of an attribute.
-    pub fn get(&self, name: &str) -> Option<&str> {
-        let found = self.attributes.binary_search_by(|(key, _)| key.as_str().cmp(name));
-        found.ok().map(|at| self.attributes[at].1.as_str())
-    }
-
-    /// The bytes of its attributes.
-    pub fn length(&self) -> usize {
-        self.attributes.iter().map(|(name, value)| name.len() + value.len()).sum()
-    }
-
-    /// The names of its attributes, in order.
-    pub fn attribute_names(&self) -> impl Iterator<Item = &str> {
-        self.attributes.iter().map(|(name, _)| name.as_str())
-    }
-
-    /// The text of an attribute, unless it is empty.
-    pub fn text(&self, name: &str) -> Option<&str> {
-        self.get(name).filter(|text| !text.is_empty())
-    }
-
-    /// The children of a tag.
-    pub fn all(&self, tag: &str) -> impl Iterator<Item = &Element> {
-        self.children.iter().filter(move |child| child.tag == tag)
-    }
-
-    /// What the sections of a tag hold, in order.
-    pub fn sections(&self, tag: &str) -> impl Iterator<Item = &Element> {
-        self.all(tag).flat_map(|section| &section.children)
-    }
-}
-
-/// Reads a description and what it includes: the files, the description first, and the outermost element.
-pub fn read(file: TextFile, gate: &Gate) -> (Vec<TextFile>, Fallible<Element>) {
-    let folder = file.path.parent().unwrap_or(Path::new("/")).to_owned();
-    let name = file.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let text = file.text.clone();
-    let mut expansion =
-        Expansion { files: vec![file], folder, included: HashSet::from([name]), gate };
-    let root = expansion.root(&text);
-    (expansion.files, root)
+/// Reads a description.
+pub fn read(file: TextFile, gate: &Gate) -> Whole {
+    let (path, text) = (file.path.clone(), file.text.clone());
+    let (included, within) = (HashSet::new(), Vec::new());
+    let mut expansion = Expansion {
+        files: vec![file],
+        models: vec![0],
+        folder: PathBuf::new(),
+        included,
+        within,
+        gate,
+    };
+    let root = expansion.model(&path, &text);
+    Whole { files: expansion.files, models: expansion.models, root }
 }
 
 struct Expansion<'r> {
     files: Vec<TextFile>,
-    /// That of the description.
+    models: Vec<usize>,
+    /// That of the model that is read.
     folder: PathBuf,
-    /// The names of files, as they are written.
+    /// The names of its files, as they are written.
     included: HashSet<String>,
+    /// The models that are read, each attached to the one before.
+    within: Vec<PathBuf>,
     gate: &'r Gate,
 }
 
 impl Expansion<'_> {
-    fn root(&mut self, text: &str) -> Fallible<Element> {
-        let document = parse(text, 0)?;
-        let node = document.root_element();
-        let mut root = Element {
-            tag: node.tag_name().name().to_owned(),
-            attributes: attributes(node),
-            children: Vec::new(),
-            place: Place { file: 0, offset: node.range().start },
-        };
-        self.children(node, 0, 1, &mut root.children)?;
+    /// Reads a model, of which the last file is the first.
+    fn model(&mut self, path: &Path, text: &str) -> Fallible<Element> {
+        let file = self.files.len() - 1;
+        let folder = path.parent().unwrap_or(Path::new("/")).to_owned();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let outer =
+            (replace(&mut self.folder, folder), replace(&mut self.included, HashSet::from([name])));
+        self.within.push(path.to_owned());
+        let mut root = self.root(text, file)?;
+        self.attach(&mut root)?;
+        self.within.pop();
+        (self.folder, self.included) = outer;
         Ok(root)
+    }
+
+    fn root(&mut self, text: &str, file: usize) -> Fallible<Element> {
+        let document = parse(text, file)?;
+        let node = document.root_element();
+        let place = Place { file, offset: node.range().start };
+        let mut root = Element::new(node.tag_name().name().to_owned(), attributes(node), place);
+        self.children(node, file, 1, &mut root.children)?;
+        Ok(root)
+    }
+
+    /// Puts the bodies of other models in the place of each `<attach>`.
+    fn attach(&mut self, root: &mut Element) -> Fallible<()> {
+        if !root.all("worldbody").any(attach::is_in) {
+            return Ok(());
+        }
+        let mut models = Models::new();
+        for asset in root.sections("asset").filter(|asset| asset.tag == "model") {
+            let model = self.attached(asset)?;
+            let name = asset.text("name").or(model.text("model")).unwrap_or_default().to_owned();
+            models.insert(name, model);
+        }
+        let mut parts = Vec::new();
+        for section in root.children.iter_mut().filter(|of| of.tag == "worldbody") {
+            attach::splice(section, 2, &models, &mut parts, self.gate.account())?;
+        }
+        root.children.extend(parts);
+        Ok(())
+    }
+
+    /// A model that can be attached.
+    fn attached(&mut self, asset: &Element) -> Fallible<Element> {
+        let name = required(asset, "file")?;
+        let (text, path) = self.open(name, asset.place)?;
+        if self.within.len() > DEEPEST || self.within.contains(&path) {
+            return Err(at(asset.place, MjcfFault::DeepModels(DEEPEST)));
+        }
+        let number = self.models.iter().max().map_or(0, |model| model + 1);
+        self.models.push(number);
+        self.model(&path, &text)
+    }
+
+    /// Reads a file that an element names, as the last of the files.
+    fn open(&mut self, name: &str, place: Place) -> Fallible<(String, PathBuf)> {
+        let beside = self.files[place.file].path.parent().map(|folder| folder.join(name));
+        let places = [Some(self.folder.join(name)), beside];
+        let unread = |fault| at(place, ImportFault::File(fault));
+        let found = first(self.gate, places.into_iter().flatten(), name).map_err(unread)?;
+        let read = TextFile::included(self.gate, &found).map_err(|fault| at(place, fault))?;
+        let opened = (read.text.clone(), read.path.clone());
+        self.files.push(read);
+        Ok(opened)
     }
 
     fn children(
@@ -107,12 +142,7 @@ impl Expansion<'_> {
                 self.include(node, place, depth, into)?;
                 continue;
             }
-            let mut element = Element {
-                tag: tag.to_owned(),
-                attributes: attributes(node),
-                children: Vec::new(),
-                place,
-            };
+            let mut element = Element::new(tag.to_owned(), attributes(node), place);
             self.children(node, file, depth + 1, &mut element.children)?;
             into.push(element);
         }
@@ -131,13 +161,9 @@ impl Expansion<'_> {
         if !self.included.insert(name.to_owned()) {
             return Err(at(place, MjcfFault::IncludedTwice(name.to_owned())));
         }
-        let beside = self.files[place.file].path.parent().map(|folder| folder.join(name));
-        let places = [Some(self.folder.join(name)), beside];
-        let unread = |fault| at(place, ImportFault::File(fault));
-        let found = first(self.gate, places.into_iter().flatten(), name).map_err(unread)?;
-        let read = TextFile::included(self.gate, &found).map_err(|fault| at(place, fault))?;
-        let (file, text) = (self.files.len(), read.text.clone());
-        self.files.push(read);
+        let (text, _) = self.open(name, place)?;
+        self.models.push(self.models[place.file]);
+        let file = self.files.len() - 1;
         self.children(parse(&text, file)?.root_element(), file, depth + 1, into)
     }
 }
@@ -162,12 +188,7 @@ pub fn first(
 }
 
 fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
-    let each = node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned()));
-    let mut attributes: Vec<_> = each.collect();
-    // Of names that differ in prefixes, the first counts: the order is kept.
-    attributes.sort_by(|one, other| one.0.cmp(&other.0));
-    attributes.dedup_by(|later, first| later.0 == first.0);
-    attributes
+    node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned())).collect()
 }
 
 fn parse(text: &str, file: usize) -> Fallible<urdd_xml::Document<'_>> {

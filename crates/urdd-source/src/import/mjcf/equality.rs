@@ -3,9 +3,9 @@
 use super::super::features::{self, Tally};
 use super::super::model::Mimic;
 use super::at::Fallible;
-use super::body::RawBody;
+use super::body::{RawBody, WORLD};
 use super::defaults::{Defaults, MAIN};
-use super::document::Element;
+use super::element::Element;
 use super::joint::Kind;
 use super::lookup::Lookup;
 use super::made::Made;
@@ -32,7 +32,6 @@ pub fn equalities<'d>(
             Some(active) => active,
             None => of_class.map_or(Ok(None), |of| flag(of, "active"))?.unwrap_or(true),
         };
-        let name = element.text("name").unwrap_or_default();
         match element.tag.as_str() {
             "joint" if is_active => couple(view, all, lookup, made, tally)?,
             "joint" => {
@@ -41,15 +40,59 @@ pub fn equalities<'d>(
                     .remark(element.place, "the equality is not active, so its joint moves freely");
             }
             "connect" | "weld" | "distance" => {
-                tally.count(features::CLOSED);
-                let text =
-                    format!("the {} `{name}` closes a chain, which a URDF cannot say", element.tag);
-                tally.remark(element.place, text.replace(" ``", ""));
+                tie(view, is_active, all, lookup, made, tally)?;
             }
             "tendon" => tally.count(features::TENDONS),
             _ => tally.count(features::SOFT),
         }
     }
+    Ok(())
+}
+
+/// Two bodies that are tied to each other, beside the tree.
+fn tie(
+    view: View<'_>,
+    is_active: bool,
+    all: &[RawBody<'_>],
+    lookup: &Lookup<'_>,
+    made: &Made,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    let element = view.element;
+    let named = |key| element.text(key).map(|name: &str| name.chars().take(60).collect::<String>());
+    let sites = [named("site1"), named("site2")];
+    let names = [element.text("body1"), element.text("body2")];
+    let mut who = [named("body1"), named("body2")].map(|name| name.unwrap_or("world".to_owned()));
+    let mut what = "closes a chain, which a URDF cannot say";
+    if let [Some(one), Some(other)] = sites {
+        who = [one, other];
+    } else {
+        let mut bodies = Vec::new();
+        for name in names.into_iter().flatten() {
+            let suffix = lookup.replicas(element, &[Some(name)])?.first();
+            bodies.push(lookup.body(element, name, suffix.map_or("", String::as_str))?);
+        }
+        if bodies.iter().any(|body| all[*body].is_mocap) {
+            what = "follows a body that a program moves (`mocap`); it is left out";
+        } else if !bodies.iter().all(|body| *body == WORLD || made.index.contains_key(body)) {
+            what = "is of a body that is not of the robot; it is left out";
+        }
+    }
+    if !is_active {
+        what = "is not active; it is left out";
+    }
+    match what.starts_with("closes") {
+        true => tally.count(features::CLOSED),
+        false => tally.count(features::TIES),
+    }
+    let [one, other] = who;
+    let at = match named("anchor").filter(|_| element.tag == "connect") {
+        Some(anchor) => format!(" at {anchor} of `{one}`"),
+        None => String::new(),
+    };
+    let name = named("name").map(|name| format!(" `{name}`")).unwrap_or_default();
+    let text = format!("the {}{name} of `{one}` and `{other}`{at} {what}", element.tag);
+    tally.remark(element.place, text.replace(char::is_control, " "));
     Ok(())
 }
 

@@ -10,6 +10,10 @@ pub enum MjcfFault {
     #[error("the model has no `<worldbody>` with a body; there is no robot in it")]
     NoBody,
     #[error(
+        "the bodies of the model are those of `<flexcomp>` or `<composite>`, which are soft; a URDF has rigid ones, so there is no robot in it"
+    )]
+    SoftBodies,
+    #[error(
         "the model has no body `{0}`; `--body` names a body of the file, or `world` for all of it"
     )]
     UnknownBody(String),
@@ -21,6 +25,10 @@ pub enum MjcfFault {
     IncludedTwice(String),
     #[error("elements are nested more than {0} deep, with what is included; flatten the model")]
     TooDeep(usize),
+    #[error(
+        "more than {0} models are attached in each other, or one to itself; remove one of the `<attach>`"
+    )]
+    DeepModels(usize),
     #[error("there are more than {0} outermost `<default>`; merge them")]
     TooManyDefaults(usize),
     #[error("`<default>`s are nested more than {0} deep; flatten the classes")]
@@ -53,6 +61,10 @@ pub enum MjcfFault {
     NoLimited { element: String, attribute: &'static str },
     #[error("`{attribute}` of `<{element}>` must rise: its first number is not below its second")]
     Range { element: String, attribute: &'static str },
+    #[error(
+        "`range` of a ball has 0 and its greatest angle; MuJoCo refuses another first number where the ball is limited"
+    )]
+    BallRange,
     #[error("size {0} of `<geom>` must be positive")]
     Size(usize),
     #[error(

@@ -82,7 +82,8 @@ pub struct Geom<'d> {
     pub mass: Option<f64>,
     pub density: f64,
     pub is_shell: bool,
-    pub friction: Option<f64>,
+    /// Sliding, torsional, rolling.
+    pub friction: [Option<f64>; 3],
     pub material: Option<&'d str>,
     pub rgba: Option<[f64; 4]>,
     pub place: Place,
@@ -131,7 +132,7 @@ impl<'d> Geom<'d> {
             mass: view.number("mass")?,
             density: view.number("density")?.unwrap_or(1000.0),
             is_shell: view.flag("shellinertia")?.unwrap_or(false),
-            friction: view.up_to::<3>("friction")?[0],
+            friction: view.up_to::<3>("friction")?,
             material: view.text("material"),
             rgba: view.numbers::<4>("rgba")?,
             place,

@@ -6,7 +6,7 @@ use super::super::features::{self, Tally};
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::{View, wrong};
 
@@ -29,8 +29,8 @@ pub struct RawJoint {
     pub axis: Vector3<f64>,
     pub reference: f64,
     pub range: Option<[f64; 2]>,
-    /// The greatest force of its actuators.
-    pub effort: Option<f64>,
+    /// The least and greatest force of its actuators.
+    pub force: Option<[f64; 2]>,
     pub damping: f64,
     pub friction: f64,
     pub armature: f64,
@@ -47,6 +47,15 @@ impl RawJoint {
         }
     }
 
+    /// The numbers that it has in the model's own configuration. A free joint's are its body's.
+    pub fn start(&self) -> Vec<f64> {
+        match self.kind {
+            Kind::Free => Vec::new(),
+            Kind::Ball => vec![1.0, 0.0, 0.0, 0.0],
+            Kind::Slide | Kind::Hinge => vec![self.reference],
+        }
+    }
+
     /// A free joint.
     pub fn free(element: &Element, name: Option<String>) -> Self {
         RawJoint {
@@ -56,7 +65,7 @@ impl RawJoint {
             axis: Vector3::z(),
             reference: 0.0,
             range: None,
-            effort: None,
+            force: None,
             damping: 0.0,
             friction: 0.0,
             armature: 0.0,
@@ -90,11 +99,19 @@ impl RawJoint {
             }
         };
         let turns = if kind == Kind::Slide { 1.0 } else { compiler.angle };
-        let mut range = limits(view, "range", "limited", compiler)?;
-        range = range.map(|range| range.map(|end| end * turns));
+        let range = match kind {
+            Kind::Ball => None,
+            _ => limits(view, "range", "limited", compiler)?.map(|of| of.map(|end| end * turns)),
+        };
         let force = limits(view, "actuatorfrcrange", "actuatorfrclimited", compiler)?;
-        if kind == Kind::Ball && range.take().is_some() {
-            tally.count(features::BALL_RANGES);
+        if kind == Kind::Ball {
+            let (is_limited, [least, _]) = said_limits(view, "range", "limited", compiler)?;
+            if is_limited && least != 0.0 {
+                return Err(at(element.place, MjcfFault::BallRange));
+            }
+            if is_limited {
+                tally.count(features::BALL_RANGES);
+            }
         }
         let [stiffness, damping] = [view.up_to::<3>("stiffness")?, view.up_to::<3>("damping")?];
         if stiffness.iter().flatten().any(|of| *of != 0.0) || view.text("springdamper").is_some() {
@@ -114,9 +131,7 @@ impl RawJoint {
             axis,
             reference,
             range,
-            effort: force
-                .map(|[low, high]| low.abs().max(high.abs()))
-                .filter(|_| kind != Kind::Ball),
+            force: force.filter(|_| kind != Kind::Ball),
             damping: damping[0].unwrap_or(0.0),
             friction: view.number("frictionloss")?.unwrap_or(0.0),
             armature: view.number("armature")?.unwrap_or(0.0),
@@ -132,17 +147,28 @@ pub fn limits(
     limited: &'static str,
     compiler: &Compiler,
 ) -> Fallible<Option<[f64; 2]>> {
-    let said = view.word(limited, &["false", "true", "auto"], "`false`, `true` or `auto`")?;
-    let ends = view.numbers::<2>(range)?.unwrap_or_default();
-    let element = || view.element.tag.clone();
-    let is_limited = is_limited(said, ends, compiler).ok_or_else(|| {
-        at(view.element.place, MjcfFault::NoLimited { element: element(), attribute: limited })
-    })?;
+    let (is_limited, ends) = said_limits(view, range, limited, compiler)?;
     if is_limited && ends[0] >= ends[1] {
-        let fault = MjcfFault::Range { element: element(), attribute: range };
-        return Err(at(view.element.place, fault));
+        let element = view.element.tag.clone();
+        return Err(at(view.element.place, MjcfFault::Range { element, attribute: range }));
     }
     Ok(is_limited.then_some(ends))
+}
+
+/// A range as it is said, and whether it is a limit.
+fn said_limits(
+    view: View<'_>,
+    range: &'static str,
+    limited: &'static str,
+    compiler: &Compiler,
+) -> Fallible<(bool, [f64; 2])> {
+    let said = view.word(limited, &["false", "true", "auto"], "`false`, `true` or `auto`")?;
+    let ends = view.numbers::<2>(range)?.unwrap_or_default();
+    let is_limited = is_limited(said, ends, compiler).ok_or_else(|| {
+        let element = view.element.tag.clone();
+        at(view.element.place, MjcfFault::NoLimited { element, attribute: limited })
+    })?;
+    Ok((is_limited, ends))
 }
 
 /// Whether a range is a limit, by what is said of it: 0 for false, 1 for true. None: it would have to be said.

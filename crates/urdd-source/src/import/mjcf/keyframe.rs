@@ -9,7 +9,7 @@ use super::super::model::{Configuration, JointValue};
 use super::super::names::Names;
 use super::at::{Fallible, at};
 use super::body::Bodies;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::Kind;
 use super::made::Made;
@@ -50,7 +50,7 @@ pub fn configurations(
             continue;
         }
         let numbers = list(key, "qpos", usize::MAX)?;
-        if !numbers.is_empty() && numbers.len() != expected {
+        if numbers.len() > expected {
             let fault = MjcfFault::Qpos { found: numbers.len(), expected };
             return Err(at(key.place, fault));
         }
@@ -73,11 +73,11 @@ pub fn configurations(
                 continue;
             }
             let Some(&(body, at)) = made.joints.get(&place) else { continue };
-            let own = match own {
-                [w, x, y, z] => to_rotation_vector(&unit(Quaternion::new(*w, *x, *y, *z))).to_vec(),
-                [] if joint.kind == Kind::Ball => vec![0.0; 3],
-                [] => vec![joint.reference],
-                own => own.to_vec(),
+            // What a short key does not say is as in the model.
+            let whole = [own, joint.start().get(own.len()..).unwrap_or_default()].concat();
+            let own = match whole[..] {
+                [w, x, y, z] => to_rotation_vector(&unit(Quaternion::new(w, x, y, z))).to_vec(),
+                _ => whole,
             };
             let name = made.bodies[body].joints[at].name.clone();
             let value = JointValue { joint: (body, at), name, values: own };

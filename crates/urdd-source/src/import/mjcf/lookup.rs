@@ -6,7 +6,7 @@ use urdd_directory::account::Account;
 
 use super::at::{Fallible, at};
 use super::body::Bodies;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 
 /// Bodies, joints and shapes by name.

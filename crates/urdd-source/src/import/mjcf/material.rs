@@ -7,7 +7,7 @@ use super::super::model::Material;
 use super::assets::{Assets, Folder};
 use super::at::{Fallible, at};
 use super::defaults::{Defaults, MAIN};
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::geom::Geom;
 use super::mesh::Meshes;
@@ -54,8 +54,7 @@ impl<'d> Materials<'d> {
         assets: &mut Assets<'_>,
         tally: &mut Tally,
     ) -> Fallible<Option<Material>> {
-        let name = geom.material.or_else(|| meshes.material(geom.mesh?));
-        let own = geom.rgba.filter(|rgba| name.is_none() || *rgba != GREY);
+        let (name, own) = said(geom, meshes);
         let Some(name) = name else {
             return Ok(own.map(|rgba| {
                 tally.count(features::COLOURS);
@@ -81,6 +80,17 @@ impl<'d> Materials<'d> {
         // A name stands for one look.
         let name = own.is_none().then(|| name.to_owned());
         Ok(Some(Material { name, rgba, texture }))
+    }
+
+    /// Whether a shape is transparent.
+    pub fn is_clear(&self, geom: &Geom<'d>, meshes: &Meshes<'d>) -> Fallible<bool> {
+        let (name, own) = said(geom, meshes);
+        let view = name.filter(|_| own.is_none()).and_then(|name| self.by_name.get(name));
+        let rgba = match view {
+            Some(view) => view.numbers::<4>("rgba")?,
+            None => own,
+        };
+        Ok(rgba.is_some_and(|rgba| rgba[3] == 0.0))
     }
 
     fn texture(
@@ -116,4 +126,10 @@ impl<'d> Materials<'d> {
         let path = format!("textures/{stem}.png");
         assets.add(&key, &path, bytes.into(), texture.place).map(Some)
     }
+}
+
+/// The material of a shape, and the colour that goes before it.
+fn said<'d>(geom: &Geom<'d>, meshes: &Meshes<'d>) -> (Option<&'d str>, Option<[f64; 4]>) {
+    let name = geom.material.or_else(|| meshes.material(geom.mesh?));
+    (name, geom.rgba.filter(|rgba| name.is_none() || *rgba != GREY))
 }

@@ -5,7 +5,6 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 use urdd_geometry::Mesh;
-use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Part, Scene};
 use urdd_geometry::write::stl;
 
@@ -16,11 +15,12 @@ use super::super::unreachable::Unreachable;
 use super::assets::{Assets, Folder};
 use super::at::{At, Fallible, at};
 use super::defaults::{Defaults, MAIN};
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::mesh_mass::{Measures, Mode, measure};
 use super::msh;
 use super::orientation::quaternion;
+use super::points;
 use super::reading::{View, list, wrong};
 use crate::inspect::{Inspected, inspect_alone};
 use crate::resolve::FoundMesh;
@@ -63,10 +63,22 @@ enum Triangles {
     Read(OnceLock<Result<Arc<Scene>, String>>),
 }
 
+/// Why the mesh of a plugin is left out.
+const PLUGIN: &str = "a plugin of MuJoCo makes it, which an import does not run; if its mass is needed, say it in an `<inertial>` of the body";
+
 /// What measuring a mesh costs for each of its vertices: its hull.
 const VERTEX: usize = 100;
 
 impl Content {
+    /// A mesh that is written as STL: of points alone, their hull.
+    fn made(mesh: Mesh, name: &str, (key, file): (String, String), place: Place) -> Fallible<Self> {
+        let mesh = points::with_faces(mesh);
+        let mesh = mesh.ok_or_else(|| broken(name, place, "has no faces and no convex hull"))?;
+        let bytes = Ok(written(mesh.clone(), name, place)?);
+        let (extension, triangles) = ("stl".to_owned(), Triangles::Written(mesh));
+        Ok(Content { key, name: file, extension, bytes, triangles })
+    }
+
     fn file(&self) -> String {
         format!("{}.{}", self.name, self.extension)
     }
@@ -258,9 +270,13 @@ impl MeshAsset<'_> {
         let file = format!("meshes/{stem}");
         if extension == "msh" {
             let mesh = msh::read(&bytes).map_err(|problem| broken(name, place, problem))?;
-            let bytes = Ok(written(mesh.clone(), name, place)?);
-            let (extension, triangles) = ("stl".to_owned(), Triangles::Written(mesh));
-            return Ok(Content { key, name: file, extension, bytes, triangles });
+            assets.charge(mesh.vertices.len() * VERTEX, place)?;
+            return Content::made(mesh, name, (key, file), place);
+        }
+        if let Some(vertices) = (extension == "obj").then(|| points::of_obj(&bytes)).flatten() {
+            assets.charge(vertices.len() * VERTEX, place)?;
+            let mesh = Mesh { vertices, triangles: Vec::new() };
+            return Content::made(mesh, name, (key, file), place);
         }
         let bytes = if extension == "obj" { without_materials(bytes) } else { bytes };
         if is_plain_mesh(&extension, &bytes) {
@@ -277,13 +293,15 @@ impl MeshAsset<'_> {
     /// The mesh whose vertices are in the text.
     fn written_out(&self, name: &str) -> Fallible<Content> {
         let element = self.view.element;
-        let unsupported =
-            |what: &str| Err(at(element.place, MjcfFault::Unsupported(what.to_owned())));
+        let key = (format!("text {name}"), format!("meshes/{name}"));
         if element.get("builtin").is_some() {
-            return unsupported("mesh builtin=…");
+            return Err(at(element.place, MjcfFault::Unsupported("mesh builtin=…".to_owned())));
         }
         if element.get("vertex").is_none() {
-            return unsupported("mesh> with a <plugin");
+            let (bytes, triangles) =
+                (Err(PLUGIN.to_owned()), OnceLock::from(Err(PLUGIN.to_owned())));
+            let (extension, triangles) = (String::new(), Triangles::Read(triangles));
+            return Ok(Content { key: key.0, name: key.1, extension, bytes, triangles });
         }
         let numbers = list(element, "vertex", usize::MAX)?;
         let faces = list(element, "face", usize::MAX)?;
@@ -306,16 +324,7 @@ impl MeshAsset<'_> {
         #[expect(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "is_vertex")]
         let triangles: Vec<[u32; 3]> =
             faces.as_chunks().0.iter().map(|f: &[f64; 3]| f.map(|index| index as u32)).collect();
-        let mesh = match triangles.is_empty() {
-            false => Mesh { vertices, triangles },
-            true => ConvexHull::new(&vertices)
-                .map_err(|_| broken(name, element.place, "has no convex hull"))?
-                .into_mesh(),
-        };
-        let bytes = Ok(written(mesh.clone(), name, element.place)?);
-        let (key, extension) = (format!("text {name}"), "stl".to_owned());
-        let name = format!("meshes/{name}");
-        Ok(Content { key, name, extension, bytes, triangles: Triangles::Written(mesh) })
+        Content::made(Mesh { vertices, triangles }, name, key, element.place)
     }
 }
 

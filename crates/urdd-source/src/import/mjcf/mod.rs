@@ -3,12 +3,14 @@
 mod actuator;
 mod assets;
 mod at;
+mod attach;
 mod body;
 mod compiler;
 mod contact;
 mod defaults;
 mod document;
 mod drive;
+mod element;
 mod equality;
 pub mod fault;
 mod fit;
@@ -21,13 +23,17 @@ mod made;
 mod material;
 mod mesh;
 mod mesh_mass;
+mod moved;
 mod msh;
 mod orientation;
+mod points;
 mod principal;
 mod reading;
+mod refused;
 mod robot;
 mod said;
 mod scene;
+mod seen;
 
 use super::features::Tally;
 use super::model::Model;
@@ -37,22 +43,24 @@ use super::placed::{Placed, placed};
 use crate::gate::Gate;
 use assets::Assets;
 use at::Fallible;
-use compiler::Compiler;
+use compiler::Compilers;
 use contact::Contacts;
 use defaults::Defaults;
-use document::Element;
+use document::Whole;
+use element::Element;
 use lookup::Lookup;
 use material::Materials;
 use mesh::Meshes;
 use robot::Maker;
+use seen::Seen;
 
 /// Reads the robot of a description.
 ///
 /// # Errors
 /// If it is refused, with the place.
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
-    let (files, root) = document::read(file, gate);
-    match root.and_then(|root| model(&root, &files, gate, options)) {
+    let Whole { files, models, root } = document::read(file, gate);
+    match root.and_then(|root| model(&root, &files, models, gate, options)) {
         Ok(model) => Ok(Model { files, ..model }),
         Err(fault) => Err(placed(&files, fault.place, fault.fault)),
     }
@@ -61,34 +69,37 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
 fn model(
     root: &Element,
     files: &[TextFile],
+    models: Vec<usize>,
     gate: &Gate,
     options: &ImportOptions,
 ) -> Fallible<Model> {
     let (mut tally, account) = (Tally::default(), gate.account());
     said::say(root, &mut tally);
     let defaults = Defaults::of(root, account)?;
-    let compiler = Compiler::of(root)?;
-    let bodies = body::bodies(root, &defaults, &compiler, &mut tally, account)?;
+    let compilers = Compilers::of(root, models)?;
+    let bodies = body::bodies(root, &defaults, &compilers, &mut tally, account)?;
     let robot = scene::robot(root, &bodies, options.body.as_deref(), &mut tally)?;
     let lookup = Lookup::of(&bodies, account);
     let contacts = Contacts::of(root, &lookup, &mut tally)?;
     let mut maker = Maker {
         bodies: &bodies,
         robot: &robot,
-        compiler: &compiler,
+        compilers: &compilers,
         meshes: Meshes::of(root, &defaults)?,
         materials: Materials::of_model(root, &defaults)?,
-        assets: Assets::new(gate, &compiler, files)?,
+        assets: Assets::new(gate, &compilers, files)?,
         contacts: &contacts,
+        seen: Seen::of(&bodies, &robot, &contacts),
         tally: &mut tally,
         account,
     };
     let mut made = maker.make()?;
+    refused::say(root, &bodies.all, &made, &maker.assets, maker.tally);
     let (assets, all) = (maker.assets.all, &bodies.all);
     equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally)?;
-    drive::drive(root, &defaults, &compiler, &lookup, &mut made, &mut tally)?;
+    drive::drive(root, &defaults, &compilers, &lookup, &mut made, &mut tally)?;
     let configurations = keyframe::configurations(root, &bodies, &made, &mut tally, account)?;
-    let apart = contacts.apart(all, &made, &mut tally, account)?;
+    let pairs = contacts.pairs(all, &made, &mut tally, account)?;
     let friction = contact::friction(all, &made, &mut tally);
     Ok(Model {
         name: root.text("model").unwrap_or_default().to_owned(),
@@ -96,7 +107,8 @@ fn model(
         is_floating: robot.is_floating,
         assets,
         configurations,
-        apart,
+        apart: pairs.apart,
+        checked: pairs.checked,
         friction,
         tally,
         ..Model::default()

@@ -6,7 +6,7 @@ use nalgebra::{
 
 use super::at::{Fallible, at};
 use super::compiler::Compiler;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::{View, numbers, wrong};
 

@@ -3,7 +3,7 @@
 use super::super::fault::ImportFault;
 use super::at::{Fallible, at};
 use super::defaults::Defaults;
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 
 /// An element with its default class.

@@ -6,12 +6,14 @@ use nalgebra::{Isometry3, Translation3};
 use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, Geometry, Joint, JointKind, Shape, Use};
+use super::super::model::{Actuator, Body, Geometry, Joint, JointKind, Shape, Use};
 use super::super::names::Names;
+use super::super::place::Place;
+use super::actuator::greatest;
 use super::assets::Assets;
 use super::at::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
-use super::compiler::Compiler;
+use super::compiler::Compilers;
 use super::contact::Contacts;
 use super::fault::MjcfFault;
 use super::fit::{Fitted, fitted};
@@ -22,16 +24,18 @@ use super::made::Made;
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::scene::Robot;
+use super::seen::{Part, Seen};
 
 /// What is needed to make bodies.
 pub struct Maker<'m, 'd> {
     pub bodies: &'m Bodies<'d>,
     pub robot: &'m Robot,
-    pub compiler: &'m Compiler,
+    pub compilers: &'m Compilers,
     pub meshes: Meshes<'d>,
     pub materials: Materials<'d>,
     pub assets: Assets<'m>,
     pub contacts: &'m Contacts,
+    pub seen: Seen,
     pub tally: &'m mut Tally,
     pub account: &'m Account,
 }
@@ -61,7 +65,9 @@ impl<'d> Maker<'_, 'd> {
             let parent = raw.parent.and_then(|parent| made.index.get(&parent).copied());
             let pose = parent.map_or_else(Isometry3::identity, |_| raw.pose);
             let mut body = Body::new(name, parent, pose, raw.place);
-            self.tally.count(features::BODIES);
+            if !is_world {
+                self.tally.count(features::BODIES);
+            }
             if !is_empty {
                 let fitted = self.fitted(raw)?;
                 body.shapes = self.shapes(*raw_index, &fitted)?;
@@ -98,7 +104,9 @@ impl<'d> Maker<'_, 'd> {
 
     fn fitted(&mut self, raw: &RawBody<'d>) -> Fallible<Vec<Fitted>> {
         let each = raw.geoms.iter();
-        each.map(|geom| fitted(geom, self.compiler, &mut self.meshes, &self.assets)).collect()
+        let compilers = self.compilers;
+        let of = |geom| fitted(geom, compilers.at(raw.place), &mut self.meshes, &self.assets);
+        each.map(of).collect()
     }
 
     fn inertial(
@@ -106,12 +114,12 @@ impl<'d> Maker<'_, 'd> {
         raw: &RawBody<'d>,
         fitted: &[Fitted],
     ) -> Fallible<Option<super::super::model::Inertial>> {
-        inertial(raw, fitted, self.compiler, &mut self.meshes, &self.assets)
+        inertial(raw, fitted, self.compilers.at(raw.place), &mut self.meshes, &self.assets)
     }
 
     /// By how much all masses are multiplied, so that their sum is what the compiler asks.
     fn scale(&mut self) -> Fallible<f64> {
-        let Some(total) = self.compiler.total_mass else { return Ok(1.0) };
+        let Some(total) = self.compilers.at(Place::default()).total_mass else { return Ok(1.0) };
         let mut mass = 0.0;
         let bodies = self.bodies;
         for raw in bodies.all.iter().skip(1) {
@@ -170,7 +178,8 @@ impl<'d> Maker<'_, 'd> {
             axis: raw.axis,
             reference: raw.reference,
             range: raw.range,
-            effort: raw.effort,
+            effort: raw.force.map(greatest),
+            actuator: Actuator { force: raw.force, ..Actuator::default() },
             damping: raw.damping,
             friction: raw.friction,
             armature: (raw.armature != 0.0).then_some(raw.armature),
@@ -182,20 +191,29 @@ impl<'d> Maker<'_, 'd> {
         let (mut shapes, contacts) = (Charged::default(), self.contacts);
         let geoms = &self.bodies.all[body].geoms;
         let is_visual = |(place, geom): (usize, &Geom<'_>)| contacts.is_visual(geom, body, place);
-        // A body that has shapes only to be seen is seen by these.
-        let has_visuals =
-            !self.compiler.discards_visuals && geoms.iter().enumerate().any(is_visual);
-        for (place, (geom, fitted)) in geoms.iter().zip(fitted).enumerate() {
-            let used = match is_visual((place, geom)) {
-                true if self.compiler.discards_visuals => {
-                    self.tally.count(features::DISCARDED);
-                    continue;
-                }
-                true => Use::Visual,
-                false if has_visuals || geom.rgba.is_some_and(|rgba| rgba[3] == 0.0) => {
+        let discards = self.compilers.at(self.bodies.all[body].place).discards_visuals;
+        let each = geoms.iter().enumerate().zip(fitted);
+        let parts: Vec<Part<'_, '_>> = each
+            .map(|((place, geom), fitted)| (geom, fitted, is_visual((place, geom))))
+            .filter(|(.., is_visual)| !(*is_visual && discards))
+            .collect();
+        for _ in parts.len()..geoms.len() {
+            self.tally.count(features::DISCARDED);
+        }
+        let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets);
+        for ((geom, fitted, is_visual), is_seen) in parts.into_iter().zip(seen) {
+            let is_seen = is_seen && !self.materials.is_clear(geom, &self.meshes)?;
+            let used = match (is_visual, is_seen) {
+                (true, true) => Use::Visual,
+                (false, true) => Use::Both,
+                (false, false) => {
+                    self.tally.count(features::ONLY_COLLIDING);
                     Use::Collision
                 }
-                false => Use::Both,
+                (true, false) => {
+                    self.tally.count(features::UNSEEN);
+                    continue;
+                }
             };
             let Some((geometry, frame)) = self.geometry(geom, fitted)? else { continue };
             let material = self.materials.of(geom, &self.meshes, &mut self.assets, self.tally)?;

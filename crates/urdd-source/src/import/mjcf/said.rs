@@ -1,7 +1,8 @@
 //! What a model says that is not for the robot, or is not read: all of it is counted.
 
 use super::super::features::{self, Tally};
-use super::document::Element;
+use super::attach::{CLASSES, KEYS};
+use super::element::Element;
 
 /// Attributes that are read, by whatever element, or counted with it.
 const READ: &str = "act active actuatorfrclimited actuatorfrcrange anchor angle armature assetdir autolimits \
@@ -18,7 +19,7 @@ const READ: &str = "act active actuatorfrclimited actuatorfrcrange anchor angle 
 /// Attributes that concern only the simulator or the viewer.
 const SETTINGS: &str = "actdim actearly actlimited actrange actuatorgravcomp adhesion align alignfree colorspace \
     condim conflict delay dynprm emission fileback filedown filefront fileleft fileright fileup \
-    fluidcoef fluidshape gap gravcomp group height hflip inheritrange interp lengthrange margin \
+    fluidcoef fluidshape gap group height hflip inheritrange interp lengthrange margin \
     mark markrgb maxhullvert metallic mpos mquat nchannel normal nsample octree_maxdepth \
     priority random reflectance rgb1 rgb2 roughness saveinertial shininess simple sleep \
     smoothnormal solimp solimpfriction solimplimit solmix solref solreffriction solreflimit \
@@ -40,11 +41,12 @@ pub fn say(root: &Element, tally: &mut Tally) {
                     tally.remark(section.place, text);
                 }
             }
-            "default" | "worldbody" | "asset" => inside(section, tally),
+            "default" | "worldbody" | "asset" | CLASSES => inside(section, tally),
             "contact" | "actuator" | "equality" | "keyframe" => each(section, tally),
             "tendon" => count(section, features::TENDONS, tally),
             "sensor" => count(section, features::MEASURED, tally),
             "deformable" => count(section, features::SOFT, tally),
+            KEYS => section.children.iter().for_each(|_| tally.unread("keys of attached models")),
             "custom" => count(section, features::OWN_DATA, tally),
             tag => tally.unread(format!("<{tag}>")),
         }
@@ -84,7 +86,7 @@ fn inside(section: &Element, tally: &mut Tally) {
             "light" => tally.count(features::SETTINGS),
             "skin" => tally.count(features::SOFT),
             // Counted where they are met, or of something that is.
-            "composite" | "flexcomp" | "hfield" | "attach" | "pair" | "equality" | "tendon"
+            "composite" | "flexcomp" | "hfield" | "model" | "pair" | "equality" | "tendon"
             | "orientation" | "pid" | "damper" | "cylinder" | "muscle" | "adhesion" | "dcmotor" => {
             }
             tag => tally.unread(format!("<{tag}>")),
@@ -100,6 +102,12 @@ fn attributes(element: &Element, tally: &mut Tally) {
     for name in element.attribute_names() {
         match name {
             "user" => tally.count(features::OWN_DATA),
+            "gravcomp" => {
+                let factor = element.text(name).and_then(|text| text.trim().parse::<f64>().ok());
+                if factor != Some(0.0) {
+                    tally.count(features::GRAVCOMP);
+                }
+            }
             "fusestatic" => {}
             name if has(LENS, name) => tally.unread("lenses and targets of cameras"),
             name if has(SETTINGS, name) => tally.count(features::SETTINGS),

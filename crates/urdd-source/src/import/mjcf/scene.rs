@@ -11,7 +11,7 @@ use super::super::features::Tally;
 use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
-use super::document::Element;
+use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::Kind;
 
@@ -42,7 +42,9 @@ pub fn robot(
 ) -> Fallible<Robot> {
     let all = &bodies.all;
     if all.len() == 1 {
-        return Err(at(root.place, MjcfFault::NoBody));
+        let is_soft = bodies.is_partial;
+        let fault = if is_soft { MjcfFault::SoftBodies } else { MjcfFault::NoBody };
+        return Err(at(root.place, fault));
     }
     let trees = trees(all);
     let chosen: HashSet<usize> = match wanted {

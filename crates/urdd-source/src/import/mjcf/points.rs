@@ -1,0 +1,36 @@
+//! Meshes without faces: MuJoCo takes the hull of their points.
+
+use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
+
+use crate::sniff::lines;
+
+/// A mesh with its triangles; of points alone, those of their hull. None if they have none.
+pub fn with_faces(mesh: Mesh) -> Option<Mesh> {
+    match mesh.triangles.is_empty() {
+        false => Some(mesh),
+        true => Some(ConvexHull::new(&mesh.vertices).ok()?.into_mesh()),
+    }
+}
+
+/// The points of an OBJ that has no faces, in 32 bits as MuJoCo keeps them.
+pub fn of_obj(bytes: &[u8]) -> Option<Vec<[f64; 3]>> {
+    let mut points = Vec::new();
+    for line in lines(bytes) {
+        let Ok(line) = std::str::from_utf8(line) else { continue };
+        let mut words = line.split_ascii_whitespace();
+        match words.next() {
+            Some("f") => return None,
+            Some("v") => {
+                let mut point = [0.0; 3];
+                for coordinate in &mut point {
+                    *coordinate = f64::from(words.next()?.parse::<f32>().ok()?);
+                }
+                points.push(point);
+            }
+            _ => {}
+        }
+    }
+    let is_finite = points.as_flattened().iter().all(|x| x.is_finite());
+    (is_finite && !points.is_empty()).then_some(points)
+}
