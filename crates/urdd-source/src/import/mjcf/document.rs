@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::{Kind, MAX_LEVELS, Node};
+use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
 
 use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile, offset_of};
@@ -78,27 +78,28 @@ struct Expansion<'r> {
 
 impl Expansion<'_> {
     fn root(&mut self, text: &str) -> Fallible<Element> {
-        let document = parse(text, 0)?;
+        let mended = Mended::default();
+        let document = parse(text, 0, &mended)?;
         let node = document.root_element();
         let mut root = Element {
             tag: node.tag_name().name().to_owned(),
             attributes: attributes(node),
             children: Vec::new(),
-            place: Place { file: 0, offset: node.range().start },
+            place: Place { file: 0, offset: mended.original(node.range().start) },
         };
-        self.children(node, 0, 1, &mut root.children)?;
+        self.children(node, (0, &mended), 1, &mut root.children)?;
         Ok(root)
     }
 
     fn children(
         &mut self,
         parent: Node<'_, '_>,
-        file: usize,
+        (file, mended): (usize, &Mended),
         depth: usize,
         into: &mut Vec<Element>,
     ) -> Fallible<()> {
         for node in parent.children().filter(Node::is_element) {
-            let place = Place { file, offset: node.range().start };
+            let place = Place { file, offset: mended.original(node.range().start) };
             let tag = node.tag_name().name();
             if depth > MAX_LEVELS {
                 return Err(at(place, MjcfFault::TooDeep(MAX_LEVELS)));
@@ -113,7 +114,7 @@ impl Expansion<'_> {
                 children: Vec::new(),
                 place,
             };
-            self.children(node, file, depth + 1, &mut element.children)?;
+            self.children(node, (file, mended), depth + 1, &mut element.children)?;
             into.push(element);
         }
         Ok(())
@@ -138,7 +139,9 @@ impl Expansion<'_> {
         let read = TextFile::included(self.gate, &found).map_err(|fault| at(place, fault))?;
         let (file, text) = (self.files.len(), read.text.clone());
         self.files.push(read);
-        self.children(parse(&text, file)?.root_element(), file, depth + 1, into)
+        let mended = Mended::default();
+        let document = parse(&text, file, &mended)?;
+        self.children(document.root_element(), (file, &mended), depth + 1, into)
     }
 }
 
@@ -170,8 +173,8 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
     attributes
 }
 
-fn parse(text: &str, file: usize) -> Fallible<urdd_xml::Document<'_>> {
-    urdd_xml::parse(text, Kind::Other).map_err(|error| {
+fn parse<'t>(text: &'t str, file: usize, mended: &'t Mended) -> Fallible<urdd_xml::Document<'t>> {
+    parse_leniently(text, "mujoco", mended).map_err(|error| {
         let place = Place { file, offset: offset_of(text, &error) };
         at(place, ImportFault::NotXml(error.words(text)))
     })
