@@ -3,12 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Why a document is refused.
-#[derive(Clone, Copy)]
-pub(crate) struct Malformed {
-    pub at: usize,
-    pub why: &'static str,
-}
+pub(crate) use urdd_xml::tinyxml2::{Attribute, Malformed, repeated};
 
 pub(crate) type Parsed<T> = Result<T, Malformed>;
 
@@ -36,14 +31,6 @@ pub(crate) struct Element<'a> {
     pub text: Option<Cow<'a, str>>,
     /// From `<` to the end of the start tag, bytes of the file.
     pub tag: Range<usize>,
-}
-
-/// An attribute.
-pub(crate) struct Attribute<'a> {
-    pub name: Cow<'a, str>,
-    pub value: Cow<'a, str>,
-    /// From its name to the closing quote, bytes of the file.
-    pub range: Range<usize>,
 }
 
 /// An element of a tree.
@@ -136,12 +123,4 @@ impl<'t> Node<'t> {
     pub fn child(self, name: &str) -> Option<Node<'t>> {
         self.named(name).next()
     }
-}
-
-/// The place of an attribute that stands twice in an element.
-pub(crate) fn repeated(attributes: &[Attribute<'_>]) -> Option<usize> {
-    let mut names: Vec<(&str, usize)> =
-        attributes.iter().map(|one| (&*one.name, one.range.start)).collect();
-    names.sort_unstable();
-    names.windows(2).find(|two| two[0].0 == two[1].0).map(|two| two[1].1)
 }

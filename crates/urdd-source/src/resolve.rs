@@ -17,6 +17,11 @@ const MOST_ALIKE: usize = 16;
 /// Maximum number of folders in a name that is compared in another case.
 const MOST_PARTS: usize = 32;
 
+/// How a name without a package is read, and what to do about one.
+const UNNAMED: &str = "without the name of a package, read as a path from the URDF's folder";
+const NO_NAME: &str =
+    "the name has no package; write `package://NAME/PATH`, or a path from the URDF's folder";
+
 /// A resolved mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundMesh {
@@ -134,9 +139,14 @@ impl Search<'_> {
         match name.split_once("://") {
             Some((scheme, rest)) => match scheme.to_ascii_lowercase().as_str() {
                 scheme @ ("package" | "model") => {
-                    let rest = rest.trim_start_matches('/');
-                    let (package, rest) = rest.split_once('/').unwrap_or(("", rest));
-                    self.in_package(package, rest, urdf_folder, packages, scheme == "model")
+                    let inside = rest.trim_start_matches('/');
+                    let named = inside.split_once('/').filter(|(package, _)| is_plain(package));
+                    let found = named.and_then(|(package, rest)| {
+                        self.in_package(package, rest, urdf_folder, packages, scheme == "model")
+                    });
+                    let is_named = named.is_some() && inside.len() == rest.len();
+                    found
+                        .or_else(|| if is_named { None } else { self.unnamed(inside, urdf_folder) })
                 }
                 "file" => {
                     let path = rest.strip_prefix("localhost/").map(|rest| format!("/{rest}"));
@@ -166,6 +176,22 @@ impl Search<'_> {
         }
         // `join` replaces the folder if the name is an absolute path.
         self.try_file(urdf_folder, name, None)
+    }
+
+    /// A path behind `package://` that begins with no name of a package, as exporters of CAD write it. PyBullet reads it
+    /// from the URDF's folder or those above, and MuJoCo from the URDF's folder where it strips paths.
+    fn unnamed(&mut self, path: &str, urdf_folder: &Path) -> Option<FoundMesh> {
+        let roots = self.roots;
+        let mut above = urdf_folder.ancestors().take_while(|folder| roots.is_own(folder));
+        if let Some(found) = above.find_map(|folder| self.try_file(folder, path, None)) {
+            return Some(FoundMesh { assumed: Some(UNNAMED.to_owned()), ..found });
+        }
+        // It is no name of a package that is missing.
+        (self.not_found.no_package, self.not_found.near_package) = (None, None);
+        if self.not_found.other_case.is_none() {
+            self.not_found.hint = Some(NO_NAME.to_owned());
+        }
+        None
     }
 
     fn in_package(

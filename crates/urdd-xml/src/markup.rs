@@ -68,7 +68,8 @@ pub fn root_name(text: &str) -> Option<&str> {
     loop {
         let markup = next(text, at)?;
         if markup.kind == MarkupKind::Tag {
-            let name = &text[markup.start + 1..];
+            // White space there is tinyxml2's.
+            let name = text[markup.start + 1..].trim_start();
             let end = name.find(|c: char| c.is_ascii_whitespace() || matches!(c, '>' | '/'))?;
             return Some(&name[..end]).filter(|name| !name.is_empty());
         }

@@ -264,7 +264,7 @@ def main():
         if len(lines) != len(files):
             print(f"{title}: libsdformat ended at {files[len(lines)]}", file=sys.stderr)
         for path, line in zip(files, lines):
-            truth = json.loads(line)
+            truth = json.loads(line.replace("::", "/"))  # as the import writes names of nested models
             row["files"] += 1
             # libsdformat 12 does not know what SDF 1.11 added: other tests have these.
             is_newer = any(mark in path.read_bytes() for mark in (b'auto="true"', b"<cone>"))

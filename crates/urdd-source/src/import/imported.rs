@@ -204,8 +204,8 @@ fn written(
     options: &ImportOptions,
     gate: &Gate,
 ) -> Result<Imported, SourceError> {
-    let tree = Tree::of(&model, options, gate.account());
-    let tree = tree.map_err(|(place, why)| refused(placed(&model.files, place, why)))?;
+    let too_much = |(place, why)| refused(placed(&model.files, place, why));
+    let tree = Tree::of(&model, options, gate.account()).map_err(too_much)?;
     let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
     let base = match model.name.trim_start_matches(['.', '-']) {
         "" => "robot",
@@ -216,7 +216,7 @@ fn written(
     let base = base.strip_suffix(SETUP).unwrap_or(&base);
     let name = format!("{base}.urdf");
     let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
-    let text = urdf(&model, &tree, &original, options);
+    let text = urdf(&model, &tree, &original, options, gate.account()).map_err(too_much)?;
     files.insert(name.clone(), text.into_bytes().into());
     if let Some(srdf) = companions::srdf(&model, &tree, &original) {
         files.insert(base.to_owned() + SRDF, srdf.into_bytes().into());

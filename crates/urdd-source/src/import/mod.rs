@@ -17,6 +17,7 @@ pub mod placed;
 pub mod report;
 pub mod sdf;
 mod solid;
+mod titles;
 mod tree;
 pub mod unreachable;
 mod urdf;

@@ -1,6 +1,7 @@
 //! Writes the URDF of a [`Model`].
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3};
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
@@ -8,6 +9,7 @@ use urdd_xml::writer::Element;
 use super::model::{Geometry, Inertial, Material, Model, Shape, Use};
 use super::options::ImportOptions;
 use super::place::Place;
+use super::titles::Titles;
 use super::tree::{Edge, Link, Tree};
 
 /// The limits of a slide that has none, m.
@@ -20,11 +22,22 @@ const TINY: f64 = 1e-9;
 pub const UNIT_SPHERE: &str = "meshes/unit_sphere.obj";
 
 /// The text of the URDF.
-pub fn urdf(model: &Model, tree: &Tree, original: &str, options: &ImportOptions) -> String {
+///
+/// # Errors
+/// If the account does not have what names cost that are made of others; with the place of the body.
+pub fn urdf(
+    model: &Model,
+    tree: &Tree,
+    original: &str,
+    options: &ImportOptions,
+    account: &Account,
+) -> Result<String, (Place, Overdrawn)> {
+    let mut titles = Titles::new(account);
     let mut robot = Element::new("robot").with("name", &*model.name);
     let mut edges = tree.joints.iter();
     for link in &tree.links {
-        robot.push(link_element(model, link, options));
+        let element = link_element(model, link, options, &mut titles);
+        robot.push(element.map_err(|why| (link.place, why))?);
         // Each link but the root follows the joint that leads to it.
         if link.name == tree.links[0].name {
             continue;
@@ -37,14 +50,19 @@ pub fn urdf(model: &Model, tree: &Tree, original: &str, options: &ImportOptions)
     for element in &model.elements {
         robot.push_raw(&element.0);
     }
-    robot.document(&[format!("`urdd import` made this file from {original}.")])
+    Ok(robot.document(&[format!("`urdd import` made this file from {original}.")]))
 }
 
-fn link_element(model: &Model, link: &Link, options: &ImportOptions) -> Element {
+fn link_element(
+    model: &Model,
+    link: &Link,
+    options: &ImportOptions,
+    titles: &mut Titles,
+) -> Result<Element, Overdrawn> {
     let mut element = Element::new("link").with("name", &*link.name);
     let Some(body) = link.body.map(|body| &model.bodies[body]) else {
         element.extend(options.has_tiny_masses.then(|| inertial(&tiny(link.place))));
-        return element;
+        return Ok(element);
     };
     element.extend(body.inertial.as_ref().map(inertial));
     for (name, is_wanted) in
@@ -52,19 +70,22 @@ fn link_element(model: &Model, link: &Link, options: &ImportOptions) -> Element 
     {
         let shapes = body.shapes.iter().filter(|shape| is_wanted.contains(&shape.used));
         for shape in shapes {
-            element.extend(parts(shape).into_iter().map(|(suffix, pose, geometry)| {
-                let title = shape.name.as_ref().map(|name| format!("{name}{suffix}"));
+            let title = shape.name.as_ref();
+            let title = title.map(|title| titles.shape(name == "visual", &link.name, title));
+            let title = title.transpose()?;
+            for (suffix, pose, geometry) in parts(shape) {
+                let title = title.as_ref().map(|title| format!("{title}{suffix}"));
                 let mut part = Element::new(name).with_some("name", title);
                 part.extend(origin(&pose));
                 part.push(Element::new("geometry").holding(shape_element(model, &geometry)));
-                if name == "visual" {
-                    part.extend(shape.material.as_ref().map(|of| material(model, of)));
+                if let Some(of) = shape.material.as_ref().filter(|_| name == "visual") {
+                    part.push(material(model, of, titles.material(model, of)?));
                 }
-                part
-            }));
+                element.push(part);
+            }
         }
     }
-    element
+    Ok(element)
 }
 
 fn tiny(place: Place) -> Inertial {
@@ -106,11 +127,7 @@ fn shape_element(model: &Model, geometry: &Geometry) -> Element {
     }
 }
 
-fn material(model: &Model, material: &Material) -> Element {
-    let name = material.name.clone().unwrap_or_else(|| match material.rgba {
-        Some(rgba) => format!("rgba {}", numbers(&rgba)),
-        None => String::new(),
-    });
+fn material(model: &Model, material: &Material, name: String) -> Element {
     let mut element = Element::new("material").with("name", name);
     let rgba = material.rgba.map(|rgba| Element::new("color").with("rgba", numbers(&rgba)));
     element.extend(rgba);

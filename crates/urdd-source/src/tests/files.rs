@@ -87,6 +87,97 @@ fn the_same_files_on_a_disk_give_the_same() {
     assert_eq!(on_disk.robot, in_memory.robot);
 }
 
+/// The file of each name, or the reason why there is none.
+fn places(names: &[&str], files: &[(&str, &str)], path: &str) -> Vec<Result<String, String>> {
+    let text = urdf(names);
+    let all: Vec<(&str, &str)> =
+        [(path, text.as_str())].into_iter().chain(files.to_vec()).collect();
+    let meshes = open(&all, path).meshes.into_iter();
+    let place = |mesh: crate::SourceMesh| match mesh.file {
+        Ok(file) => Ok(file.display().to_string()),
+        Err(why) => Err(why.reason),
+    };
+    meshes.map(place).collect()
+}
+
+#[test]
+fn a_package_without_a_name_is_the_folder_of_the_urdf() {
+    let names = [
+        "package://a.stl",
+        "package:///a.stl",
+        "package:////a.stl",
+        "model://a.stl",
+        "PACKAGE://a.stl",
+        "package://./a.stl",
+        "package://../b.stl",
+        "package:///meshes/c.stl",
+        "package://meshes/c.stl",
+        "package://./meshes/c.stl",
+        "package:///b.stl",
+        "package:///../b.stl",
+        "package://a%2Estl",
+        r"package:\\\a.stl",
+    ];
+    let files = [("bot/urdf/a.stl", STL), ("bot/b.stl", STL), ("bot/meshes/c.stl", STL)];
+    let found = places(&names, &files, "bot/urdf/r.urdf");
+    let [a, b, c] = ["/bot/urdf/a.stl", "/bot/b.stl", "/bot/meshes/c.stl"];
+    let wanted = [a, a, a, a, a, a, b, c, c, c, b, b, a, a];
+    let wanted: Vec<_> = wanted.map(|path| Ok(path.to_owned())).into();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_package_is_first_looked_for_by_its_name() {
+    // Both the package `arm` beside the robot's, and a folder `arm` that is not above.
+    let files = [("arm/package.xml", PACKAGE), ("arm/a.stl", STL), ("bot/urdf/arm/a.stl", STL)];
+    let names = ["package:///arm_description/a.stl", "package:///arm/a.stl"];
+    let found = places(&names, &files, "bot/urdf/r.urdf");
+    assert_eq!(found, [Ok("/arm/a.stl".to_owned()), Ok("/bot/urdf/arm/a.stl".to_owned())]);
+}
+
+#[test]
+fn a_package_may_be_the_folder_that_the_urdf_is_in() {
+    let files = [("top/bot/meshes/a.stl", STL), ("top/bot/urdf/b.stl", STL)];
+    let names =
+        ["package://bot/meshes/a.stl", "package://top/bot/meshes/a.stl", "package://urdf/b.stl"];
+    let found = places(&names, &files, "top/bot/urdf/r.urdf");
+    let [a, b] = ["/top/bot/meshes/a.stl", "/top/bot/urdf/b.stl"].map(|path| Ok(path.to_owned()));
+    assert_eq!(found, [a.clone(), a, b]);
+}
+
+#[test]
+fn a_package_without_a_name_is_said() {
+    let found = places(&["package://a.stl", "package://"], &[], "bot/urdf/r.urdf");
+    for (found, tried) in found.iter().zip(["tried /bot/urdf/a.stl, /bot/a.stl", "tried /bot/urdf"])
+    {
+        let said = found.as_ref().expect_err("nothing there");
+        assert!(said.contains(tried), "{said}");
+        assert!(said.contains("the name has no package; write `package://NAME/PATH`"), "{said}");
+    }
+    let found = places(&["package:///meshes/a.stl"], &[], "bot/urdf/r.urdf");
+    let said = found[0].as_ref().expect_err("nothing there");
+    assert!(said.contains("/bot/meshes/a.stl") && said.contains("has no package"), "{said}");
+}
+
+#[test]
+fn a_package_without_a_name_leads_to_no_file_outside() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |path: &str, text: &str| {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    };
+    put("secret.stl", STL);
+    put("bot/r.urdf", &urdf(&["package://secret.stl", "package://../secret.stl"]));
+    let path = folder.path().join("bot/r.urdf");
+    let source = SourceMeshes::open(&path, &Settings::default(), &Cancellation::default());
+    let source = source.expect("a robot");
+    let [above, named] = &source.meshes[..] else { panic!("two meshes") };
+    // Nothing above the robot's folder is looked at, unless a name leads there.
+    assert!(above.file.as_ref().expect_err("outside").outside.is_none());
+    assert!(named.file.as_ref().expect_err("outside").outside.is_some());
+}
+
 #[test]
 fn a_set_has_bounds_and_no_path_out_of_it() {
     for path in ["", "..", "../a", "a/../../b", "."] {

@@ -4,6 +4,7 @@
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod growth;
+mod lenient;
 mod writer;
 
 use urdd_xml::*;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::mem::replace;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::{Kind, MAX_LEVELS, Node};
+use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
 
 use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile, offset_of};
@@ -74,11 +74,12 @@ impl Expansion<'_> {
     }
 
     fn root(&mut self, text: &str, file: usize) -> Fallible<Element> {
-        let document = parse(text, file)?;
+        let mended = Mended::default();
+        let document = parse(text, file, &mended)?;
         let node = document.root_element();
-        let place = Place { file, offset: node.range().start };
+        let place = Place { file, offset: mended.original(node.range().start) };
         let mut root = Element::new(node.tag_name().name().to_owned(), attributes(node), place);
-        self.children(node, file, 1, &mut root.children)?;
+        self.children(node, (file, &mended), 1, &mut root.children)?;
         Ok(root)
     }
 
@@ -128,12 +129,12 @@ impl Expansion<'_> {
     fn children(
         &mut self,
         parent: Node<'_, '_>,
-        file: usize,
+        (file, mended): (usize, &Mended),
         depth: usize,
         into: &mut Vec<Element>,
     ) -> Fallible<()> {
         for node in parent.children().filter(Node::is_element) {
-            let place = Place { file, offset: node.range().start };
+            let place = Place { file, offset: mended.original(node.range().start) };
             let tag = node.tag_name().name();
             if depth > MAX_LEVELS {
                 return Err(at(place, MjcfFault::TooDeep(MAX_LEVELS)));
@@ -143,7 +144,7 @@ impl Expansion<'_> {
                 continue;
             }
             let mut element = Element::new(tag.to_owned(), attributes(node), place);
-            self.children(node, file, depth + 1, &mut element.children)?;
+            self.children(node, (file, mended), depth + 1, &mut element.children)?;
             into.push(element);
         }
         Ok(())
@@ -164,7 +165,9 @@ impl Expansion<'_> {
         let (text, _) = self.open(name, place)?;
         self.models.push(self.models[place.file]);
         let file = self.files.len() - 1;
-        self.children(parse(&text, file)?.root_element(), file, depth + 1, into)
+        let mended = Mended::default();
+        let document = parse(&text, file, &mended)?;
+        self.children(document.root_element(), (file, &mended), depth + 1, into)
     }
 }
 
@@ -191,8 +194,8 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
     node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned())).collect()
 }
 
-fn parse(text: &str, file: usize) -> Fallible<urdd_xml::Document<'_>> {
-    urdd_xml::parse(text, Kind::Other).map_err(|error| {
+fn parse<'t>(text: &'t str, file: usize, mended: &'t Mended) -> Fallible<urdd_xml::Document<'t>> {
+    parse_leniently(text, "mujoco", mended).map_err(|error| {
         let place = Place { file, offset: offset_of(text, &error) };
         at(place, ImportFault::NotXml(error.words(text)))
     })

@@ -24,9 +24,13 @@ pub struct Bodies {
 ///
 /// # Errors
 /// If a name has no meaning.
-pub fn bodies(mut scene: Scene, tally: &mut Tally, account: &Account) -> Result<Bodies, Refusal> {
-    let frames = Frames::of(&scene)?;
-    let tree = branches(&scene, &frames, tally)?;
+pub fn bodies(
+    mut scene: Scene,
+    frames: &Frames,
+    tally: &mut Tally,
+    account: &Account,
+) -> Result<Bodies, Refusal> {
+    let tree = branches(&scene, frames, tally)?;
     let world = scene.links.len();
     let mut at = vec![None; world + 1];
     let mut made: Charged<Body> = Charged::default();
@@ -48,7 +52,7 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally, account: &Account) -> Result<
         body.is_frame = node.is_none();
         if let Some((_, joint)) = branch.joint {
             let joint = &scene.joints[joint];
-            for moving in moving(&scene, &frames, joint, node, branch.is_turned, tally)? {
+            for moving in moving(&scene, frames, joint, node, branch.is_turned, tally)? {
                 let charged = body.joints.push(moving, account);
                 charged.or_else(|why| Refusal::at(place, why))?;
             }
@@ -68,7 +72,7 @@ pub fn bodies(mut scene: Scene, tally: &mut Tally, account: &Account) -> Result<
         let Some(index) = *index else { continue };
         let shapes = std::mem::take(&mut scene.links[link].shapes);
         for shape in shapes {
-            let shape = placed(&scene, &frames, link, shape)?;
+            let shape = placed(&scene, frames, link, shape)?;
             let place = shape.place;
             let charged = made[index].shapes.push(shape, account);
             charged.or_else(|why| Refusal::at(place, why))?;

@@ -43,6 +43,8 @@ pub enum SdfFault {
         "`<include>` has `<experimental:params>`, which is not read; write the included model out"
     )]
     Params,
+    #[error("`{uri}` was not found: {why}")]
+    NoInclude { uri: String, why: String },
     #[error("`{0}` includes itself, through others; break the circle")]
     IncludeCircle(String),
     #[error("`{0}` has no `<model>`; include a model")]

@@ -8,7 +8,8 @@ use super::reader::Reader;
 use super::refusal::Refusal;
 use super::tag::{Tag, is_true};
 use crate::gate::unreachable;
-use crate::resolve::FoundMesh;
+use crate::resolve::{FoundMesh, NotFound};
+use urdd_xml::{Mended, parse_leniently};
 
 /// The files that say which file of a folder is the model.
 const MANIFESTS: &[&str] = &["model.config", "manifest.xml"];
@@ -60,13 +61,41 @@ pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
     })
 }
 
-/// The file of a URI: itself, or the model of the folder that it names.
-fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
+/// The file of a URI: itself, or the model of the folder that it names. libsdformat looks for what is behind any scheme,
+/// or without one, where it looks for models.
+///
+/// # Errors
+/// If there is none, or it may not be read.
+pub fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
+    let bare = uri.split_once("://").map_or(uri, |(_, rest)| rest).trim_start_matches("./");
+    let model = format!("model://{bare}");
+    let missing = match find_as(reader, tag, uri)? {
+        Ok(found) => return Ok(found),
+        Err(missing) => missing,
+    };
+    let is_outside = missing.outside.is_some();
+    if !is_outside
+        && !bare.starts_with('/')
+        && let Ok(found) = find_as(reader, tag, &model)?
+    {
+        return Ok(found);
+    }
+    match is_outside {
+        true => Refusal::at(tag.place(), unreachable(uri, missing)),
+        false => {
+            let (uri, why) = (uri.to_owned(), missing.in_words());
+            Refusal::at(tag.place(), SdfFault::NoInclude { uri, why })
+        }
+    }
+}
+
+/// The file of a name as it is written.
+fn find_as(reader: &Reader, tag: Tag, uri: &str) -> Result<Result<FoundMesh, NotFound>, Refusal> {
     let folder = reader.folder(tag.file);
     let gate = reader.gate;
     // A folder is not a file, but may have a manifest.
     let missing = match gate.find_from(uri, &folder) {
-        Ok(found) => return Ok(found),
+        Ok(found) => return Ok(Ok(found)),
         Err(missing) => missing,
     };
     let trimmed = uri.trim_end_matches('/');
@@ -81,15 +110,16 @@ fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
             let path = folder.join(model);
             let shown = path.display().to_string();
             let found = gate.at(&path).map_err(|why| unreachable(&shown, why));
-            return found.or_else(|why| Refusal::at(tag.place(), why));
+            return found.map(Ok).or_else(|why| Refusal::at(tag.place(), why));
         }
     }
-    Refusal::at(tag.place(), unreachable(uri, missing))
+    Ok(Err(missing))
 }
 
 /// The file of the newest version that a manifest names.
 fn newest(text: &str) -> Option<String> {
-    let document = urdd_xml::parse(text, urdd_xml::Kind::Other).ok()?;
+    let mended = Mended::default();
+    let document = parse_leniently(text, "model", &mended).ok()?;
     let files = document.root_element().children().filter(|child| child.has_tag_name("sdf"));
     let files = files.filter_map(|file| {
         let version = file.attribute("version").unwrap_or_default().trim();

@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Matrix3, Point3};
 use super::super::features::{self, Tally};
 use super::super::model::Inertial;
 use super::auto_inertia::auto_inertia;
+use super::libsdformat::{REFUSED, takes_mass};
 use super::refusal::Refusal;
 use super::tag::Tag;
 
@@ -53,6 +54,10 @@ pub fn inertial(link: Tag, tally: &mut Tally) -> Result<Inertial, Refusal> {
         }
     } else {
         is_given = false;
+    }
+    if !takes_mass(mass.unwrap_or(1.0), &own) {
+        let text = format!("{REFUSED}no body has such a mass and such moments of inertia");
+        tally.remark(tag.place(), text);
     }
     tally.count(if is_given { features::MASSES } else { features::DEFAULT_MASSES });
     Ok(turned(mass.unwrap_or(1.0), &own, &pose, tag))

@@ -8,11 +8,12 @@ use super::kept::keep;
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::scene::{Axis, Joint, Kind, Mimic, Node, NodeKind, WORLD};
-use super::tag::Tag;
+use super::tag::{Tag, is_true};
 
 /// From this number on, a limit is none.
 const NO_LIMIT: f64 = 1e16;
-/// The last minor version in which axes are along the model's frame.
+/// The last minor version in which axes are along the model's frame, unless they say otherwise. libsdformat looks at
+/// models that are not inside others.
 const AXES_OF_MODEL: u32 = 4;
 /// The last one in which `use_parent_model_frame` says so.
 const AXES_BY_FLAG: u32 = 6;
@@ -56,7 +57,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
     let axes = axes.collect::<Result<Vec<Axis>, Refusal>>()?;
     for child in tag.children() {
         match child.name() {
-            "sensor" => keep(reader, child, Some(&whole))?,
+            "sensor" => keep(reader, child, Some((&whole, reader.scene.nodes.len())))?,
             "physics" => reader.tally.count(features::SETTINGS),
             name if KNOWN.contains(&name) || wanted.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),
@@ -96,7 +97,11 @@ fn kind(tag: Tag, name: &str) -> Result<Kind, Refusal> {
     })
 }
 
-fn end(tag: Tag, child: &'static str) -> Result<String, Refusal> {
+/// The name of an end of a joint.
+///
+/// # Errors
+/// If there is none.
+pub fn end(tag: Tag, child: &'static str) -> Result<String, Refusal> {
     // Files of SDF 1.2 have the name in an element of its own.
     let inside = tag.child(child).and_then(|end| end.words("link_name"));
     match inside.or_else(|| tag.words(child)) {
@@ -123,6 +128,16 @@ fn said_of_axis(reader: &mut Reader, axis: Tag, joint: &str) {
     }
 }
 
+/// Whether an axis of an old file is along the model's frame.
+fn is_of_model(joint: Tag, axis: Tag) -> bool {
+    let model = joint.node.parent().and_then(|model| model.parent());
+    let is_nested = model.is_some_and(|around| around.has_tag_name("model"));
+    match axis.child("use_parent_model_frame") {
+        Some(flag) => axis.version <= AXES_BY_FLAG && is_true(&flag.text()),
+        None => axis.version <= AXES_OF_MODEL && !is_nested,
+    }
+}
+
 fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
     let place = tag.unwrap_or(joint).place();
     let mut axis = Axis {
@@ -143,14 +158,9 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
         };
         axis.xyz = direction;
     }
-    let is_of_model = tag.version <= AXES_OF_MODEL
-        || (tag.version <= AXES_BY_FLAG && tag.flag("use_parent_model_frame"));
-    axis.expressed_in = if is_of_model {
-        Some("__model__".to_owned())
-    } else {
-        let named = tag.child("xyz").filter(|_| tag.version > AXES_BY_FLAG);
-        named.and_then(|xyz| xyz.attribute("expressed_in")).map(str::to_owned)
-    };
+    let named = tag.child("xyz").and_then(|xyz| xyz.attribute("expressed_in"));
+    let named = if is_of_model(joint, tag) { Some("__model__") } else { named };
+    axis.expressed_in = named.map(str::to_owned);
     if let Some(limit) = tag.child("limit") {
         for (side, name) in axis.range.iter_mut().zip(["lower", "upper"]) {
             if let Some(value) = limit.any_number(name)? {

@@ -50,7 +50,7 @@ pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> 
         match child.name() {
             "pose" | "inertial" => {}
             "visual" | "collision" => shapes.extend(shape(reader, child)?),
-            name if KEPT.contains(&name) => keep(reader, child, Some(&whole))?,
+            name if KEPT.contains(&name) => keep(reader, child, Some((&whole, index)))?,
             name => reader.tally.unread(format!("`<{name}>` of `<link>`")),
         }
     }

@@ -11,6 +11,7 @@ mod included;
 mod inertial;
 mod joint_reader;
 mod kept;
+mod libsdformat;
 mod link_reader;
 mod models;
 mod moving;
@@ -22,6 +23,7 @@ mod scene;
 mod shape_reader;
 mod spanning;
 mod tag;
+mod world;
 
 use super::model::Model;
 use super::options::ImportOptions;
@@ -31,6 +33,9 @@ use crate::gate::Gate;
 use bodies::bodies;
 use chosen::read_chosen;
 use fault::SdfFault;
+use kept::{keep_posed, keep_static};
+use libsdformat::say_refusals;
+use poses::Frames;
 use reader::Reader;
 use refusal::Refusal;
 
@@ -45,12 +50,20 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
 }
 
 fn made(reader: &mut Reader, file: TextFile, options: &ImportOptions) -> Result<Model, Refusal> {
-    let (name, is_static) = reader.open(file, |reader, root| read_chosen(reader, root, options))?;
+    let (name, is_static) = reader.open(file, |reader, root| {
+        say_refusals(root, &mut reader.tally);
+        read_chosen(reader, root, options)
+    })?;
     let scene = std::mem::take(&mut reader.scene);
     if scene.links.is_empty() {
         return Refusal::at(scene.nodes[0].place, SdfFault::NoLink(name));
     }
-    let made = bodies(scene, &mut reader.tally, reader.gate.account())?;
+    let frames = Frames::of(&scene)?;
+    keep_posed(reader, &scene, &frames)?;
+    if is_static {
+        keep_static(reader, scene.nodes[0].place)?;
+    }
+    let made = bodies(scene, &frames, &mut reader.tally, reader.gate.account())?;
     Ok(Model {
         name,
         files: std::mem::take(&mut reader.files),

@@ -8,6 +8,7 @@ use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
 use super::joint_reader::joint;
 use super::kept::{keep, keep_plugins};
+use super::libsdformat::say_refusals;
 use super::link_reader::link;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -57,6 +58,7 @@ pub fn model(
             "include" => {
                 let Included { file, overrides } = included(reader, child)?;
                 reader.include(&file, child.place(), |reader, root| {
+                    say_refusals(root, &mut reader.tally);
                     let Some(inside) = root.child("model") else {
                         let file = file.file.display().to_string();
                         return Refusal::at(child.place(), SdfFault::IncludesNone(file));
@@ -70,7 +72,6 @@ pub fn model(
                 keep(reader, child, None)?;
             }
             name if SETTINGS.contains(&name) => reader.tally.count(features::SETTINGS),
-            "static" if parent.is_none() => keep(reader, child, None)?,
             name if KNOWN.contains(&name) => {}
             name => reader.tally.unread(format!("`<{name}>` of `<model>`")),
         }
@@ -103,7 +104,7 @@ fn enter(
     let merged_into = parent.filter(|_| overrides.is_merged);
     let (table, inner) = match (around, merged_into) {
         (Some(around), Some(_)) => (around.table, around.prefix.clone()),
-        (Some(_), None) => (scene.tables.len(), format!("{whole}::")),
+        (Some(_), None) => (scene.tables.len(), format!("{whole}/")),
         (None, _) => (scene.tables.len(), String::new()),
     };
     if table == scene.tables.len() {

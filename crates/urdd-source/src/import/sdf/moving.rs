@@ -42,7 +42,16 @@ pub fn moving(
         let mut made = base(name_of(joint, node.name.as_str(), which), kind);
         made.axis = direction(scene, frames, joint.node, axis)? * sign;
         made.range = match joint.kind {
-            Kind::Continuous => None,
+            Kind::Continuous => {
+                if axis.range.iter().any(|limit| limit.is_finite()) {
+                    let text = format!(
+                        "the limits of joint `{}` are left out: a continuous joint has none",
+                        node.name
+                    );
+                    tally.remark(axis.place, text);
+                }
+                None
+            }
             _ => range(axis, kind, node.name.as_str(), tally),
         };
         (made.effort, made.velocity) = (axis.effort, axis.velocity);

@@ -12,15 +12,14 @@ use super::super::place::{Place, TextFile, offset_of};
 use super::assets::Assets;
 use super::fault::SdfFault;
 use super::friction::Friction;
+use super::kept::Posed;
 use super::refusal::Refusal;
 use super::scene::Scene;
 use super::tag::Tag;
 use crate::gate::Gate;
 use crate::resolve::FoundMesh;
-use urdd_xml::{Kind, XmlError};
+use urdd_xml::{Mended, parse_leniently};
 
-/// The most undeclared prefixes that are declared for a file.
-const MOST_PREFIXES: usize = 32;
 /// The first minor version of SDF that is read, and the last.
 const VERSIONS: [u32; 2] = [2, 12];
 
@@ -32,6 +31,8 @@ pub struct Reader<'r> {
     pub tally: Tally,
     pub assets: Assets,
     pub kept: Charged<GazeboElement>,
+    /// What is kept when it is known where frames are.
+    pub posed: Vec<Posed>,
     pub friction: Friction,
     /// The files that are being read, the outermost first.
     open: Vec<PathBuf>,
@@ -46,6 +47,7 @@ impl<'r> Reader<'r> {
             tally: Tally::default(),
             assets: Assets::default(),
             kept: Charged::default(),
+            posed: Vec::new(),
             friction: Friction::default(),
             open: Vec::new(),
         }
@@ -84,7 +86,8 @@ impl<'r> Reader<'r> {
     pub fn whole_name(&self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
         let prefix = &self.scene.scopes[scope].prefix;
         self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
-        Ok(format!("{prefix}{name}"))
+        // Files before 1.8 have names with the models that they are in.
+        Ok(format!("{prefix}{}", name.replace("::", "/")))
     }
 
     /// Charges what is made at a place, in bytes.
@@ -110,15 +113,16 @@ impl<'r> Reader<'r> {
         if known.is_none() {
             self.files.push(file);
         }
-        let (text, shift) = mended(&text);
-        let document = match urdd_xml::parse(&text, Kind::Other) {
+        let mended = Mended::default();
+        let document = match parse_leniently(&text, "sdf", &mended) {
             Ok(document) => document,
             Err(error) => {
                 let place = Place { file: index, offset: offset_of(&text, &error) };
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
-        let root = Tag { node: document.root_element(), file: index, shift, version: 0 };
+        let node = document.root_element();
+        let root = Tag { node, file: index, mended: &mended, version: 0 };
         let root = Tag { version: version(root)?, ..root };
         self.open.push(path);
         let done = then(self, root);
@@ -146,37 +150,4 @@ fn version(root: Tag) -> Result<u32, Refusal> {
         Some(minor) => Ok(minor),
         None => Refusal::at(root.place(), SdfFault::Version(version.to_owned())),
     }
-}
-
-/// The text with `__` for `::` in names of elements: `gz sdf` writes `<ignition::corrected_offsets>`.
-fn with_single_colons(text: &str) -> String {
-    let mut parts = text.split('<');
-    let mut mended = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let is_end = |c: char| c.is_ascii_whitespace() || c == '>';
-        let (name, rest) = part.split_at(part.find(is_end).unwrap_or(part.len()));
-        mended.push('<');
-        mended.push_str(&name.replace("::", "__"));
-        mended.push_str(rest);
-    }
-    mended
-}
-
-/// The text without white space before its declaration, and with prefixes declared that it uses and does not declare; and
-/// by how many bytes this moves what is in it.
-fn mended(text: &str) -> (String, isize) {
-    let trimmed = text.trim_start();
-    let trimmed = if trimmed.starts_with("<?xml") { trimmed } else { text };
-    let mut mended = with_single_colons(trimmed);
-    for _ in 0..MOST_PREFIXES {
-        let Err(XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(prefix, _))) =
-            urdd_xml::parse(&mended, Kind::Other)
-        else {
-            break;
-        };
-        let Some(at) = mended.find("<sdf").map(|start| start + "<sdf".len()) else { break };
-        mended.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
-    }
-    let shift = mended.len().wrapping_sub(text.len()).cast_signed();
-    (mended, shift)
 }

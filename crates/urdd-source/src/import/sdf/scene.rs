@@ -31,7 +31,7 @@ pub struct Scene {
 pub struct Scope {
     /// The name of the model, with those that it is nested in.
     pub name: String,
-    /// What is put before the names in it: empty, or `A::`.
+    /// What is put before the names in it: empty, or `A/`. Programs refuse `A::`, or take it for a scope of their own.
     pub prefix: String,
     /// The index of its table; a merged model shares that of its parent.
     pub table: usize,

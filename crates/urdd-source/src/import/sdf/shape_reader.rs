@@ -83,23 +83,44 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
 pub fn primitive(tag: Tag) -> Result<Option<Geometry>, Refusal> {
     Ok(Some(match tag.name() {
         "box" => Geometry::Box(lengths(tag, "size")?),
-        "sphere" => Geometry::Sphere(tag.size("radius")?),
+        "sphere" => Geometry::Sphere(tag.size("radius", 1.0)?),
         "cylinder" => {
-            Geometry::Cylinder { radius: tag.size("radius")?, length: tag.size("length")? }
+            let (radius, length) = (tag.size("radius", 1.0)?, tag.size("length", 1.0)?);
+            Geometry::Cylinder { radius, length }
         }
-        "capsule" => Geometry::Capsule { radius: tag.size("radius")?, length: tag.size("length")? },
+        "capsule" => {
+            let (radius, length) = (tag.size("radius", 0.5)?, tag.size("length", 1.0)?);
+            Geometry::Capsule { radius, length }
+        }
         "ellipsoid" => Geometry::Ellipsoid(lengths(tag, "radii")?),
         _ => return Ok(None),
     }))
 }
 
+/// The sizes of shapes.
+const SIZES: &[(&str, &[&str])] = &[
+    ("box", &["size"]),
+    ("sphere", &["radius"]),
+    ("cylinder", &["radius", "length"]),
+    ("capsule", &["radius", "length"]),
+    ("cone", &["radius", "length"]),
+    ("ellipsoid", &["radii"]),
+];
+
 fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+    let sizes = SIZES.iter().find(|(shape, _)| *shape == tag.name());
+    let sizes = sizes.into_iter().flat_map(|(_, sizes)| *sizes);
+    for size in sizes.filter(|size| tag.child(size).is_none()) {
+        let text =
+            format!("`<{}>` has no `<{size}>`: it has the size that SDF gives it", tag.name());
+        reader.tally.remark(tag.place(), text);
+    }
     let (feature, geometry) = match (primitive(tag)?, tag.name()) {
         (Some(capsule @ Geometry::Capsule { .. }), _) => (features::CAPSULES, capsule),
         (Some(ellipsoid @ Geometry::Ellipsoid(_)), _) => (features::ELLIPSOIDS, ellipsoid),
         (Some(other), _) => (features::BOXES, other),
         (None, "cone") => {
-            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
+            let (radius, length) = (tag.size("radius", 1.0)?, tag.size("length", 1.0)?);
             let Some(bytes) = cone() else { return Ok(None) };
             let asset = reader.assets.made(reader.gate, "meshes/unit_cone.stl", bytes);
             let asset = asset.or_else(|why| Refusal::at(tag.place(), why))?;
@@ -132,7 +153,7 @@ fn is_flat(geometry: &Geometry) -> bool {
 /// Three lengths that are not less than 0.
 fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
     let Some(lengths) = tag.vector(child)? else {
-        return tag.lacks(child);
+        return if tag.child(child).is_none() { Ok([1.0; 3]) } else { tag.lacks(child) };
     };
     match lengths.iter().all(|length| *length >= 0.0) {
         true => Ok(lengths.into()),

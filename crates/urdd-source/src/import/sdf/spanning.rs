@@ -1,6 +1,7 @@
 //! The tree in the graph of links and joints.
 
 use super::super::features::{self, Tally};
+use super::libsdformat::REFUSED;
 use super::poses::Frames;
 use super::refusal::Refusal;
 use super::scene::{Kind, Scene, WORLD};
@@ -36,15 +37,25 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec
             around[child].push((parent, index, true));
             is_child[child] = true;
         } else {
-            left_out.push(index);
+            left_out.push((index, parent, child));
         }
     }
     around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
     left_out.sort_unstable();
-    for index in left_out {
+    for (index, parent, child) in left_out {
         let node = &scene.nodes[scene.joints[index].node];
         tally.count(features::CLOSED);
-        let text = format!("the joint `{}` is left out: it closes a chain", node.name);
+        let [parent, child] = [parent, child].map(|link| {
+            scene.links.get(link).map_or(WORLD, |link| scene.nodes[link.node].name.as_str())
+        });
+        if parent == child {
+            let text = format!("{REFUSED}joint `{}` has `{child}` at both ends", node.name);
+            tally.remark(node.place, text);
+        }
+        let text = format!(
+            "the joint `{}` between `{parent}` and `{child}` is left out: it closes a chain",
+            node.name
+        );
         tally.remark(node.place, text);
     }
     let is_held = !around[world].is_empty();

@@ -1,8 +1,7 @@
 //! An element of an SDF, and the values in it.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use urdd_xml::Node;
-use urdd_xml::element;
+use urdd_xml::{Mended, Node, element};
 
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
@@ -10,7 +9,7 @@ use super::super::place::Place;
 use super::fault::SdfFault;
 use super::refusal::Refusal;
 
-/// The last minor version in which `relative_to` is called `frame`.
+/// The last minor version in which `relative_to` may be called `frame`.
 const RENAMED: u32 = 6;
 
 /// An element of a file.
@@ -19,8 +18,8 @@ pub struct Tag<'a> {
     pub node: Node<'a, 'a>,
     /// The index of the file.
     pub file: usize,
-    /// By how many bytes a repair of the text moves it.
-    pub shift: isize,
+    /// What was made of its text.
+    pub mended: &'a Mended,
     /// The minor version of SDF of the file.
     pub version: u32,
 }
@@ -31,8 +30,8 @@ impl<'a> Tag<'a> {
     }
 
     pub fn place(self) -> Place {
-        let start = self.node.range().start;
-        Place { file: self.file, offset: start.saturating_add_signed(self.shift.saturating_neg()) }
+        let offset = self.mended.original(self.node.range().start);
+        Place { file: self.file, offset }
     }
 
     /// The value of an attribute that is not empty.
@@ -135,9 +134,10 @@ impl<'a> Tag<'a> {
         Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
     }
 
-    /// The number in a child element that has to be there and must not be less than 0.
-    pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
+    /// The number in a child element, which must not be less than 0; the size that SDF gives without it.
+    pub fn size(self, child: &'static str, default: f64) -> Result<f64, Refusal> {
         match self.number(child)? {
+            None if self.child(child).is_none() => Ok(default),
             Some(value) if value >= 0.0 => Ok(value),
             Some(value) => self.refuse(&value.to_string(), "at least 0"),
             None => self.lacks(child),
@@ -147,9 +147,11 @@ impl<'a> Tag<'a> {
     /// The pose in its `<pose>`, and the frame that it is relative to.
     pub fn pose(self) -> Result<(Isometry3<f64>, Option<String>), Refusal> {
         let Some(tag) = self.child("pose") else { return Ok((Isometry3::identity(), None)) };
-        let name = if tag.version <= RENAMED { "frame" } else { "relative_to" };
-        let relative = tag.attribute(name);
-        let relative = relative.map(|name| name.trim().to_owned());
+        let older = element::attribute(tag.node, "frame").filter(|_| tag.version <= RENAMED);
+        // One that is empty counts too: libsdformat moves it over the newer name.
+        let relative = older.or_else(|| element::attribute(tag.node, "relative_to"));
+        let relative = relative.map(|name| name.value().trim().to_owned());
+        let relative = relative.filter(|name| !name.is_empty());
         let is_quaternion = tag.attribute("rotation_format") == Some("quat_xyzw");
         let pose = match is_quaternion {
             true => {

@@ -164,3 +164,34 @@ fn a_part_of_a_mesh_is_a_mesh_of_its_own() {
         assert_eq!(bounds(1).0, [0.0; 3], "{file}");
     }
 }
+
+#[test]
+fn a_shape_without_a_size_has_that_of_sdf() {
+    let of = |shape: &str| {
+        let text = format!(
+            "<link name='a'><collision name='c'><geometry>{shape}</geometry></collision></link>"
+        );
+        let model = inside("1.12", &text).expect("a model");
+        let said = model.tally.remarks.iter().filter(|one| one.text.contains("that SDF gives it"));
+        (body(&model, "a").shapes[0].geometry.clone(), said.count())
+    };
+    // What the specification says of each.
+    for (text, wanted, said) in [
+        ("<sphere>1</sphere>", Geometry::Sphere(1.0), 1),
+        ("<sphere/>", Geometry::Sphere(1.0), 1),
+        ("<box/>", Geometry::Box([1.0; 3]), 1),
+        ("<box>1 2 3</box>", Geometry::Box([1.0; 3]), 1),
+        ("<cylinder/>", Geometry::Cylinder { radius: 1.0, length: 1.0 }, 2),
+        (
+            "<cylinder><length>3</length></cylinder>",
+            Geometry::Cylinder { radius: 1.0, length: 3.0 },
+            1,
+        ),
+        ("<capsule/>", Geometry::Capsule { radius: 0.5, length: 1.0 }, 2),
+        ("<ellipsoid/>", Geometry::Ellipsoid([1.0; 3]), 1),
+        ("<sphere><radius>2</radius></sphere>", Geometry::Sphere(2.0), 0),
+    ] {
+        assert_eq!(of(text), (wanted, said), "{text}");
+    }
+    assert!(matches!(of("<cone/>").0, Geometry::Mesh { scale: [1.0, 1.0, 1.0], .. }));
+}

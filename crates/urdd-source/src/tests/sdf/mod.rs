@@ -4,9 +4,13 @@
 //! is `tests/figures/imports/sdf.cpp`.
 
 mod closed_forms;
+mod names;
+mod refusals;
 mod refused;
 mod resolved;
 mod said;
+mod versions;
+mod worlds;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,11 +31,20 @@ fn folder() -> PathBuf {
 }
 
 fn read(text: &str, folder: &Path, settings: &Settings) -> Result<Model, Placed> {
+    read_with(text, folder, settings, &ImportOptions::default())
+}
+
+fn read_with(
+    text: &str,
+    folder: &Path,
+    settings: &Settings,
+    options: &ImportOptions,
+) -> Result<Model, Placed> {
     let gate = Gate::of_project(folder, settings);
     let path = folder.join("robot.sdf");
     let bytes = Arc::from(text.as_bytes());
     let file = TextFile { shown: "robot.sdf".to_owned(), path, text: text.to_owned(), bytes };
-    sdf::read(file, &gate, &ImportOptions::default())
+    sdf::read(file, &gate, options)
 }
 
 /// The model of a fixture.
@@ -42,9 +55,13 @@ fn fixture(name: &str) -> Model {
 
 /// The model of a text, with files in memory around it.
 fn given(text: &str, files: &[(&str, &str)]) -> Result<Model, Placed> {
+    read(text, Path::new("/"), &memory(files))
+}
+
+fn memory(files: &[(&str, &str)]) -> Settings {
     let file = |(path, text): &(&str, &str)| ((*path).to_owned(), Arc::from(text.as_bytes()));
     let files = Files::in_memory(files.iter().map(file)).expect("files");
-    read(text, Path::new("/"), &Settings { files, ..Settings::default() })
+    Settings { files, ..Settings::default() }
 }
 
 /// The model of what is in `<model>`.

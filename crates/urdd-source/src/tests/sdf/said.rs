@@ -29,7 +29,10 @@ fn what_is_lost_is_counted() {
     let expected = [(features::CLOSED, 1), (features::TURNED, 1), (features::DETACHED, 1)];
     counts(&graph, &expected);
     let said: Vec<&str> = graph.tally.remarks.iter().map(|remark| &*remark.text).collect();
-    assert!(said.contains(&"the joint `closing` is left out: it closes a chain"), "{said:?}");
+    assert!(
+        said.contains(&"the joint `closing` between `a` and `d` is left out: it closes a chain"),
+        "{said:?}"
+    );
     let joints = fixture("joints.sdf");
     counts(&joints, &[(features::GEARBOXES, 1), (features::SCREWS, 1), (features::ONE_SIDED, 1)]);
     let frames = fixture("frames.sdf");
