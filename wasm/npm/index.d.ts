@@ -147,6 +147,10 @@ export interface ExportOptions {
   /** Of position actuators, Hz. */
   bandwidth?: number;
   floating_base?: boolean;
+  /** Makes one body of links that are fixed to each other, with their frames on it. */
+  merge_fixed?: boolean;
+  /** The link that becomes the root. */
+  root?: string;
   /** The content of an `export.toml`. */
   setup?: string;
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::error::ExportError;
+use super::layout::Layout;
 use super::options::PairOptions;
 use super::pairs::{Contacts, LinkPair, pairs};
 use urdd_format::link_shapes_simple_skips::SkipReason;
@@ -16,17 +17,24 @@ const MAX_SAMPLES: u32 = 10_000;
 /// Every pair of links with shapes, sorted by index, as a link-level format represents it.
 pub(super) fn link_pairs(
     robot: &Robot,
+    layout: &Layout,
     options: &PairOptions,
 ) -> Result<Vec<LinkPair>, ExportError> {
     let reasons = options.reasons.as_deref();
-    let mut pairs = pairs::<ExportError>(robot, options.shapes, reasons, options.keep_pairs)?;
-    count(robot, options.shapes, &mut pairs)?;
+    let mut pairs =
+        pairs::<ExportError>(robot, layout, options.shapes, reasons, options.keep_pairs)?;
+    count(robot, layout, options.shapes, &mut pairs)?;
     Ok(pairs)
 }
 
 /// Counts the contacts of mixed pairs, except those that differ only by the reason `Never`. Counts nothing without
 /// bounds, since there are then no sampled configurations.
-fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), RobotError> {
+fn count(
+    robot: &Robot,
+    layout: &Layout,
+    kind: ShapeKind,
+    pairs: &mut [LinkPair],
+) -> Result<(), RobotError> {
     let of_shapes: HashMap<[(usize, usize); 2], bool> = pairs
         .iter()
         .filter(|pair| !matches!(pair.reason, Some(SkipReason::Never | SkipReason::None)))
@@ -52,11 +60,15 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
     let sampled: Vec<f64> =
         (0..u64::from(samples)).flat_map(|k| configurations.random(k)).collect();
     let contacts = |checked: bool| -> Result<HashMap<[usize; 2], usize>, RobotError> {
-        let is_wanted = |mut shapes: [(usize, usize); 2]| {
+        let is_wanted = |shapes: [(usize, usize); 2]| {
+            let mut shapes = shapes.map(|shape| layout.shape(shape));
             shapes.sort_unstable();
             of_shapes.get(&shapes) == Some(&checked)
         };
-        let found = robot.proximity_of(kind, is_wanted)?.contacts_of_links(&sampled)?.into_iter();
+        let found = robot
+            .proximity_of(kind, is_wanted)?
+            .contacts_of_links(&sampled, |link| layout.body(link))?
+            .into_iter();
         Ok(found
             .map(|(mut links, count)| {
                 links.sort_unstable();

@@ -6,6 +6,7 @@ use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
 use urdd_directory::account::Overdrawn;
 use urdd_format::nearest::nearest;
+use urdd_format::urdf::JointType;
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};
 
@@ -63,6 +64,22 @@ pub enum ExportError {
         file: String,
         /// Its ending, `.usdc` or `.usdz`.
         ending: &'static str,
+    },
+    /// A link that cannot be the root.
+    #[error("link `{}` cannot be the root: joint `{}` is between it and the root, and a {} joint cannot be turned round; choose a link that is not beyond it", .root.escape_debug(), .joint.escape_debug(), .kind.as_str().to_ascii_lowercase())]
+    Root {
+        /// The link.
+        root: String,
+        /// The joint.
+        joint: String,
+        /// Its type.
+        kind: JointType,
+    },
+    /// Links whose mass together is more than a number holds.
+    #[error("the mass properties of link `{}` and of what is fixed to it are together no finite numbers: run `urdd validate` for details, or leave out --merge-fixed", .link.escape_debug())]
+    Infinite {
+        /// The link that the others are joined with.
+        link: String,
     },
     /// A mesh that cannot be written.
     #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
@@ -144,6 +161,27 @@ pub enum Note {
     Joint {
         /// The joint.
         joint: String,
+        /// What is exported instead.
+        what: &'static str,
+    },
+    /// Links that are joined with those that they are fixed to.
+    #[error("joined with what they are fixed to, and kept as frames: {}", few(.0))]
+    Joined(Vec<String>),
+    /// A link whose frame is elsewhere, since another joint moves it.
+    #[error("link `{}`: its frame is at joint `{}`, which moves it now; that of the source is `{}`", .link.escape_debug(), .joint.escape_debug(), .frame.escape_debug())]
+    Moved {
+        /// The link.
+        link: String,
+        /// The joint.
+        joint: String,
+        /// The name of the frame that it had.
+        frame: String,
+    },
+    /// A group that is exported differently.
+    #[error("group `{}`: {what}", .group.escape_debug())]
+    Group {
+        /// The group.
+        group: String,
         /// What is exported instead.
         what: &'static str,
     },

@@ -15,8 +15,8 @@ pub(super) struct FlatShapes {
 impl FlatShapes {
     pub fn new(subject: &Subject) -> Result<Self, ExportError> {
         let boxes = match subject.shapes {
-            ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
-            ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
+            ShapeKind::Pieces => subject.shapes(ShapeKind::PieceBoxes)?,
+            ShapeKind::Hulls => subject.shapes(ShapeKind::Boxes)?,
             _ => Vec::new(),
         };
         Ok(FlatShapes { boxes, links: subject.links.clone() })

@@ -31,6 +31,7 @@
 //! ```
 
 // Hidden modules are public for `tests/`.
+mod arrange;
 mod carried;
 mod choices;
 mod contacts;
@@ -43,6 +44,7 @@ mod groups;
 #[doc(hidden)]
 pub mod inertia;
 mod joints;
+mod layout;
 mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
@@ -57,6 +59,7 @@ mod output;
 pub mod pairs;
 #[doc(hidden)]
 pub mod parts;
+mod pose;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
@@ -90,9 +93,9 @@ pub use error::{ExportError, Note};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions, UsdOptions,
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
+    ModelOptions, MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions,
+    SpherizedOptions, UrdfOptions, UsdOptions,
 };
 pub use output::Export;
 pub use pairs::Contacts;
@@ -124,7 +127,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Sdf(of) => sdf::export(&subject, of),
         Options::Usd(of) => usd::export(&subject, of),
     }?;
-    made.notes.extend(subject.lost.clone());
+    made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());
     made.report = carried::report(&subject, &made);
     Ok(made)
 }

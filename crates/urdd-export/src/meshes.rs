@@ -152,11 +152,12 @@ pub(super) fn looks(
         textured.entry(visual.link).or_default().extend(visual.parts);
     }
     for visual in subject.robot.visuals()? {
-        let Some(of_link) = looks.get_mut(visual.link) else {
+        let Some(of_link) = looks.get_mut(subject.layout.body(visual.link)) else {
             continue;
         };
         let textured = textured.remove(&visual.link).unwrap_or_default();
-        for (part, image) in images.painted(visual.parts, textured)? {
+        for (mut part, image) in images.painted(visual.parts, textured)? {
+            subject.layout.place_mesh(visual.link, &mut part.mesh);
             let name = |part: &Part| part.texture.as_ref().map(|texture| texture.name.clone());
             let is_same = |known: &Part| known.color == part.color && name(known) == name(&part);
             match of_link.iter_mut().find(|look| is_same(&look.part)) {

@@ -37,6 +37,19 @@ impl Options {
         self.common().0
     }
 
+    /// What is done to the tree of links; `None` for formats of spheres.
+    pub(super) fn links(&self) -> Option<&LinkOptions> {
+        match self {
+            Options::Srdf(of) | Options::Usd(UsdOptions { pairs: of, .. }) => Some(&of.links),
+            Options::Urdf(of) => Some(&of.links),
+            Options::Mjcf(of) => Some(&of.links),
+            Options::Drake(DrakeOptions { model, .. })
+            | Options::Moveit(MoveitOptions { model, .. })
+            | Options::Sdf(SdfOptions { model, .. }) => Some(&model.pairs.links),
+            Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => None,
+        }
+    }
+
     /// The format, the shapes that approximate links, and what the URDD does not say.
     pub(super) fn common(&self) -> (Format, ShapeKind, Option<&Setup>) {
         match self {
@@ -54,6 +67,16 @@ impl Options {
     }
 }
 
+/// What is done to the tree of links before it is exported.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct LinkOptions {
+    /// Whether links that are fixed to each other become one, that nearest to the root. Each of the others is a frame on
+    /// it, without mass and shapes.
+    pub merge_fixed: bool,
+    /// The link that becomes the root. Joints between it and the old root are turned round.
+    pub root: Option<String>,
+}
+
 /// Options of formats that list pairs of links that need no check: all options of SRDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairOptions {
@@ -64,6 +87,8 @@ pub struct PairOptions {
     /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
     /// pair is disabled, since pieces that are always in contact would collide in every configuration.
     pub keep_pairs: bool,
+    /// The tree of links.
+    pub links: LinkOptions,
 }
 
 /// Options of mesh files.
@@ -131,6 +156,8 @@ pub struct UrdfOptions {
     pub shapes: ShapeKind,
     /// The mesh files.
     pub meshes: MeshOptions,
+    /// The tree of links.
+    pub links: LinkOptions,
 }
 
 /// Options of formats that have a whole robot, with pairs of links.
@@ -176,6 +203,8 @@ pub struct MjcfOptions {
     /// The name of the file, for a scene with floor and light beside it that includes it: `NAME_scene.xml` for
     /// `NAME.xml`. `None` for no scene.
     pub scene_of: Option<String>,
+    /// The tree of links.
+    pub links: LinkOptions,
     /// What the URDD does not say.
     pub setup: Option<Setup>,
 }

@@ -23,7 +23,7 @@ impl Stand {
         let is_free = subject.has_free_base();
         if is_free || has_floor {
             let zero = subject.robot.configurations()?.zero();
-            stand.shapes = subject.robot.shapes(subject.shapes)?;
+            stand.shapes = subject.shapes(subject.shapes)?;
             let up = stand.height(subject, &zero)?;
             if is_free { stand.base_height = up } else { stand.floor = (-up).min(0.0) }
         }
@@ -32,7 +32,7 @@ impl Stand {
 
     /// The height of a free base at which the lowest shape touches z = 0, m, to a micrometre.
     pub fn height(&self, subject: &Subject, configuration: &[f64]) -> Result<f64, ExportError> {
-        let poses = subject.robot.link_poses(configuration)?;
+        let poses = subject.link_poses(configuration)?;
         let lowest = self
             .shapes
             .iter()

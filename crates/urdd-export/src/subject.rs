@@ -5,9 +5,13 @@ use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Deref;
 
+use nalgebra::Isometry3;
+
+use super::arrange::{self, Arranged};
 use super::contacts::link_pairs;
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::layout::Layout;
 use super::names;
 use super::options::Options;
 use super::pairs::{LinkPair, pairs};
@@ -34,11 +38,15 @@ pub(super) struct Subject<'a> {
     /// The shapes that approximate links.
     pub shapes: ShapeKind,
     /// What the URDD does not say, if a person said it.
-    pub given: Option<&'a Setup>,
+    pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
     pub is_floating: bool,
     pub urdf: UrdfModule,
     pub structure: Structure,
+    /// Where its links are in those of `robot`.
+    pub layout: Layout,
+    /// What is otherwise since links were joined, or another is the root.
+    pub arranged: Vec<Note>,
     pub names: JointNames,
     /// What the source says where URDF defines nothing.
     pub other_parts: OtherParts,
@@ -53,30 +61,27 @@ pub(super) struct Subject<'a> {
 impl<'a> Subject<'a> {
     pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
         let (format, shapes, given) = options.common();
-        let urdf = robot.description()?;
-        let structure = Structure::of(&urdf)?;
-        names::check(format, &structure.view, &structure.tree)?;
-        if let Some(setup) = given {
-            structure.check(&setup.of)?;
-        }
+        let (made, given) = arranged(robot, options, given)?;
+        names::check(format, &made.structure.view, &made.structure.tree)?;
+        let Arranged { urdf, structure, layout, notes: arranged } = made;
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let mut is_floating = given.is_some_and(|setup| setup.floating.value);
+        let mut is_floating = given.as_ref().is_some_and(|setup| setup.floating.value);
         let pairs = match options {
-            Options::Srdf(of) => link_pairs(robot, of)?,
-            Options::Drake(of) => link_pairs(robot, &of.model.pairs)?,
-            Options::Moveit(of) => link_pairs(robot, &of.model.pairs)?,
+            Options::Srdf(of) => link_pairs(robot, &layout, of)?,
+            Options::Drake(of) => link_pairs(robot, &layout, &of.model.pairs)?,
+            Options::Moveit(of) => link_pairs(robot, &layout, &of.model.pairs)?,
             Options::Sdf(of) => {
                 is_floating |= of.floating_base;
-                link_pairs(robot, &of.model.pairs)?
+                link_pairs(robot, &layout, &of.model.pairs)?
             }
             // MJCF handles pairs of pieces exactly.
             Options::Mjcf(of) => {
                 is_floating |= of.floating_base;
-                pairs::<ExportError>(robot, shapes, of.reasons.as_deref(), false)?
+                pairs::<ExportError>(robot, &layout, shapes, of.reasons.as_deref(), false)?
             }
             Options::Usd(of) => {
                 is_floating |= of.floating_base;
-                link_pairs(robot, &of.pairs)?
+                link_pairs(robot, &layout, &of.pairs)?
             }
             // URDF cannot express pairs; the sphere formats compute their own.
             Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
@@ -93,6 +98,8 @@ impl<'a> Subject<'a> {
             is_floating,
             urdf,
             structure,
+            layout,
+            arranged,
             names,
             other_parts: other_parts(&text),
             links,
@@ -101,10 +108,32 @@ impl<'a> Subject<'a> {
         })
     }
 
+    /// The shapes of all links.
+    pub fn shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
+        let mut shapes = self.robot.shapes(kind)?;
+        shapes.iter_mut().for_each(|shape| self.layout.place(shape));
+        Ok(shapes)
+    }
+
+    /// The poses of links in the root link's frame.
+    pub fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, RobotError> {
+        Ok(self.layout.poses(self.robot.link_poses(configuration)?))
+    }
+
+    /// Whether a link is but a frame on its parent.
+    pub fn is_frame(&self, link: usize) -> bool {
+        self.layout.is_frame.get(link).is_some_and(|is_frame| *is_frame)
+    }
+
+    /// Whether a joint carries a frame.
+    pub fn is_of_frame(&self, joint: usize) -> bool {
+        self.is_frame(self.tree.joint_links[joint].1)
+    }
+
     /// The shapes of each link, in link order.
     pub fn shapes_by_link(&self) -> Result<Vec<Vec<LinkShape>>, ExportError> {
         let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
-        for shape in self.robot.shapes(self.shapes)? {
+        for shape in self.shapes(self.shapes)? {
             if let Some(of_link) = shapes.get_mut(shape.link) {
                 of_link.push(shape);
             }
@@ -114,12 +143,16 @@ impl<'a> Subject<'a> {
 
     /// What a person set for the actuator of a joint.
     pub fn gains(&self, joint: usize) -> JointGains {
-        self.given.and_then(|setup| setup.gains.joints.get(&joint)).copied().unwrap_or_default()
+        self.given
+            .as_ref()
+            .and_then(|setup| setup.gains.joints.get(&joint))
+            .copied()
+            .unwrap_or_default()
     }
 
     /// The coefficient of friction of all shapes, if a person set one.
     pub fn friction(&self) -> Option<f64> {
-        self.given.and_then(|setup| setup.friction)
+        self.given.as_ref().and_then(|setup| setup.friction)
     }
 
     /// Whether the root link of an MJCF or a USD moves freely. One called `world` cannot: it is MuJoCo's own body.
@@ -129,13 +162,16 @@ impl<'a> Subject<'a> {
 
     /// What the format needs and the URDD does not say: a person's, or guesses, with a note.
     pub fn setup(&self, notes: &mut Vec<Note>) -> Result<Cow<'_, Setup>, ExportError> {
-        Ok(match self.given {
-            Some(setup) => Cow::Borrowed(setup),
-            None => {
-                notes.push(Note::Guessed);
-                Cow::Owned(Setup::guess(self.robot)?)
-            }
-        })
+        if let Some(setup) = &self.given {
+            return Ok(Cow::Borrowed(setup));
+        }
+        notes.push(Note::Guessed);
+        let guess = Setup::guess(self.robot)?;
+        if self.layout.is_empty() {
+            return Ok(Cow::Owned(guess));
+        }
+        let source = Structure::new(self.robot)?;
+        Ok(Cow::Owned(arrange::setup(&guess, &source, &self.structure, &self.layout, notes)))
     }
 
     /// For each joint of one DOF that follows no other, the index of its DOF.
@@ -184,8 +220,33 @@ impl<'a> Subject<'a> {
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);
-        let notes = notes.iter().chain(&self.lost);
+        let notes = notes.iter().chain(&self.arranged).chain(&self.lost);
         lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
+}
+
+/// The robot as it is exported, and what a person said of the one of the URDD, of this one.
+fn arranged<'a>(
+    robot: &Robot,
+    options: &Options,
+    given: Option<&'a Setup>,
+) -> Result<(Arranged, Option<Cow<'a, Setup>>), ExportError> {
+    let source = Structure::new(robot)?;
+    if let Some(setup) = given {
+        source.check(&setup.of)?;
+    }
+    let mut made = Arranged::new(robot.description()?, options.links())?;
+    if made.layout.is_empty() {
+        return Ok((made, given.map(Cow::Borrowed)));
+    }
+    let (format, shapes, _) = options.common();
+    let places: Vec<(usize, usize)> = match format {
+        Format::Srdf => robot.skips(shapes)?.places().to_vec(),
+        _ => robot.shapes(shapes)?.iter().map(|shape| (shape.link, shape.piece)).collect(),
+    };
+    made.layout.number(places);
+    let Arranged { structure, layout, notes, .. } = &mut made;
+    let setup = given.map(|setup| arrange::setup(setup, &source, structure, layout, notes));
+    Ok((made, setup.map(Cow::Owned)))
 }

@@ -75,6 +75,8 @@ def export(
     actuators: Actuators | None = None,
     bandwidth: float | None = None,
     floating_base: bool = False,
+    merge_fixed: bool = False,
+    root: str | None = None,
     sensors: bool = False,
     scene: bool = False,
     setup: str | os.PathLike[str] | None = None,
@@ -105,6 +107,10 @@ def export(
         bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By
             default that of ``setup``, or 10.
         floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
+        merge_fixed: makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps
+            its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
+        root: the link that becomes the root: joints between it and the old root are turned round. Values, limits and
+            names of joints stay. Not for formats of spheres.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
         scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
@@ -145,6 +151,8 @@ def export(
         actuators=actuators,
         bandwidth=None if bandwidth is None else float(bandwidth),
         floating_base=bool(floating_base),
+        merge_fixed=bool(merge_fixed),
+        root=root,
         sensors=bool(sensors),
         scene=bool(scene),
         output=None if output is None else Path(output),

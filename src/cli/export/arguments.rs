@@ -79,6 +79,16 @@ pub struct ExportArguments {
     #[arg(long)]
     pub floating_base: bool,
 
+    /// Makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps its frame: a
+    /// site, a frame, an empty `Xform`, or in URDF an empty link. Not for formats of spheres.
+    #[arg(long)]
+    pub merge_fixed: bool,
+
+    /// Makes another link the root: joints between it and the old root are turned round. Values, limits and names of joints
+    /// stay. Not for formats of spheres.
+    #[arg(long, value_name = "LINK")]
+    pub root: Option<String>,
+
     #[command(flatten)]
     pub mjcf: MjcfArguments,
 

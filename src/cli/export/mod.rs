@@ -72,6 +72,8 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         package: arguments.package.clone(),
         robot_file,
         floating_base: arguments.floating_base,
+        merge_fixed: arguments.merge_fixed,
+        root: arguments.root.clone(),
         setup: Setup::find(arguments.setup.as_deref(), &arguments.path, robot)?,
         ..Choices::default()
     };

@@ -2,12 +2,13 @@
 
 use std::collections::HashSet;
 
-use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+use nalgebra::Isometry3;
 
 use super::super::error::{ExportError, Note};
 use super::super::flat::FlatShapes;
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::options::MjcfOptions;
+use super::super::pose::motion;
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
@@ -76,7 +77,9 @@ impl<'a> Bodies<'a> {
             } else {
                 self.frame(link, base_height)
             };
-            self.fill(link, &mut element)?;
+            if !self.subject.is_frame(link) {
+                self.fill(link, &mut element)?;
+            }
             for joint in &self.subject.tree.child_joints[link] {
                 let child = self.subject.tree.joint_links[*joint].1;
                 if let Some(child) = elements[child].take() {
@@ -97,9 +100,13 @@ impl<'a> Bodies<'a> {
         })
     }
 
-    /// A body at the origin of its joint.
+    /// A body at the origin of its joint, or a site for what is but a frame.
     fn frame(&self, link: usize, base_height: f64) -> Element {
-        let body = Element::new("body").with("name", self.subject.links[link].as_str());
+        let name = self.subject.links[link].as_str();
+        let body = match self.subject.is_frame(link) {
+            true => frames::named(name),
+            false => Element::new("body").with("name", name),
+        };
         let Some(joint) = self.subject.tree.parent_joint[link] else {
             return if self.subject.has_free_base() {
                 body.with("pos", numbers(&[0.0, 0.0, base_height]))
@@ -108,10 +115,7 @@ impl<'a> Bodies<'a> {
             };
         };
         let origin = &self.subject.view.joints[joint].origin;
-        let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
-        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-        let pose = Isometry3::from_parts(origin.xyz.into(), rotation);
-        placed(body, &pose)
+        placed(body, &motion(origin))
     }
 
     /// Adds mass, joints and geoms.

@@ -8,6 +8,7 @@ use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
+use super::super::pose::motion;
 use super::super::subject::Subject;
 use super::super::urdf_elements::{HALF_THICKNESS, INERTIA};
 use super::gazebo::{Gazebo, Place};
@@ -43,6 +44,10 @@ pub(super) fn links(
     let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
     let each = shapes.into_iter().zip(looks(subject, meshes, notes)?);
     for (link, (shapes, looks)) in each.enumerate() {
+        if subject.is_frame(link) {
+            elements.push(frame(subject, link));
+            continue;
+        }
         let view = &subject.view.links[link];
         let joint = subject.tree.parent_joint[link];
         let joint = joint.map(|joint| joints.last_parts[joint].as_str());
@@ -83,10 +88,12 @@ pub(super) fn links(
         }
         let mut names = Vec::new();
         for shape in shapes {
-            names.push(taken.free(format!("piece_{}", shape.piece)));
+            let piece = shape.piece;
+            names.push(taken.free(format!("piece_{piece}")));
             let mut collision = collision(subject, link, shape, &mut files)?;
             collision.set("name", names.last().map(String::as_str));
-            gazebo.add(&view.name, Place::Collision, &mut collision, &mut taken, notes);
+            let said = &subject.links[subject.layout.source(link, piece)];
+            gazebo.add(said, Place::Collision, &mut collision, &mut taken, notes);
             element.push(collision);
         }
         touch(&mut element, &names);
@@ -115,6 +122,15 @@ fn touch(link: &mut Element, collisions: &[String]) {
             }
         }
     }
+}
+
+/// The frame of a link without content.
+fn frame(subject: &Subject, link: usize) -> Element {
+    let frame = Element::new("frame").with("name", subject.links[link].as_str());
+    let on = subject.tree.parent_link[link].map(|parent| subject.links[parent].as_str());
+    let joint = subject.tree.parent_joint[link].map(|joint| &subject.view.joints[joint]);
+    let pose = joint.map(|joint| placed(&motion(&joint.origin)));
+    pose.into_iter().fold(frame.with_some("attached_to", on), Element::holding)
 }
 
 /// A link at its joint.

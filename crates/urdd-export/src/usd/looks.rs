@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 
 use super::super::meshes::{Look, MeshFiles};
+use super::names::VISUALS;
 use super::prim::Prim;
 use super::surface::{coordinates, material, set};
 use super::value::{array, asset, float};
@@ -12,8 +13,6 @@ use urdd_geometry::Mesh;
 
 /// The longest mesh that is in the file itself, bytes of text.
 pub(super) const LONGEST: usize = 1 << 15;
-
-const VISUALS: &str = "visuals";
 
 /// Materials in one place, each once.
 pub(super) struct Materials {
