@@ -31,9 +31,11 @@
 //! ```
 
 // Hidden modules are public for `tests/`.
+mod capsules;
 mod carried;
 mod choices;
 mod contacts;
+mod counts;
 mod drake;
 mod error;
 mod flat;
@@ -57,11 +59,15 @@ mod output;
 pub mod pairs;
 #[doc(hidden)]
 pub mod parts;
+mod reasons;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
+mod shapes;
 #[doc(hidden)]
 pub mod simplify;
+mod source_shapes;
+mod source_visuals;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
@@ -86,6 +92,7 @@ use urdd_robot::Robot;
 
 pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
+pub use counts::ShapeCounts;
 pub use error::{ExportError, Note};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
@@ -97,6 +104,7 @@ pub use options::{
 pub use output::Export;
 pub use pairs::Contacts;
 pub use setup::{Setup, SetupError};
+pub use shapes::Shapes;
 pub use spheres::SphereRates;
 pub use srdf_document::SrdfError;
 pub use srdf_import::{ImportedSkips, import_srdf};
@@ -124,6 +132,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Sdf(of) => sdf::export(&subject, of),
         Options::Usd(of) => usd::export(&subject, of),
     }?;
+    made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.lost.clone());
     made.report = carried::report(&subject, &made);
     Ok(made)

@@ -1,10 +1,10 @@
 //! Options of exports, by format.
 
 use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_robot::ShapeKind;
 
 use super::format::Format;
 use super::setup::Setup;
+use super::shapes::Shapes;
 
 /// A format and its options. [`Choices::options`](super::Choices::options) makes it of what a person chose.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ impl Options {
     }
 
     /// The format, the shapes that approximate links, and what the URDD does not say.
-    pub(super) fn common(&self) -> (Format, ShapeKind, Option<&Setup>) {
+    pub(super) fn common(&self) -> (Format, Shapes, Option<&Setup>) {
         match self {
             Options::Srdf(of) => (Format::Srdf, of.shapes, None),
             Options::Urdf(of) => (Format::Urdf, of.shapes, None),
@@ -58,7 +58,7 @@ impl Options {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairOptions {
     /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
@@ -91,7 +91,7 @@ pub enum Detail {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereOptions {
     /// The shapes that the spheres approximate: pieces or hulls.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are ignored; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// Number of spheres.
@@ -128,7 +128,7 @@ impl SphereBudget {
 #[derive(Debug, Clone, PartialEq)]
 pub struct UrdfOptions {
     /// The collision geometry.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The mesh files.
     pub meshes: MeshOptions,
 }
@@ -159,7 +159,7 @@ pub struct DrakeOptions {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MjcfOptions {
     /// The shapes that approximate links: the geoms, and the shapes of the pairs.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are excluded; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// The mesh files.

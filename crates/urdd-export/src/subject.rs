@@ -5,18 +5,21 @@ use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Deref;
 
-use super::contacts::link_pairs;
+use super::contacts::{Basis, num_samples};
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::names;
-use super::options::Options;
-use super::pairs::{LinkPair, pairs};
+use super::options::{Options, PairOptions};
+use super::pairs::LinkPair;
 use super::parts::JointNames;
+use super::reasons::Judged;
 use super::setup::{JointGains, Setup};
+use super::shapes::{Shape, Shapes};
+use super::source_shapes::{self, SourceShapes, takes_hulls};
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
-use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+use urdd_robot::{LinkShape, Robot, RobotError};
 use urdd_xml::other_parts::{OtherParts, other_parts};
 
 impl Deref for Subject<'_> {
@@ -32,7 +35,9 @@ pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub format: Format,
     /// The shapes that approximate links.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
+    /// Those of the source, where they are asked for.
+    pub source: Option<SourceShapes>,
     /// What the URDD does not say, if a person said it.
     pub given: Option<&'a Setup>,
     /// Whether the root link moves freely.
@@ -46,6 +51,8 @@ pub(super) struct Subject<'a> {
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
+    /// Of what the shapes are made.
+    pub shape_notes: Vec<Note>,
     /// What the format cannot carry of this robot.
     pub lost: Option<Note>,
 }
@@ -61,22 +68,41 @@ impl<'a> Subject<'a> {
         }
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
         let mut is_floating = given.is_some_and(|setup| setup.floating.value);
+        let source = match shapes {
+            Shapes::Source if format.has_spheres() => return Err(ExportError::SpheresOf(shapes)),
+            Shapes::Source => Some(SourceShapes::new(robot, &urdf, format)?),
+            Shapes::Kind(_) => None,
+        };
+        let shape_notes = match &source {
+            Some(source) => source.notes.clone(),
+            None => source_shapes::notes(robot, &urdf, shapes, format)?,
+        };
+        let basis = || match (shapes, &source) {
+            (Shapes::Kind(kind), _) => Ok(Basis::Kind(kind)),
+            (Shapes::Source, of) => {
+                let by_link = of.as_ref().map_or(&[][..], |of| &of.by_link);
+                let samples = num_samples(robot)?;
+                let judged = Judged::new(robot, &structure, by_link, takes_hulls(format), samples)?;
+                Ok::<_, ExportError>(Basis::Written(Box::new(judged)))
+            }
+        };
+        let link_pairs = |of: &PairOptions| basis()?.link_pairs(robot, &links, of);
         let pairs = match options {
-            Options::Srdf(of) => link_pairs(robot, of)?,
-            Options::Drake(of) => link_pairs(robot, &of.model.pairs)?,
-            Options::Moveit(of) => link_pairs(robot, &of.model.pairs)?,
+            Options::Srdf(of) => link_pairs(of)?,
+            Options::Drake(of) => link_pairs(&of.model.pairs)?,
+            Options::Moveit(of) => link_pairs(&of.model.pairs)?,
             Options::Sdf(of) => {
                 is_floating |= of.floating_base;
-                link_pairs(robot, &of.model.pairs)?
+                link_pairs(&of.model.pairs)?
             }
             // MJCF handles pairs of pieces exactly.
             Options::Mjcf(of) => {
                 is_floating |= of.floating_base;
-                pairs::<ExportError>(robot, shapes, of.reasons.as_deref(), false)?
+                basis()?.pairs(robot, &links, of.reasons.as_deref(), false)?
             }
             Options::Usd(of) => {
                 is_floating |= of.floating_base;
-                link_pairs(robot, &of.pairs)?
+                link_pairs(&of.pairs)?
             }
             // URDF cannot express pairs; the sphere formats compute their own.
             Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
@@ -89,6 +115,7 @@ impl<'a> Subject<'a> {
             robot,
             format,
             shapes,
+            source,
             given,
             is_floating,
             urdf,
@@ -97,19 +124,34 @@ impl<'a> Subject<'a> {
             other_parts: other_parts(&text),
             links,
             pairs,
+            shape_notes,
             lost: None,
         })
     }
 
     /// The shapes of each link, in link order.
-    pub fn shapes_by_link(&self) -> Result<Vec<Vec<LinkShape>>, ExportError> {
-        let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
-        for shape in self.robot.shapes(self.shapes)? {
-            if let Some(of_link) = shapes.get_mut(shape.link) {
-                of_link.push(shape);
+    pub fn shapes_by_link(&self) -> Result<Vec<Vec<Shape>>, ExportError> {
+        match (self.shapes, &self.source) {
+            (Shapes::Kind(kind), _) => Ok(self.by_link(self.robot.shapes(kind)?)),
+            (Shapes::Source, source) => {
+                Ok(source.as_ref().map_or_else(Vec::new, |source| source.by_link.clone()))
             }
         }
-        Ok(shapes)
+    }
+
+    /// Shapes by link. They have the names of the link's collision elements, in their order.
+    pub fn by_link(&self, shapes: Vec<LinkShape>) -> Vec<Vec<Shape>> {
+        let mut by_link: Vec<Vec<Shape>> = self.links.iter().map(|_| Vec::new()).collect();
+        for shape in shapes {
+            let link = shape.link;
+            if let (Some(of_link), Some(urdf)) = (by_link.get_mut(link), self.urdf.links.get(link))
+            {
+                let element = urdf.collision.get(of_link.len());
+                let name = element.and_then(|element| element.name.clone());
+                of_link.push(Shape { name, ..shape.into() });
+            }
+        }
+        by_link
     }
 
     /// What a person set for the actuator of a joint.
@@ -184,7 +226,7 @@ impl<'a> Subject<'a> {
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);
-        let notes = notes.iter().chain(&self.lost);
+        let notes = notes.iter().chain(&self.shape_notes).chain(&self.lost);
         lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
