@@ -60,13 +60,13 @@ impl Options {
             Some(ratio) if ratio < 1.0 => Detail::Ratio(ratio),
             Some(count) => Detail::Triangles(count as usize),
         };
-        let kind = self.shapes.parse::<urdd_robot::ShapeKind>();
+        let shapes = self.shapes.parse::<urdd_export::Shapes>();
         let actuator = |word: String| {
             let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
             ActuatorKind::named(&word).ok_or_else(|| none_of("are no actuators", &word, words))
         };
         Ok(Choices {
-            shapes: kind.map_err(|error| of_robot(py, &error.into()))?,
+            shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
             reasons: reasons.transpose().map_err(PyValueError::new_err)?,
             keep_pairs: self.keep_pairs,
             spheres: SphereBudget::new(self.spheres, self.total_spheres),

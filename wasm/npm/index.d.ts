@@ -136,7 +136,8 @@ export type Format =
 export interface ExportOptions {
   /** The name of the file, after which meshes are named, or of the package; by default `robot`. */
   output?: string;
-  shapes?: ShapeKind;
+  /** `source`: the collision elements of the source as it has them, and pieces for links without any. */
+  shapes?: ShapeKind | "source";
   keep_pairs?: boolean;
   spheres?: number;
   total_spheres?: number;

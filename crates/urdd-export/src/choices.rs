@@ -13,13 +13,14 @@ use super::options::{
     SpherizedOptions, UrdfOptions, UsdOptions,
 };
 use super::setup::Setup;
+use super::shapes::Shapes;
 
 /// What a person chose, by the names that options have in Python; the command line has `robot_file` as `--config`.
 /// The fields are documented where they go: in the options of each format.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "named and documented as in the options of each format")]
 pub struct Choices {
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     pub reasons: Option<Vec<SkippedReason>>,
     pub keep_pairs: bool,
     pub merge_fixed: bool,
@@ -47,7 +48,7 @@ pub struct Choices {
 impl Default for Choices {
     fn default() -> Self {
         Choices {
-            shapes: ShapeKind::Pieces,
+            shapes: ShapeKind::Pieces.into(),
             reasons: None,
             keep_pairs: false,
             merge_fixed: false,

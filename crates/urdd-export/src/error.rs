@@ -2,13 +2,16 @@
 
 use thiserror::Error;
 
+use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
+use super::reasons::MOST_SHAPES;
+use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_format::nearest::nearest;
-use urdd_format::urdf::JointType;
+use urdd_format::urdf::{JointType, Link};
 use urdd_geometry::write::WriteError;
-use urdd_robot::{RobotError, ShapeKind};
+use urdd_robot::RobotError;
 
 /// Errors of an export.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -53,10 +56,20 @@ pub enum ExportError {
     },
     /// The URDD has no shapes of the requested kind, and the format needs them.
     #[error("no link has {0}: choose other shapes, or another format")]
-    NoShapes(ShapeKind),
+    NoShapes(Shapes),
     /// Spheres cannot be fitted to shapes of this kind.
     #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
-    SpheresOf(ShapeKind),
+    SpheresOf(Shapes),
+    /// So many shapes of the source that judging their pairs would take too long.
+    #[error(
+        "the source has {0} collision shapes, and pairs of at most {MOST_SHAPES} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
+    )]
+    TooManyShapes(usize),
+    /// Distances between shapes of the source cannot be computed.
+    #[error(
+        "distances between the collision shapes of the source cannot be computed: {0}; choose the shapes `pieces`"
+    )]
+    Unmeasurable(String),
     /// A binary file, and the format is a text.
     #[error("`{}` would be binary, and this is a text: write a `.usda`, and make the `{ending}` of it in Python, with usd-core: `{}`", .file.escape_debug(), binary(.ending))]
     Binary {
@@ -260,12 +273,33 @@ pub enum Note {
         /// The greatest sampled distance between both surfaces, um.
         micrometres: u64,
     },
+    /// The collision geometry of the source is in the file: how many shapes of which kinds.
+    #[error(
+        "the file has the collision geometry of the source, {0}; pairs are judged by these shapes"
+    )]
+    SourceShapes(ShapeCounts),
+    /// The collision geometry of the source is not in the file, or in another form.
+    #[error("the source's collision geometry ({elements}) is not in the file as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
+    NotOfSource {
+        /// How many shapes of which kinds.
+        elements: ShapeCounts,
+        /// What is in the file.
+        shapes: Shapes,
+        /// Whether that is made of visual geometry, at least of some links.
+        is_visual: bool,
+    },
     /// No link has shapes of the requested kind.
     #[error("no link has {0}: the file has no collision geometry")]
-    NoShapes(ShapeKind),
+    NoShapes(Shapes),
 }
 
 impl Note {
+    /// A note on links, by their indices, if there are any.
+    pub(super) fn of_links(links: Vec<usize>, all: &[Link], what: &'static str) -> Option<Note> {
+        let links: Vec<String> = links.into_iter().map(|link| all[link].name.clone()).collect();
+        (!links.is_empty()).then_some(Note::Links { links, what })
+    }
+
     pub(super) fn joint(joint: &str, what: &'static str) -> Note {
         let joint = joint.to_owned();
         Note::Joint { joint, what }
@@ -284,6 +318,10 @@ impl Note {
             contacts: mixed.contacts,
         })
     }
+}
+
+fn of_visual(is_visual: bool) -> &'static str {
+    if is_visual { " of visual geometry" } else { "" }
 }
 
 /// Number of names in a note.

@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 
+use super::shapes::{Shape, Solid};
 use urdd_geometry::Mesh;
-use urdd_robot::{LinkShape, Solid};
 
 /// A place in a link.
 #[derive(Debug, Clone, Copy)]
@@ -99,19 +99,38 @@ impl Layout {
         self.frame_of.get(link).copied().unwrap_or(link)
     }
 
-    /// Puts a shape of the URDD where it is now.
-    pub fn place(&self, shape: &mut LinkShape) {
-        let Some(place) = self.content.get(shape.link).copied() else {
-            return;
-        };
-        match &mut shape.solid {
-            Solid::Mesh(mesh) => self.place_mesh(shape.link, mesh),
-            Solid::Box { pose, .. } => *pose = place.pose * *pose,
-            Solid::Sphere { centre, .. } => {
-                *centre = (place.pose * Point3::from(*centre)).coords.into()
+    /// What is in links of the URDD, by link of the export: what is a body's own first.
+    pub fn gather<T>(
+        &self,
+        mut by_link: Vec<Vec<T>>,
+        place: impl Fn(usize, &Isometry3<f64>, &mut T),
+    ) -> Vec<Vec<T>> {
+        if self.is_empty() {
+            return by_link;
+        }
+        let mut gathered: Vec<Vec<T>> = self.frames.iter().map(|_| Vec::new()).collect();
+        for is_own in [true, false] {
+            for (link, (at, content)) in self.content.iter().zip(&mut by_link).enumerate() {
+                if (at.link == link) == is_own {
+                    content.iter_mut().for_each(|of| place(link, &at.pose, of));
+                    gathered[at.link].append(content);
+                }
             }
         }
-        (shape.link, shape.piece) = self.shape((shape.link, shape.piece));
+        gathered
+    }
+
+    /// Shapes of links of the URDD, by link of the export.
+    pub fn gather_shapes(&self, by_link: Vec<Vec<Shape>>) -> Vec<Vec<Shape>> {
+        self.gather(by_link, |link, pose, shape| {
+            match &mut shape.solid {
+                Solid::Convex(mesh) | Solid::Mesh(mesh) => {
+                    mesh.transform(&pose.to_homogeneous());
+                }
+                Solid::Primitive(own, _) => *own = pose * *own,
+            }
+            shape.number = self.shape((link, shape.number)).1;
+        })
     }
 
     /// Puts a mesh of a link of the URDD where it is now.

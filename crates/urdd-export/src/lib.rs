@@ -32,9 +32,11 @@
 
 // Hidden modules are public for `tests/`.
 mod arrange;
+mod capsules;
 mod carried;
 mod choices;
 mod contacts;
+mod counts;
 mod drake;
 mod error;
 mod flat;
@@ -60,11 +62,15 @@ pub mod pairs;
 #[doc(hidden)]
 pub mod parts;
 mod pose;
+mod reasons;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
+mod shapes;
 #[doc(hidden)]
 pub mod simplify;
+mod source_shapes;
+mod source_visuals;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
@@ -89,6 +95,7 @@ use urdd_robot::Robot;
 
 pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
+pub use counts::ShapeCounts;
 pub use error::{ExportError, Note};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
@@ -100,6 +107,7 @@ pub use options::{
 pub use output::Export;
 pub use pairs::Contacts;
 pub use setup::{Setup, SetupError};
+pub use shapes::Shapes;
 pub use spheres::SphereRates;
 pub use srdf_document::SrdfError;
 pub use srdf_import::{ImportedSkips, import_srdf};
@@ -127,6 +135,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Sdf(of) => sdf::export(&subject, of),
         Options::Usd(of) => usd::export(&subject, of),
     }?;
+    made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());
     made.report = carried::report(&subject, &made);
     Ok(made)

@@ -13,7 +13,7 @@ use super::layout::Layout;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
+use urdd_robot::Skips;
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,19 +116,16 @@ pub fn charge(bytes: usize, shapes: usize) -> Result<(), Overdrawn> {
 }
 
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
-pub(super) fn pairs<E: From<RobotError> + From<Overdrawn>>(
-    robot: &Robot,
+pub(super) fn pairs(
+    skips: &Skips,
     layout: &Layout,
-    kind: ShapeKind,
+    names: &[String],
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, E> {
-    let skips = robot.skips(kind)?;
-    let links = robot.description()?.links.into_iter();
-    let names: Vec<String> = links.map(|link| link.name).collect();
+) -> Result<Vec<LinkPair>, Overdrawn> {
     let places = skips.places();
     charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len())?;
-    let decision = Decision::new(&skips, &names, reasons);
+    let decision = Decision::new(skips, names, reasons);
     let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
     for i in 0..places.len() {

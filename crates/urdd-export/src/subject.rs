@@ -8,15 +8,18 @@ use std::ops::Deref;
 use nalgebra::Isometry3;
 
 use super::arrange::{self, Arranged};
-use super::contacts::link_pairs;
+use super::contacts::{Basis, num_samples};
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::layout::Layout;
 use super::names;
-use super::options::Options;
-use super::pairs::{LinkPair, pairs};
+use super::options::{Options, Pairs};
+use super::pairs::LinkPair;
 use super::parts::JointNames;
+use super::reasons::Judged;
 use super::setup::{JointGains, Setup};
+use super::shapes::{Shape, Shapes};
+use super::source_shapes::{self, SourceShapes, takes_hulls};
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
@@ -36,11 +39,16 @@ pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub format: Format,
     /// The shapes that approximate links.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
+    /// Those of the source, where they are asked for.
+    pub source: Option<SourceShapes>,
     /// What the URDD does not say, if a person said it.
     pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
     pub is_floating: bool,
+    /// The robot of the URDD.
+    pub described: UrdfModule,
+    /// The robot that is exported.
     pub urdf: UrdfModule,
     pub structure: Structure,
     /// Where its links are in those of `robot`.
@@ -54,6 +62,8 @@ pub(super) struct Subject<'a> {
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
+    /// Of what the shapes are made.
+    pub shape_notes: Vec<Note>,
     /// What the format cannot carry of this robot.
     pub lost: Option<Note>,
 }
@@ -61,41 +71,79 @@ pub(super) struct Subject<'a> {
 impl<'a> Subject<'a> {
     pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
         let (format, shapes, given) = options.common();
-        let (made, given) = arranged(robot, options, given)?;
+        let described = robot.description()?;
+        let own = Structure::of(&described)?;
+        if let Some(setup) = given {
+            own.check(&setup.of)?;
+        }
+        let made = Arranged::new(described.clone(), options.links())?;
         names::check(format, &made.structure.view, &made.structure.tree)?;
-        let Arranged { urdf, structure, layout, notes: arranged } = made;
+        let Arranged { urdf, structure, mut layout, notes: mut arranged } = made;
+        let given = given.map(|setup| match layout.is_empty() {
+            true => Cow::Borrowed(setup),
+            false => Cow::Owned(arrange::setup(setup, &own, &structure, &layout, &mut arranged)),
+        });
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let mut is_floating = given.as_ref().is_some_and(|setup| setup.floating.value);
-        let pairs = match options {
-            Options::Srdf(of) => link_pairs(robot, &layout, of)?,
-            Options::Drake(of) => link_pairs(robot, &layout, &of.model.pairs)?,
-            Options::Moveit(of) => link_pairs(robot, &layout, &of.model.pairs)?,
-            Options::Sdf(of) => {
-                is_floating |= of.floating_base;
-                link_pairs(robot, &layout, &of.model.pairs)?
-            }
-            // MJCF handles pairs of pieces exactly.
-            Options::Mjcf(of) => {
-                is_floating |= of.floating_base;
-                pairs::<ExportError>(robot, &layout, shapes, of.reasons.as_deref(), false)?
-            }
-            Options::Usd(of) => {
-                is_floating |= of.floating_base;
-                link_pairs(robot, &layout, &of.pairs)?
-            }
-            // URDF cannot express pairs; the sphere formats compute their own.
-            Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
-                Vec::new()
+        let source = match shapes {
+            Shapes::Source if format.has_spheres() => return Err(ExportError::SpheresOf(shapes)),
+            Shapes::Source => Some(SourceShapes::new(robot, &described, format)?),
+            Shapes::Kind(_) => None,
+        };
+        let shape_notes = match &source {
+            Some(source) => source.notes.clone(),
+            None => source_shapes::notes(robot, &described, shapes, format)?,
+        };
+        let basis = || match (shapes, &source) {
+            (Shapes::Kind(kind), _) => Ok(Basis::Kind(kind)),
+            (Shapes::Source, of) => {
+                let by_link = of.as_ref().map_or(&[][..], |of| &of.by_link);
+                let samples = num_samples(robot)?;
+                let judged = Judged::new(robot, &own, by_link, takes_hulls(format), samples)?;
+                Ok::<_, ExportError>(Basis::Written(Box::new(judged)))
             }
         };
+        // URDF cannot express pairs; the sphere formats compute their own.
+        let basis = match options.pairs() {
+            Some(_) => Some(basis()?),
+            None => None,
+        };
+        if !layout.is_empty() {
+            let mut places = match (&basis, shapes) {
+                (Some(basis), _) => basis.places(robot)?,
+                (None, Shapes::Kind(kind)) => {
+                    robot.shapes(kind)?.iter().map(|shape| (shape.link, shape.piece)).collect()
+                }
+                (None, Shapes::Source) => Vec::new(),
+            };
+            let by_link = source.iter().flat_map(|source| source.by_link.iter().enumerate());
+            places.extend(
+                by_link.flat_map(|(link, shapes)| {
+                    shapes.iter().map(move |shape| (link, shape.number))
+                }),
+            );
+            layout.number(places);
+        }
+        let pairs = match (options.pairs(), &basis) {
+            (Some(Pairs::OfLinks(of)), Some(basis)) => {
+                basis.link_pairs(robot, &layout, &links, of)?
+            }
+            (Some(Pairs::OfPieces(reasons)), Some(basis)) => {
+                basis.pairs(robot, &layout, &links, reasons, false)?
+            }
+            _ => Vec::new(),
+        };
+        let is_floating =
+            options.is_floating() || given.as_ref().is_some_and(|setup| setup.floating.value);
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();
         Ok(Subject {
             robot,
             format,
             shapes,
+            source,
             given,
             is_floating,
+            described,
             urdf,
             structure,
             layout,
@@ -104,15 +152,9 @@ impl<'a> Subject<'a> {
             other_parts: other_parts(&text),
             links,
             pairs,
+            shape_notes,
             lost: None,
         })
-    }
-
-    /// The shapes of all links.
-    pub fn shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
-        let mut shapes = self.robot.shapes(kind)?;
-        shapes.iter_mut().for_each(|shape| self.layout.place(shape));
-        Ok(shapes)
     }
 
     /// The poses of links in the root link's frame.
@@ -131,14 +173,34 @@ impl<'a> Subject<'a> {
     }
 
     /// The shapes of each link, in link order.
-    pub fn shapes_by_link(&self) -> Result<Vec<Vec<LinkShape>>, ExportError> {
-        let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
-        for shape in self.shapes(self.shapes)? {
-            if let Some(of_link) = shapes.get_mut(shape.link) {
-                of_link.push(shape);
+    pub fn shapes_by_link(&self) -> Result<Vec<Vec<Shape>>, ExportError> {
+        match (self.shapes, &self.source) {
+            (Shapes::Kind(kind), _) => self.shapes_of(kind),
+            (Shapes::Source, source) => {
+                let own = source.as_ref().map_or_else(Vec::new, |source| source.by_link.clone());
+                Ok(self.layout.gather_shapes(own))
             }
         }
-        Ok(shapes)
+    }
+
+    /// The URDD's shapes of a kind, by link.
+    pub fn shapes_of(&self, kind: ShapeKind) -> Result<Vec<Vec<Shape>>, ExportError> {
+        Ok(self.layout.gather_shapes(self.by_link(self.robot.shapes(kind)?)))
+    }
+
+    /// Shapes by link of the URDD. They have the names of the link's collision elements, in their order.
+    pub fn by_link(&self, shapes: Vec<LinkShape>) -> Vec<Vec<Shape>> {
+        let links = &self.described.links;
+        let mut by_link: Vec<Vec<Shape>> = links.iter().map(|_| Vec::new()).collect();
+        for shape in shapes {
+            let link = shape.link;
+            if let (Some(of_link), Some(urdf)) = (by_link.get_mut(link), links.get(link)) {
+                let element = urdf.collision.get(of_link.len());
+                let name = element.and_then(|element| element.name.clone());
+                of_link.push(Shape { name, ..shape.into() });
+            }
+        }
+        by_link
     }
 
     /// What a person set for the actuator of a joint.
@@ -220,33 +282,8 @@ impl<'a> Subject<'a> {
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);
-        let notes = notes.iter().chain(&self.arranged).chain(&self.lost);
+        let notes = notes.iter().chain(&self.shape_notes).chain(&self.arranged).chain(&self.lost);
         lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
-}
-
-/// The robot as it is exported, and what a person said of the one of the URDD, of this one.
-fn arranged<'a>(
-    robot: &Robot,
-    options: &Options,
-    given: Option<&'a Setup>,
-) -> Result<(Arranged, Option<Cow<'a, Setup>>), ExportError> {
-    let source = Structure::new(robot)?;
-    if let Some(setup) = given {
-        source.check(&setup.of)?;
-    }
-    let mut made = Arranged::new(robot.description()?, options.links())?;
-    if made.layout.is_empty() {
-        return Ok((made, given.map(Cow::Borrowed)));
-    }
-    let (format, shapes, _) = options.common();
-    let places: Vec<(usize, usize)> = match format {
-        Format::Srdf => robot.skips(shapes)?.places().to_vec(),
-        _ => robot.shapes(shapes)?.iter().map(|shape| (shape.link, shape.piece)).collect(),
-    };
-    made.layout.number(places);
-    let Arranged { structure, layout, notes, .. } = &mut made;
-    let setup = given.map(|setup| arrange::setup(setup, &source, structure, layout, notes));
-    Ok((made, setup.map(Cow::Owned)))
 }

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from . import _urdd
-from ._answers import ShapeKind
+from ._answers import ExportShapes
 from ._description import RobotDescription
 from ._options import ExportOptions, whole, words
 
@@ -63,7 +63,7 @@ def export(
     format: Format,  # noqa: A002
     output: str | os.PathLike[str] | None = None,
     *,
-    shapes: ShapeKind = "pieces",
+    shapes: ExportShapes = "pieces",
     reasons: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
     keep_pairs: bool = False,
     spheres: int | None = None,
@@ -90,7 +90,9 @@ def export(
         robot: the robot, or its path.
         format: the format.
         output: a file to write.
-        shapes: the kind of collision shapes. Pairs are disabled by the skips of this kind.
+        shapes: the kind of collision shapes, or ``"source"``: boxes, cylinders, capsules, spheres and meshes as the
+            collision elements of the source have them, and pieces for links without any; visual primitives stay
+            primitives too. Pairs are disabled by the skips of this kind, or judged by the shapes of the source.
         reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
         keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
             links only, and in USD, piece by piece. By default such a pair is disabled, and a note names it.

@@ -61,7 +61,7 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         None => None,
     };
     let mut choices = Choices {
-        shapes: arguments.shapes.into(),
+        shapes: arguments.shapes,
         reasons: reasons.map(|skip| skip.iter().copied().map(Into::into).collect()),
         keep_pairs: arguments.keep_pairs,
         spheres: SphereBudget::new(arguments.spheres, arguments.total_spheres),

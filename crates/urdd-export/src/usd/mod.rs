@@ -11,6 +11,7 @@ mod looks;
 mod mass;
 mod names;
 mod prim;
+mod primitive;
 mod shapes;
 mod surface;
 mod value;
@@ -61,7 +62,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
             continue;
         }
         prim.apply("PhysicsRigidBodyAPI");
-        shapes::place(&mut prim, &(up * pose), None);
+        primitive::place(&mut prim, &(up * pose), None);
         if let Some(targets) = filters.targets.get(&paths.links[link]) {
             prim.apply("PhysicsFilteredPairsAPI");
             prim.relate("physics:filteredPairs", targets);

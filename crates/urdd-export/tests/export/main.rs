@@ -30,6 +30,7 @@ mod sdf;
 mod setup;
 mod setup_words;
 mod simplify;
+mod source_shapes;
 mod spheres;
 mod spheres_cover_cell;
 mod spheres_cover_filled;

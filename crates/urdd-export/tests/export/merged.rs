@@ -78,7 +78,7 @@ fn merged(robot: &Robot, format: Format, choices: Choices) -> Export {
 }
 
 fn plain() -> Choices {
-    Choices { shapes: ShapeKind::Boxes, ..Choices::default() }
+    Choices { shapes: ShapeKind::Boxes.into(), ..Choices::default() }
 }
 
 #[track_caller]
