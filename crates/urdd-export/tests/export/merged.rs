@@ -1,6 +1,6 @@
 //! `merge_fixed`: links that are fixed to each other are one body, and frames on it.
 
-use urdd_export::{Choices, Export, ExportError, Format, Setup};
+use urdd_export::{Choices, Export, ExportError, Format, Setup, Shapes};
 use urdd_xml::{Kind, Node, parse};
 
 use crate::kinematic_text::{Text, inertial};
@@ -354,4 +354,25 @@ fn sensors_of_gazebo_are_on_the_body_and_at_the_frame() {
         shapes[at].descendants().find(|it| it.has_tag_name("mu")).and_then(|it| it.text())
     };
     assert_eq!((mu(0), mu(1)), (None, Some("0.75")));
+}
+
+#[test]
+fn primitives_of_the_source_are_where_their_link_was() {
+    let (_folder, robot) = robot(&urdf(&parts()));
+    let source = || Choices { shapes: Shapes::Source, ..Choices::default() };
+    let made = merged(&robot, Format::Mjcf, source());
+    let document = parse(&made.text, Kind::Other).expect("XML");
+    let geom = named(document.root_element(), "geom", "base/1");
+    assert_eq!(geom.attribute("type"), Some("box"));
+    is_near(&numbers(geom, "size"), &[0.1, 0.05, 0.02]);
+    is_near(&numbers(geom, "pos"), &[0.3, 0.1, 0.0]);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    is_near(&numbers(geom, "quat"), &[half, 0.0, 0.0, half]);
+    let made = merged(&robot, Format::Urdf, source());
+    let text = Text::new(&made.text);
+    for tag in ["visual", "collision"] {
+        let all = text.named("link", "base").children().filter(|it| it.has_tag_name(tag));
+        let second = all.skip(1).map(|it| child(it, "origin")).next().expect("the plate's");
+        is_near(&numbers(second, "xyz"), &[0.3, 0.1, 0.0]);
+    }
 }
