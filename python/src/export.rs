@@ -39,6 +39,8 @@ pub struct Options {
     actuators: Option<String>,
     bandwidth: Option<f64>,
     floating_base: bool,
+    merge_fixed: bool,
+    root: Option<String>,
     sensors: bool,
     scene: bool,
     output: Option<PathBuf>,
@@ -58,13 +60,13 @@ impl Options {
             None => Detail::Full,
             Some(given) => Detail::new(given).map_err(of_range)?,
         };
-        let kind = self.shapes.parse::<urdd_robot::ShapeKind>();
+        let shapes = self.shapes.parse::<urdd_export::Shapes>();
         let actuator = |word: String| {
             let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
             ActuatorKind::named(&word).ok_or_else(|| none_of("are no actuators", &word, words))
         };
         Ok(Choices {
-            shapes: kind.map_err(|error| of_robot(py, &error.into()))?,
+            shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
             reasons: reasons.transpose().map_err(PyValueError::new_err)?,
             keep_pairs: self.keep_pairs,
             spheres: SphereBudget::new(self.spheres, self.total_spheres),
@@ -76,6 +78,8 @@ impl Options {
             package: self.package,
             robot_file: self.robot_file,
             floating_base: self.floating_base,
+            merge_fixed: self.merge_fixed,
+            root: self.root,
             actuators: self.actuators.map(actuator).transpose()?,
             bandwidth: self.bandwidth,
             sensors: self.sensors,

@@ -138,7 +138,8 @@ export type Format =
 export interface ExportOptions {
   /** The name of the file, after which meshes are named, or of the package; by default `robot`. */
   output?: string;
-  shapes?: ShapeKind;
+  /** `source`: the collision elements of the source as it has them, and pieces for links without any. */
+  shapes?: ShapeKind | "source";
   keep_pairs?: boolean;
   /** Maximum number of spheres of a link, 1 to 10,000. */
   spheres?: number;
@@ -152,6 +153,10 @@ export interface ExportOptions {
   /** Of position and velocity actuators, Hz, 0.01 to 1,000; by default 10. */
   bandwidth?: number;
   floating_base?: boolean;
+  /** Makes one body of links that are fixed to each other, with their frames on it. */
+  merge_fixed?: boolean;
+  /** The link that becomes the root. */
+  root?: string;
   /** The content of an `export.toml`. */
   setup?: string;
 }

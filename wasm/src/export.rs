@@ -35,6 +35,9 @@ struct Question {
     bandwidth: Option<f64>,
     #[serde(default)]
     floating_base: bool,
+    #[serde(default)]
+    merge_fixed: bool,
+    root: Option<String>,
     /// The content of an `export.toml`.
     setup: Option<String>,
 }
@@ -88,6 +91,8 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         output: Some(question.output.clone().into()),
         bandwidth: question.bandwidth,
         floating_base: question.floating_base,
+        merge_fixed: question.merge_fixed,
+        root: question.root.clone(),
         ..Choices::default()
     };
     if let Some(word) = &question.shapes {

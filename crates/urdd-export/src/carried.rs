@@ -38,6 +38,7 @@ const RETRACT: How = Otherwise("one, as the retract configuration");
 const CUROBO: How = Otherwise("in the whole robot file");
 const NO_FRICTION: How = Otherwise("damping; Drake ignores friction");
 const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
+const ASKED: How = Otherwise("with `--shapes source`; otherwise as the shapes that are chosen");
 const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 const DRIVEN: How = Otherwise("velocity for Newton and PhysX; effort of drives (`--actuators`)");
@@ -66,13 +67,19 @@ impl Feature {
     }
 }
 
-const TABLE: [Feature; 21] = [
+const TABLE: [Feature; 22] = [
     Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 5]),
     Feature::new(
         "colours of visual geometry",
         |of| links(of, |it| !it.visual.is_empty()),
         [Yes; 5],
     ),
+    // `collision_geometry` counts what became of it.
+    Feature {
+        name: COLLISIONS,
+        count: |_| 0,
+        by_format: [Elsewhere, ASKED, ASKED, ASKED, SPHERES, SPHERES, SPHERES, ASKED, ASKED, ASKED],
+    },
     // `textures` counts what became of them.
     Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG, Yes]),
     Feature::new("textures that the URDF itself names", |of| links(of, has_texture), [No; 5]),
@@ -217,6 +224,17 @@ fn has_texture(link: &Link) -> bool {
 
 const TEXTURES: &str = "textures of meshes";
 
+const COLLISIONS: &str = "collision geometry of the source";
+
+/// What became of it.
+fn collision_geometry(made: &Export) -> impl Iterator<Item = (&'static str, usize, How)> {
+    made.notes.iter().filter_map(|note| match note {
+        Note::SourceShapes(counts) => Some((COLLISIONS, counts.total(), Yes)),
+        Note::NotOfSource { elements, .. } => Some((COLLISIONS, elements.total(), ASKED)),
+        _ => None,
+    })
+}
+
 /// What became of the textures of meshes.
 fn textures(made: &Export) -> impl Iterator<Item = (&'static str, usize, How)> {
     let count = |of: fn(&Note) -> usize| made.notes.iter().map(of).sum();
@@ -253,7 +271,7 @@ pub(super) fn lost(subject: &Subject) -> Option<Note> {
 
 /// The report of an export, as JSON: what is carried, what otherwise, what is lost, and the notes.
 pub(super) fn report(subject: &Subject, made: &Export) -> String {
-    let parts = carried(subject).chain(textures(made));
+    let parts = carried(subject).chain(collision_geometry(made)).chain(textures(made));
     let parts: Vec<Part> = parts.map(|(name, count, how)| (name.to_owned(), count, how)).collect();
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     let order = order::report(subject.format, &subject.urdf, &subject.structure);

@@ -8,20 +8,23 @@ use urdd_robot::ShapeKind;
 
 use super::format::Format;
 use super::options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions, UsdOptions,
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
+    ModelOptions, MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions,
+    SpherizedOptions, UrdfOptions, UsdOptions,
 };
 use super::setup::Setup;
+use super::shapes::Shapes;
 
 /// What a person chose, by the names that options have in Python; the command line has `robot_file` as `--config`.
 /// The fields are documented where they go: in the options of each format.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "named and documented as in the options of each format")]
 pub struct Choices {
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     pub reasons: Option<Vec<SkippedReason>>,
     pub keep_pairs: bool,
+    pub merge_fixed: bool,
+    pub root: Option<String>,
     pub spheres: SphereBudget,
     pub cover: bool,
     pub samples: usize,
@@ -45,9 +48,11 @@ pub struct Choices {
 impl Default for Choices {
     fn default() -> Self {
         Choices {
-            shapes: ShapeKind::Pieces,
+            shapes: ShapeKind::Pieces.into(),
             reasons: None,
             keep_pairs: false,
+            merge_fixed: false,
+            root: None,
             spheres: SphereBudget::default(),
             cover: false,
             samples: 10_000,
@@ -86,8 +91,21 @@ impl Misfit {
 /// An option, whether it was chosen, and the formats that have it.
 type Only = (&'static str, fn(&Choices) -> bool, &'static [Format]);
 
+/// Formats of a tree of links. Spheres are fitted to links as the URDD has them.
+const WITH_TREE: &[Format] = &[
+    Format::Srdf,
+    Format::Urdf,
+    Format::Drake,
+    Format::Mjcf,
+    Format::Moveit,
+    Format::Sdf,
+    Format::Usd,
+];
+
 /// Options that are refused for formats that do not have them. Others are passed over there.
-const ONLY: [Only; 6] = [
+const ONLY: [Only; 8] = [
+    ("merge_fixed", |of| of.merge_fixed, WITH_TREE),
+    ("root", |of| of.root.is_some(), WITH_TREE),
     ("actuators", |of| of.actuators.is_some(), &[Format::Mjcf, Format::Usd]),
     ("sensors", |of| of.sensors, &[Format::Mjcf]),
     ("scene", |of| of.scene, &[Format::Mjcf]),
@@ -112,9 +130,11 @@ impl Choices {
         }
         Ok(match format {
             Format::Srdf => Options::Srdf(self.pairs()),
-            Format::Urdf => {
-                Options::Urdf(UrdfOptions { shapes: self.shapes, meshes: self.meshes() })
-            }
+            Format::Urdf => Options::Urdf(UrdfOptions {
+                shapes: self.shapes,
+                meshes: self.meshes(),
+                links: self.links(),
+            }),
             Format::Drake => Options::Drake(DrakeOptions {
                 model: self.model(),
                 package: self.package.clone(),
@@ -129,6 +149,7 @@ impl Choices {
                 bandwidth: self.bandwidth,
                 sensors: self.sensors,
                 scene_of: self.file().filter(|_| self.scene),
+                links: self.links(),
                 setup: self.setup.clone(),
             }),
             Format::Curobo => Options::Curobo(CuroboOptions {
@@ -171,7 +192,12 @@ impl Choices {
 
     fn pairs(&self) -> PairOptions {
         let reasons = self.reasons.clone();
-        PairOptions { shapes: self.shapes, reasons, keep_pairs: self.keep_pairs }
+        let (shapes, keep_pairs) = (self.shapes, self.keep_pairs);
+        PairOptions { shapes, reasons, keep_pairs, links: self.links() }
+    }
+
+    fn links(&self) -> LinkOptions {
+        LinkOptions { merge_fixed: self.merge_fixed, root: self.root.clone() }
     }
 
     fn meshes(&self) -> MeshOptions {

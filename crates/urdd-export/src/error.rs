@@ -2,13 +2,17 @@
 
 use thiserror::Error;
 
+use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
+use super::reasons::MOST_SHAPES;
+use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;
+use urdd_format::urdf::{JointType, Link};
 use urdd_geometry::write::WriteError;
-use urdd_robot::{RobotError, ShapeKind};
+use urdd_robot::RobotError;
 
 /// Errors of an export.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -56,10 +60,20 @@ pub enum ExportError {
     },
     /// The URDD has no shapes of the requested kind, and the format needs them.
     #[error("no link has {0}: choose other shapes, or another format")]
-    NoShapes(ShapeKind),
+    NoShapes(Shapes),
     /// Spheres cannot be fitted to shapes of this kind.
     #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
-    SpheresOf(ShapeKind),
+    SpheresOf(Shapes),
+    /// So many shapes of the source that judging their pairs would take too long.
+    #[error(
+        "the source has {0} collision shapes, and pairs of at most {MOST_SHAPES} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
+    )]
+    TooManyShapes(usize),
+    /// Distances between shapes of the source cannot be computed.
+    #[error(
+        "distances between the collision shapes of the source cannot be computed: {0}; choose the shapes `pieces`"
+    )]
+    Unmeasurable(String),
     /// A binary file, and the format is a text.
     #[error("`{}` would be binary, and this is a text: write a `.usda`, and make the `{ending}` of it in Python, with usd-core: `{}`", .file.escape_debug(), binary(.ending))]
     Binary {
@@ -67,6 +81,22 @@ pub enum ExportError {
         file: String,
         /// Its ending, `.usdc` or `.usdz`.
         ending: &'static str,
+    },
+    /// A link that cannot be the root.
+    #[error("link `{}` cannot be the root: joint `{}` is between it and the root, and a {} joint cannot be turned round; choose a link that is not beyond it", .root.escape_debug(), .joint.escape_debug(), .kind.as_str().to_ascii_lowercase())]
+    Root {
+        /// The link.
+        root: String,
+        /// The joint.
+        joint: String,
+        /// Its type.
+        kind: JointType,
+    },
+    /// Links whose mass together is more than a number holds.
+    #[error("the mass properties of link `{}` and of what is fixed to it are together no finite numbers: run `urdd validate` for details, or leave out --merge-fixed", .link.escape_debug())]
+    Infinite {
+        /// The link that the others are joined with.
+        link: String,
     },
     /// A mesh that cannot be written.
     #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
@@ -151,6 +181,27 @@ pub enum Note {
         /// What is exported instead.
         what: &'static str,
     },
+    /// Links that are joined with those that they are fixed to.
+    #[error("joined with what they are fixed to, and kept as frames: {}", few(.0))]
+    Joined(Vec<String>),
+    /// A link whose frame is elsewhere, since another joint moves it.
+    #[error("link `{}`: its frame is at joint `{}`, which moves it now; that of the source is `{}`", .link.escape_debug(), .joint.escape_debug(), .frame.escape_debug())]
+    Moved {
+        /// The link.
+        link: String,
+        /// The joint.
+        joint: String,
+        /// The name of the frame that it had.
+        frame: String,
+    },
+    /// A group that is exported differently.
+    #[error("group `{}`: {what}", .group.escape_debug())]
+    Group {
+        /// The group.
+        group: String,
+        /// What is exported instead.
+        what: &'static str,
+    },
     /// A joint that has another name in the file.
     #[error("joint `{}` is called `{}`: a link has its name, or the format keeps it for itself", .joint.escape_debug(), .name.escape_debug())]
     Renamed {
@@ -231,12 +282,33 @@ pub enum Note {
         /// The greatest sampled distance between both surfaces, um.
         micrometres: u64,
     },
+    /// The collision geometry of the source is in the file: how many shapes of which kinds.
+    #[error(
+        "the file has the collision geometry of the source, {0}; pairs are judged by these shapes"
+    )]
+    SourceShapes(ShapeCounts),
+    /// The collision geometry of the source is not in the file, or in another form.
+    #[error("the source's collision geometry ({elements}) is not in the file as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
+    NotOfSource {
+        /// How many shapes of which kinds.
+        elements: ShapeCounts,
+        /// What is in the file.
+        shapes: Shapes,
+        /// Whether that is made of visual geometry, at least of some links.
+        is_visual: bool,
+    },
     /// No link has shapes of the requested kind.
     #[error("no link has {0}: the file has no collision geometry")]
-    NoShapes(ShapeKind),
+    NoShapes(Shapes),
 }
 
 impl Note {
+    /// A note on links, by their indices, if there are any.
+    pub(super) fn of_links(links: Vec<usize>, all: &[Link], what: &'static str) -> Option<Note> {
+        let links: Vec<String> = links.into_iter().map(|link| all[link].name.clone()).collect();
+        (!links.is_empty()).then_some(Note::Links { links, what })
+    }
+
     pub(super) fn joint(joint: &str, what: &'static str) -> Note {
         let joint = joint.to_owned();
         Note::Joint { joint, what }
@@ -255,6 +327,10 @@ impl Note {
             contacts: mixed.contacts,
         })
     }
+}
+
+fn of_visual(is_visual: bool) -> &'static str {
+    if is_visual { " of visual geometry" } else { "" }
 }
 
 /// Number of names in a note.

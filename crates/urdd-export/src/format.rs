@@ -56,6 +56,11 @@ impl Format {
         }
     }
 
+    /// Whether its shapes are fitted spheres.
+    pub(super) fn has_spheres(self) -> bool {
+        matches!(self, Format::Curobo | Format::Foam | Format::Spherized)
+    }
+
     /// Its name in messages and comments.
     pub fn name(self) -> &'static str {
         self.words().1

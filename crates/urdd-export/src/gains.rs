@@ -33,7 +33,7 @@ pub(super) fn gains(
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Option<Gains>>, String), ExportError> {
-    let given = || subject.given.and_then(|setup| setup.gains.bandwidth);
+    let given = || subject.given.as_ref().and_then(|setup| setup.gains.bandwidth);
     let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
     let frequency = TAU * bandwidth;
     let several = subject.view.joints.iter().filter(|joint| joint.num_dofs() > 1);
@@ -86,7 +86,7 @@ fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
         joints.map(|joint| subject.is_actuated(joint).then_some(0.0)).collect();
     let configurations = (0..SAMPLES).map(|k| space.random(k));
     for configuration in [space.zero()].into_iter().chain(configurations) {
-        let poses = subject.robot.link_poses(&configuration)?;
+        let poses = subject.link_poses(&configuration)?;
         let mut now = vec![0.0; most.len()];
         for (index, joint) in subject.view.joints.iter().enumerate() {
             if joint.num_dofs() != 1 {

@@ -1,8 +1,9 @@
 //! Joints in a form that every URDF reader accepts: mimic chains resolved, rotations as roll, pitch, yaw.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::error::Note;
+use super::pose;
 use super::subject::Subject;
 use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
@@ -67,16 +68,9 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
         ),
         (None, _) => Isometry3::identity(),
     };
-    let rotation = Rotation3::from_matrix_unchecked(view.origin.rotation());
-    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-    let pose = Isometry3::from_parts(view.origin.xyz.into(), rotation) * motion;
     Joint {
         joint_type: JointType::Fixed,
-        origin: Some(Origin {
-            xyz: Some(pose.translation.vector.into()),
-            rpy: Some(to_rpy(pose.rotation.to_rotation_matrix().matrix())),
-            quat_xyzw: None,
-        }),
+        origin: Some(pose::origin(&(pose::motion(&view.origin) * motion))),
         axis: None,
         limit: None,
         dynamics: None,

@@ -31,9 +31,12 @@
 //! ```
 
 // Hidden modules are public for `tests/`.
+mod arrange;
+mod capsules;
 mod carried;
 mod choices;
 mod contacts;
+mod counts;
 mod drake;
 mod error;
 mod flat;
@@ -43,6 +46,7 @@ mod groups;
 #[doc(hidden)]
 pub mod inertia;
 mod joints;
+mod layout;
 mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
@@ -59,12 +63,17 @@ mod output;
 pub mod pairs;
 #[doc(hidden)]
 pub mod parts;
+mod pose;
 mod ranges;
+mod reasons;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
+mod shapes;
 #[doc(hidden)]
 pub mod simplify;
+mod source_shapes;
+mod source_visuals;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
@@ -89,19 +98,21 @@ use urdd_robot::Robot;
 
 pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
+pub use counts::ShapeCounts;
 pub use error::{ExportError, Note};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions, UsdOptions,
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
+    ModelOptions, MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions,
+    SpherizedOptions, UrdfOptions, UsdOptions,
 };
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;
 pub use pairs::Contacts;
 pub use ranges::{BANDWIDTH, SAMPLES, SPHERES, TOTAL_SPHERES};
 pub use setup::{Setup, SetupError};
+pub use shapes::Shapes;
 pub use spheres::SphereRates;
 pub use srdf_document::SrdfError;
 pub use srdf_import::{ImportedSkips, import_srdf};
@@ -149,7 +160,8 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Sdf(of) => sdf::export(&subject, of),
         Options::Usd(of) => usd::export(&subject, of),
     }?;
-    made.notes.extend(subject.lost.clone());
+    made.notes.extend(subject.shape_notes.clone());
+    made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());
     made.notes.extend(order::note(subject.format, &subject.structure));
     made.report = carried::report(&subject, &made);
     Ok(made)

@@ -2,11 +2,15 @@
 
 use std::collections::HashMap;
 
+use nalgebra::Isometry3;
+
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::names::FileNames;
 use super::options::MeshOptions;
+use super::shapes::Shapes;
 use super::simplify::simplify_all;
+use super::source_visuals::{Painted, source_visuals};
 use super::subject::Subject;
 use super::textures::{Image, Images};
 use urdd_geometry::Mesh;
@@ -136,27 +140,40 @@ pub(super) struct Look {
     image: Option<Image>,
 }
 
-/// The visual geometry of all links, by link, simplified where that is asked for.
+/// The visual geometry of all links, by link.
+pub(super) struct Looks {
+    pub meshes: Vec<Vec<Look>>,
+    /// Those of the source, where its shapes are asked for.
+    pub primitives: Vec<Vec<Painted>>,
+}
+
+/// The visual geometry of all links, its meshes simplified where that is asked for.
 pub(super) fn looks(
     subject: &Subject,
     meshes: &MeshOptions,
     notes: &mut Vec<Note>,
-) -> Result<Vec<Vec<Look>>, ExportError> {
+) -> Result<Looks, ExportError> {
     let mut looks: Vec<Vec<Look>> = subject.links.iter().map(|_| Vec::new()).collect();
+    let none = || subject.links.iter().map(|_| Vec::new()).collect();
     let Some(detail) = meshes.visuals else {
-        return Ok(looks);
+        return Ok(Looks { meshes: looks, primitives: none() });
+    };
+    let (visuals, primitives) = match subject.shapes {
+        Shapes::Source => source_visuals(subject)?,
+        Shapes::Kind(_) => (subject.robot.visuals()?, none()),
     };
     let mut images = Images::new(subject);
     let mut textured: HashMap<usize, Vec<Part>> = HashMap::new();
     for visual in subject.robot.textured_visuals()? {
         textured.entry(visual.link).or_default().extend(visual.parts);
     }
-    for visual in subject.robot.visuals()? {
-        let Some(of_link) = looks.get_mut(visual.link) else {
+    for visual in visuals {
+        let Some(of_link) = looks.get_mut(subject.layout.body(visual.link)) else {
             continue;
         };
         let textured = textured.remove(&visual.link).unwrap_or_default();
-        for (part, image) in images.painted(visual.parts, textured)? {
+        for (mut part, image) in images.painted(visual.parts, textured)? {
+            subject.layout.place_mesh(visual.link, &mut part.mesh);
             let name = |part: &Part| part.texture.as_ref().map(|texture| texture.name.clone());
             let is_same = |known: &Part| known.color == part.color && name(known) == name(&part);
             match of_link.iter_mut().find(|look| is_same(&look.part)) {
@@ -173,5 +190,7 @@ pub(super) fn looks(
     notes.extend(images.notes());
     let parts = looks.iter_mut().flatten().map(|look| &mut look.part);
     notes.extend(simplify_all(parts.collect(), detail));
-    Ok(looks)
+    let place = |_, pose: &Isometry3<f64>, of: &mut Painted| of.pose = pose * of.pose;
+    let primitives = subject.layout.gather(primitives, place);
+    Ok(Looks { meshes: looks, primitives })
 }

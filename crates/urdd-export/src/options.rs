@@ -1,10 +1,10 @@
 //! Options of exports, by format.
 
 use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_robot::ShapeKind;
 
 use super::format::Format;
 use super::setup::Setup;
+use super::shapes::Shapes;
 
 /// A format and its options. [`Choices::options`](super::Choices::options) makes it of what a person chose.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +37,42 @@ impl Options {
         self.common().0
     }
 
+    /// Whether the root link was asked to move freely.
+    pub(super) fn is_floating(&self) -> bool {
+        match self {
+            Options::Mjcf(of) => of.floating_base,
+            Options::Sdf(of) => of.floating_base,
+            Options::Usd(of) => of.floating_base,
+            _ => false,
+        }
+    }
+
+    /// The pairs that the format has.
+    pub(super) fn pairs(&self) -> Option<Pairs<'_>> {
+        Some(match self {
+            Options::Srdf(of) | Options::Usd(UsdOptions { pairs: of, .. }) => Pairs::OfLinks(of),
+            Options::Drake(DrakeOptions { model, .. })
+            | Options::Moveit(MoveitOptions { model, .. })
+            | Options::Sdf(SdfOptions { model, .. }) => Pairs::OfLinks(&model.pairs),
+            Options::Mjcf(of) => Pairs::OfPieces(of.reasons.as_deref()),
+            Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
+                return None;
+            }
+        })
+    }
+
+    /// What is done to the tree of links; `None` for formats of spheres.
+    pub(super) fn links(&self) -> Option<&LinkOptions> {
+        match (self.pairs(), self) {
+            (Some(Pairs::OfLinks(of)), _) => Some(&of.links),
+            (_, Options::Urdf(of)) => Some(&of.links),
+            (_, Options::Mjcf(of)) => Some(&of.links),
+            _ => None,
+        }
+    }
+
     /// The format, the shapes that approximate links, and what the URDD does not say.
-    pub(super) fn common(&self) -> (Format, ShapeKind, Option<&Setup>) {
+    pub(super) fn common(&self) -> (Format, Shapes, Option<&Setup>) {
         match self {
             Options::Srdf(of) => (Format::Srdf, of.shapes, None),
             Options::Urdf(of) => (Format::Urdf, of.shapes, None),
@@ -54,16 +88,36 @@ impl Options {
     }
 }
 
+/// What is done to the tree of links before it is exported.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct LinkOptions {
+    /// Whether links that are fixed to each other become one, that nearest to the root. Each of the others is a frame on
+    /// it, without mass and shapes.
+    pub merge_fixed: bool,
+    /// The link that becomes the root. Joints between it and the old root are turned round.
+    pub root: Option<String>,
+}
+
 /// Options of formats that list pairs of links that need no check: all options of SRDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairOptions {
     /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
     /// pair is disabled, since pieces that are always in contact would collide in every configuration.
     pub keep_pairs: bool,
+    /// The tree of links.
+    pub links: LinkOptions,
+}
+
+/// The pairs that a format has.
+pub(super) enum Pairs<'a> {
+    /// Of links.
+    OfLinks(&'a PairOptions),
+    /// Of pieces: exactly those of the URDD, or for these reasons.
+    OfPieces(Option<&'a [SkippedReason]>),
 }
 
 /// Options of mesh files.
@@ -91,7 +145,7 @@ pub enum Detail {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereOptions {
     /// The shapes that the spheres approximate: pieces or hulls.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are ignored; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// Number of spheres.
@@ -128,9 +182,11 @@ impl SphereBudget {
 #[derive(Debug, Clone, PartialEq)]
 pub struct UrdfOptions {
     /// The collision geometry.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The mesh files.
     pub meshes: MeshOptions,
+    /// The tree of links.
+    pub links: LinkOptions,
 }
 
 /// Options of formats that have a whole robot, with pairs of links.
@@ -159,7 +215,7 @@ pub struct DrakeOptions {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MjcfOptions {
     /// The shapes that approximate links: the geoms, and the shapes of the pairs.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
     /// The reasons for which pairs are excluded; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
     /// The mesh files.
@@ -176,6 +232,8 @@ pub struct MjcfOptions {
     /// The name of the file, for a scene with floor and light beside it that includes it: `NAME_scene.xml` for
     /// `NAME.xml`. `None` for no scene.
     pub scene_of: Option<String>,
+    /// The tree of links.
+    pub links: LinkOptions,
     /// What the URDD does not say.
     pub setup: Option<Setup>,
 }

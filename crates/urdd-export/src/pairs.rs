@@ -9,10 +9,11 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::layout::Layout;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
+use urdd_robot::Skips;
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,31 +116,32 @@ pub fn charge(bytes: usize, shapes: usize) -> Result<(), Overdrawn> {
 }
 
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
-pub(super) fn pairs<E: From<RobotError> + From<Overdrawn>>(
-    robot: &Robot,
-    kind: ShapeKind,
+pub(super) fn pairs(
+    skips: &Skips,
+    layout: &Layout,
+    names: &[String],
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, E> {
-    let skips = robot.skips(kind)?;
-    let links = robot.description()?.links.into_iter();
-    let names: Vec<String> = links.map(|link| link.name).collect();
+) -> Result<Vec<LinkPair>, Overdrawn> {
     let places = skips.places();
     charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len())?;
-    let decision = Decision::new(&skips, &names, reasons);
+    let decision = Decision::new(skips, names, reasons);
     let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
     for i in 0..places.len() {
         for j in i + 1..places.len() {
-            let (first, second) = if places[i].0 < places[j].0 { (i, j) } else { (j, i) };
-            let links = [places[first].0, places[second].0];
+            let [a, b] = [i, j].map(|shape| layout.shape(places[shape]));
+            let [first, second] = if a.0 < b.0 { [a, b] } else { [b, a] };
+            let links = [first.0, second.0];
             if links[0] == links[1] {
                 continue;
             }
+            let edit = decision.edits.get(&ascending(places[i].0, places[j].0));
             found.entry(links).or_default().push(Seen {
-                pieces: [places[first].1, places[second].1],
+                pieces: [first.1, second.1],
                 reason: skips.reason(i, j),
                 skipped: decision.is_skipped(i, j),
+                is_asked_for: edit.is_some_and(|edit| !edit.skip),
             });
         }
     }
@@ -150,7 +152,8 @@ pub(super) fn pairs<E: From<RobotError> + From<Overdrawn>>(
             None => seen.iter().all(|seen| seen.skipped),
             Some(_) => {
                 let is_chosen = |(reasons, reason)| has(reasons, reason);
-                !keep_pairs && chosen.zip(reason).is_some_and(is_chosen)
+                let is_kept = keep_pairs || seen.iter().any(|seen| seen.is_asked_for);
+                !is_kept && chosen.zip(reason).is_some_and(is_chosen)
             }
         };
         Some(LinkPair {
@@ -170,6 +173,8 @@ struct Seen {
     pieces: [usize; 2],
     reason: Option<SkipReason>,
     skipped: bool,
+    /// Whether a person wants it checked: of joined links, one edit need not be of all.
+    is_asked_for: bool,
 }
 
 fn mixed(seen: &[Seen]) -> Option<MixedPair> {

@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, Point3};
 
 use super::error::ExportError;
+use super::shapes::{Shape, Solid};
 use super::subject::Subject;
-use urdd_robot::{LinkShape, Solid};
 
 /// Where the robot stands.
 pub(super) struct Stand {
@@ -12,8 +12,8 @@ pub(super) struct Stand {
     pub base_height: f64,
     /// Height of the floor, m: 0 for a free base, and otherwise at most as high as the lowest shape.
     pub floor: f64,
-    /// All shapes, where they are needed.
-    shapes: Vec<LinkShape>,
+    /// The shapes of each link, where they are needed.
+    shapes: Vec<Vec<Shape>>,
 }
 
 impl Stand {
@@ -23,7 +23,7 @@ impl Stand {
         let is_free = subject.has_free_base();
         if is_free || has_floor {
             let zero = subject.robot.configurations()?.zero();
-            stand.shapes = subject.robot.shapes(subject.shapes)?;
+            stand.shapes = subject.shapes_by_link()?;
             let up = stand.height(subject, &zero)?;
             if is_free { stand.base_height = up } else { stand.floor = (-up).min(0.0) }
         }
@@ -38,7 +38,7 @@ impl Stand {
         name: Option<&str>,
         configuration: &[f64],
     ) -> Result<[f64; 7], ExportError> {
-        let poses = subject.given.map(|setup| &setup.base_poses);
+        let poses = subject.given.as_ref().map(|setup| &setup.base_poses);
         if let Some(pose) = poses.and_then(|poses| poses.get(name?)) {
             return Ok(*pose);
         }
@@ -47,11 +47,10 @@ impl Stand {
 
     /// The height of a free base at which the lowest shape touches z = 0, m, to a micrometre.
     fn height(&self, subject: &Subject, configuration: &[f64]) -> Result<f64, ExportError> {
-        let poses = subject.robot.link_poses(configuration)?;
-        let lowest = self
-            .shapes
-            .iter()
-            .map(|shape| lowest(&shape.solid, &poses[shape.link]))
+        let poses = subject.link_poses(configuration)?;
+        let each = self.shapes.iter().zip(&poses);
+        let lowest = each
+            .flat_map(|(shapes, pose)| shapes.iter().map(|shape| lowest(&shape.solid, pose)))
             .fold(f64::INFINITY, f64::min);
         // No shape touches anything.
         Ok(if lowest.is_finite() { (-lowest * 1e6).round() / 1e6 } else { 0.0 })
@@ -61,16 +60,14 @@ impl Stand {
 /// The smallest z of a solid, m.
 fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
     match solid {
-        Solid::Mesh(mesh) => {
+        Solid::Convex(mesh) | Solid::Mesh(mesh) => {
             let heights = mesh.vertices.iter().map(|vertex| (pose * Point3::from(*vertex)).z);
             heights.fold(f64::INFINITY, f64::min)
         }
-        Solid::Box { pose: own, half_extents } => {
+        Solid::Primitive(own, primitive) => {
             let placed = pose * own;
-            let axes = placed.rotation.to_rotation_matrix();
-            let reach = (0..3).map(|k| axes[(2, k)].abs() * half_extents[k]);
-            placed.translation.z - reach.sum::<f64>()
+            let rotation = placed.rotation.to_rotation_matrix();
+            placed.translation.z - primitive.half_extents(rotation.matrix())[2]
         }
-        Solid::Sphere { centre, radius } => (pose * Point3::from(*centre)).z - radius,
     }
 }

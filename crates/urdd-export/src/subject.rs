@@ -5,14 +5,21 @@ use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::Deref;
 
-use super::contacts::link_pairs;
+use nalgebra::Isometry3;
+
+use super::arrange::{self, Arranged};
+use super::contacts::{Basis, num_samples};
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::layout::Layout;
 use super::names;
-use super::options::{ActuatorKind, Options};
-use super::pairs::{LinkPair, pairs};
+use super::options::{ActuatorKind, Options, Pairs};
+use super::pairs::LinkPair;
 use super::parts::JointNames;
+use super::reasons::Judged;
 use super::setup::{JointGains, Setup};
+use super::shapes::{Shape, Shapes};
+use super::source_shapes::{self, SourceShapes, takes_hulls};
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
@@ -32,13 +39,22 @@ pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub format: Format,
     /// The shapes that approximate links.
-    pub shapes: ShapeKind,
+    pub shapes: Shapes,
+    /// Those of the source, where they are asked for.
+    pub source: Option<SourceShapes>,
     /// What the URDD does not say, if a person said it.
-    pub given: Option<&'a Setup>,
+    pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
     pub is_floating: bool,
+    /// The robot of the URDD.
+    pub described: UrdfModule,
+    /// The robot that is exported.
     pub urdf: UrdfModule,
     pub structure: Structure,
+    /// Where its links are in those of `robot`.
+    pub layout: Layout,
+    /// What is otherwise since links were joined, or another is the root.
+    pub arranged: Vec<Note>,
     pub names: JointNames,
     /// What the source says where URDF defines nothing.
     pub other_parts: OtherParts,
@@ -46,6 +62,8 @@ pub(super) struct Subject<'a> {
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
+    /// Of what the shapes are made.
+    pub shape_notes: Vec<Note>,
     /// What the format cannot carry of this robot.
     pub lost: Option<Note>,
 }
@@ -53,68 +71,145 @@ pub(super) struct Subject<'a> {
 impl<'a> Subject<'a> {
     pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
         let (format, shapes, given) = options.common();
-        let urdf = robot.description()?;
-        let structure = Structure::of(&urdf)?;
-        names::check(format, &structure.view, &structure.tree)?;
+        let described = robot.description()?;
+        let own = Structure::of(&described)?;
         if let Some(setup) = given {
-            structure.check(&setup.of)?;
+            own.check(&setup.of)?;
         }
+        let made = Arranged::new(described.clone(), options.links())?;
+        names::check(format, &made.structure.view, &made.structure.tree)?;
+        let Arranged { urdf, structure, mut layout, notes: mut arranged } = made;
+        let given = given.map(|setup| match layout.is_empty() {
+            true => Cow::Borrowed(setup),
+            false => Cow::Owned(arrange::setup(setup, &own, &structure, &layout, &mut arranged)),
+        });
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let mut is_floating = given.is_some_and(|setup| setup.floating.value);
-        let pairs = match options {
-            Options::Srdf(of) => link_pairs(robot, of)?,
-            Options::Drake(of) => link_pairs(robot, &of.model.pairs)?,
-            Options::Moveit(of) => link_pairs(robot, &of.model.pairs)?,
-            Options::Sdf(of) => {
-                is_floating |= of.floating_base;
-                link_pairs(robot, &of.model.pairs)?
-            }
-            // MJCF handles pairs of pieces exactly.
-            Options::Mjcf(of) => {
-                is_floating |= of.floating_base;
-                pairs::<ExportError>(robot, shapes, of.reasons.as_deref(), false)?
-            }
-            Options::Usd(of) => {
-                is_floating |= of.floating_base;
-                link_pairs(robot, &of.pairs)?
-            }
-            // URDF cannot express pairs; the sphere formats compute their own.
-            Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
-                Vec::new()
+        let source = match shapes {
+            Shapes::Source if format.has_spheres() => return Err(ExportError::SpheresOf(shapes)),
+            Shapes::Source => Some(SourceShapes::new(robot, &described, format)?),
+            Shapes::Kind(_) => None,
+        };
+        let shape_notes = match &source {
+            Some(source) => source.notes.clone(),
+            None => source_shapes::notes(robot, &described, shapes, format)?,
+        };
+        let basis = || match (shapes, &source) {
+            (Shapes::Kind(kind), _) => Ok(Basis::Kind(kind)),
+            (Shapes::Source, of) => {
+                let by_link = of.as_ref().map_or(&[][..], |of| &of.by_link);
+                let samples = num_samples(robot)?;
+                let judged = Judged::new(robot, &own, by_link, takes_hulls(format), samples)?;
+                Ok::<_, ExportError>(Basis::Written(Box::new(judged)))
             }
         };
+        // URDF cannot express pairs; the sphere formats compute their own.
+        let basis = match options.pairs() {
+            Some(_) => Some(basis()?),
+            None => None,
+        };
+        if !layout.is_empty() {
+            let mut places = match (&basis, shapes) {
+                (Some(basis), _) => basis.places(robot)?,
+                (None, Shapes::Kind(kind)) => {
+                    robot.shapes(kind)?.iter().map(|shape| (shape.link, shape.piece)).collect()
+                }
+                (None, Shapes::Source) => Vec::new(),
+            };
+            let by_link = source.iter().flat_map(|source| source.by_link.iter().enumerate());
+            places.extend(
+                by_link.flat_map(|(link, shapes)| {
+                    shapes.iter().map(move |shape| (link, shape.number))
+                }),
+            );
+            layout.number(places);
+        }
+        let pairs = match (options.pairs(), &basis) {
+            (Some(Pairs::OfLinks(of)), Some(basis)) => {
+                basis.link_pairs(robot, &layout, &links, of)?
+            }
+            (Some(Pairs::OfPieces(reasons)), Some(basis)) => {
+                basis.pairs(robot, &layout, &links, reasons, false)?
+            }
+            _ => Vec::new(),
+        };
+        let is_floating =
+            options.is_floating() || given.as_ref().is_some_and(|setup| setup.floating.value);
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();
         Ok(Subject {
             robot,
             format,
             shapes,
+            source,
             given,
             is_floating,
+            described,
             urdf,
             structure,
+            layout,
+            arranged,
             names,
             other_parts: other_parts(&text),
             links,
             pairs,
+            shape_notes,
             lost: None,
         })
     }
 
+    /// The poses of links in the root link's frame.
+    pub fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, RobotError> {
+        Ok(self.layout.poses(self.robot.link_poses(configuration)?))
+    }
+
+    /// Whether a link is but a frame on its parent.
+    pub fn is_frame(&self, link: usize) -> bool {
+        self.layout.is_frame.get(link).is_some_and(|is_frame| *is_frame)
+    }
+
+    /// Whether a joint carries a frame.
+    pub fn is_of_frame(&self, joint: usize) -> bool {
+        self.is_frame(self.tree.joint_links[joint].1)
+    }
+
     /// The shapes of each link, in link order.
-    pub fn shapes_by_link(&self) -> Result<Vec<Vec<LinkShape>>, ExportError> {
-        let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
-        for shape in self.robot.shapes(self.shapes)? {
-            if let Some(of_link) = shapes.get_mut(shape.link) {
-                of_link.push(shape);
+    pub fn shapes_by_link(&self) -> Result<Vec<Vec<Shape>>, ExportError> {
+        match (self.shapes, &self.source) {
+            (Shapes::Kind(kind), _) => self.shapes_of(kind),
+            (Shapes::Source, source) => {
+                let own = source.as_ref().map_or_else(Vec::new, |source| source.by_link.clone());
+                Ok(self.layout.gather_shapes(own))
             }
         }
-        Ok(shapes)
+    }
+
+    /// The URDD's shapes of a kind, by link.
+    pub fn shapes_of(&self, kind: ShapeKind) -> Result<Vec<Vec<Shape>>, ExportError> {
+        Ok(self.layout.gather_shapes(self.by_link(self.robot.shapes(kind)?)))
+    }
+
+    /// Shapes by link of the URDD. They have the names of the link's collision elements, in their order.
+    pub fn by_link(&self, shapes: Vec<LinkShape>) -> Vec<Vec<Shape>> {
+        let links = &self.described.links;
+        let mut by_link: Vec<Vec<Shape>> = links.iter().map(|_| Vec::new()).collect();
+        for shape in shapes {
+            let link = shape.link;
+            if let (Some(of_link), Some(urdf)) = (by_link.get_mut(link), links.get(link)) {
+                let element = urdf.collision.get(of_link.len());
+                let name = element.and_then(|element| element.name.clone());
+                of_link.push(Shape { name, ..shape.into() });
+            }
+        }
+        by_link
     }
 
     /// What a person set for the actuator of a joint.
     pub fn gains(&self, joint: usize) -> JointGains {
-        self.given.and_then(|setup| setup.gains.joints.get(&joint)).cloned().unwrap_or_default()
+        self.given
+            .as_ref()
+            .and_then(|setup| setup.gains.joints.get(&joint))
+            .cloned()
+            .unwrap_or_default()
     }
 
     /// What the actuator of a joint is told: where positions are asked for, what a person set.
@@ -127,7 +222,7 @@ impl<'a> Subject<'a> {
 
     /// The coefficient of friction of all shapes, if a person set one.
     pub fn friction(&self) -> Option<f64> {
-        self.given.and_then(|setup| setup.friction)
+        self.given.as_ref().and_then(|setup| setup.friction)
     }
 
     /// Whether the root link of an MJCF or a USD moves freely. One called `world` cannot: it is MuJoCo's own body.
@@ -137,13 +232,16 @@ impl<'a> Subject<'a> {
 
     /// What the format needs and the URDD does not say: a person's, or guesses, with a note.
     pub fn setup(&self, notes: &mut Vec<Note>) -> Result<Cow<'_, Setup>, ExportError> {
-        Ok(match self.given {
-            Some(setup) => Cow::Borrowed(setup),
-            None => {
-                notes.push(Note::Guessed);
-                Cow::Owned(Setup::guess(self.robot)?)
-            }
-        })
+        if let Some(setup) = &self.given {
+            return Ok(Cow::Borrowed(setup));
+        }
+        notes.push(Note::Guessed);
+        let guess = Setup::guess(self.robot)?;
+        if self.layout.is_empty() {
+            return Ok(Cow::Owned(guess));
+        }
+        let source = Structure::new(self.robot)?;
+        Ok(Cow::Owned(arrange::setup(&guess, &source, &self.structure, &self.layout, notes)))
     }
 
     /// For each joint of one DOF that follows no other, the index of its DOF.
@@ -192,7 +290,7 @@ impl<'a> Subject<'a> {
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);
-        let notes = notes.iter().chain(&self.lost);
+        let notes = notes.iter().chain(&self.shape_notes).chain(&self.arranged).chain(&self.lost);
         lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }

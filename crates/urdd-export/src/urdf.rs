@@ -8,13 +8,13 @@ use super::joints::joints;
 use super::options::{MeshOptions, UrdfOptions};
 use super::other_attributes;
 use super::output::{Export, Files};
+use super::shapes::Shape;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, empty_robot, links, push_unknown,
     type_name,
 };
 use super::xacro;
-use urdd_robot::LinkShape;
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 
@@ -30,7 +30,7 @@ pub(super) fn export(subject: &Subject, options: &UrdfOptions) -> Result<Export,
 pub(super) fn robot(
     subject: &Subject,
     meshes: &MeshOptions,
-    shapes: Vec<Vec<LinkShape>>,
+    shapes: Vec<Vec<Shape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Element, Files), ExportError> {
     let urdf = &subject.urdf;

@@ -12,19 +12,18 @@ use super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::options::MeshOptions;
 use super::other_attributes;
 use super::output::Files;
+use super::shapes::{Shape, Solid, thick};
+use super::source_visuals::Painted;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
-use urdd_format::urdf::{Inertial, Joint, JointType, Origin};
+use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Link, Origin, Visual};
+use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
-use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 use urdd_xml::{Kind, is_character};
-
-/// Half the thickness of a flat box for programs that reject flat boxes, in metres.
-pub(super) const HALF_THICKNESS: f64 = 1e-6;
 
 /// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +61,7 @@ pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
     meshes: &MeshOptions,
-    shapes: Vec<Vec<LinkShape>>,
+    shapes: Vec<Vec<Shape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
     if shapes.iter().all(Vec::is_empty) {
@@ -74,8 +73,9 @@ pub(super) fn links(
     let mut elements = Vec::new();
     let mut changed: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
-    let each = each.zip(shapes.into_iter().zip(looks(subject, meshes, notes)?));
-    for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
+    let looks = looks(subject, meshes, notes)?;
+    let each = each.zip(shapes.into_iter().zip(looks.meshes.into_iter().zip(looks.primitives)));
+    for (idx, ((link, view), (shapes, (looks, primitives)))) in each.enumerate() {
         let mut element = Element::new("link").with("name", link.name.as_str());
         if let Some((inertial, view)) = link.inertial.as_ref().zip(view.inertial.as_ref()) {
             let (inertial, said) = element_of_inertial(inertial, view, quaternions, geometry);
@@ -85,15 +85,16 @@ pub(super) fn links(
             }
         }
         other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
-        let mut names = link.visual.iter().map(|visual| geometry.name(visual.name.as_deref()));
+        let is_mesh = |of: &&Visual| matches!(of.geometry, Some(Source::Mesh(_)));
+        let of_looks = link.visual.iter().filter(|of| primitives.is_empty() || is_mesh(of));
+        let mut names = of_looks.map(|visual| geometry.name(visual.name.as_deref()));
         for (look, place) in looks.into_iter().zip(0..) {
             let name = names.next().flatten();
             element.push(visual(idx, place, name, look, &mut files)?);
         }
-        let mut names = link.collision.iter().map(|of| geometry.name(of.name.as_deref()));
+        element.extend(primitives.into_iter().map(|of| painted(of, geometry)));
         for shape in shapes {
-            let name = names.next().flatten();
-            let mut collision = collision(idx, name, shape, geometry, &mut files)?;
+            let mut collision = collision(idx, shape, geometry, &mut files)?;
             if let Some(friction) = friction.map(number) {
                 let mut properties = Element::new("drake:proximity_properties");
                 for key in ["drake:mu_static", "drake:mu_dynamic"] {
@@ -220,57 +221,80 @@ fn visual(
     let mesh = Element::new("mesh").with("filename", path);
     let visual = Element::new("visual").with_some("name", sound(name));
     let mut visual = visual.holding(Element::new("geometry").holding(mesh));
-    if let Some(rgba) = rgba {
-        let color = Element::new("color").with("rgba", numbers(&rgba));
-        let name = format!("rgba {}", numbers(&rgba));
-        visual.push(Element::new("material").with("name", name).holding(color));
-    }
+    visual.extend(rgba.map(material));
     Ok(visual)
+}
+
+fn material(rgba: [f64; 4]) -> Element {
+    let color = Element::new("color").with("rgba", numbers(&rgba));
+    let name = format!("rgba {}", numbers(&rgba));
+    Element::new("material").with("name", name).holding(color)
+}
+
+fn painted(of: Painted, as_said: Geometry) -> Element {
+    let mut visual =
+        Element::new("visual").with_some("name", as_said.name(sound(of.name.as_deref())));
+    visual.push(placed(&of.pose, &of.primitive));
+    visual.push(Element::new("geometry").holding(element_of_primitive(of.primitive, as_said)));
+    visual.extend(of.color.map(material));
+    visual
 }
 
 fn collision(
     link: usize,
-    name: Option<&str>,
-    shape: LinkShape,
+    shape: Shape,
     as_said: Geometry,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
-    let mut collision = Element::new("collision").with_some("name", sound(name));
+    let mut collision = Element::new("collision").with_some("name", sound(shape.name.as_deref()));
+    let is_convex = matches!(shape.solid, Solid::Convex(_));
     let geometry = match shape.solid {
-        Solid::Mesh(mesh) => {
+        Solid::Convex(mesh) | Solid::Mesh(mesh) => {
             let format = match as_said {
                 Geometry::Plain => MeshFormat::Stl,
                 Geometry::Drake => MeshFormat::Obj,
             };
-            let path = files.add(link, &format!("piece_{}", shape.piece), mesh, format)?;
+            let path = files.add(link, &format!("piece_{}", shape.number), mesh, format)?;
             let mut mesh = Element::new("mesh").with("filename", path);
-            if as_said == Geometry::Drake {
+            if as_said == Geometry::Drake && is_convex {
                 mesh.push(Element::new("drake:declare_convex"));
             }
             mesh
         }
-        Solid::Box { pose, half_extents } => {
-            collision.push(placed(&pose));
-            let least = match as_said {
-                Geometry::Plain => 0.0,
-                Geometry::Drake => HALF_THICKNESS,
-            };
-            let size = half_extents.map(|half| 2.0 * half.max(least));
-            Element::new("box").with("size", numbers(&size))
-        }
-        Solid::Sphere { centre, radius } => {
-            collision.push(Element::new("origin").with("xyz", numbers(&centre)));
-            Element::new("sphere").with("radius", number(radius))
+        Solid::Primitive(pose, primitive) => {
+            collision.push(placed(&pose, &primitive));
+            element_of_primitive(primitive, as_said)
         }
     };
     Ok(collision.holding(Element::new("geometry").holding(geometry)))
 }
 
-fn placed(pose: &Isometry3<f64>) -> Element {
+fn element_of_primitive(primitive: Primitive, as_said: Geometry) -> Element {
+    let (primitive, capsule) = match as_said {
+        Geometry::Plain => (primitive, "capsule"),
+        Geometry::Drake => (thick(primitive), "drake:capsule"),
+    };
+    let long = |tag, radius, half: f64| {
+        Element::new(tag).with("radius", number(radius)).with("length", number(2.0 * half))
+    };
+    match primitive {
+        Primitive::Box(half) => {
+            Element::new("box").with("size", numbers(&half.map(|half| 2.0 * half)))
+        }
+        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
+        Primitive::Capsule { radius, half } => long(capsule, radius, half),
+        Primitive::Sphere { radius } => Element::new("sphere").with("radius", number(radius)),
+    }
+}
+
+/// The origin of a primitive. A sphere needs no rotation.
+fn placed(pose: &Isometry3<f64>, primitive: &Primitive) -> Element {
+    let origin = Element::new("origin").with("xyz", numbers(pose.translation.vector.as_slice()));
+    if matches!(primitive, Primitive::Sphere { .. }) {
+        return origin;
+    }
     let rotation = pose.rotation.to_rotation_matrix();
-    Element::new("origin")
-        .with("xyz", numbers(pose.translation.vector.as_slice()))
-        .with("rpy", numbers(&to_rpy(rotation.matrix())))
+    origin.with("rpy", numbers(&to_rpy(rotation.matrix())))
 }
 
 /// A joint element; `tag` and `kind` are the program's names of the element and the joint type.

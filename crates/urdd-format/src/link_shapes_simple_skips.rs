@@ -63,3 +63,45 @@ module! {
         None,
     }
 }
+
+/// Shapes are in contact if their distance is at most this, metres (SPEC 8.6).
+pub const CONTACT: f64 = 0.001;
+
+/// What decides the reason of a pair of shapes.
+pub struct SeenPair {
+    /// Both shapes are on one link.
+    pub is_same_link: bool,
+    /// A joint connects the two links.
+    pub is_joined: bool,
+    /// The smallest and the largest sampled distance, metres.
+    pub range: [f64; 2],
+    /// The distance in the default configuration, metres.
+    pub at_default: f64,
+}
+
+impl SeenPair {
+    /// The reason: the first that applies.
+    pub fn reason(&self) -> SkipReason {
+        let [least, most] = self.range;
+        if self.is_same_link {
+            SkipReason::SameLink
+        } else if most <= CONTACT {
+            SkipReason::Always
+        } else if self.is_joined {
+            SkipReason::Adjacent
+        } else if self.at_default <= CONTACT {
+            SkipReason::Default
+        } else if least > CONTACT {
+            SkipReason::Never
+        } else {
+            SkipReason::None
+        }
+    }
+}
+
+impl SkipReason {
+    /// Whether a pair with this reason is a simple skip.
+    pub fn is_simple(self) -> bool {
+        matches!(self, SkipReason::SameLink | SkipReason::Always)
+    }
+}

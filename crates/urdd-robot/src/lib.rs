@@ -55,6 +55,7 @@ mod robot;
 mod shapes;
 mod skip_edits;
 mod skips;
+mod source_elements;
 mod source_visuals;
 mod space;
 mod statistics;
@@ -81,6 +82,7 @@ pub use robot::Robot;
 pub use shapes::ShapeKind;
 pub use skip_edits::EditedSkips;
 pub use skips::Skips;
+pub use source_elements::{SourceElement, SourceElements, SourceShape};
 pub use space::Configurations;
 pub use statistics::PairStatistics;
 #[doc(hidden)]

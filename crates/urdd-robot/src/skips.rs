@@ -158,6 +158,25 @@ impl Skips {
         self.skipped_reasons.as_deref()
     }
 
+    /// The skips of other shapes of the same robot, given the reason of each pair: what this URDD skips, by its skipped
+    /// reasons, with its edits, which [`Skips::is_skipped`] does not have.
+    #[doc(hidden)]
+    pub fn of_reasons(&self, places: Vec<(usize, usize)>, reasons: Vec<Vec<SkipReason>>) -> Self {
+        let is_skipped = |reason: &SkipReason| match &self.skipped_reasons {
+            Some(chosen) => chosen.iter().any(|one| one.of_pair() == *reason),
+            None => reason.is_simple(),
+        };
+        let skipped = reasons.iter().map(|row| row.iter().map(is_skipped).collect()).collect();
+        let row_of: Vec<Option<usize>> = (0..places.len()).map(Some).collect();
+        Skips {
+            skipped: Matrix { rows: skipped, row_of: row_of.clone() },
+            reasons: Some(Matrix { rows: reasons, row_of }),
+            edits: self.edits.clone(),
+            skipped_reasons: self.skipped_reasons.clone(),
+            places,
+        }
+    }
+
     /// The same shapes and reasons with the skips of another `link_shapes_skips_module` of the same URDD. `kind` is the
     /// kind of these shapes.
     pub(super) fn of_module(&self, kind: ShapeKind, module: LinkShapesSkipsModule) -> Self {

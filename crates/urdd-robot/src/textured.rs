@@ -36,7 +36,7 @@ impl Robot {
             let path = reference.path.as_ref()?;
             let link = reference.link_idx.get();
             let element = robot.links.get(link)?.visual.get(reference.element_idx.get())?;
-            let parts = read(&part, path).map(|parts| placed(parts, element));
+            let parts = read(&part, path).map(|parts| in_link(parts, element));
             Some(parts.transpose()?.map(|parts| LinkVisual { link, parts }))
         };
         let references = original.references.par_iter();
@@ -56,7 +56,7 @@ impl Robot {
     }
 }
 
-fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
+pub(super) fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
     if !part.listing().has_file(path) {
         return Ok(None);
     }
@@ -101,7 +101,7 @@ fn read(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
 }
 
 /// Puts the parts of an element's mesh into its link's frame, with coordinates of binary32.
-fn placed(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
+pub(super) fn in_link(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
     let Some(Geometry::Mesh(mesh)) = &element.geometry else {
         return None;
     };

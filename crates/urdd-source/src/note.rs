@@ -54,6 +54,8 @@ kinds! {
     Mesh = "mesh",
     /// A stored file from outside the URDF's folder and package.
     Outside = "outside",
+    /// Shapes that are made of visual geometry for want of any other.
+    Geometry = "geometry",
     /// A part of a module that is left out for this robot.
     LeftOut = "left-out",
     /// A table that is left out because the robot is large, as the specification allows.
@@ -71,8 +73,13 @@ kinds! {
 impl NoteKind {
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
-        use NoteKind::{Encoding, LeftBehind, OfNoUse, Otherwise, Outside, TooLarge, Xml};
-        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind | Otherwise)
+        use NoteKind::{
+            Encoding, Geometry, LeftBehind, OfNoUse, Otherwise, Outside, TooLarge, Xml,
+        };
+        !matches!(
+            self,
+            Encoding | Geometry | Xml | Outside | TooLarge | OfNoUse | LeftBehind | Otherwise
+        )
     }
 }
 

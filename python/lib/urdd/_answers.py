@@ -14,6 +14,9 @@ ShapeKind: TypeAlias = Literal["hulls", "boxes", "spheres", "pieces", "piece-box
 """A kind of collision shapes: the convex hulls of links, their convex pieces, and the bounding boxes and spheres of
 both."""
 
+ExportShapes: TypeAlias = ShapeKind | Literal["source"]
+"""The shapes of an export: of a kind, or the collision elements of the source as it has them."""
+
 MeshKind: TypeAlias = Literal["plain", "hulls", "pieces"]
 """A kind of meshes: a link's appearance, its convex hull, its convex pieces."""
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from . import _urdd
-from ._answers import ShapeKind
+from ._answers import ExportShapes
 from ._description import RobotDescription
 from ._options import ExportOptions, ranged, words
 
@@ -59,7 +59,7 @@ def export(
     format: Format,  # noqa: A002
     output: str | os.PathLike[str] | None = None,
     *,
-    shapes: ShapeKind = "pieces",
+    shapes: ExportShapes = "pieces",
     reasons: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
     keep_pairs: bool = False,
     spheres: int | None = None,
@@ -71,6 +71,8 @@ def export(
     actuators: Actuators | None = None,
     bandwidth: float | None = None,
     floating_base: bool = False,
+    merge_fixed: bool = False,
+    root: str | None = None,
     sensors: bool = False,
     scene: bool = False,
     setup: str | os.PathLike[str] | None = None,
@@ -84,7 +86,9 @@ def export(
         robot: the robot, or its path.
         format: the format.
         output: a file to write.
-        shapes: the kind of collision shapes. Pairs are disabled by the skips of this kind.
+        shapes: the kind of collision shapes, or ``"source"``: boxes, cylinders, capsules, spheres and meshes as the
+            collision elements of the source have them, and pieces for links without any; visual primitives stay
+            primitives too. Pairs are disabled by the skips of this kind, or judged by the shapes of the source.
         reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
         keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
             links only, and in USD, piece by piece. By default such a pair is disabled, and a note names it.
@@ -101,6 +105,10 @@ def export(
         bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 1,000. By
             default that of ``setup``, or 10.
         floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
+        merge_fixed: makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps
+            its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
+        root: the link that becomes the root: joints between it and the old root are turned round. Values, limits and
+            names of joints stay. Not for formats of spheres.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
         scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
@@ -189,6 +197,8 @@ def export_options(
         actuators=actuators,
         bandwidth=None if bandwidth is None else float(bandwidth),
         floating_base=bool(floating_base),
+        merge_fixed=bool(merge_fixed),
+        root=root,
         sensors=bool(sensors),
         scene=bool(scene),
         output=None if output is None else Path(output),

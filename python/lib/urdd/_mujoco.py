@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import ShapeKind
+from ._answers import ExportShapes
 from ._arrays import Floats, configurations, positions
 from ._export import Actuators, export_options, exported_with
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
@@ -94,7 +94,7 @@ class MujocoRobot:
 
 def to_mujoco(
     robot: RobotKinematics,
-    shapes: ShapeKind = "pieces",
+    shapes: ExportShapes = "pieces",
     *,
     visuals: bool | float = True,
     actuators: Actuators | None = None,

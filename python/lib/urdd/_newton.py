@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import ShapeKind
+from ._answers import ExportShapes
 from ._arrays import Floats, configurations, positions
 from ._export import Actuators, export_options, exported_with
 from ._joints import Joint, joints_of, pose, quaternion_of, quaternion_of_matrix, rotation_vector_of
@@ -105,7 +105,7 @@ def _turned(turns: Floats) -> Floats:
 
 def to_newton(
     robot: RobotKinematics,
-    shapes: ShapeKind = "pieces",
+    shapes: ExportShapes = "pieces",
     *,
     visuals: bool | float = True,
     actuators: Actuators | None = None,

@@ -122,6 +122,8 @@ class ExportOptions:
     actuators: str | None
     bandwidth: float | None
     floating_base: bool
+    merge_fixed: bool
+    root: str | None
     sensors: bool
     scene: bool
     output: Path | None

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _urdd
-from ._answers import Box, ConvexMesh, MeshKind, ShapeKind, Skips, Spheres, Visual
+from ._answers import Box, ConvexMesh, ExportShapes, MeshKind, ShapeKind, Skips, Spheres, Visual
 from ._arrays import Bools, Floats, Indices
 from ._collision_model import CollisionModel
 from ._kinematics import RobotKinematics
@@ -196,7 +196,7 @@ class Robot(RobotKinematics):
 
     def to_mujoco(
         self,
-        shapes: ShapeKind = "pieces",
+        shapes: ExportShapes = "pieces",
         *,
         visuals: bool | float = True,
         actuators: Actuators | None = None,
@@ -208,7 +208,7 @@ class Robot(RobotKinematics):
         """A MuJoCo model, with shapes of this kind as geoms, and the skips as excluded pairs.
 
         Args:
-            shapes: the kind of shapes.
+            shapes: the kind of shapes, or ``"source"``, as in :func:`urdd.export`.
             visuals: whether the model has visual geometry; or the largest part of its triangles to keep, or the most.
             actuators: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
                 from the inertia that each joint moves.
@@ -238,7 +238,7 @@ class Robot(RobotKinematics):
 
     def to_newton(
         self,
-        shapes: ShapeKind = "pieces",
+        shapes: ExportShapes = "pieces",
         *,
         visuals: bool | float = True,
         actuators: Actuators | None = None,

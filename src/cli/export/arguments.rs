@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::mjcf::MjcfArguments;
@@ -36,8 +37,8 @@ pub struct ExportArguments {
     pub setup: Option<PathBuf>,
 
     /// Shapes that represent the links, in the collision geometry and in the disabled pairs.
-    #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
-    pub shapes: Shapes,
+    #[arg(long, value_parser = shapes(), default_value = "pieces")]
+    pub shapes: urdd_export::Shapes,
 
     /// Reasons for which pairs of links are disabled, separated by commas. Default: those of the URDD. A person's edits
     /// apply in either case.
@@ -79,6 +80,16 @@ pub struct ExportArguments {
     #[arg(long)]
     pub floating_base: bool,
 
+    /// Makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps its frame: a
+    /// site, a frame, an empty `Xform`, or in URDF an empty link. Not for formats of spheres.
+    #[arg(long)]
+    pub merge_fixed: bool,
+
+    /// Makes another link the root: joints between it and the old root are turned round. Values, limits and names of joints
+    /// stay. Not for formats of spheres.
+    #[arg(long, value_name = "LINK")]
+    pub root: Option<String>,
+
     #[command(flatten)]
     pub mjcf: MjcfArguments,
 
@@ -103,6 +114,16 @@ pub struct ExportArguments {
     /// Overwrites existing files.
     #[arg(long)]
     pub force: bool,
+}
+
+/// The kinds of shapes, and those of the source.
+fn shapes() -> impl TypedValueParser<Value = urdd_export::Shapes> {
+    let kinds = Shapes::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+    let source = PossibleValue::new(urdd_export::Shapes::SOURCE).help(
+        "The collision elements of the source: boxes, cylinders, capsules, spheres and meshes as it has them, and \
+         pieces for links that have none. Visual primitives stay primitives too",
+    );
+    PossibleValuesParser::new(kinds.chain([source])).try_map(|word| word.parse())
 }
 
 /// A part of all triangles, or a number of them.

@@ -61,7 +61,7 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         None => None,
     };
     let mut choices = Choices {
-        shapes: arguments.shapes.into(),
+        shapes: arguments.shapes,
         reasons: reasons.map(|skip| skip.iter().copied().map(Into::into).collect()),
         keep_pairs: arguments.keep_pairs,
         spheres: SphereBudget::new(arguments.spheres, arguments.total_spheres),
@@ -72,6 +72,8 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         package: arguments.package.clone(),
         robot_file,
         floating_base: arguments.floating_base,
+        merge_fixed: arguments.merge_fixed,
+        root: arguments.root.clone(),
         setup: Setup::find(arguments.setup.as_deref(), &arguments.path, robot)?,
         ..Choices::default()
     };

@@ -12,7 +12,8 @@ use super::super::structure::Structure;
 use super::super::subject::Subject;
 use super::super::urdf_elements::{element_of_joint, type_name};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
-use urdd_format::urdf::{Axis, Joint, JointType, LinkName};
+use urdd_format::urdf::{Axis, Joint, JointType, LinkName, Origin};
+use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
 const CROSSED: &str =
@@ -27,6 +28,8 @@ const FLOATING: &str = "Drake allows floating joints only at the world; it is ex
 pub(super) struct DrakeJoints<'a> {
     /// The names of added links.
     pub links: Vec<String>,
+    /// The frames on links.
+    pub frames: Vec<Element>,
     /// The elements, each with its source joint.
     pub elements: Vec<(Element, &'a Joint)>,
     /// The names of the joints that an actuator can drive, and those of fixed joints.
@@ -46,11 +49,20 @@ pub(super) fn joints<'a>(
     subject: &'a Subject,
     notes: &mut Vec<Note>,
 ) -> Result<DrakeJoints<'a>, ExportError> {
-    let mut made =
-        DrakeJoints { links: Vec::new(), elements: Vec::new(), driven: Driven::default() };
+    let mut made = DrakeJoints {
+        links: Vec::new(),
+        frames: Vec::new(),
+        elements: Vec::new(),
+        driven: Driven::default(),
+    };
     let mut names = Vec::new();
     let sources = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.names.parts);
-    for (mut joint, ((source, view), parts)) in resolved(subject, notes).into_iter().zip(sources) {
+    let each = resolved(subject, notes).into_iter().zip(sources).enumerate();
+    for (index, (mut joint, ((source, view), parts))) in each {
+        if subject.is_of_frame(index) {
+            made.frames.push(frame(&joint));
+            continue;
+        }
         clean(&mut joint, view, notes);
         let parts = match joint.joint_type {
             JointType::Floating if !is_free(subject, view) => {
@@ -84,6 +96,16 @@ pub(super) fn joints<'a>(
     let links = subject.links.iter().chain(&made.links).chain(&frames);
     check_unique(subject.format, "link", links.map(String::as_str), FRAME)?;
     Ok(made)
+}
+
+/// A frame on a link, as Drake's own element says it.
+fn frame(joint: &Joint) -> Element {
+    let of = |of: fn(&Origin) -> Option<[f64; 3]>| {
+        numbers(&joint.origin.as_ref().and_then(of).unwrap_or_default())
+    };
+    let frame = Element::new("frame").with("name", joint.child.link.as_str());
+    let frame = frame.with("link", joint.parent.link.as_str());
+    frame.with("xyz", of(|origin| origin.xyz)).with("rpy", of(|origin| origin.rpy))
 }
 
 /// Whether Drake supports a floating joint: its child moves freely in the world.

@@ -35,7 +35,8 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
         links(subject, Geometry::Drake, &options.model.meshes, shapes, &mut notes)?;
     let joints = joints::joints(subject, &mut notes)?;
     let mut lost = 0;
-    for (mut element, link) in links.into_iter().zip(&urdf.links) {
+    let bodies = links.into_iter().zip(&urdf.links).enumerate();
+    for (_, (mut element, link)) in bodies.filter(|(index, _)| !subject.is_frame(*index)) {
         lost += push_unknown(&mut element, &link.unknown_elements, IN_LINK);
         robot.push(element);
     }
@@ -45,6 +46,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }
+    robot.extend(joints.frames);
     let mut kept = transmissions::kept(&urdf.unknown_elements, &joints.driven, &mut notes);
     lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
     robot.extend(kept.others(&subject.structure));

@@ -2,16 +2,17 @@
 
 use std::collections::HashSet;
 
-use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+use nalgebra::Isometry3;
 
 use super::super::error::{ExportError, Note};
 use super::super::flat::FlatShapes;
-use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::super::meshes::{Looks, MeshFiles, MeshFormat, looks};
 use super::super::options::MjcfOptions;
+use super::super::pose::motion;
+use super::super::shapes::{Shape, Solid, thick};
 use super::super::subject::Subject;
-use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
-use urdd_robot::{LinkShape, Solid};
+use urdd_geometry::primitives::Primitive;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
@@ -24,8 +25,8 @@ const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it 
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
     options: &'a MjcfOptions,
-    shapes: Vec<Vec<LinkShape>>,
-    looks: Vec<Vec<Look>>,
+    shapes: Vec<Vec<Shape>>,
+    looks: Looks,
     flat: FlatShapes,
     pub files: MeshFiles<'a>,
     pub assets: Element,
@@ -41,11 +42,10 @@ pub(super) struct Bodies<'a> {
 
 impl<'a> Bodies<'a> {
     pub fn new(subject: &'a Subject<'a>, options: &'a MjcfOptions) -> Result<Self, ExportError> {
-        let kind = subject.shapes;
         let shapes = subject.shapes_by_link()?;
         let mut notes = Vec::new();
         if shapes.iter().all(Vec::is_empty) {
-            notes.push(Note::NoShapes(kind));
+            notes.push(Note::NoShapes(subject.shapes));
         }
         let (inertials, balanced) = inertia::inertials(subject, &mut notes);
         Ok(Bodies {
@@ -76,7 +76,9 @@ impl<'a> Bodies<'a> {
             } else {
                 self.frame(link, base_height)
             };
-            self.fill(link, &mut element)?;
+            if !self.subject.is_frame(link) {
+                self.fill(link, &mut element)?;
+            }
             for joint in &self.subject.tree.child_joints[link] {
                 let child = self.subject.tree.joint_links[*joint].1;
                 if let Some(child) = elements[child].take() {
@@ -97,9 +99,13 @@ impl<'a> Bodies<'a> {
         })
     }
 
-    /// A body at the origin of its joint.
+    /// A body at the origin of its joint, or a site for what is but a frame.
     fn frame(&self, link: usize, base_height: f64) -> Element {
-        let body = Element::new("body").with("name", self.subject.links[link].as_str());
+        let name = self.subject.links[link].as_str();
+        let body = match self.subject.is_frame(link) {
+            true => frames::named(name),
+            false => Element::new("body").with("name", name),
+        };
         let Some(joint) = self.subject.tree.parent_joint[link] else {
             return if self.subject.has_free_base() {
                 body.with("pos", numbers(&[0.0, 0.0, base_height]))
@@ -108,10 +114,7 @@ impl<'a> Bodies<'a> {
             };
         };
         let origin = &self.subject.view.joints[joint].origin;
-        let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
-        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-        let pose = Isometry3::from_parts(origin.xyz.into(), rotation);
-        placed(body, &pose)
+        placed(body, &motion(origin))
     }
 
     /// Adds mass, joints and geoms.
@@ -132,7 +135,7 @@ impl<'a> Bodies<'a> {
         }
         element.extend(joints);
         element.extend(frames::site(subject, self.options.sensors, link));
-        for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
+        for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
                 continue;
@@ -150,6 +153,11 @@ impl<'a> Bodies<'a> {
                 .with_some("material", texture.map(|path| self.material(path)));
             element.push(geom);
         }
+        for of in std::mem::take(&mut self.looks.primitives[link]) {
+            let geom = Element::new("geom").with("class", "visual");
+            let rgba = of.color.map(|rgba| numbers(&rgba));
+            element.push(primitive(geom, &of.pose, of.primitive).with_some("rgba", rgba));
+        }
         for shape in std::mem::take(&mut self.shapes[link]) {
             let geom = self.geom(link, shape)?;
             element.push(geom);
@@ -157,27 +165,23 @@ impl<'a> Bodies<'a> {
         Ok(())
     }
 
-    fn geom(&mut self, link: usize, shape: LinkShape) -> Result<Element, ExportError> {
-        let name = geom_name(&self.subject.links[link], shape.piece);
+    fn geom(&mut self, link: usize, shape: Shape) -> Result<Element, ExportError> {
+        let name = geom_name(&self.subject.links[link], shape.number);
         let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
-            Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
-                let (pose, half_extents) = self.flat.cuboid(shape.piece, link, &mut self.notes)?;
-                cuboid(geom, &pose, half_extents)
+            Solid::Convex(mesh) | Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
+                let (pose, cuboid) = self.flat.cuboid(&mesh, shape.number, link, &mut self.notes);
+                primitive(geom, &pose, cuboid)
             }
-            Solid::Mesh(mesh) => {
-                let what = format!("piece_{}", shape.piece);
+            Solid::Convex(mesh) | Solid::Mesh(mesh) => {
+                let what = format!("piece_{}", shape.number);
                 let format =
                     if surface::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
                 let path = self.files.add(link, &what, mesh, format)?;
                 let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)
             }
-            Solid::Box { pose, half_extents } => cuboid(geom, &pose, half_extents),
-            Solid::Sphere { centre, radius } => geom
-                .with("type", "sphere")
-                .with("pos", numbers(&centre))
-                .with("size", number(radius.max(HALF_THICKNESS))),
+            Solid::Primitive(pose, of) => primitive(geom, &pose, of),
         })
     }
 
@@ -219,9 +223,19 @@ pub(super) fn geom_name(link: &str, piece: usize) -> String {
     format!("{link}/{piece}")
 }
 
-fn cuboid(geom: Element, pose: &Isometry3<f64>, half_extents: [f64; 3]) -> Element {
-    let half = half_extents.map(|half| half.max(HALF_THICKNESS));
-    placed(geom.with("type", "box"), pose).with("size", numbers(&half))
+fn primitive(geom: Element, pose: &Isometry3<f64>, primitive: Primitive) -> Element {
+    let (kind, size) = match thick(primitive) {
+        Primitive::Box(half) => ("box", half.to_vec()),
+        Primitive::Cylinder { radius, half } => ("cylinder", vec![radius, half]),
+        Primitive::Capsule { radius, half } => ("capsule", vec![radius, half]),
+        Primitive::Sphere { radius } => ("sphere", vec![radius]),
+    };
+    let geom = geom.with("type", kind);
+    let geom = match kind {
+        "sphere" => geom.with("pos", numbers(pose.translation.vector.as_slice())),
+        _ => placed(geom, pose),
+    };
+    geom.with("size", numbers(&size))
 }
 
 fn placed(element: Element, pose: &Isometry3<f64>) -> Element {

@@ -5,10 +5,14 @@ use urdd_xml::writer::Element;
 
 /// The site of a link, if its frame is that of a tool, or of an IMU with sensors.
 pub(super) fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
-    let setup = subject.given?;
+    let setup = subject.given.as_ref()?;
     let is_imu = sensors && setup.imus.value.contains(&link);
-    (is_imu || setup.tools.value.contains(&link))
-        .then(|| Element::new("site").with("name", subject.links[link].as_str()).with("group", "4"))
+    (is_imu || setup.tools.value.contains(&link)).then(|| named(&subject.links[link]))
+}
+
+/// The site of a frame of that name.
+pub(super) fn named(frame: &str) -> Element {
+    Element::new("site").with("name", frame).with("group", "4")
 }
 
 /// A gyroscope and an accelerometer at each IMU.

@@ -70,7 +70,8 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
         let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
         // The heaviest link, the first one on ties.
         let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
-        let Some(&link) = group.links.iter().max_by(|a, b| heavier(a, b)) else {
+        let bodies = group.links.iter().filter(|link| !subject.is_frame(**link));
+        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else {
             continue;
         };
         note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });

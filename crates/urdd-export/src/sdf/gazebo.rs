@@ -84,6 +84,8 @@ const WORDS: [Word; 26] = [
 
 const IMPLICIT: &[&str] = &["physics/ode/implicit_spring_damper", "physics/ode/cfm_damping"];
 
+const JOINED: &str = "it is about a link that is joined with another";
+
 /// What is said, by the name of a link or a joint; by an empty name, of the model.
 pub(super) struct Gazebo(HashMap<String, Vec<Element>>);
 
@@ -147,6 +149,7 @@ impl Gazebo {
             // Words overwrite what such elements have.
             said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
         }
+        follow(subject, &mut said, &mut mended.faults);
         let faults = mended.faults.into_iter();
         notes.extend(faults.map(|(element, reason)| Note::Element { element, reason }));
         notes.extend(mended.changes.into_iter().map(Note::Robot));
@@ -210,6 +213,42 @@ impl Gazebo {
             }
             if said.name() == "material" {
                 into.say("material/script/uri", SCRIPTS);
+            }
+        }
+    }
+}
+
+/// What SDF places in a link by a pose.
+const PLACED: [&str; 5] = ["audio_source", "light", "particle_emitter", "projector", "sensor"];
+
+/// What is said of a link whose frame is elsewhere goes to the link that has its content, with poses in that frame. What is
+/// said of collisions is found by the name of the link.
+fn follow(
+    subject: &Subject,
+    said: &mut HashMap<String, Vec<Element>>,
+    faults: &mut BTreeSet<(&'static str, &'static str)>,
+) {
+    for link in 0..subject.layout.content.len() {
+        let (body, frame) = (subject.layout.body(link), subject.layout.frame(link));
+        if body == frame {
+            continue;
+        }
+        let [own, body, frame] = [link, body, frame].map(|link| subject.links[link].as_str());
+        for mut element in said.remove(own).unwrap_or_default() {
+            let place = word(&element).map(|word| word.1);
+            if PLACED.contains(&element.name()) {
+                element.say("pose", "");
+                let pose = element.child_mut("pose");
+                if let Some(pose) = pose.filter(|pose| pose.attribute("relative_to").is_none()) {
+                    pose.set("relative_to", Some(frame));
+                }
+            }
+            if own != body && place == Some(Collision) {
+                said.entry(own.to_owned()).or_default().push(element);
+            } else if own != body && place.is_some() {
+                faults.insert(("gazebo", JOINED));
+            } else {
+                said.entry(body.to_owned()).or_default().push(element);
             }
         }
     }

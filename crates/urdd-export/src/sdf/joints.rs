@@ -45,6 +45,10 @@ pub(super) fn joints(
         subject.view.joints.iter().map(|joint| joint.name.as_str()).zip(&names.joints).collect();
     let each = resolved(subject, notes).into_iter().zip(&subject.view.joints).enumerate();
     for (index, (mut joint, view)) in each {
+        if subject.is_of_frame(index) {
+            made.last_parts.push(String::new());
+            continue;
+        }
         if let Some(mimic) = &mut joint.mimic
             && let Some(driver) = by_name.get(mimic.joint.as_str())
         {

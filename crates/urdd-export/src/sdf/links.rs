@@ -8,13 +8,15 @@ use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
+use super::super::pose::motion;
+use super::super::shapes::{Shape, Solid, thick};
 use super::super::subject::Subject;
-use super::super::urdf_elements::{HALF_THICKNESS, INERTIA};
+use super::super::urdf_elements::INERTIA;
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
 use urdd_document::robot::Inertial;
+use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
-use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
@@ -41,8 +43,13 @@ pub(super) fn links(
     let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
     let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
-    let each = shapes.into_iter().zip(looks(subject, meshes, notes)?);
-    for (link, (shapes, looks)) in each.enumerate() {
+    let looks = looks(subject, meshes, notes)?;
+    let each = shapes.into_iter().zip(looks.meshes.into_iter().zip(looks.primitives));
+    for (link, (shapes, (looks, primitives))) in each.enumerate() {
+        if subject.is_frame(link) {
+            elements.push(frame(subject, link));
+            continue;
+        }
         let view = &subject.view.links[link];
         let joint = subject.tree.parent_joint[link];
         let joint = joint.map(|joint| joints.last_parts[joint].as_str());
@@ -72,21 +79,26 @@ pub(super) fn links(
             let name = taken.free(format!("visual_{place}"));
             let mut visual = Element::new("visual").with("name", name);
             visual.push(Element::new("geometry").holding(mesh(&path)));
-            if let Some(rgba) = rgba {
-                let colour = numbers(&rgba);
-                let ambient = Element::text("ambient", &colour);
-                let diffuse = Element::text("diffuse", &colour);
-                visual.push(Element::new("material").holding(ambient).holding(diffuse));
-            }
+            visual.extend(rgba.map(material));
+            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
+            element.push(visual);
+        }
+        for (place, of) in primitives.into_iter().enumerate() {
+            let name = taken.free(format!("primitive_{place}"));
+            let mut visual = Element::new("visual").with("name", name).holding(placed(&of.pose));
+            visual.push(Element::new("geometry").holding(element_of_primitive(of.primitive)));
+            visual.extend(of.color.map(material));
             gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
             element.push(visual);
         }
         let mut names = Vec::new();
         for shape in shapes {
-            names.push(taken.free(format!("piece_{}", shape.piece)));
+            let piece = shape.number;
+            names.push(taken.free(format!("piece_{piece}")));
             let mut collision = collision(subject, link, shape, &mut files)?;
             collision.set("name", names.last().map(String::as_str));
-            gazebo.add(&view.name, Place::Collision, &mut collision, &mut taken, notes);
+            let said = &subject.links[subject.layout.source(link, piece)];
+            gazebo.add(said, Place::Collision, &mut collision, &mut taken, notes);
             element.push(collision);
         }
         touch(&mut element, &names);
@@ -115,6 +127,15 @@ fn touch(link: &mut Element, collisions: &[String]) {
             }
         }
     }
+}
+
+/// The frame of a link without content.
+fn frame(subject: &Subject, link: usize) -> Element {
+    let frame = Element::new("frame").with("name", subject.links[link].as_str());
+    let on = subject.tree.parent_link[link].map(|parent| subject.links[parent].as_str());
+    let joint = subject.tree.parent_joint[link].map(|joint| &subject.view.joints[joint]);
+    let pose = joint.map(|joint| placed(&motion(&joint.origin)));
+    pose.into_iter().fold(frame.with_some("attached_to", on), Element::holding)
 }
 
 /// A link at its joint.
@@ -155,6 +176,13 @@ fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
         .holding(tensor)
 }
 
+fn material(rgba: [f64; 4]) -> Element {
+    let colour = numbers(&rgba);
+    let ambient = Element::text("ambient", &colour);
+    let diffuse = Element::text("diffuse", &colour);
+    Element::new("material").holding(ambient).holding(diffuse)
+}
+
 fn mesh(path: &str) -> Element {
     Element::new("mesh").holding(Element::text("uri", path))
 }
@@ -162,25 +190,20 @@ fn mesh(path: &str) -> Element {
 fn collision(
     subject: &Subject,
     link: usize,
-    shape: LinkShape,
+    shape: Shape,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
-    let name = format!("piece_{}", shape.piece);
+    let name = format!("piece_{}", shape.number);
     let mut collision = Element::new("collision").with("name", name.as_str());
     let geometry = match shape.solid {
-        Solid::Mesh(solid) => {
+        Solid::Convex(solid) => {
             let path = files.add(link, &name, solid, MeshFormat::Obj)?;
             mesh(&path).holding(Element::new("drake:declare_convex"))
         }
-        Solid::Box { pose, half_extents } => {
+        Solid::Mesh(solid) => mesh(&files.add(link, &name, solid, MeshFormat::Obj)?),
+        Solid::Primitive(pose, primitive) => {
             collision.push(placed(&pose));
-            let size = half_extents.map(|half| 2.0 * half.max(HALF_THICKNESS));
-            Element::new("box").holding(Element::text("size", &numbers(&size)))
-        }
-        Solid::Sphere { centre, radius } => {
-            collision.push(placed(&Isometry3::translation(centre[0], centre[1], centre[2])));
-            let radius = number(radius.max(HALF_THICKNESS));
-            Element::new("sphere").holding(Element::text("radius", &radius))
+            element_of_primitive(primitive)
         }
     };
     collision.push(Element::new("geometry").holding(geometry));
@@ -191,6 +214,24 @@ fn collision(
         collision.push(Element::new("surface").holding(friction));
     }
     Ok(collision)
+}
+
+fn element_of_primitive(primitive: Primitive) -> Element {
+    let long = |tag, radius, half: f64| {
+        let radius = Element::text("radius", &number(radius));
+        Element::new(tag).holding(radius).holding(Element::text("length", &number(2.0 * half)))
+    };
+    match thick(primitive) {
+        Primitive::Box(half) => {
+            let size = numbers(&half.map(|half| 2.0 * half));
+            Element::new("box").holding(Element::text("size", &size))
+        }
+        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
+        Primitive::Capsule { radius, half } => long("capsule", radius, half),
+        Primitive::Sphere { radius } => {
+            Element::new("sphere").holding(Element::text("radius", &number(radius)))
+        }
+    }
 }
 
 fn placed(pose: &Isometry3<f64>) -> Element {

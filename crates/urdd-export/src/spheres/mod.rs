@@ -28,6 +28,7 @@ use rayon::prelude::*;
 
 use super::error::ExportError;
 use super::options::{SphereBudget, SphereOptions};
+use super::shapes::Shapes;
 use super::subject::Subject;
 use fit::Limits;
 use frame::Point;
@@ -72,11 +73,11 @@ struct Model {
 
 impl Model {
     fn new(subject: &Subject, options: &SphereOptions) -> Result<Self, ExportError> {
-        let kind = options.shapes;
-        if !matches!(kind, ShapeKind::Pieces | ShapeKind::Hulls) {
-            return Err(ExportError::SpheresOf(kind));
-        }
-        let pairs = Pairs::new(subject, options.reasons.as_deref())?;
+        let kind = match options.shapes {
+            Shapes::Kind(kind @ (ShapeKind::Pieces | ShapeKind::Hulls)) => kind,
+            other => return Err(ExportError::SpheresOf(other)),
+        };
+        let pairs = Pairs::new(subject, kind, options.reasons.as_deref())?;
         let limits = limits(options.budget, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);

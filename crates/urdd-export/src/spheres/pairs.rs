@@ -11,7 +11,7 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::convex::BodyPairs;
-use urdd_robot::{LinkShape, RobotError, Solid};
+use urdd_robot::{LinkShape, RobotError, ShapeKind, Solid};
 
 /// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 #[derive(Debug)]
@@ -26,14 +26,18 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(subject: &Subject, reasons: Option<&[SkippedReason]>) -> Result<Self, ExportError> {
-        let shapes = subject.robot.shapes(subject.shapes)?;
+    pub fn new(
+        subject: &Subject,
+        kind: ShapeKind,
+        reasons: Option<&[SkippedReason]>,
+    ) -> Result<Self, ExportError> {
+        let shapes = subject.robot.shapes(kind)?;
         let count = subject.links.len();
         if let Some(index) = shapes.iter().map(|shape| shape.link).find(|link| *link >= count) {
             let what = "link";
             return Err(RobotError::OutOfRange { what, index, count }.into());
         }
-        let skips = subject.robot.skips(subject.shapes)?;
+        let skips = subject.robot.skips(kind)?;
         let decision = Decision::new(&skips, &subject.links, reasons);
         let rows: HashMap<(usize, usize), usize> =
             skips.places().iter().enumerate().map(|(row, place)| (*place, row)).collect();

@@ -13,15 +13,16 @@ pub(in super::super) fn export(
     options: &SpherizedOptions,
 ) -> Result<Export, ExportError> {
     let model = Model::new(subject, &options.spheres)?;
-    let mut shapes: Vec<Vec<LinkShape>> = subject.links.iter().map(|_| Vec::new()).collect();
+    let mut shapes: Vec<LinkShape> = Vec::new();
     for (link, spheres) in &model.links {
         let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
             link: *link,
             piece,
             solid: Solid::Sphere { centre: sphere.centre, radius: sphere.radius },
         });
-        shapes[*link].extend(spheres);
+        shapes.extend(spheres);
     }
+    let shapes = subject.by_link(shapes);
     let mut notes = said::note(&model, subject).into_iter().collect();
     let (robot, files) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
     let said = model.said(&subject.links, options.spheres.cover).join(" ");

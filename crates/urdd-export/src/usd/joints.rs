@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::super::error::{ExportError, Note};
 use super::super::gains::Gains;
 use super::super::options::ActuatorKind;
+use super::super::pose;
 use super::super::subject::Subject;
 use super::custom::elements;
 use super::filters::Filters;
@@ -106,9 +107,7 @@ impl Joints<'_> {
     pub fn prim(&self, index: usize, notes: &mut Vec<Note>) -> Prim {
         let subject = self.subject;
         let (joint, name) = (&subject.view.joints[index], last(&self.paths.joints[index]));
-        let rotation = Rotation3::from_matrix_unchecked(joint.origin.rotation());
-        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-        let origin = Isometry3::from_parts(joint.origin.xyz.into(), rotation);
+        let origin = pose::motion(&joint.origin);
         let motion = self.motion(index, notes);
         let (kind, frames) = match &motion {
             Motion::Fixed(position) => {

@@ -4,16 +4,17 @@
 
 use std::collections::HashMap;
 
-use super::super::meshes::{Look, MeshFiles};
+use super::super::meshes::{Look, Looks, MeshFiles};
+use super::super::source_visuals::Painted;
+use super::names::VISUALS;
 use super::prim::Prim;
+use super::primitive::primitive;
 use super::surface::{coordinates, material, set};
 use super::value::{array, asset, float};
 use urdd_geometry::Mesh;
 
 /// The longest mesh that is in the file itself, bytes of text.
 pub(super) const LONGEST: usize = 1 << 15;
-
-const VISUALS: &str = "visuals";
 
 /// Materials in one place, each once.
 pub(super) struct Materials {
@@ -38,11 +39,11 @@ impl Materials {
     }
 
     /// The path of the material of a look; `None` if it has neither colour nor texture.
-    fn of(&mut self, look: &Look, texture: Option<&str>) -> Option<String> {
-        if texture.is_none() && look.part.color.is_none() {
+    fn of(&mut self, color: Option<[f64; 4]>, texture: Option<&str>) -> Option<String> {
+        if texture.is_none() && color.is_none() {
             return None;
         }
-        let color = look.part.color.unwrap_or([1.0; 4]);
+        let color = color.unwrap_or([1.0; 4]);
         let key = format!("{texture:?} {color:?}");
         let count = self.names.len();
         let name = self.names.entry(key).or_insert_with(|| {
@@ -58,11 +59,12 @@ impl Materials {
 
 /// Adds the visual geometry to the links, in link order.
 pub(super) fn add(
-    looks: &[Vec<Look>],
+    all: &Looks,
     links: &mut [Prim],
     materials: &mut Materials,
     files: &mut MeshFiles,
 ) {
+    let looks = &all.meshes;
     let mut texts = Vec::new();
     let mut count: HashMap<String, usize> = HashMap::new();
     let mut images = Vec::new();
@@ -97,6 +99,23 @@ pub(super) fn add(
             links[link].push(visuals(looks, &images[link], materials));
         }
     }
+    add_primitives(&all.primitives, links, materials);
+}
+
+/// Adds the primitives of visual geometry, in link order.
+fn add_primitives(primitives: &[Vec<Painted>], links: &mut [Prim], materials: &mut Materials) {
+    for (own, link) in primitives.iter().zip(links) {
+        let mut holder = Prim::new("Xform", "visual_primitives");
+        for (place, of) in own.iter().enumerate() {
+            let mut prim = primitive(format!("primitive_{place}"), &of.pose, of.primitive);
+            if let Some(material) = materials.of(of.color, None) {
+                prim.apply("MaterialBindingAPI");
+                prim.relate("material:binding", std::slice::from_ref(&material));
+            }
+            holder.push(prim);
+        }
+        link.push_filled(holder);
+    }
 }
 
 /// The mesh of a link's looks.
@@ -111,7 +130,7 @@ fn visuals(looks: &[Look], images: &[Option<String>], materials: &mut Materials)
             uv.extend(coordinates(look.part.texture.as_ref(), look.part.mesh.vertices.len()));
         }
         let texture = image.as_ref().map(|path| asset(path));
-        let Some(material) = materials.of(look, texture.as_deref()) else {
+        let Some(material) = materials.of(look.part.color, texture.as_deref()) else {
             continue;
         };
         let mut subset = Prim::new("GeomSubset", format!("subset_{place}"));

@@ -23,7 +23,8 @@ const IMPOSSIBLE: &str = "a principal moment of inertia is more than the other t
 /// Adds the masses to the links, in link order.
 pub(super) fn add(subject: &Subject, links: &mut [Prim], notes: &mut Vec<Note>) {
     let [mut massless, mut flat] = [Vec::new(), Vec::new()];
-    for (prim, view) in links.iter_mut().zip(&subject.view.links) {
+    let bodies = links.iter_mut().zip(&subject.view.links).enumerate();
+    for (_, (prim, view)) in bodies.filter(|(link, _)| !subject.is_frame(*link)) {
         let mut said = None;
         let found = view.inertial.as_ref().and_then(|view| mass(view, &mut said));
         let what = said.and_then(|said| {

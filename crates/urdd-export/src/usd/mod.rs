@@ -11,6 +11,7 @@ mod looks;
 mod mass;
 pub(super) mod names;
 mod prim;
+mod primitive;
 mod shapes;
 mod surface;
 mod value;
@@ -45,7 +46,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     let zero = subject.robot.configurations()?.zero();
     let stand = Stand::new(subject, false)?;
     let up = Isometry3::translation(0.0, 0.0, stand.base_height);
-    let poses = subject.robot.link_poses(&zero)?;
+    let poses = subject.link_poses(&zero)?;
     let mut files = MeshFiles::new(subject, &options.meshes);
     let mut materials = Materials::new(&format!("/{}", paths.root), &paths.scopes[1]);
     let mut links: Vec<Prim> = Vec::new();
@@ -53,8 +54,15 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         let mut prim = Prim::new("Xform", last(&paths.links[link]));
         prim.show(&subject.links[link]);
         custom::elements(&mut prim, &subject.urdf.links[link].unknown_elements);
+        if subject.is_frame(link)
+            && let Some(body) = subject.tree.parent_link[link]
+        {
+            shapes::place(&mut prim, &(poses[body].inverse() * pose), None);
+            links.push(prim);
+            continue;
+        }
         prim.apply("PhysicsRigidBodyAPI");
-        shapes::place(&mut prim, &(up * pose), None);
+        primitive::place(&mut prim, &(up * pose), None);
         if let Some(targets) = filters.targets.get(&paths.links[link]) {
             prim.apply("PhysicsFilteredPairsAPI");
             prim.relate("physics:filteredPairs", targets);
@@ -91,7 +99,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
             notes.push(Note::Robot(WORLD));
         }
     }
-    for index in 0..subject.view.joints.len() {
+    for index in (0..subject.view.joints.len()).filter(|joint| !subject.is_of_frame(*joint)) {
         scope.push(joints.prim(index, &mut notes));
     }
     let is_whole = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
@@ -104,7 +112,13 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     root.describe("kind", "\"component\"");
     custom::robot(subject, &mut root)?;
     root = root.applying(&["PhysicsArticulationRootAPI", "NewtonArticulationRootAPI"]);
-    links.into_iter().for_each(|link| root.push(link));
+    let mut links: Vec<Option<Prim>> = links.into_iter().map(Some).collect();
+    for link in (0..links.len()).filter(|link| subject.is_frame(*link)) {
+        let frame = links[link].take();
+        let body = subject.tree.parent_link[link].and_then(|body| links[body].as_mut());
+        frame.into_iter().zip(body).for_each(|(frame, body)| body.push(frame));
+    }
+    links.into_iter().flatten().for_each(|link| root.push(link));
     root.push_filled(scope);
     root.push_filled(materials.scope);
     let text = root.file(&subject.comments(what, &notes)?);

@@ -28,13 +28,23 @@ impl Paths {
             mended.push(subject.urdf.name.clone());
         }
         let mut taken = Taken::default();
+        if subject.layout.is_frame.contains(&true) {
+            // Frames are beside what holds the shapes of their body.
+            for holder in [COLLISIONS, VISUALS] {
+                taken.insert(holder);
+            }
+        }
         let links = names(&subject.links, &mut taken, &mut mended);
+        let path = |(link, name): (usize, &String)| match subject.tree.parent_link[link] {
+            Some(body) if subject.is_frame(link) => format!("/{root}/{}/{name}", links[body]),
+            _ => format!("/{root}/{name}"),
+        };
         let scopes = ["Joints", "Looks"].map(|scope| taken.free(scope.to_owned()));
         let mut taken = Taken::default();
         let joints = names(&subject.names.joints, &mut taken, &mut mended);
         let world = taken.free("world_fixed".to_owned());
         Paths {
-            links: links.iter().map(|link| format!("/{root}/{link}")).collect(),
+            links: links.iter().enumerate().map(path).collect(),
             joints: joints.iter().map(|joint| format!("/{root}/{}/{joint}", scopes[0])).collect(),
             root,
             scopes,
@@ -46,6 +56,9 @@ impl Paths {
 
 /// What holds the shapes of a link.
 pub(super) const COLLISIONS: &str = "collisions";
+
+/// What holds the visual geometry of a link.
+pub(super) const VISUALS: &str = "visuals";
 
 /// The path of a shape of a link.
 pub(super) fn path_of_shape(link: &str, piece: usize) -> String {

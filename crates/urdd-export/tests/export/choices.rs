@@ -6,7 +6,10 @@ use urdd_export::{ActuatorKind, Choices, Format, Options};
 #[test]
 fn what_a_format_does_not_have_is_refused() {
     let none = Choices::default;
+    let tree = "srdf and urdf and drake and mjcf and moveit and sdf and usd";
     let cases = [
+        ("merge_fixed", Choices { merge_fixed: true, ..none() }, tree),
+        ("root", Choices { root: Some("a".to_owned()), ..none() }, tree),
         ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf and usd"),
         ("sensors", Choices { sensors: true, ..none() }, "mjcf"),
         ("scene", Choices { scene: true, ..none() }, "mjcf"),

@@ -254,12 +254,12 @@ fn a_robot_without_shapes_has_no_spheres() {
         let options = Choices { cover, ..Choices::default() };
         let Export { text, notes, .. } =
             export(&robot, Format::Curobo, &options).expect("an export");
-        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
+        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces.into())]);
         let document: serde_yaml::Value = serde_yaml::from_str(&text).expect("YAML");
         assert!(document["collision_link_names"].as_sequence().is_some_and(Vec::is_empty));
         assert!(document["collision_spheres"].as_mapping().is_some_and(|links| links.is_empty()));
         let Export { text, notes, .. } = export(&robot, Format::Foam, &options).expect("an export");
-        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
+        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces.into())]);
         let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         assert!(document["links"].as_object().is_some_and(|links| links.is_empty()));
     }

@@ -124,7 +124,7 @@ fn bodies_move_as_links_do() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for shapes in [ShapeKind::Pieces, ShapeKind::Boxes] {
-            let options = Choices { shapes, ..Choices::default() };
+            let options = Choices { shapes: shapes.into(), ..Choices::default() };
             let made = export(&robot, Format::Mjcf, &options).expect("an export");
             assert_moves_alike(&robot, &made.text, &name);
         }

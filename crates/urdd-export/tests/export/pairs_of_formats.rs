@@ -50,7 +50,7 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
                 .map(|(pair, _)| pair)
                 .collect();
             disabled += expected.len();
-            let options = Choices { shapes: kind, ..Choices::default() };
+            let options = Choices { shapes: kind.into(), ..Choices::default() };
             let text = |format| export(&robot, format, &options).expect("an export").text;
             let srdf = pairs_in(&text(Format::Srdf), "disable_collisions", ["link1", "link2"]);
             assert_eq!(srdf, expected, "{name}");
@@ -277,7 +277,8 @@ fn reasons_are_named_as_moveit_names_them() {
         SkippedReason::Default,
         SkippedReason::Never,
     ];
-    let options = Choices { shapes: ShapeKind::Hulls, reasons: Some(all), ..Choices::default() };
+    let options =
+        Choices { shapes: ShapeKind::Hulls.into(), reasons: Some(all), ..Choices::default() };
     let text = export(&robot, Format::Srdf, &options).expect("an export").text;
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).expect("well-formed");
     let links = robot.link_names().expect("links");

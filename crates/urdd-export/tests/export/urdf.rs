@@ -28,7 +28,7 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
         let robot = Robot::open(path).expect("a robot");
         let source = robot.description().expect("a description");
         for kind in [ShapeKind::Hulls, ShapeKind::PieceBoxes, ShapeKind::Spheres] {
-            let options = Choices { shapes: kind, ..Choices::default() };
+            let options = Choices { shapes: kind.into(), ..Choices::default() };
             let exported = export(&robot, Format::Urdf, &options).expect("an export");
             let folder = testkit::temporary::folder();
             let file = write(folder.path(), &exported);
@@ -117,7 +117,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Urdf, Format::Drake, Format::Mjcf] {
         let made = export(&robot, format, &Choices::default()).expect("an export");
-        assert!(made.notes.contains(&Note::NoShapes(ShapeKind::Pieces)), "{format:?}");
+        assert!(made.notes.contains(&Note::NoShapes(ShapeKind::Pieces.into())), "{format:?}");
         assert!(made.text.contains("no link has pieces"), "{format:?}");
         assert!(made.files.is_empty());
     }
@@ -136,7 +136,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
 fn boxes_stand_where_the_module_has_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Choices { shapes: ShapeKind::Boxes, visuals: None, ..Choices::default() };
+    let options = Choices { shapes: ShapeKind::Boxes.into(), visuals: None, ..Choices::default() };
     let made = export(&robot, Format::Urdf, &options).expect("an export");
     let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let numbers = |node: urdd_xml::Node, key: &str| -> Vec<f64> {

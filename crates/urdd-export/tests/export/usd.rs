@@ -275,7 +275,7 @@ fn the_pairs_are_those_of_the_urdd_by_piece() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for kind in [ShapeKind::Pieces, ShapeKind::Hulls] {
-            let options = Choices { shapes: kind, keep_pairs: true, ..Choices::default() };
+            let options = Choices { shapes: kind.into(), keep_pairs: true, ..Choices::default() };
             let read = Read::new(&export(&robot, Format::Usd, &options).expect("an export").text);
             let skips = robot.skips(kind).expect("skips");
             let links = robot.link_names().expect("links");
@@ -312,7 +312,7 @@ fn the_pairs_are_those_of_the_urdd_by_piece() {
                     expected.insert(pair);
                 }
             }
-            let options = Choices { shapes: kind, ..Choices::default() };
+            let options = Choices { shapes: kind.into(), ..Choices::default() };
             let made = export(&robot, Format::Usd, &options).expect("an export");
             let read = Read::new(&made.text);
             assert_eq!(filtered(&read), expected, "{name} {kind}");

@@ -28,7 +28,7 @@ fn robot_of(parts: &str, files: &[(&str, Vec<u8>)]) -> (tempfile::TempDir, Robot
 }
 
 fn with_shapes(robot: &Robot, shapes: ShapeKind) -> (Export, Read) {
-    let made = export(robot, Format::Usd, &Choices { shapes, ..Choices::default() });
+    let made = export(robot, Format::Usd, &Choices { shapes: shapes.into(), ..Choices::default() });
     let made = made.expect("an export");
     let read = Read::new(&made.text);
     (made, read)
@@ -134,7 +134,7 @@ fn a_long_shape_is_a_file_that_the_link_refers_to() {
     let visual = r#"<visual><geometry><mesh filename="ball.obj"/></geometry></visual>"#;
     let (_folder, robot) = robot_of(visual, &[("ball.obj", ball().into())]);
     let output = Some("x@y.usda".into());
-    let odd = Choices { shapes: ShapeKind::Hulls, output, ..Choices::default() };
+    let odd = Choices { shapes: ShapeKind::Hulls.into(), output, ..Choices::default() };
     let odd = export(&robot, Format::Usd, &odd).expect("an export").text;
     // A path with `@` in it has three around it.
     assert!(odd.contains("@@@./x@y_meshes/a_piece_0.usda@@@"), "{odd}");

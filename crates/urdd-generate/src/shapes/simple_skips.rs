@@ -7,10 +7,9 @@ use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
-use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason, SkipReasons};
-
-/// Shapes are in contact if their distance is at most this, metres (SPEC 8.6).
-const CONTACT: f64 = 0.001;
+use urdd_format::link_shapes_simple_skips::{
+    LinkShapesSimpleSkipsModule, SeenPair, SkipReason, SkipReasons,
+};
 
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
@@ -71,24 +70,18 @@ fn classed(
 ) -> (Skips, Reasons) {
     let reason = |i: usize, j: usize| {
         let (a, b) = (links[i], links[j]);
-        if a == b {
-            SkipReason::SameLink
-        } else if statistics.max_distances[i][j] <= CONTACT {
-            SkipReason::Always
-        } else if joined.contains(&[a, b]) || joined.contains(&[b, a]) {
-            SkipReason::Adjacent
-        } else if default[i][j] <= CONTACT {
-            SkipReason::Default
-        } else if statistics.min_distances[i][j] > CONTACT {
-            SkipReason::Never
-        } else {
-            SkipReason::None
-        }
+        let seen = SeenPair {
+            is_same_link: a == b,
+            is_joined: joined.contains(&[a, b]) || joined.contains(&[b, a]),
+            range: [statistics.min_distances[i][j], statistics.max_distances[i][j]],
+            at_default: default[i][j],
+        };
+        seen.reason()
     };
     let all = 0..links.len();
     let reasons: Reasons =
         all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect();
-    let skipped = |reason: &SkipReason| matches!(reason, SkipReason::SameLink | SkipReason::Always);
-    let skips = reasons.iter().map(|row| row.iter().map(skipped).collect()).collect();
+    let skips =
+        reasons.iter().map(|row| row.iter().map(|reason| reason.is_simple()).collect()).collect();
     (skips, reasons)
 }

@@ -1,5 +1,6 @@
 //! Queries on one configuration.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
@@ -26,14 +27,15 @@ impl Proximity {
         self.min_distance(configuration)
     }
 
-    /// For each two links with checked pairs of shapes, by index: the number of configurations in which any of these
-    /// pairs is in contact.
+    /// For each two bodies with checked pairs of shapes: the number of configurations in which any of these pairs is in
+    /// contact. A link is a part of a body: of itself, or of what it is fixed to.
     ///
     /// # Errors
     /// As [`Queries::in_collision_batch`].
     pub fn contacts_of_links(
         &self,
         configurations: &[f64],
+        body: impl Fn(usize) -> usize,
     ) -> Result<Vec<([usize; 2], usize)>, RobotError> {
         let rows = self.motion.rows(configurations)?;
         let found = (0..rows.count).into_par_iter().map(|k| {
@@ -44,8 +46,17 @@ impl Proximity {
             })
         });
         let found: Vec<Vec<bool>> = found.collect::<Result<_, RobotError>>()?;
-        let count = |at: usize| found.iter().filter(|one| one[at]).count();
-        Ok(self.groups.iter().enumerate().map(|(at, group)| (group.links, count(at))).collect())
+        let mut parts: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for (at, group) in self.groups.iter().enumerate() {
+            let mut bodies = group.links.map(&body);
+            bodies.sort_unstable();
+            parts.entry(bodies).or_default().push(at);
+        }
+        let count = |parts: &[usize]| {
+            let touches = |one: &&Vec<bool>| parts.iter().any(|at| one[*at]);
+            found.iter().filter(touches).count()
+        };
+        Ok(parts.into_iter().map(|(bodies, parts)| (bodies, count(&parts))).collect())
     }
 
     /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
