@@ -305,7 +305,8 @@ pub enum Note {
 impl Note {
     /// A note on links, by their indices, if there are any.
     pub(super) fn of_links(links: Vec<usize>, all: &[Link], what: &'static str) -> Option<Note> {
-        let links: Vec<String> = links.into_iter().map(|link| all[link].name.clone()).collect();
+        let name = |link: usize| all.get(link).map(|link| link.name.clone());
+        let links: Vec<String> = links.into_iter().filter_map(name).collect();
         (!links.is_empty()).then_some(Note::Links { links, what })
     }
 

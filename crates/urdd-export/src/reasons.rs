@@ -43,7 +43,7 @@ impl Judged {
         as_hulls: bool,
         samples: u32,
     ) -> Result<Self, ExportError> {
-        let count = shapes.iter().map(Vec::len).sum();
+        let count: usize = shapes.iter().map(Vec::len).sum();
         if count > MOST_SHAPES {
             return Err(ExportError::TooManyShapes(count));
         }
@@ -106,7 +106,7 @@ impl Judged {
             let distances = pair_distances(&self.bodies[i], &self.bodies[j], &self.sampled);
             let reach = self.radii[i] + self.radii[j];
             let touches = distances.unwrap_or_default().into_iter().map(|it| it <= reach);
-            (ascending(body(places[i].0), body(places[j].0)), touches.collect())
+            (ascending(body(places[i].0), body(places[j].0)), touches.collect::<Vec<bool>>())
         };
         let mut by_links: HashMap<[usize; 2], Vec<bool>> = HashMap::new();
         for (links, touches) in pairs.into_par_iter().map(touches).collect::<Vec<_>>() {

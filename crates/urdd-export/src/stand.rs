@@ -50,7 +50,7 @@ impl Stand {
         let poses = subject.link_poses(configuration)?;
         let each = self.shapes.iter().zip(&poses);
         let lowest = each
-            .flat_map(|(shapes, pose)| shapes.iter().map(|shape| lowest(&shape.solid, pose)))
+            .flat_map(|(shapes, pose)| shapes.iter().map(move |shape| lowest(&shape.solid, pose)))
             .fold(f64::INFINITY, f64::min);
         // No shape touches anything.
         Ok(if lowest.is_finite() { (-lowest * 1e6).round() / 1e6 } else { 0.0 })

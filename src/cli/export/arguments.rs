@@ -123,7 +123,8 @@ fn shapes() -> impl TypedValueParser<Value = urdd_export::Shapes> {
         "The collision elements of the source: boxes, cylinders, capsules, spheres and meshes as it has them, and \
          pieces for links that have none. Visual primitives stay primitives too",
     );
-    PossibleValuesParser::new(kinds.chain([source])).try_map(|word| word.parse())
+    PossibleValuesParser::new(kinds.chain([source]))
+        .try_map(|word| word.parse::<urdd_export::Shapes>())
 }
 
 /// A part of all triangles, or a number of them.
