@@ -24,6 +24,7 @@ struct Question {
     pieces: Option<u8>,
     piece_tolerance: Option<f64>,
     samples: Option<u32>,
+    reference: Option<String>,
     #[serde(default)]
     strict: bool,
     body: Option<String>,
@@ -73,6 +74,7 @@ fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Val
     source.import = import::options(question.body, question.model, question.ball);
     let mut settings = Settings {
         source,
+        reference: question.reference,
         strict: question.strict,
         donors: donor.map(|donor| donor.root.clone()).into_iter().collect(),
         ..Settings::default()

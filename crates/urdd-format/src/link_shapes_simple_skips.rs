@@ -63,3 +63,10 @@ module! {
         None,
     }
 }
+
+impl SkipReason {
+    /// Whether the pair is apart in some configuration and is no neighbour: its contact is a collision.
+    pub fn can_collide(self) -> bool {
+        matches!(self, SkipReason::Default | SkipReason::Never | SkipReason::None)
+    }
+}

@@ -3,14 +3,12 @@
 
 use std::collections::HashSet;
 
+use super::CONTACT;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
 use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason, SkipReasons};
-
-/// Shapes are in contact if their distance is at most this, metres (SPEC 8.6).
-const CONTACT: f64 = 0.001;
 
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
