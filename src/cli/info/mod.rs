@@ -2,6 +2,7 @@
 
 mod contents;
 mod parts;
+mod skipped;
 mod statics;
 
 use std::fmt::Display;
