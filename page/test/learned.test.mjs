@@ -112,7 +112,7 @@ inPage(set, "the line says what the network gives, free and in collision", async
     assert.deepEqual([found[3], found[4]], [links[pair.link_a_idx].name, links[pair.link_b_idx].name]);
     assert.equal(found[5], rates(model.evaluation));
     const exact = await page.locator(".collision").textContent();
-    assert.match(exact, in_collision ? /^Self-collision: \d+ pairs? of links$/ : /^No self-collision$/);
+    assert.match(exact, in_collision ? /^Self-collision: \d+ pairs? of links$/ : /^No self-collision/);
   }
   assert.ok(seen.has("clear") && seen.has("may be in contact"), [...seen].join(", "));
   // It stands for pieces, and for no other shapes.

@@ -382,6 +382,12 @@ impl Robot {
         Ok(known.entry(kind).or_insert(made).clone_ref(py))
     }
 
+    /// The pairs of a kind that are skipped because they touch at rest; `None` without any.
+    fn skipped_contacts(&self, py: Python<'_>, kind: &str) -> PyResult<Option<Proximity>> {
+        let kind = kind.parse::<ShapeKind>().map_err(|error| of_robot(py, &error.into()))?;
+        Ok(self.ask(py, move |robot, _| robot.skipped_contacts(kind))?.map(Proximity::of))
+    }
+
     /// The learned self-collision model.
     fn collision_model(&self, py: Python<'_>) -> PyResult<Py<CollisionModel>> {
         if let Some(known) = &*work::lock(py, &self.collision_model)? {

@@ -113,9 +113,10 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
         (None, None) => Chosen::Listed(Listed { values: space.zero(), count: 1 }),
     };
     let proximity = robot.proximity(arguments.shapes.into()).map_err(&in_urdd)?;
+    let hidden = robot.skipped_contacts(arguments.shapes.into()).map_err(&in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
     if arguments.format == Format::Text && sum {
-        let (text, any) = sum_up(&proximity, &chosen, dofs).map_err(&in_urdd)?;
+        let (text, any) = sum_up(&proximity, hidden.as_ref(), &chosen, dofs).map_err(&in_urdd)?;
         output::print(&text)?;
         return Ok(any);
     }
@@ -125,10 +126,19 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
         let configuration = chosen.at(number, dofs);
         let touching = proximity.collisions(&configuration).map_err(&in_urdd)?;
         let nearest = proximity.nearest(&configuration, arguments.nearest).map_err(&in_urdd)?;
+        let unseen = hidden.as_ref().map(|hidden| hidden.collisions(&configuration)).transpose();
+        let unseen = unseen.map_err(&in_urdd)?.unwrap_or_default();
         any |= !touching.is_empty();
         match arguments.format {
-            Format::Text => as_text(&mut text, number, &touching, &nearest, of_pieces),
-            Format::Json => as_json(&mut text, number, &configuration, &touching, &nearest),
+            Format::Text => {
+                as_text(&mut text, number, &touching, &nearest, of_pieces);
+                for (links, _) in links_of(&unseen) {
+                    let _ = writeln!(text, "  touching   {links}, skipped: they touch at rest");
+                }
+            }
+            Format::Json => {
+                as_json(&mut text, number, &configuration, [&touching, &nearest, &unseen]);
+            }
         }
         if text.len() > MAX_UNPRINTED && !output::print_some(&std::mem::take(&mut text))? {
             return Ok(any);
@@ -203,8 +213,7 @@ fn as_json(
     text: &mut String,
     number: u64,
     configuration: &[f64],
-    touching: &[PairDistance],
-    nearest: &[PairDistance],
+    [touching, nearest, unseen]: [&[PairDistance]; 3],
 ) {
     let pair = |pair: &PairDistance| {
         json!({
@@ -221,41 +230,13 @@ fn as_json(
         "in_collision": !touching.is_empty(),
         "touching": touching.iter().map(pair).collect::<Vec<_>>(),
         "nearest": nearest.iter().map(pair).collect::<Vec<_>>(),
+        "skipped_touching": unseen.iter().map(pair).collect::<Vec<_>>(),
     });
     let _ = writeln!(text, "{}", escape::json(&line.to_string()));
 }
 
-/// Summarizes many configurations: the number that collide, and the links that collide most often.
-fn sum_up(
-    proximity: &Proximity,
-    chosen: &Chosen,
-    dofs: usize,
-) -> Result<(String, bool), RobotError> {
-    let count = chosen.count();
-    let mut colliding: u64 = 0;
-    let mut often: BTreeMap<String, usize> = BTreeMap::new();
-    for start in (0..count).step_by(CHUNK as usize) {
-        let numbers = start..count.min(start + CHUNK);
-        let values: Vec<f64> =
-            numbers.clone().flat_map(|number| chosen.at(number, dofs).into_owned()).collect();
-        let answers = match dofs {
-            // An empty slice does not determine the number of configurations.
-            0 => {
-                let answer = proximity.in_collision(&[])?;
-                numbers.clone().map(|_| answer).collect()
-            }
-            _ => proximity.in_collision_batch(&values)?,
-        };
-        for (number, _) in numbers.zip(answers).filter(|(_, collides)| *collides) {
-            colliding += 1;
-            let touching = proximity.collisions(&chosen.at(number, dofs))?;
-            for (links, _) in links_of(&touching) {
-                *often.entry(links).or_default() += 1;
-            }
-        }
-    }
-    let share = 100.0 * colliding as f64 / count as f64;
-    let mut text = format!("{colliding} of {} configurations collide ({share:.1} %)\n", count);
+/// Lists the pairs of links that touch most often.
+fn list_worst(text: &mut String, often: BTreeMap<String, usize>) {
     let mut often: Vec<(String, usize)> = often.into_iter().collect();
     often.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     for (links, count) in often.iter().take(WORST) {
@@ -263,6 +244,57 @@ fn sum_up(
     }
     if often.len() > WORST {
         let _ = writeln!(text, "  and {} more pairs of links", often.len() - WORST);
+    }
+}
+
+/// Summarizes many configurations: the number that collide, and the links that collide most often.
+fn sum_up(
+    proximity: &Proximity,
+    hidden: Option<&Proximity>,
+    chosen: &Chosen,
+    dofs: usize,
+) -> Result<(String, bool), RobotError> {
+    let count = chosen.count();
+    let (mut colliding, mut unseen): (u64, u64) = (0, 0);
+    let mut often: BTreeMap<String, usize> = BTreeMap::new();
+    let mut often_unseen: BTreeMap<String, usize> = BTreeMap::new();
+    for start in (0..count).step_by(CHUNK as usize) {
+        let numbers = start..count.min(start + CHUNK);
+        let values: Vec<f64> =
+            numbers.clone().flat_map(|number| chosen.at(number, dofs).into_owned()).collect();
+        let add = |shapes: &Proximity, total: &mut u64, often: &mut BTreeMap<_, usize>| {
+            let answers = match dofs {
+                // An empty slice does not determine the number of configurations.
+                0 => {
+                    let answer = shapes.in_collision(&[])?;
+                    numbers.clone().map(|_| answer).collect()
+                }
+                _ => shapes.in_collision_batch(&values)?,
+            };
+            for (number, _) in numbers.clone().zip(answers).filter(|(_, collides)| *collides) {
+                *total += 1;
+                let touching = shapes.collisions(&chosen.at(number, dofs))?;
+                for (links, _) in links_of(&touching) {
+                    *often.entry(links).or_default() += 1;
+                }
+            }
+            Ok::<(), RobotError>(())
+        };
+        add(proximity, &mut colliding, &mut often)?;
+        if let Some(hidden) = hidden {
+            add(hidden, &mut unseen, &mut often_unseen)?;
+        }
+    }
+    let share = 100.0 * colliding as f64 / count as f64;
+    let mut text = format!("{colliding} of {} configurations collide ({share:.1} %)\n", count);
+    list_worst(&mut text, often);
+    if unseen > 0 {
+        let share = 100.0 * unseen as f64 / count as f64;
+        let _ = writeln!(
+            text,
+            "not counted: {unseen} ({share:.1} %) in which links touch that are skipped because they touch at rest"
+        );
+        list_worst(&mut text, often_unseen);
     }
     text.push_str(&totals(proximity, count));
     Ok((text, colliding > 0))

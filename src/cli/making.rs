@@ -56,6 +56,11 @@ pub(super) struct MakingArguments {
     #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
     skip: Option<Vec<Skip>>,
 
+    /// Named configuration of the URDD that is replaced in which pairs of links that touch are skipped, in place of the
+    /// default configuration. `default` is that one again.
+    #[arg(long, value_name = "NAME")]
+    reference: Option<String>,
+
     /// Number of threads; default: one per processor. The URDD is the same for any number.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
@@ -129,6 +134,7 @@ impl MakingArguments {
             drop_edits: self.drop_edits,
             skipped_reasons: (self.skip.as_ref())
                 .map(|skip| skip.iter().copied().map(Into::into).collect()),
+            reference: self.reference.clone(),
             force: self.force,
             cancellation: signals.cancellation(),
             ..Settings::default()

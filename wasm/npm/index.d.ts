@@ -89,6 +89,8 @@ export interface GenerateOptions extends ImportOptions {
   piece_tolerance?: number;
   /** Sampled configurations of the distance statistics, 1 to 100,000; by default 1000. */
   samples?: number;
+  /** The named configuration of an MJCF in which links that touch are skipped, in place of the default configuration. */
+  reference?: string;
   /** Refuses a robot of which a mesh is missing, or something has to be assumed. */
   strict?: boolean;
 }
@@ -313,6 +315,11 @@ export class Robot {
   /** The nearest pairs, among obstacles where they are given. */
   nearest(q: Iterable<number>, k: number, among: Among): ObstacleDistance[];
   nearest(q: Iterable<number>, k?: number, among?: ShapeKind | Own): Distance[];
+  /**
+   * The pairs of links that are skipped because they touch in the default configuration, or in the reference. Where they
+   * touch elsewhere, the robot collides, and `inCollision` calls it free.
+   */
+  skippedContacts(kind?: ShapeKind): [string, string][];
   /** Whether shapes that are not skipped touch, or one touches an obstacle. */
   inCollision(q: Iterable<number>, among?: ShapeKind | Own | Among): boolean;
   /**

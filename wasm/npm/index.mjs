@@ -197,6 +197,10 @@ export class Robot {
     return this.#collisions({ nearest: { q: [...q], k } }, among);
   }
 
+  skippedContacts(kind = "pieces") {
+    return this.#ask({ ask: "skipped_contacts", kind });
+  }
+
   inCollision(q, among = {}) {
     return this.#collisions({ in_collision: { q: [...q] } }, among);
   }

@@ -27,6 +27,7 @@ struct Question {
     pieces: Option<f64>,
     piece_tolerance: Option<f64>,
     samples: Option<f64>,
+    reference: Option<String>,
     #[serde(default)]
     strict: bool,
     body: Option<String>,
@@ -78,6 +79,7 @@ fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Val
         import::options(question.body, question.model, question.ball, question.massless);
     let mut settings = Settings {
         source,
+        reference: question.reference,
         strict: question.strict,
         donors: donor.map(|donor| donor.root.clone()).into_iter().collect(),
         ..Settings::default()

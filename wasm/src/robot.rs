@@ -1,5 +1,7 @@
 //! Queries on a robot.
 
+use std::collections::BTreeSet;
+
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -24,6 +26,8 @@ pub struct Handle {
     files: Files,
     robot: Robot,
     proximity: Vec<Proximity>,
+    /// By kind: the pairs that are skipped because they touch at rest, if there are any.
+    skipped: Vec<(ShapeKind, Option<Proximity>)>,
     obstacles: Obstacles,
     pairs: Option<Pairs>,
     /// The learned model once read; `Some(None)` if the robot has none.
@@ -42,6 +46,7 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
         robot: Robot::of(files.root.clone()),
         files,
         proximity: Vec::new(),
+        skipped: Vec::new(),
         obstacles: Obstacles::default(),
         pairs: None,
         model: None,
@@ -129,13 +134,19 @@ enum Question {
     CentreOfMass { q: Vec<f64> },
     /// The torque or force of each DOF that holds the robot still, N m or N.
     GravityTorques { q: Vec<f64>, gravity: Option<[f64; 3]>, payload: Option<Carried> },
-    /// `nearest`, each with its statistics; `in_collision`, `pairs` (the number checked) and `of` (their total number).
+    /// `nearest`, each with its statistics; `in_collision`, `pairs` (the number checked) and `of` (their total number);
+    /// `skipped_touching`: the links of each pair that touches and is skipped because it touches at rest.
     Proximity {
         q: Vec<f64>,
         #[serde(default)]
         kind: Kind,
         #[serde(default = "one")]
         k: u64,
+    },
+    /// The names of the links of each pair that is skipped because it touches at rest.
+    SkippedContacts {
+        #[serde(default)]
+        kind: Kind,
     },
     /// The learned self-collision model and its error rates: [`model::about`]. Null if there is none.
     CollisionModel,
@@ -262,6 +273,11 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
                 Some(pair) => pair.distance <= 0.0,
                 None => shapes.in_collision(&q).map_err(said)?,
             };
+            let unseen = match skipped(handle, kind)? {
+                Some(skipped) => skipped.collisions(&q).map_err(said)?,
+                None => Vec::new(),
+            };
+            let unseen: BTreeSet<[usize; 2]> = unseen.iter().map(|pair| pair.link_idxs).collect();
             let pairs = pairs(handle)?;
             let with = |found: &PairDistance| {
                 let mut value = pair(found);
@@ -275,7 +291,14 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
                 "pairs": checked,
                 "of": pairs.count(kind),
                 "num_samples": pairs.num_samples(kind),
+                "skipped_touching": unseen,
             }))
+        }
+        Question::SkippedContacts { kind } => {
+            let skipped = skipped(handle, kind.0)?;
+            let names: BTreeSet<[&str; 2]> =
+                skipped.iter().flat_map(|shapes| shapes.pair_names()).collect();
+            Ok(json!(names))
         }
         Question::CollisionModel => {
             let model = learned(&mut handle.model, &handle.robot)?;
@@ -365,6 +388,20 @@ fn prepared<'a>(
 
 fn proximity(handle: &mut Handle, kind: Kind) -> Result<&Proximity, String> {
     prepared(&mut handle.proximity, &handle.robot, kind)
+}
+
+/// The pairs of a kind that are skipped because they touch at rest, prepared on first use.
+fn skipped(handle: &mut Handle, kind: ShapeKind) -> Result<Option<&Proximity>, String> {
+    let known = handle.skipped.iter().position(|(known, _)| *known == kind);
+    let at = match known {
+        Some(at) => at,
+        None => {
+            let found = handle.robot.skipped_contacts(kind).map_err(|error| error.to_string())?;
+            handle.skipped.push((kind, found));
+            handle.skipped.len() - 1
+        }
+    };
+    Ok(handle.skipped[at].1.as_ref())
 }
 
 /// The learned model, read on first use.

@@ -104,4 +104,9 @@ impl SkipReason {
     pub fn is_simple(self) -> bool {
         matches!(self, SkipReason::SameLink | SkipReason::Always)
     }
+
+    /// Whether the pair is apart in some configuration and is no neighbour: its contact is a collision.
+    pub fn can_collide(self) -> bool {
+        matches!(self, SkipReason::Default | SkipReason::Never | SkipReason::None)
+    }
 }

@@ -60,6 +60,23 @@ module! {
     }
 }
 
+/// Begins the reason of an edit that skips a pair because it touches in a reference configuration.
+const IN_REFERENCE: &str = "in contact in the reference configuration ";
+
+impl SkipEdit {
+    /// The edit that skips two links because they touch in the configuration `reference`.
+    pub fn of_reference(reference: &str, link_a: &str, link_b: &str) -> Self {
+        let reason = format!("{IN_REFERENCE}`{reference}`");
+        SkipEdit { link_a: link_a.to_owned(), link_b: link_b.to_owned(), skip: true, reason }
+    }
+
+    /// The reference configuration in which the two touch, if this is why the edit skips them.
+    pub fn reference(&self) -> Option<&str> {
+        let name = self.reason.strip_prefix(IN_REFERENCE).filter(|_| self.skip)?;
+        name.strip_prefix('`')?.strip_suffix('`')
+    }
+}
+
 impl SkippedReason {
     /// The reasons skipped by default.
     pub const USUAL: &[SkippedReason] = &[

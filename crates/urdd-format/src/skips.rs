@@ -4,7 +4,7 @@
 //! The generator and editors of URDDs write the module with this code. The validator does not use
 //! it; it checks each pair independently.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
 use crate::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
@@ -43,6 +43,62 @@ pub fn skips_module(
         decomposition_bounding_spheres_skips: of_pieces(&reasons.decomposition_bounding_spheres),
         skipped_reasons,
         edits,
+    }
+}
+
+/// The pairs of links that are skipped because they touch in one configuration, whatever others do: contact of these is a
+/// collision that no check sees.
+pub struct HiddenContacts {
+    by_reference: HashMap<[usize; 2], String>,
+    by_person: HashSet<[usize; 2]>,
+}
+
+/// The configuration in which two links touch, so that they are skipped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TouchesIn<'a> {
+    /// The default configuration.
+    Default,
+    /// The reference configuration of this name.
+    Reference(&'a str),
+}
+
+impl HiddenContacts {
+    /// `link_names` are the names of the robot's links in link order.
+    pub fn new<'a>(edits: &[SkipEdit], link_names: impl Iterator<Item = &'a str>) -> Self {
+        let mut indices: HashMap<&str, usize> = HashMap::new();
+        for (at, name) in link_names.enumerate() {
+            indices.entry(name).or_insert(at);
+        }
+        let mut hidden = Self { by_reference: HashMap::new(), by_person: HashSet::new() };
+        for edit in edits {
+            let links = [&edit.link_a, &edit.link_b].map(|name| indices.get(name.as_str()));
+            let [Some(&a), Some(&b)] = links else {
+                continue;
+            };
+            let links = [a.min(b), a.max(b)];
+            match edit.reference() {
+                Some(name) => drop(hidden.by_reference.insert(links, name.to_owned())),
+                None => drop(hidden.by_person.insert(links)),
+            }
+        }
+        hidden
+    }
+
+    /// Where a pair of shapes of two links, the lower index first, touches, if it is skipped for that; `None` for one that
+    /// is not skipped, that a person decided on, or that never is apart.
+    pub fn touches_in(
+        &self,
+        links: [usize; 2],
+        reason: SkipReason,
+        is_skipped: bool,
+    ) -> Option<TouchesIn<'_>> {
+        if !is_skipped || !reason.can_collide() || self.by_person.contains(&links) {
+            return None;
+        }
+        match self.by_reference.get(&links) {
+            Some(name) => Some(TouchesIn::Reference(name)),
+            None => (reason == SkipReason::Default).then_some(TouchesIn::Default),
+        }
     }
 }
 

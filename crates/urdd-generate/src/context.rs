@@ -7,7 +7,7 @@ use super::meshes::names::mesh_files;
 use super::named::Named;
 use super::progress::Progress;
 use super::settings::Settings;
-use super::{bounds, chain, dof};
+use super::{bounds, chain, dof, reference};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
 use urdd_format::composition::CompositionModule;
@@ -15,6 +15,7 @@ use urdd_format::dof::DofModule;
 use urdd_format::kinematics_samples::{ConfigurationKind, KinematicsSamplesModule};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::MeshFiles;
+use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::ModuleKind;
 use urdd_format::short::Short;
 use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics, KinematicsError};
@@ -39,6 +40,8 @@ pub(crate) struct Context<'a> {
     pub edits: Edits,
     /// The user's named configurations.
     pub named: Named,
+    /// The named configuration in which pairs that touch are skipped, in place of the default configuration.
+    pub reference: Option<NamedConfiguration>,
 }
 
 /// The fault of a robot whose poses cannot be computed in a configuration; names the joint above the link where it
@@ -78,8 +81,16 @@ impl<'a> Context<'a> {
         let kinematics = ForwardKinematics::new(&chain, &dof).map_err(overflow)?;
         let samples = kinematics_samples_module(&space, &kinematics)
             .map_err(|(kind, error)| refused(no_poses(kind, &error, &chain)))?;
+        let named = Named::of(&decisions.configurations, &dof, &bounds);
+        let reference = reference::of(settings.reference.as_deref(), &named)
+            .map_err(|fault| GenerateError::Reference { file: source.shown.clone(), fault })?;
+        let decisions = match &settings.reference {
+            Some(_) => reference::taken(decisions, reference.is_some()),
+            None => decisions,
+        };
         Ok(Context {
-            named: Named::of(&decisions.configurations, &dof, &bounds),
+            named,
+            reference,
             edits: Edits::of(decisions, &chain),
             source,
             settings,
@@ -98,6 +109,9 @@ impl<'a> Context<'a> {
     pub fn skipped_reasons(&self) -> Vec<SkippedReason> {
         let asked = self.settings.skipped_reasons.as_deref();
         let mut reasons = asked.unwrap_or(&self.edits.skipped_reasons).to_vec();
+        if self.reference.is_some() {
+            reasons.retain(|reason| *reason != SkippedReason::Default);
+        }
         reasons.sort();
         reasons.dedup();
         reasons

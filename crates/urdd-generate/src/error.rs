@@ -10,6 +10,7 @@ use urdd_directory::position::Position;
 use urdd_directory::range::OutOfRange;
 use urdd_directory::staging::StagingError;
 use urdd_format::escape;
+use urdd_format::short::Short;
 use urdd_source::SourceError;
 use urdd_source::note::Note;
 
@@ -55,6 +56,14 @@ pub enum GenerateError {
         lost: &'static str,
         /// Why they would be lost.
         fault: EditsFault,
+    },
+    /// The configuration that is to be the reference cannot be it.
+    #[error("{file}: --reference: {fault}")]
+    Reference {
+        /// The file, as the user named it.
+        file: String,
+        /// Why.
+        fault: ReferenceFault,
     },
     /// The output would replace its own source.
     #[error("{file}: it is in the output folder {}, which would be replaced; give another output folder", target.display())]
@@ -128,11 +137,45 @@ impl GenerateError {
             GenerateError::Outside { .. } => "outside",
             GenerateError::Strict { .. } => "strict",
             GenerateError::Edits { .. } => "edits",
+            GenerateError::Reference { .. } => "reference",
             GenerateError::SourceInTarget { .. } => "source-in-output",
             GenerateError::Write(_) => "not-written",
             GenerateError::Cancelled => "cancelled",
             GenerateError::Geometry { .. } => "geometry",
             GenerateError::Internal { .. } => "internal",
+        }
+    }
+}
+
+/// Why a configuration cannot be the reference.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ReferenceFault {
+    /// No configuration has this name.
+    #[error("the URDD that is replaced has no configuration `{name}`; {}", known_names(known))]
+    Unknown {
+        /// The name.
+        name: Short,
+        /// The names that there are.
+        known: Vec<Short>,
+    },
+    /// A position in it is not one of this robot.
+    #[error("{0}; correct it by `urdd configurations set`")]
+    Position(String),
+}
+
+fn known_names(known: &[Short]) -> String {
+    match known {
+        [] => {
+            "it has none: add one by `urdd configurations set` or `import`, and generate it again"
+                .to_owned()
+        }
+        _ => {
+            let shown: Vec<String> =
+                known.iter().take(MOST_SHOWN).map(|name| format!("`{name}`")).collect();
+            let more = known.len() - shown.len();
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            format!("it has {}{more}", shown.join(", "))
         }
     }
 }

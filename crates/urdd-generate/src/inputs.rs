@@ -39,7 +39,12 @@ pub(super) fn text(kind: ModuleKind, context: &Context) -> Option<String> {
         }
         ModuleKind::LinkShapesSimpleSkips => "2".to_owned(),
         ModuleKind::LinkShapesSkips => {
-            serde_json::json!((context.skipped_reasons(), &context.edits.kept)).to_string()
+            let text =
+                serde_json::json!((context.skipped_reasons(), &context.edits.kept)).to_string();
+            match &context.reference {
+                None => text,
+                Some(of) => format!("{text}; {}", serde_json::json!((&of.name, &of.configuration))),
+            }
         }
         ModuleKind::SelfCollisionModel => format!("{VERSION} {:?}", settings.model_effort),
         _ => return None,

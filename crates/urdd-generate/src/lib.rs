@@ -33,6 +33,7 @@ pub mod distinct;
 mod dof;
 mod donor;
 mod error;
+mod geometry_notes;
 mod given;
 mod inputs;
 mod kinematics_samples;
@@ -46,6 +47,7 @@ mod modules;
 mod named;
 mod product;
 mod progress;
+mod reference;
 mod robot;
 mod selection;
 mod settings;
@@ -56,10 +58,11 @@ mod shape_stages;
 #[doc(hidden)]
 pub mod shapes;
 mod size;
+mod skipped_contacts;
 mod stages;
 
 pub(crate) use composed::Composed;
-pub use error::{EditsFault, GenerateError, OutsideMesh};
+pub use error::{EditsFault, GenerateError, OutsideMesh, ReferenceFault};
 pub use meshes::MeshCount;
 pub use modules::MadeModule;
 pub use progress::Progress;

@@ -87,6 +87,16 @@ impl<'a> Modules<'a> {
         Ok(Some(product))
     }
 
+    /// Whether there is such a module, built or kept.
+    pub fn has(&self, kind: ModuleKind) -> bool {
+        self.made.iter().any(|module| module.kind == kind)
+    }
+
+    /// The new URDD.
+    pub fn root(&self) -> &Root {
+        &self.root
+    }
+
     /// Begins a module. `None` if it is not selected, or is kept.
     fn begin(&mut self, kind: ModuleKind) -> Result<Option<Begun>, GenerateError> {
         if !self.selected.contains(&kind) {

@@ -10,8 +10,8 @@ use urdd_format::named_configurations::{
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Named {
     pub configurations: Vec<NamedConfiguration>,
-    /// Positions that this robot cannot have: what is wrong with each.
-    pub lost: Vec<String>,
+    /// Positions that this robot cannot have: the configuration, and what is wrong.
+    pub lost: Vec<(String, String)>,
 }
 
 impl Named {
@@ -32,7 +32,7 @@ impl Named {
                         "the configuration `{name}` has the DOF `{dof}` at {at}, but its bounds are {lower} and {upper}"
                     ),
                 };
-                named.lost.push(problem);
+                named.lost.push((name.to_string(), problem));
                 false
             });
             named.configurations.push(dofs.named(&kept));

@@ -35,6 +35,10 @@ pub struct Settings {
     /// The reasons for which pairs are skipped. `None` keeps those of the URDD that is replaced, or uses the usual ones
     /// for a new URDD.
     pub skipped_reasons: Option<Vec<SkippedReason>>,
+    /// The named configuration in which pairs of links that touch are skipped, in place of the default configuration:
+    /// edits of skips say so, and the reason `Default` is not among those that are skipped. `default`, where no
+    /// configuration has this name, is the default configuration again. `None` changes nothing.
+    pub reference: Option<String>,
     /// Whether a missing mesh, or any assumption that changes the robot, is an error.
     pub strict: bool,
     /// Whether to drop the skip edits and the named configurations of the URDD that is replaced.
@@ -112,6 +116,7 @@ impl Default for Settings {
             pieces: Pieces::default(),
             num_samples: 1000,
             skipped_reasons: None,
+            reference: None,
             strict: false,
             drop_edits: false,
             force: false,

@@ -7,12 +7,12 @@ use super::error::GenerateError;
 use super::made::{Made, made_with, streamed};
 use super::shape_documents;
 use super::shapes::approximations::approximations;
-use super::shapes::statistics::{Shapes, at_default_configuration, statistics};
+use super::shapes::statistics::{Shapes, distances_at, statistics};
 use super::shapes::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, Shape, simple_skips};
 use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as Approximations;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkips;
-use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
+use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
 use urdd_format::skips::skips_module;
 use urdd_source::note::NoteKind;
 
@@ -51,18 +51,21 @@ pub(super) fn skips_by_distance(
     shapes: &Shapes,
     statistics: &Statistics,
 ) -> Result<Made<Arc<SimpleSkips>>, GenerateError> {
-    let default = at_default_configuration(context, shapes)?;
+    let name = "the default configuration";
+    let default = distances_at(context, shapes, name, &context.space.default_configuration())?;
     let module = Arc::new(simple_skips::simple_skips(statistics, &default, &context.chain));
     streamed(shape_documents::simple_skips(&module), module)
 }
 
+/// `by_reference` are the edits that follow from the reference configuration. A person's edits are applied after them.
 pub(super) fn edited_skips(
     context: &Context,
     simple: &SimpleSkips,
+    by_reference: Vec<SkipEdit>,
 ) -> Result<Made<Arc<Skips>>, GenerateError> {
     let links = context.chain.links_in_chain.iter();
     let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
-    let edits = context.edits.kept.clone();
+    let edits = [by_reference, context.edits.kept.clone()].concat();
     let module = Arc::new(skips_module(simple, context.skipped_reasons(), edits, &names));
     let mut made = streamed(shape_documents::skips(&module), module)?;
     let lost = context.edits.lost.iter().map(|edit| {

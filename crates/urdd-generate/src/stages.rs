@@ -2,6 +2,7 @@
 //! products of earlier stages, and what donors have. It returns its module and its product.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::context::Context;
@@ -15,9 +16,13 @@ use super::named::Named;
 use super::shapes::ConvexMeshes;
 use super::shapes::max_distances::max_distances;
 use super::shapes::statistics::Shapes;
-use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
+use super::skipped_contacts;
+use super::{
+    geometry_notes, inputs, learned, mesh_stages as meshes, product, shape_stages as shapes,
+};
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::named_configurations::NamedConfigurationsModule;
+use urdd_format::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
 use urdd_source::note::NoteKind;
 
@@ -41,6 +46,11 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
         let taken = donors.plain(context, original.as_ref(), digests);
         meshes::plain(context, original.as_ref(), &taken)
     })?;
+    if modules.has(ModuleKind::PlainMeshes) {
+        let taken: Arc<PlainMeshesModule> =
+            product::document(modules.root(), ModuleKind::PlainMeshes)?;
+        modules.notes.extend(geometry_notes::notes(context, &taken));
+    }
     let kind = ModuleKind::ConvexHullMeshes;
     let hulls = modules.product(kind, product::hulls, |digests| {
         let plain = plain.get()?;
@@ -79,10 +89,20 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     let simple_skips = modules.product(kind, product::document, |_| {
         shapes::skips_by_distance(context, prepared()?, statistics.get()?)
     })?;
-    drop(known);
-    let skips = modules.product(ModuleKind::LinkShapesSkips, product::document, |_| {
-        shapes::edited_skips(context, simple_skips.get()?)
+    let kind = ModuleKind::LinkShapesSkips;
+    let skips = modules.product(kind, product::document, |_| {
+        let simple = simple_skips.get()?;
+        let by_reference = match context.reference {
+            Some(_) => skipped_contacts::of_reference(context, prepared()?, simple)?,
+            None => Vec::new(),
+        };
+        shapes::edited_skips(context, simple, by_reference)
     })?;
+    if modules.has(kind) {
+        let (simple, skips) = (simple_skips.get()?, skips.get()?);
+        modules.notes.extend(skipped_contacts::notes(context, prepared, simple, skips)?);
+    }
+    drop(known);
     modules.add(ModuleKind::SelfCollisionModel, |digests| {
         let (pieces, skips) = (pieces.get()?, skips.get()?);
         learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
@@ -119,7 +139,8 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
 fn named_configurations(context: &Context) -> Result<Made, GenerateError> {
     let Named { configurations, lost } = &context.named;
     let assumed = "the position is left out; the DOF has its default value there";
-    let note = |problem: &String| context.note(NoteKind::LeftOut, problem.clone(), assumed);
+    let note =
+        |(_, problem): &(String, String)| context.note(NoteKind::LeftOut, problem.clone(), assumed);
     let notes = lost.iter().map(note).collect();
     let configurations = configurations.clone();
     Ok(Made { notes, ..made(&NamedConfigurationsModule { configurations })? })

@@ -66,6 +66,10 @@ kinds! {
     Lost = "lost",
     /// What a URDF has in another way than the description that is imported.
     Otherwise = "otherwise",
+    /// Which elements the shapes of links are made of.
+    GeometryTaken = "geometry-taken",
+    /// Links that are skipped because they touch in one configuration, and touch in others too.
+    SkippedContact = "skipped-contact",
     /// Files of the user's in the folder of a module that is not made any more.
     LeftBehind = "left-behind",
 }
@@ -73,12 +77,19 @@ kinds! {
 impl NoteKind {
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
-        use NoteKind::{
-            Encoding, Geometry, LeftBehind, OfNoUse, Otherwise, Outside, TooLarge, Xml,
-        };
+        use NoteKind::*;
         !matches!(
             self,
-            Encoding | Geometry | Xml | Outside | TooLarge | OfNoUse | LeftBehind | Otherwise
+            Encoding
+                | Geometry
+                | Xml
+                | Outside
+                | TooLarge
+                | OfNoUse
+                | LeftBehind
+                | Otherwise
+                | GeometryTaken
+                | SkippedContact
         )
     }
 }

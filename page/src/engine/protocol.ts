@@ -120,6 +120,8 @@ export interface ProximityAnswer {
   pairs: number;
   of: number | null;
   num_samples: number | null;
+  /** The links of each pair that touches, and is skipped because it touches at rest. */
+  skipped_touching: [number, number][];
   /** The learned model's estimate for the same configuration, or its error; null without a model, or for other shapes
    * than pieces. */
   model: Learned | { error: string } | null;

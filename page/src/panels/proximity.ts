@@ -93,7 +93,8 @@ export function proximity(app: App): HTMLElement {
     });
     if (kind.value !== shapes) kind.value = shapes;
     state.textContent = answer?.pairs ? verdict(app) : "";
-    state.className = `collision ${answer?.pairs ? (answer.in_collision ? "bad" : "good") : ""}`;
+    const free = answer?.skipped_touching.length ? "" : "good";
+    state.className = `collision ${answer?.pairs ? (answer.in_collision ? "bad" : free) : ""}`;
     learned.show(answer);
     empty.hidden = nearest.length > 0;
     hint.hidden = nearest.length === 0;
@@ -108,7 +109,10 @@ export function proximity(app: App): HTMLElement {
 /** Whether the robot collides, by links. */
 function verdict(app: App): string {
   const n = app.store.now.contacts?.pairs.length ?? 0;
-  return n === 0 ? "No self-collision" : `Self-collision: ${count(n, "pair")} of links`;
+  if (n > 0) return `Self-collision: ${count(n, "pair")} of links`;
+  const skipped = app.store.now.proximity.answer?.skipped_touching.length ?? 0;
+  if (skipped === 0) return "No self-collision";
+  return `No self-collision among the pairs that are checked; ${count(skipped, "pair")} of links ${skipped === 1 ? "touches and is" : "touch and are"} skipped`;
 }
 
 function said(error: string | null, answer: ProximityAnswer | null, open: boolean): string {

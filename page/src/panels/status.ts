@@ -33,7 +33,15 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
   if (answer.pairs === 0) return as("no pair to check for collisions", "open", "");
-  if (pairs.length === 0) return as("no self-collision", "good", "");
+  const skipped = answer.skipped_touching.map((links) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
+  if (pairs.length === 0 && skipped.length === 0) return as("no self-collision", "good", "");
+  if (pairs.length === 0) {
+    const are = skipped.length === 1 ? "touches" : "touch";
+    const rest = skipped.length > NAMED ? ` and ${skipped.length - NAMED} more` : "";
+    const more = `skipped, because they touch at rest: ${skipped.slice(0, NAMED).join(", ")}${rest}`;
+    const number = count(skipped.length, "skipped pair");
+    return as(`no self-collision, but ${number} ${are}`, "open", more, `${number} ${are}`);
+  }
   const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
   const more = pairs.slice(0, NAMED).join(", ") + rest;
   const brief = count(pairs.length, "self-collision");
@@ -61,7 +69,7 @@ export function status(app: App): HTMLElement {
       const skipped = answer.of === null ? null : answer.of - answer.pairs;
       fill(
         left,
-        more !== "" && h("span", { class: "bad" }, more),
+        more !== "" && h("span", { class: kind === "bad" ? "bad" : "" }, more),
         h("span", { class: "wide-only" }, `${count(answer.pairs, "pair")} of ${SHAPE_NAMES[shapes]} checked`),
         skipped !== null && h("span", { class: "wide-only" }, `${skipped.toLocaleString("en")} skipped`),
         h("span", { class: "wide-only" }, `${number(answer.ms, 2)} ms`),

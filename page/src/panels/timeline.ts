@@ -30,7 +30,7 @@ export class Timeline {
   private playing = false;
   /** Counts what is loaded or played, so that only the last one takes effect. */
   private turn = 0;
-  private found: ({ distance: number; collides: boolean } | null)[] = [];
+  private found: ({ distance: number; collides: boolean; unseen: boolean } | null)[] = [];
   private readonly input = h("input", { type: "file", accept: ".csv,.jsonl,.ndjson", hidden: true });
   private readonly title = h("strong", {});
   private readonly play = button("Play", { id: "timeline-play" }, () => {
@@ -234,13 +234,15 @@ export class Timeline {
     const number = Math.min(ASKED, Math.max(2, trajectory.times.length));
     this.found = Array.from({ length: number }, () => null);
     this.said.textContent = "";
+    let pairs = 0;
     try {
       for (let k = 0; k < number; k++) {
         const q = trajectory.at((trajectory.duration * k) / (number - 1));
         const answer = await app.engine.ask("proximity", { q, kind, k: 1 });
         if (turn !== this.turn) return;
         const [pair] = answer.nearest;
-        this.found[k] = { distance: pair?.distance ?? Infinity, collides: answer.in_collision };
+        this.found[k] = { distance: pair?.distance ?? Infinity, collides: answer.in_collision, unseen: answer.skipped_touching.length > 0 };
+        pairs = answer.pairs;
         this.draw();
       }
     } catch {
@@ -251,8 +253,11 @@ export class Timeline {
     const hits = all.filter((one) => one.collides).length;
     const least = Math.min(...all.map((one) => one.distance));
     const near = Number.isFinite(least) ? `, least distance ${length(least)}` : "";
-    this.said.textContent =
-      hits > 0 ? `self-collision for ${Math.ceil((100 * hits) / number)} % of the time` : `no self-collision${near}`;
+    const share = (hits: number): string => `${Math.ceil((100 * hits) / number)} % of the time`;
+    const unseen = all.filter((one) => one.unseen && !one.collides).length;
+    const free = pairs === 0 ? "no pair to check for collisions" : `no self-collision${near}`;
+    const skipped = unseen > 0 ? `; links that are skipped touch for ${share(unseen)}` : "";
+    this.said.textContent = (hits > 0 ? `self-collision for ${share(hits)}` : free) + skipped;
     this.strip.setAttribute("aria-label", this.said.textContent);
   }
 

@@ -99,6 +99,7 @@ def generate(
     piece_tolerance: float | None = None,
     samples: int = 1000,
     skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
+    reference: str | None = None,
     strict: bool = False,
     xacro: bool = False,
     xacro_arguments: Mapping[str, object] | None = None,
@@ -131,6 +132,8 @@ def generate(
         samples: number of sampled configurations for the distance statistics, at most 100,000.
         skip: the reasons for which pairs of shapes are skipped in collision checks. By default those of the URDD that
             is replaced; for a new URDD all but ``never``.
+        reference: the named configuration of the URDD that is replaced, or of the MJCF, in which pairs of links that
+            touch are skipped, in place of the default configuration. ``"default"`` is that one again.
         strict: rejects a robot if a mesh is not found, or if an assumption would change the robot.
         xacro: also expands macros in .urdf files.
         xacro_arguments: arguments of the xacro file, by name.
@@ -159,6 +162,7 @@ def generate(
         "piece_tolerance": piece_tolerance,
         "samples": samples,
         "skip": skip,
+        "reference": reference,
         "strict": strict,
         "xacro": xacro,
         "xacro_timeout": xacro_timeout,

@@ -53,6 +53,8 @@ class MakingOptions(TypedDict, total=False):
     """Number of sampled configurations for the distance statistics."""
     skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None
     """The reasons for which pairs of shapes are skipped."""
+    reference: str | None
+    """The named configuration in which pairs of links that touch are skipped."""
     strict: bool
     """Rejects assumptions that change the robot."""
     xacro: bool
@@ -100,6 +102,7 @@ class GenerateOptions:
     piece_tolerance: float | None
     samples: int
     skip: list[str] | None
+    reference: str | None
     strict: bool
     drop_edits: bool
     force: bool
@@ -210,6 +213,7 @@ def options_of(
         piece_tolerance=None if tolerance is None else float(tolerance),
         samples=ranged(given.get("samples", 1000), "generate.samples"),
         skip=None if skip is None else words(skip, "skip"),
+        reference=given.get("reference"),
         strict=bool(given.get("strict", False)),
         drop_edits=bool(given.get("drop_edits", False)),
         force=bool(given.get("force", False)),

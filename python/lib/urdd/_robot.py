@@ -78,8 +78,17 @@ class Robot(RobotKinematics):
         """The shapes of a kind, prepared for distances on first use."""
         return Proximity(self, kind)
 
+    def skipped_contacts(self, kind: ShapeKind = "pieces") -> list[tuple[str, str]]:
+        """The pairs of links that are skipped because they touch in the default configuration, or in the reference
+        configuration that ``generate`` was given. Where they touch elsewhere, the robot collides, and
+        :meth:`in_collision` calls it free. Pairs that a person decided on are left out."""
+        core = self.core.skipped_contacts(kind)
+        names = [] if core is None else core.pair_names()
+        return list(dict.fromkeys((a, b) for a, b in names))
+
     def in_collision(self, q: ArrayLike, kind: ShapeKind = "pieces") -> Bools:
-        """(...): whether the robot is in self-collision. As :meth:`Proximity.in_collision`."""
+        """(...): whether the robot is in self-collision. As :meth:`Proximity.in_collision`. It does not see the pairs
+        of :meth:`skipped_contacts`."""
         return self.proximity(kind).in_collision(q)
 
     def distances(self, q: ArrayLike, kind: ShapeKind = "pieces") -> Floats:

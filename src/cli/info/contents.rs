@@ -9,10 +9,13 @@ use serde::Serialize;
 use super::names::{safe, widest};
 use super::order::{self, OrderInfo};
 use super::parts::{self, PartInfo};
+use super::skipped::{self, SkippedContact};
 use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
+use urdd_format::escape;
+use urdd_format::meshes::GeometryKind;
 use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::self_collision_model::ModelEvaluation;
@@ -39,6 +42,11 @@ pub struct Info {
     pub parts: Vec<PartInfo>,
     /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
+    /// Which elements the shapes of links are made of; null without `plain_meshes_module`.
+    pub geometry: Option<GeometryInfo>,
+    /// Pairs of links that are skipped because they touch in the default configuration, or in the reference; null if the
+    /// modules of shapes are missing or cannot be read.
+    pub skipped_contacts: Option<Vec<SkippedContact>>,
     pub modules: Vec<ModuleInfo>,
     /// The joints in the order of each program, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,6 +63,50 @@ pub struct DofInfo {
     /// `rad` or `m`, if the module states it.
     pub unit: Option<&'static str>,
     pub bounds: Option<[f64; 2]>,
+}
+
+/// The elements that the shapes of links are made of.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GeometryInfo {
+    /// Number of links whose shapes are those of their visual elements.
+    pub visual: usize,
+    /// Number of links whose shapes are those of their collision elements.
+    pub collision: usize,
+    /// Number of links with collision elements, whatever was taken; null if the URDF's module cannot be read.
+    pub with_collision: Option<usize>,
+}
+
+impl GeometryInfo {
+    fn of(urdd: &Urdd) -> Option<Self> {
+        let Some(ModuleDocument::PlainMeshes(plain)) = urdd.document(ModuleKind::PlainMeshes)
+        else {
+            return None;
+        };
+        let count = |kind| {
+            let meshes = plain.link_meshes.iter().flatten();
+            meshes.filter(|mesh| mesh.geometry == kind).count()
+        };
+        let links = urdd.robot().map(|robot| robot.links.iter());
+        Some(Self {
+            visual: count(GeometryKind::Visual),
+            collision: count(GeometryKind::Collision),
+            with_collision: links
+                .map(|links| links.filter(|link| !link.collision.is_empty()).count()),
+        })
+    }
+
+    fn write(&self, out: &mut impl Write) -> fmt::Result {
+        let Self { visual, collision, with_collision } = self;
+        let what = match visual + collision {
+            0 => "no link has shapes: nothing can collide".to_owned(),
+            _ => format!("visual elements of {visual} links, collision elements of {collision}"),
+        };
+        let none = match with_collision {
+            Some(0) if *visual > 0 => "; no link has a collision element",
+            _ => "",
+        };
+        writeln!(out, "  shapes    {what}{none}")
+    }
 }
 
 /// The rates of a self-collision model, as its module states them.
@@ -164,6 +216,8 @@ impl Info {
             base: composition.and_then(|of| parts::base(of.base.as_ref(), robot)),
             parts: composition.map_or_else(Vec::new, |of| parts::tree(&of.parts, robot)),
             collision_model: model,
+            geometry: GeometryInfo::of(&urdd),
+            skipped_contacts: SkippedContact::all(path),
             modules: urdd
                 .modules()
                 .map(|module| {
@@ -239,6 +293,10 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
         let bounds = bounds.unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
     }
+    if let Some(geometry) = &info.geometry {
+        geometry.write(out)?;
+    }
+    skipped::write(info.skipped_contacts.as_deref().unwrap_or_default(), out)?;
     if let Some(model) = &info.collision_model {
         model.write(out)?;
     }

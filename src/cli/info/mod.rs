@@ -4,6 +4,7 @@ mod contents;
 mod names;
 mod order;
 mod parts;
+mod skipped;
 mod statics;
 
 use std::fmt::Display;

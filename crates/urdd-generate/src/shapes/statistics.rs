@@ -35,12 +35,7 @@ pub(crate) fn statistics(
     shapes: &Shapes,
 ) -> Result<LinkShapesDistanceStatisticsModule, GenerateError> {
     let Settings { num_samples, cancellation, .. } = context.settings;
-    let configuration = |sample: u32| {
-        let name = format!("sampled configuration {sample}");
-        (name, context.space.sampled(u64::from(sample)))
-    };
-    let configurations = (0..*num_samples).into_par_iter().map(configuration);
-    let mut found = over(&motion(context, configurations)?, shapes, cancellation).into_iter();
+    let mut found = over(&sampled_motion(context)?, shapes, cancellation).into_iter();
     cancellation.check()?;
     let matrices = |pairs: PairStatistics| DistanceStatistics {
         mean_distances: to_seven_digits(pairs.mean),
@@ -64,13 +59,23 @@ pub(crate) fn statistics(
     })
 }
 
-/// The distances in the default configuration (SPEC 9.4), metres: a matrix per kind of shape, as from [`over`].
-pub(crate) fn at_default_configuration(
+/// The link poses in the sampled configurations (SPEC 9.3).
+pub(crate) fn sampled_motion(context: &Context) -> Result<Motion, GenerateError> {
+    let configuration = |sample: u32| {
+        let name = format!("sampled configuration {sample}");
+        (name, context.space.sampled(u64::from(sample)))
+    };
+    motion(context, (0..context.settings.num_samples).into_par_iter().map(configuration))
+}
+
+/// The distances in a configuration that has this name in errors, metres: a matrix per kind of shape, as from [`over`].
+pub(crate) fn distances_at(
     context: &Context,
     shapes: &Shapes,
+    name: &str,
+    configuration: &[f64],
 ) -> Result<Vec<Vec<Vec<f64>>>, GenerateError> {
-    let name = "the default configuration".to_owned();
-    let configuration = [(name, context.space.default_configuration())];
+    let configuration = [(name.to_owned(), configuration.to_vec())];
     let motion = motion(context, configuration.into_par_iter())?;
     let found = over(&motion, shapes, &Cancellation::default());
     // With one configuration, minimum, mean and maximum are all the distance.
@@ -112,6 +117,16 @@ impl Shapes {
             false => None,
         };
         Ok(Shapes { full, pieces })
+    }
+
+    /// The shapes that decide about a collision: the pieces, or the hulls where there are too many pieces.
+    pub fn deciding(&self) -> &[PlacedShape<ConvexShape>] {
+        self.pieces.as_ref().map_or(&self.full.0, |pieces| &pieces.0)
+    }
+
+    /// Their place among the kinds, in the order of the documents.
+    pub fn deciding_kind(&self) -> usize {
+        if self.pieces.is_some() { 3 } else { 0 }
     }
 }
 

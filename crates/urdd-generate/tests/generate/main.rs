@@ -6,6 +6,7 @@
 mod cancelled;
 mod connections;
 mod distinct;
+mod free;
 mod in_memory;
 mod meshes_names;
 mod shape_documents;

@@ -27,6 +27,7 @@ use super::shapes::ShapeKind;
 use super::skips::Skips;
 use super::statistics::PairStatistics;
 use super::workspace::Placed;
+use urdd_format::skips::HiddenContacts;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
@@ -124,6 +125,35 @@ impl Robot {
         self.prepared(kind, &self.skips(kind)?, |shapes, _| {
             wanted(shapes.map(|shape| (shape.link, shape.piece)))
         })
+    }
+
+    /// As [`Robot::proximity`], for the pairs that are skipped because they touch in the default configuration, or in the
+    /// reference configuration that `urdd generate` was given: where they touch, the robot collides, and the other queries
+    /// call it free. Pairs that a person decided on are left out. `None` if there are no such pairs.
+    ///
+    /// # Errors
+    /// As [`Robot::proximity`].
+    pub fn skipped_contacts(&self, kind: ShapeKind) -> Result<Option<Proximity>, RobotError> {
+        let skips = self.skips(kind)?;
+        let names = &self.shared_motion()?.links;
+        let contacts = HiddenContacts::new(skips.edits(), names.iter().map(String::as_str));
+        let is_hidden = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|shape| skips.places()[shape].0);
+            let reason = skips.reason(i, j);
+            let touches = |reason| {
+                contacts.touches_in([a.min(b), a.max(b)], reason, skips.is_skipped(i, j)).is_some()
+            };
+            reason.is_some_and(touches)
+        };
+        // The shapes are read only where they are needed.
+        let shapes = 0..skips.len();
+        if !shapes.clone().any(|i| shapes.clone().skip(i + 1).any(|j| is_hidden(i, j))) {
+            return Ok(None);
+        }
+        let wanted = |_: [&Shape; 2], both: Option<(usize, usize)>| {
+            both.is_some_and(|(i, j)| is_hidden(i, j))
+        };
+        self.prepared(kind, &skips, wanted).map(Some)
     }
 
     /// `wanted` selects pairs of shapes, given the shapes and their indices in the skips.

@@ -1,0 +1,65 @@
+//! Which elements the shapes of links are made of, where that is not what a person may expect.
+
+use super::context::Context;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::plain_meshes::PlainMeshesModule;
+use urdd_format::short::Short;
+use urdd_source::note::{Note, NoteKind};
+
+/// Maximum number of links that are named.
+const MOST_NAMED: usize = 5;
+
+/// Notes about the links that collide by their visual elements, and about a robot in which nothing can collide.
+pub(super) fn notes(context: &Context, plain: &PlainMeshesModule) -> Vec<Note> {
+    let links = &context.source.reading.robot.links;
+    let note = |problem: String, assumed: &str| {
+        vec![context.note(NoteKind::GeometryTaken, problem, assumed)]
+    };
+    if plain.link_meshes.iter().all(Option::is_none) {
+        let problem = "no link has a visual or collision element with a surface";
+        return note(problem.to_owned(), "nothing can collide: there is no pair to check");
+    }
+    let is_visual = |link: usize| {
+        let mesh = plain.link_meshes.get(link).and_then(Option::as_ref);
+        mesh.is_some_and(|mesh| mesh.geometry == GeometryKind::Visual)
+    };
+    let taken = |collides: bool| {
+        let all = links.iter().enumerate();
+        let those =
+            all.filter(|(at, link)| is_visual(*at) && link.collision.is_empty() != collides);
+        those.map(|(_, link)| link.name.as_str()).collect::<Vec<_>>()
+    };
+    let (instead, only) = (taken(true), taken(false));
+    let mut notes = Vec::new();
+    if links.iter().all(|link| link.collision.is_empty()) {
+        let problem = "no link has a collision element".to_owned();
+        let assumed = format!("the shapes of {} are those of their visual elements", listed(&only));
+        notes.extend(note(problem, &assumed));
+    } else if !only.is_empty() {
+        let problem = format!("{} have no collision element", listed(&only));
+        notes.extend(note(problem, "their shapes are those of their visual elements"));
+    }
+    if !instead.is_empty() {
+        let problem = format!("{} have visual and collision elements", listed(&instead));
+        let assumed = match plain.preferred_geometry {
+            GeometryKind::Visual => {
+                "their shapes are those of the visual elements; `--geometry collision` takes the others"
+            }
+            GeometryKind::Collision => {
+                "their shapes are those of the visual elements, since the collision elements cannot be used"
+            }
+        };
+        notes.extend(note(problem, assumed));
+    }
+    notes
+}
+
+/// The number of these links and the names of the first.
+fn listed(names: &[&str]) -> String {
+    let shown: Vec<String> =
+        names.iter().take(MOST_NAMED).map(|name| format!("`{}`", Short::of(name))).collect();
+    let (links, more) =
+        (if names.len() == 1 { "link" } else { "links" }, names.len() - shown.len());
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{} {links} ({}{more})", names.len(), shown.join(", "))
+}

@@ -1,0 +1,139 @@
+//! What checks for self-collision do not see: pairs of links that are skipped because they touch in one configuration,
+//! and that are apart in others.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::error::GenerateError;
+use super::shapes::CONTACT;
+use super::shapes::statistics::{Shapes, distances_at, sampled_motion};
+use urdd_format::link_shapes_simple_skips::{
+    LinkShapesSimpleSkipsModule as SimpleSkips, SkipReason,
+};
+use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
+use urdd_format::short::Short;
+use urdd_format::skips::{HiddenContacts, TouchesIn};
+use urdd_geometry::convex::pair_distances;
+use urdd_source::note::{Note, NoteKind};
+
+/// Maximum number of pairs of links that are named one by one.
+const MOST_NAMED: usize = 5;
+
+/// Two links, the lower index first.
+type Links = [usize; 2];
+
+/// The reasons of the shapes that decide, those of pieces where the robot has them, and the link of each shape.
+fn deciding(simple: &SimpleSkips) -> (&[Vec<SkipReason>], Vec<usize>) {
+    match &simple.reasons.decomposition_convex_hulls {
+        Some(rows) => {
+            (rows, simple.decomposition_shapes.iter().map(|one| one.link_idx.get()).collect())
+        }
+        None => (
+            &simple.reasons.full_convex_hulls,
+            simple.full_shapes.iter().map(|link| link.get()).collect(),
+        ),
+    }
+}
+
+/// The pairs of shapes of which `wanted` returns something, by links: the last of what it returned, and the pairs.
+fn pairs<T>(
+    simple: &SimpleSkips,
+    wanted: impl Fn(Links, SkipReason, (usize, usize)) -> Option<T>,
+) -> BTreeMap<Links, (T, Vec<(usize, usize)>)> {
+    let (reasons, links) = deciding(simple);
+    let mut found: BTreeMap<Links, (T, Vec<_>)> = BTreeMap::new();
+    for (i, row) in reasons.iter().enumerate() {
+        for (j, reason) in row.iter().enumerate().skip(i + 1) {
+            let both = [links[i].min(links[j]), links[i].max(links[j])];
+            if let Some(why) = wanted(both, *reason, (i, j)) {
+                found.entry(both).or_insert_with(|| (why, Vec::new())).1.push((i, j));
+            }
+        }
+    }
+    found
+}
+
+/// The edits by which pairs of links that touch in the reference configuration are skipped; none without one.
+pub(super) fn of_reference(
+    context: &Context,
+    shapes: &Shapes,
+    simple: &SimpleSkips,
+) -> Result<Vec<SkipEdit>, GenerateError> {
+    let Some(reference) = &context.reference else {
+        return Ok(Vec::new());
+    };
+    let name = format!("the reference configuration `{}`", reference.name.as_str());
+    let kind = shapes.deciding_kind();
+    let distances = distances_at(context, shapes, &name, &reference.configuration)?;
+    let touches = |(i, j): (usize, usize)| {
+        let row = distances.get(kind).and_then(|rows| rows.get(i));
+        row.and_then(|row| row.get(j)).is_some_and(|distance| *distance <= CONTACT)
+    };
+    let found =
+        pairs(simple, |_, reason, both| (reason.can_collide() && touches(both)).then_some(()));
+    let link = |at: usize| context.chain.links_in_chain[at].name.as_str();
+    let edit = |[a, b]: &Links| SkipEdit::of_reference(reference.name.as_str(), link(*a), link(*b));
+    Ok(found.keys().map(edit).collect())
+}
+
+/// Notes about the pairs of links that are skipped because they touch in the default configuration, or in the reference.
+pub(super) fn notes<'a>(
+    context: &Context,
+    shapes: impl FnOnce() -> Result<&'a Shapes, GenerateError>,
+    simple: &SimpleSkips,
+    skips: &Skips,
+) -> Result<Vec<Note>, GenerateError> {
+    let names = context.chain.links_in_chain.iter().map(|link| link.name.as_str());
+    let contacts = HiddenContacts::new(&skips.edits, names);
+    let matrix = skips.decomposition_convex_hulls_skips.as_ref();
+    let matrix = matrix.unwrap_or(&skips.full_convex_hulls_skips);
+    let hidden =
+        pairs(simple, |links, reason, (i, j)| contacts.touches_in(links, reason, matrix[i][j]));
+    if hidden.is_empty() {
+        return Ok(Vec::new());
+    }
+    let shapes = shapes()?.deciding();
+    let motion = sampled_motion(context)?;
+    let mut counted: Vec<(usize, Links, TouchesIn)> = hidden
+        .into_par_iter()
+        .map(|(links, (place, of_links))| {
+            let mut touches = vec![false; motion.num_samples()];
+            for (i, j) in of_links {
+                let distances = pair_distances(&shapes[i], &shapes[j], &motion).unwrap_or_default();
+                for (touches, distance) in touches.iter_mut().zip(distances) {
+                    *touches |= distance <= 0.0;
+                }
+            }
+            (touches.into_iter().filter(|touches| *touches).count(), links, place)
+        })
+        .collect();
+    context.settings.cancellation.check()?;
+    // The most collisions first.
+    counted.sort_by_key(|(touching, links, _)| (std::cmp::Reverse(*touching), *links));
+    let samples = motion.num_samples();
+    let note = |(touching, links, place): &(usize, Links, TouchesIn)| {
+        let [a, b] = links.map(|link| Short::of(&context.chain.links_in_chain[link].name));
+        let place = match place {
+            TouchesIn::Reference(name) => format!("reference configuration `{}`", Short::of(name)),
+            TouchesIn::Default => "default configuration".to_owned(),
+        };
+        let share = 100.0 * *touching as f64 / samples as f64;
+        let problem = format!(
+            "links `{a}` and `{b}` touch in the {place}, so collision checks skip them; they touch in {touching} of {samples} sampled configurations ({share:.1} %)"
+        );
+        let assumed = "these count as free; to check the pair, add an edit with `\"skip\": false`, or take another configuration as reference: `--reference`";
+        context.note(NoteKind::SkippedContact, problem, assumed)
+    };
+    let named = if counted.len() <= MOST_NAMED + 1 { counted.len() } else { MOST_NAMED };
+    let mut notes: Vec<Note> = counted[..named].iter().map(note).collect();
+    if let Some((most, ..)) = counted.get(named) {
+        let problem = format!(
+            "{} more pairs of links are skipped because they touch in one configuration; each touches in at most {most} of {samples} sampled configurations",
+            counted.len() - named
+        );
+        notes.push(context.note(NoteKind::SkippedContact, problem, "`urdd info` lists the pairs"));
+    }
+    Ok(notes)
+}
