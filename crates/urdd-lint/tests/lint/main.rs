@@ -9,6 +9,7 @@ mod cases;
 mod consequences;
 mod fix;
 mod hull;
+mod imports;
 mod in_memory;
 mod large;
 mod messages;
