@@ -118,7 +118,7 @@ fn an_sdf_is_compared_linted_and_generated_as_the_urdf_that_it_becomes() {
     // MuJoCo refuses links between joints that have no mass.
     let refuses = |more: &[&str]| {
         let lint = ["lint", &cart, "--format", "json", "--ball", "revolute", "--for", "mujoco"];
-        let (_, out, _) = urdd(&[&lint, more].concat(), folder.path());
+        let (_, out, _) = urdd(&[&lint[..], more].concat(), folder.path());
         let report: Value = serde_json::from_str(&out).expect("JSON");
         report["urdds"][0]["programs"][0]["does"] == "refuses"
     };
