@@ -42,6 +42,8 @@ def test_what_is_wrong_has_its_place(tmp_path: Path) -> None:
     ((name, line, _, _),) = caught.value.places
     assert (name, line) == (str(file), 2)
     assert not (tmp_path / "out").exists()
+    with pytest.raises(ValueError, match="neither none nor tiny"):
+        urdd.import_robot(file, tmp_path / "out", massless="some")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="neither spherical nor revolute"):
         urdd.import_robot(file, tmp_path / "out", ball="cubic")  # type: ignore[arg-type]
     urdf = tmp_path / "robot.urdf"

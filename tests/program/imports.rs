@@ -115,6 +115,14 @@ fn an_sdf_is_compared_linted_and_generated_as_the_urdf_that_it_becomes() {
     let (status, out, said) =
         urdd(&["diff", &cart, "cart/lift_cart.urdf", "--ball", "revolute"], folder.path());
     assert_eq!(status, 0, "{out}{said}");
+    // MuJoCo refuses links between joints that have no mass.
+    let refuses = |more: &[&str]| {
+        let lint = ["lint", &cart, "--format", "json", "--ball", "revolute", "--for", "mujoco"];
+        let (_, out, _) = urdd(&[&lint[..], more].concat(), folder.path());
+        let report: Value = serde_json::from_str(&out).expect("JSON");
+        report["urdds"][0]["programs"][0]["does"] == "refuses"
+    };
+    assert!(refuses(&[]) && !refuses(&["--massless", "tiny"]));
     let (_, out, _) = urdd(&["lint", &cart, "--format", "json"], folder.path());
     let report: Value = serde_json::from_str(&out).expect("JSON");
     let cart_of = &report["urdds"][0];

@@ -48,7 +48,7 @@ const LEAST_MASS: f64 = 1e-9;
 const MASSLESS: &str =
     "moments of inertia without mass, for which Drake assumes 1 kg: exported with 1e-9 kg";
 const NEGATIVE: &str =
-    "a negative mass, for which Drake assumes 1 kg: exported without it, as no mass";
+    "a negative mass, for which Drake assumes 1 kg: exported as if they had none";
 const IMPOSSIBLE: &str = "moments of inertia that no body has, for which Drake assumes 1 kg: exported with their mean about each axis";
 
 /// A mass and an inertia that Drake takes as they are: it assumes a body of 1 kg for others. And what was changed.

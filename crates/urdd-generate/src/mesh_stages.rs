@@ -21,7 +21,6 @@ use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::decompose;
 use urdd_geometry::hull::ConvexHull;
-use urdd_source::note::{Note, NoteKind};
 
 pub(super) fn plain(
     context: &Context,
@@ -58,21 +57,9 @@ pub(super) fn plain(
             Ok((Some(PlainMesh { geometry, files }), contents, Some(mesh)))
         })
         .collect::<Result<_, GenerateError>>()?;
-    let (link_meshes, files, meshes): (_, Vec<_>, Vec<_>) = written.into_iter().collect();
+    let (link_meshes, files, meshes): (_, Vec<_>, _) = written.into_iter().collect();
     let module = PlainMeshesModule { preferred_geometry: preferred, link_meshes };
-    let made = made_with(&module, files.into_iter().flatten().collect(), meshes)?;
-    let notes = bare(context, &made.product).into_iter().collect();
-    Ok(Made { notes, ..made })
-}
-
-/// A note on a robot whose shapes are of visual geometry, since it has no other.
-fn bare(context: &Context, meshes: &[Option<WrittenMesh>]) -> Option<Note> {
-    let links = &context.source.reading.robot.links;
-    let is_bare = links.iter().all(|link| link.collision.iter().all(|of| of.geometry.is_none()));
-    let problem = "no link has collision geometry".to_owned();
-    let assumed = "shapes, distances and skips are of the visual geometry";
-    (is_bare && meshes.iter().any(Option::is_some))
-        .then(|| context.note(NoteKind::Geometry, problem, assumed))
+    made_with(&module, files.into_iter().flatten().collect(), meshes)
 }
 
 pub(super) fn hulls(

@@ -54,8 +54,6 @@ kinds! {
     Mesh = "mesh",
     /// A stored file from outside the URDF's folder and package.
     Outside = "outside",
-    /// Shapes that are made of visual geometry for want of any other.
-    Geometry = "geometry",
     /// A part of a module that is left out for this robot.
     LeftOut = "left-out",
     /// A table that is left out because the robot is large, as the specification allows.
@@ -81,7 +79,6 @@ impl NoteKind {
         !matches!(
             self,
             Encoding
-                | Geometry
                 | Xml
                 | Outside
                 | TooLarge

@@ -34,7 +34,7 @@ fn png(kind: [u8; 3], before: &[u8], data: &[u8], after: &[u8]) -> Vec<u8> {
     let [depth, color, interlace] = kind;
     let header = [0, 0, 0, 4, 0, 0, 0, 4, depth, color, 0, 0, interlace];
     [
-        b"\x89PNG\r\n\x1a\n",
+        &b"\x89PNG\r\n\x1a\n"[..],
         &chunk(b"IHDR", &header)[..],
         before,
         &chunk(b"IDAT", data),

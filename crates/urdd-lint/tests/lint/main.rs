@@ -10,6 +10,7 @@ mod consequences;
 mod fix;
 mod hull;
 mod imported;
+mod imports;
 mod in_memory;
 mod large;
 mod messages;
