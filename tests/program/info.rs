@@ -121,7 +121,7 @@ fn a_number_of_samples_is_bounded() {
     assert_eq!(statics(folder.path(), &[])["num_samples"], 100_000);
 }
 
-/// The joints of a link come in the order of the file, but for Pinocchio; a program goes down first, or across.
+/// The joints of a link come in the order of the file, but for Pinocchio, Newton and Isaac; a program goes down first, or across.
 const TREE: &str = r#"<robot name="tree"><link name="root"/><link name="z1"/><link name="a1"/><link name="z2"/><link name="a2"/>
   <joint name="z_second" type="continuous"><parent link="z1"/><child link="z2"/><axis xyz="0 0 1"/></joint>
   <joint name="z_first" type="continuous"><parent link="root"/><child link="z1"/><axis xyz="0 0 1"/></joint>
@@ -142,8 +142,11 @@ fn joints_are_in_the_order_of_each_program() {
     assert_eq!(order("urdf")["joints"], json!(["z_second", "z_first", "a_first", "a_second"]));
     assert_eq!(order("mujoco")["joints"], json!(["z_first", "z_second", "a_first", "a_second"]));
     assert_eq!(order("pinocchio")["joints"], json!(["a_first", "a_second", "z_first", "z_second"]));
-    assert_eq!(order("isaac")["joints"], json!(["z_first", "a_first", "z_second", "a_second"]));
-    assert_eq!([&order("isaac")["export"], &order("isaac")["rule"]], ["usd", "breadth first"]);
+    assert_eq!(order("isaac")["joints"], json!(["a_first", "z_first", "a_second", "z_second"]));
+    assert_eq!(
+        [&order("isaac")["export"], &order("isaac")["rule"]],
+        ["usd", "breadth first, the joints of a link by name"]
+    );
     assert_eq!(order("mujoco")["actuators"], order("urdf")["joints"]);
     assert_eq!(order("isaac")["actuators"], Value::Null);
 
@@ -153,10 +156,10 @@ fn joints_are_in_the_order_of_each_program() {
         .lines()
         .map(|line| line.split("  ").map(str::trim).filter(|word| !word.is_empty()).collect())
         .collect();
-    let heads = ["urdf, libsdformat", "mujoco, pybullet, drake, newton", "pinocchio", "isaac"];
+    let heads = ["urdf, libsdformat", "mujoco, pybullet, drake", "pinocchio, newton", "isaac"];
     assert_eq!(rows[0], heads);
-    assert_eq!(rows[1], ["0", "z_second", "z_first", "a_first", "z_first"]);
-    assert_eq!(rows[4], ["3", "a_second", "a_second", "z_second", "a_second"]);
+    assert_eq!(rows[1], ["0", "z_second", "z_first", "a_first", "a_first"]);
+    assert_eq!(rows[4], ["3", "a_second", "a_second", "z_second", "z_second"]);
     assert_eq!(rows[5], ["actuators of exports that have them"]);
     let (_, without, _) = urdd(&["info", "robot"], folder.path());
     assert!(!without.contains("order"));

@@ -4,6 +4,8 @@
 //! MuJoCo, Pinocchio, PyBullet, Drake, libsdformat and Newton. That Isaac, by PhysX, goes breadth first is from the
 //! documentation of Isaac Lab 3.0, which finds PhysX' order by Newton's reader with `joint_ordering="bfs"`.
 
+use std::collections::VecDeque;
+
 use serde_json::{Value, json};
 
 use super::drake;
@@ -38,10 +40,10 @@ enum Walk {
     AsWritten,
     DepthFirst,
     DepthFirstByName,
-    BreadthFirst,
+    BreadthFirstByName,
 }
 
-use Walk::{AsWritten, BreadthFirst, DepthFirst, DepthFirstByName};
+use Walk::{AsWritten, BreadthFirstByName, DepthFirst, DepthFirstByName};
 
 const PROGRAMS: [(&str, Format, Walk); 8] = [
     ("urdf", Format::Urdf, AsWritten),
@@ -50,8 +52,8 @@ const PROGRAMS: [(&str, Format, Walk); 8] = [
     ("pybullet", Format::Urdf, DepthFirst),
     ("drake", Format::Drake, DepthFirst),
     ("libsdformat", Format::Sdf, AsWritten),
-    ("newton", Format::Usd, DepthFirst),
-    ("isaac", Format::Usd, BreadthFirst),
+    ("newton", Format::Usd, DepthFirstByName),
+    ("isaac", Format::Usd, BreadthFirstByName),
 ];
 
 impl Walk {
@@ -60,30 +62,29 @@ impl Walk {
             AsWritten => "as the URDF has them",
             DepthFirst => "depth first",
             DepthFirstByName => "depth first, the joints of a link by name",
-            BreadthFirst => "breadth first",
+            BreadthFirstByName => "breadth first, the joints of a link by name",
         }
     }
 
-    /// All joints of a robot, as indices.
-    fn joints(self, of: &Structure) -> Vec<usize> {
-        let (tree, joints) = (&of.tree, &of.view.joints);
-        match self {
-            AsWritten => return (0..joints.len()).collect(),
-            BreadthFirst => {
-                let links = of.links_after(tree.root);
-                return links.into_iter().filter_map(|link| tree.parent_joint[link]).collect();
-            }
-            DepthFirst | DepthFirstByName => {}
+    /// All joints of a robot, as indices, by their names in the program.
+    fn joints(self, of: &Structure, names: &[String]) -> Vec<usize> {
+        let tree = &of.tree;
+        if self == AsWritten {
+            return (0..names.len()).collect();
         }
+        let is_broad = self == BreadthFirstByName;
         let mut found = Vec::new();
-        let mut links = vec![tree.root];
-        while let Some(link) = links.pop() {
+        let mut links = VecDeque::from([tree.root]);
+        while let Some(link) = if is_broad { links.pop_front() } else { links.pop_back() } {
             found.extend(tree.parent_joint[link]);
             let mut next = tree.child_joints[link].clone();
-            if self == DepthFirstByName {
-                next.sort_by_key(|joint| joints[*joint].name.as_str());
+            if self != DepthFirst {
+                next.sort_by_key(|joint| names[*joint].as_str());
             }
-            links.extend(next.into_iter().rev().map(|joint| tree.joint_links[joint].1));
+            if !is_broad {
+                next.reverse();
+            }
+            links.extend(next.into_iter().map(|joint| tree.joint_links[joint].1));
         }
         found
     }
@@ -96,55 +97,73 @@ impl Walk {
 pub fn joint_orders(robot: &Robot) -> Result<Vec<JointOrder>, ExportError> {
     let urdf = robot.description()?;
     let structure = Structure::of(&urdf)?;
-    Ok(PROGRAMS.iter().map(|program| order(program, &urdf, &structure)).collect())
+    let order = |&(program, format, walk): &(&'static str, Format, Walk)| {
+        Joints::new(format, &structure).order(program, walk, &urdf)
+    };
+    Ok(PROGRAMS.iter().map(order).collect())
 }
 
-fn order(
-    &(program, format, walk): &(&'static str, Format, Walk),
-    urdf: &UrdfModule,
-    structure: &Structure,
-) -> JointOrder {
-    let names = JointNames::new(format, structure);
-    let own = match format {
-        Format::Usd => names_of_joints(&names.joints),
-        _ => names.joints.clone(),
-    };
-    let moving =
-        walk.joints(structure).into_iter().filter(|joint| moves(structure, format, *joint));
-    let joints = moving.flat_map(|joint| match &names.parts[joint][..] {
-        parts if !parts.is_empty() && is_chain(structure, format, joint) => {
-            parts.iter().map(|(name, _)| name.clone()).collect()
-        }
-        _ => vec![own[joint].clone()],
-    });
-    let joints = joints.collect();
-    let actuated = (0..own.len()).filter(|joint| structure.is_actuated(*joint));
-    let actuators = match format {
-        Format::Mjcf => actuated.map(|joint| own[joint].clone()).collect(),
-        Format::Drake => drake::actuators(urdf, structure),
-        _ => Vec::new(),
-    };
-    JointOrder { program, format, rule: walk.rule(), joints, actuators }
+/// The joints as an export of a format has them.
+struct Joints<'a> {
+    of: &'a Structure,
+    format: Format,
+    names: JointNames,
+    /// Their names, in joint order.
+    own: Vec<String>,
 }
 
-/// Whether a joint moves in an export.
-fn moves(of: &Structure, format: Format, joint: usize) -> bool {
-    let view = &of.view.joints[joint];
-    match format {
-        Format::Usd => of.stands_at(joint).is_none(),
-        Format::Mjcf => view.num_dofs() > 0,
-        Format::Sdf if view.num_dofs() == 1 && unit_axis(view.axis).is_none() => false,
-        _ => view.num_dofs() > 0 && !of.follows_fixed(joint),
+impl<'a> Joints<'a> {
+    fn new(format: Format, of: &'a Structure) -> Self {
+        let names = JointNames::new(format, of);
+        let own = match format {
+            Format::Usd => names_of_joints(&names.joints),
+            _ => names.joints.clone(),
+        };
+        Joints { of, format, names, own }
     }
-}
 
-/// Whether an export has a joint of several DOFs as a chain of joints.
-fn is_chain(of: &Structure, format: Format, joint: usize) -> bool {
-    let is_floating = of.view.joints[joint].joint_type == JointType::Floating;
-    match format {
-        Format::Mjcf | Format::Sdf => true,
-        Format::Drake => is_floating && !drake::is_free(of, &of.view.joints[joint]),
-        _ => false,
+    fn order(&self, program: &'static str, walk: Walk, urdf: &UrdfModule) -> JointOrder {
+        let joints = self.moving(walk).into_iter().flat_map(|joint| {
+            let parts = self.names.parts[joint].iter().map(|(name, _)| name.clone());
+            let parts: Vec<String> = parts.filter(|_| self.is_chain(joint)).collect();
+            if parts.is_empty() { vec![self.own[joint].clone()] } else { parts }
+        });
+        let actuated = (0..self.own.len()).filter(|joint| self.of.is_actuated(*joint));
+        let actuators = match self.format {
+            Format::Mjcf => actuated.map(|joint| self.own[joint].clone()).collect(),
+            Format::Drake => drake::actuators(urdf, self.of),
+            _ => Vec::new(),
+        };
+        let joints = joints.collect();
+        JointOrder { program, format: self.format, rule: walk.rule(), joints, actuators }
+    }
+
+    /// The joints that move, as indices.
+    fn moving(&self, walk: Walk) -> Vec<usize> {
+        let joints = walk.joints(self.of, &self.own).into_iter();
+        joints.filter(|joint| self.moves(*joint)).collect()
+    }
+
+    fn moves(&self, joint: usize) -> bool {
+        let view = &self.of.view.joints[joint];
+        match self.format {
+            Format::Usd => self.of.stands_at(joint).is_none(),
+            Format::Mjcf => view.num_dofs() > 0,
+            Format::Sdf if view.num_dofs() == 1 && unit_axis(view.axis).is_none() => false,
+            _ => view.num_dofs() > 0 && !self.of.follows_fixed(joint),
+        }
+    }
+
+    /// Whether a joint of several DOFs is a chain of joints.
+    fn is_chain(&self, joint: usize) -> bool {
+        let view = &self.of.view.joints[joint];
+        match self.format {
+            Format::Mjcf | Format::Sdf => true,
+            Format::Drake => {
+                view.joint_type == JointType::Floating && !drake::is_free(self.of, view)
+            }
+            _ => false,
+        }
     }
 }
 
@@ -154,25 +173,26 @@ pub(super) fn report(format: Format, urdf: &UrdfModule, structure: &Structure) -
         Format::Spherized | Format::Moveit => Format::Urdf,
         format => format,
     };
+    let joints = Joints::new(format, structure);
     let programs = PROGRAMS.iter().filter(|(_, of, _)| *of == format);
-    let each = programs.map(|program| {
-        let order = order(program, urdf, structure);
+    let each = programs.map(|&(program, _, walk)| {
+        let order = joints.order(program, walk, urdf);
         let mut said = json!({"rule": order.rule, "joints": order.joints});
         if !order.actuators.is_empty() {
             said["actuators"] = order.actuators.into();
         }
-        (order.program.to_owned(), said)
+        (program.to_owned(), said)
     });
     Value::Object(each.collect())
 }
 
 /// Which programs have the moving joints of an export in another order than the URDD. Readers of URDF are known to.
 pub(super) fn note(format: Format, structure: &Structure) -> Option<Note> {
-    let is_other = |(_, of, walk): &&(&str, Format, Walk)| {
-        let joints = walk.joints(structure).into_iter();
-        *of == format && !joints.filter(|joint| moves(structure, format, *joint)).is_sorted()
+    let joints = Joints::new(format, structure);
+    let is_other = |&&(_, of, walk): &&(&str, Format, Walk)| {
+        of == format && format != Format::Urdf && !joints.moving(walk).is_sorted()
     };
-    let programs = PROGRAMS.iter().filter(|_| format != Format::Urdf).filter(is_other);
-    let programs: Vec<&str> = programs.map(|(program, _, _)| *program).collect();
+    let programs = PROGRAMS.iter().filter(is_other).map(|(program, _, _)| *program);
+    let programs: Vec<&str> = programs.collect();
     (!programs.is_empty()).then(|| Note::Order(programs.join(", ")))
 }

@@ -22,7 +22,7 @@ const JOINTS: [(&str, &str, &str, &str); 9] = [
 const AS_WRITTEN: &str = "z_second z_first a_first a_second m_first B_first m_second k_second";
 const DEPTH_FIRST: &str = "z_first z_second a_first a_second m_first m_second B_first k_second";
 const BY_NAME: &str = "B_first a_first a_second k_second m_first m_second z_first z_second";
-const BREADTH_FIRST: &str = "z_first a_first m_first B_first z_second a_second m_second k_second";
+const BREADTH_FIRST: &str = "B_first a_first m_first z_first a_second k_second m_second z_second";
 
 fn tree() -> String {
     let mut links: Vec<&str> = JOINTS.iter().map(|(_, _, child, _)| *child).collect();
@@ -57,7 +57,7 @@ fn each_program_has_its_own_order() {
         ("mujoco", DEPTH_FIRST),
         ("pybullet", DEPTH_FIRST),
         ("drake", DEPTH_FIRST),
-        ("newton", DEPTH_FIRST),
+        ("newton", BY_NAME),
         ("pinocchio", BY_NAME),
         ("isaac", BREADTH_FIRST),
     ] {
