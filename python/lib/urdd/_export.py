@@ -105,8 +105,8 @@ def export(
         bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 1,000. By
             default that of ``setup``, or 10.
         floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
-        merge_fixed: makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps
-            its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
+        merge_fixed: makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each
+            keeps its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
         root: the link that becomes the root: joints between it and the old root are turned round. Values, limits and
             names of joints stay. Not for formats of spheres.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
@@ -138,6 +138,8 @@ def export(
         actuators=actuators,
         bandwidth=bandwidth,
         floating_base=floating_base,
+        merge_fixed=merge_fixed,
+        root=root,
         sensors=sensors,
         scene=scene,
         output=output,
@@ -160,7 +162,7 @@ def exported_with(robot: RobotDescription, format: Format, options: ExportOption
 
 def export_options(
     *,
-    shapes: ShapeKind = "pieces",
+    shapes: ExportShapes = "pieces",
     reasons: Iterable[str] | None = None,
     keep_pairs: bool = False,
     spheres: int | None = None,
@@ -172,6 +174,8 @@ def export_options(
     actuators: Actuators | None = None,
     bandwidth: float | None = None,
     floating_base: bool = False,
+    merge_fixed: bool = False,
+    root: str | None = None,
     sensors: bool = False,
     scene: bool = False,
     output: str | os.PathLike[str] | None = None,
