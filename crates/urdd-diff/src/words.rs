@@ -11,7 +11,7 @@ use crate::other_elements::numbered;
 
 /// The elements of an SRDF: `group_state "home" (arm)`, `disable_collisions a - b`.
 pub(super) fn of_srdf(text: &str) -> Result<Vec<(String, Fields)>, String> {
-    let document = urdd_xml::parse(text, Kind::Robot).map_err(|error| error.to_string())?;
+    let document = urdd_xml::parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     Ok(numbered(children(document.root_element()).map(|(_, element)| srdf_element(element))))
 }
 

@@ -17,7 +17,7 @@ use super::source_visuals::Painted;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
-use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Link, Origin, Visual};
+use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Origin, Visual};
 use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::{number, numbers};

@@ -13,7 +13,7 @@ use super::super::shapes::{Shape, Solid, thick};
 use super::super::subject::Subject;
 use super::{frames, inertia, joint, surface};
 use urdd_geometry::primitives::Primitive;
-use urdd_xml::number::{number, numbers};
+use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
 /// The name of the free joint of a floating base.

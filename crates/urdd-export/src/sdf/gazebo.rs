@@ -1,7 +1,7 @@
 //! What `<gazebo>` elements say, where SDF has it: as libsdformat's own converter from URDF places it (`parser_urdf.cc`).
 //! Fixed joints stay fixed joints here, as `preserveFixedJoint` asks for; without it, the converter joins their links.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::super::error::Note;
 use super::super::parts::Taken;

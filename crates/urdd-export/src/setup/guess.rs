@@ -1,6 +1,8 @@
 //! Guesses from structure, each with its reason: chains of joints, where they branch, how far they reach, where they
 //! point in the default configuration, and words in names.
 
+use std::collections::BTreeMap;
+
 use super::chains::Chains;
 use super::guesser::{FINGER, Guesser, joints, with_side};
 use super::words::{self, Part};

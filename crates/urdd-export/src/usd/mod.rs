@@ -57,7 +57,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         if subject.is_frame(link)
             && let Some(body) = subject.tree.parent_link[link]
         {
-            shapes::place(&mut prim, &(poses[body].inverse() * pose), None);
+            primitive::place(&mut prim, &(poses[body].inverse() * pose), None);
             links.push(prim);
             continue;
         }
