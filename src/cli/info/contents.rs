@@ -14,7 +14,6 @@ use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
-use urdd_format::escape;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};

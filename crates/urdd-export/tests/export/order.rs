@@ -171,6 +171,16 @@ fn actuators_are_those_of_the_file() {
         "k_second",
     ];
     assert_eq!(of("drake"), drake);
+    // Drake drops the actuator of a joint without effort.
+    let weak = parts.replacen(r#"effort="1""#, r#"effort="0""#, 7).replacen(
+        r#"effort="0""#,
+        r#"effort="1""#,
+        6,
+    );
+    let (_folder, weak) = crate::made::robot(&urdf(&weak));
+    let orders_of_weak = joint_orders(&weak).expect("a tree");
+    let of_weak = orders_of_weak.iter().find(|order| order.program == "drake").expect("drake");
+    assert!(!of_weak.actuators.iter().any(|name| name == "m_second_motor"));
     let text = exported(&robot, Format::Drake).text;
     let places = drake.map(|name| text.find(&format!(r#"<actuator name="{name}"/>"#)).expect(name));
     assert!(places.is_sorted(), "{places:?}");
