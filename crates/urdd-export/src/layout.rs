@@ -142,10 +142,16 @@ impl Layout {
 
     /// The poses of the links of the export in its root, by those of the URDD in its own.
     pub fn poses(&self, poses: Vec<Isometry3<f64>>) -> Vec<Isometry3<f64>> {
-        let at = |place: &Place| poses[place.link] * place.pose;
-        let Some(root) = self.frames.get(self.root).map(at) else {
+        if self.is_empty() {
             return poses;
-        };
-        self.frames.iter().map(|place| root.inverse() * at(place)).collect()
+        }
+        let root = self.root_at(&poses).inverse();
+        self.frames.iter().map(|place| root * poses[place.link] * place.pose).collect()
+    }
+
+    /// The pose of the root in that of the URDD.
+    pub fn root_at(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
+        let place = self.frames.get(self.root);
+        place.map_or(Isometry3::identity(), |place| poses[place.link] * place.pose)
     }
 }

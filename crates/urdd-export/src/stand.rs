@@ -1,6 +1,6 @@
 //! Where the robot stands on a floor.
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion};
 
 use super::error::ExportError;
 use super::shapes::{Shape, Solid};
@@ -40,7 +40,16 @@ impl Stand {
     ) -> Result<[f64; 7], ExportError> {
         let poses = subject.given.as_ref().map(|setup| &setup.base_poses);
         if let Some(pose) = poses.and_then(|poses| poses.get(name?)) {
-            return Ok(*pose);
+            if subject.layout.is_empty() {
+                return Ok(*pose);
+            }
+            // Said of the root of the source.
+            let [x, y, z, w, i, j, k] = *pose;
+            let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
+            let own = subject.layout.root_at(&subject.robot.link_poses(configuration)?);
+            let at = Isometry3::from_parts([x, y, z].into(), turn) * own;
+            let (p, q) = (at.translation, at.rotation);
+            return Ok([p.x, p.y, p.z, q.w, q.i, q.j, q.k]);
         }
         Ok([0.0, 0.0, self.height(subject, configuration)?, 1.0, 0.0, 0.0, 0.0])
     }

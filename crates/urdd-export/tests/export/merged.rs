@@ -190,9 +190,9 @@ fn sdf_has_frames_and_drake_has_its_own() {
     assert_eq!(plate.attribute("attached_to"), Some("base"));
     let pose = child(plate, "pose");
     is_near(&numbers(pose, ""), &[0.3, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2]);
-    let inertial = child(named(model, "link", "base"), "inertial");
-    is_near(&numbers(child(inertial, "mass"), ""), &[3.0]);
-    is_near(&numbers(child(inertial, "inertia/ixx"), ""), &LUMPED[..1]);
+    let own = child(named(model, "link", "base"), "inertial");
+    is_near(&numbers(child(own, "mass"), ""), &[3.0]);
+    is_near(&numbers(child(own, "inertia/ixx"), ""), &LUMPED[..1]);
     assert_eq!(child(named(model, "joint", "slide"), "parent").text(), Some("arm"));
 
     let made = merged(&robot, Format::Drake, plain());
