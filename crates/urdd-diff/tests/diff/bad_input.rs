@@ -15,7 +15,7 @@ fn a_robot_that_cannot_be_validated_has_a_note() {
     let side = Side::open(&robot, &Options::default()).unwrap();
     let notes =
         ["A", "B"].map(|word| format!("{word}: not validated: the path has a control character"));
-    assert_eq!(compare(&side, &side, 0.0).notes, notes);
+    assert_eq!(compare(&side, &side, 0.0).unwrap().notes, notes);
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn large_robots_take_linear_time_and_markdown_is_cut() {
     let before = open(&shop.write("before.urdf", &chain(10_000, 1.0)));
     let after = open(&shop.write("after.urdf", &chain(10_000, 2.0)));
     let begun = Instant::now();
-    let report = compare(&before, &after, 0.0);
+    let report = compare(&before, &after, 0.0).unwrap();
     assert_eq!(places(&report).len(), 10_000);
     assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
     assert_eq!(report.notes.len(), 2, "{:?}", report.notes);

@@ -12,7 +12,7 @@ fn a_mass_that_is_removed_is_a_new_finding() {
     let open = |path| Side::open(path, &Options::default()).unwrap();
     let (a, b) = (open(&shop.path("welding_arm.urdf")), open(&after));
     let codes = |a, b| -> Vec<String> {
-        let report = compare(a, b, 0.0);
+        let report = compare(a, b, 0.0).unwrap();
         let findings = report.findings.unwrap().into_iter();
         let texts = findings
             .map(|it| format!("{} {} {}", it.presence, it.code, it.subject.unwrap_or_default()));
@@ -36,7 +36,7 @@ fn a_broken_module_is_a_new_finding_with_both_verdicts() {
     fixture.seal();
     fixture.write_to(&b);
     let open = |path| Side::open(path, &Options::default()).unwrap();
-    let report = compare(&open(&a), &open(&b), 0.0);
+    let report = compare(&open(&a), &open(&b), 0.0).unwrap();
     assert_eq!(report.before.verdict.unwrap().as_str(), "pass");
     assert_eq!(report.after.verdict.unwrap().as_str(), "fail");
     let findings = report.findings.unwrap();

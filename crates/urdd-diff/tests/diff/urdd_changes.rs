@@ -42,7 +42,7 @@ impl Bench {
         let after = self.folder.path().join("after");
         let path = format!("{}/module.json", self.fixture.folder(module));
         fs::write(after.join(&path), document.to_string()).unwrap();
-        let found = places(&compare(&self.before, &open(&after), 0.0));
+        let found = places(&compare(&self.before, &open(&after), 0.0).unwrap());
         fs::write(after.join(&path), self.fixture.file(&path)).unwrap();
         found
     }
@@ -225,11 +225,11 @@ fn a_module_that_is_gone_is_named() {
     bench.fixture.write_to(&after);
     let after = open(&after);
     assert_eq!(
-        places(&compare(&bench.before, &after, 0.0)),
+        places(&compare(&bench.before, &after, 0.0).unwrap()),
         ["modules/kinematics_samples_module/removed"]
     );
     assert_eq!(
-        places(&compare(&after, &bench.before, 0.0)),
+        places(&compare(&after, &bench.before, 0.0).unwrap()),
         ["modules/kinematics_samples_module/added"]
     );
 }
@@ -261,7 +261,7 @@ fn each_named_configuration_is_named_with_the_dofs_that_moved() {
     let none = write("none", &[]);
     let two = write("two", &[("home", 0.1), ("away", 0.0)]);
     let other = write("other", &[("home", 0.2), ("ready", 0.0)]);
-    let report = compare(&two, &other, 0.0);
+    let report = compare(&two, &other, 0.0).unwrap();
     let expected =
         ["configurations/home/motor", "configurations/away/removed", "configurations/ready/added"];
     assert_eq!(places(&report), expected);
@@ -273,9 +273,9 @@ fn each_named_configuration_is_named_with_the_dofs_that_moved() {
         (change.before.as_deref(), change.after.as_deref(), &*change.unit),
         (Some("0.1"), Some("0.2"), "rad")
     );
-    assert!(!report.same && compare(&two, &two, 0.0).same);
+    assert!(!report.same && compare(&two, &two, 0.0).unwrap().same);
     // Within the tolerance they are equal.
-    let near = compare(&two, &other, 0.11);
+    let near = compare(&two, &other, 0.11).unwrap();
     assert_eq!(places(&near), expected[1..]);
     assert!(near.notes.iter().any(|note| note.contains("at most 0.11")));
     // The module is new as well where a robot had none.
@@ -284,5 +284,5 @@ fn each_named_configuration_is_named_with_the_dofs_that_moved() {
         "configurations/away/added",
         "modules/named_configurations_module/added",
     ];
-    assert_eq!(places(&compare(&none, &two, 0.0)), news);
+    assert_eq!(places(&compare(&none, &two, 0.0).unwrap()), news);
 }
