@@ -23,6 +23,7 @@ const LOST: &str =
 const BARE: &str =
     "no collision geometry in the source; the shapes here are made of the visual geometry";
 const HULLS: &str = "meshes that are not convex or not closed, which are written as they are: in contact, this format's programs take their convex hulls";
+const DRAKES: &str = "meshes that are not convex or not closed, which are written as they are: in contact, Drake takes their convex hulls, and pairs are judged by these";
 const AS_THEY_ARE: &str = "meshes that are not convex or not closed, which are written as they are";
 
 /// The collision geometry of the source.
@@ -74,7 +75,11 @@ impl SourceShapes {
         let open = (0..by_link.len()).filter(|link| is_open(&by_link[*link])).collect();
         let counts = ShapeCounts::of(by_link.iter().flatten().map(|shape| &shape.solid));
         let mut notes = vec![Note::SourceShapes(counts)];
-        let taken = if takes_hulls(format) { HULLS } else { AS_THEY_ARE };
+        let taken = match format {
+            Format::Sdf | Format::Drake => DRAKES,
+            _ if takes_hulls(format) => HULLS,
+            _ => AS_THEY_ARE,
+        };
         for (links, what) in [(lost, LOST), (bare, BARE), (open, taken)] {
             notes.extend(Note::of_links(links, &urdf.links, what));
         }

@@ -7,10 +7,9 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::error::GenerateError;
-use super::shapes::CONTACT;
 use super::shapes::statistics::{Shapes, distances_at, sampled_motion};
 use urdd_format::link_shapes_simple_skips::{
-    LinkShapesSimpleSkipsModule as SimpleSkips, SkipReason,
+    CONTACT, LinkShapesSimpleSkipsModule as SimpleSkips, SkipReason,
 };
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
 use urdd_format::short::Short;
@@ -18,7 +17,7 @@ use urdd_format::skips::{HiddenContacts, TouchesIn};
 use urdd_geometry::convex::pair_distances;
 use urdd_source::note::{Note, NoteKind};
 
-/// Maximum number of pairs of links that are named one by one.
+/// Maximum number of pairs of links that a note names.
 const MOST_NAMED: usize = 5;
 
 /// Two links, the lower index first.
@@ -112,28 +111,47 @@ pub(super) fn notes<'a>(
     context.settings.cancellation.check()?;
     // The most collisions first.
     counted.sort_by_key(|(touching, links, _)| (std::cmp::Reverse(*touching), *links));
-    let samples = motion.num_samples();
-    let note = |(touching, links, place): &(usize, Links, TouchesIn)| {
-        let [a, b] = links.map(|link| Short::of(&context.chain.links_in_chain[link].name));
-        let place = match place {
-            TouchesIn::Reference(name) => format!("reference configuration `{}`", Short::of(name)),
-            TouchesIn::Default => "default configuration".to_owned(),
-        };
-        let share = 100.0 * *touching as f64 / samples as f64;
-        let problem = format!(
-            "links `{a}` and `{b}` touch in the {place}, so collision checks skip them; they touch in {touching} of {samples} sampled configurations ({share:.1} %)"
-        );
-        let assumed = "these count as free; to check the pair, add an edit with `\"skip\": false`, or take another configuration as reference: `--reference`";
-        context.note(NoteKind::SkippedContact, problem, assumed)
-    };
-    let named = if counted.len() <= MOST_NAMED + 1 { counted.len() } else { MOST_NAMED };
-    let mut notes: Vec<Note> = counted[..named].iter().map(note).collect();
-    if let Some((most, ..)) = counted.get(named) {
-        let problem = format!(
-            "{} more pairs of links are skipped because they touch in one configuration; each touches in at most {most} of {samples} sampled configurations",
-            counted.len() - named
-        );
-        notes.push(context.note(NoteKind::SkippedContact, problem, "`urdd info` lists the pairs"));
+    let mut places: Vec<TouchesIn> = Vec::new();
+    for (.., place) in &counted {
+        if !places.contains(place) {
+            places.push(*place);
+        }
     }
-    Ok(notes)
+    let of_place = |place: &TouchesIn| {
+        let these: Vec<(usize, Links)> = (counted.iter())
+            .filter(|(.., of)| of == place)
+            .map(|(touching, links, _)| (*touching, *links))
+            .collect();
+        note(context, *place, &these, motion.num_samples())
+    };
+    Ok(places.iter().map(of_place).collect())
+}
+
+/// The note about pairs that are skipped for one configuration, most contacts first.
+fn note(context: &Context, place: TouchesIn, pairs: &[(usize, Links)], samples: usize) -> Note {
+    let place = match place {
+        TouchesIn::Reference(name) => format!("reference configuration `{}`", Short::of(name)),
+        TouchesIn::Default => "default configuration".to_owned(),
+    };
+    let pair = |(touching, links): &(usize, Links)| {
+        let [a, b] = links.map(|link| Short::of(&context.chain.links_in_chain[link].name));
+        let share = 100.0 * *touching as f64 / samples as f64;
+        format!("`{a}` and `{b}` in {share:.1} %")
+    };
+    let named = if pairs.len() <= MOST_NAMED + 1 { pairs.len() } else { MOST_NAMED };
+    let mut list: Vec<String> = pairs.iter().take(named).map(pair).collect();
+    if let Some((most, _)) = pairs.get(named) {
+        let share = 100.0 * *most as f64 / samples as f64;
+        list.push(format!("{} more in at most {share:.1} % each", pairs.len() - named));
+    }
+    let (number, list) = (pairs.len(), list.join(", "));
+    let [what, it, touches] = match number {
+        1 => ["pair of links touches", "it", "it touches"],
+        _ => ["pairs of links touch", "them", "they touch"],
+    };
+    let problem = format!(
+        "{number} {what} in the {place}, so collision checks skip {it}; of {samples} sampled configurations, {touches} in: {list}"
+    );
+    let assumed = "these collisions count as free; to check a pair, add an edit with `\"skip\": false`, or choose another reference configuration by `--reference`";
+    context.note(NoteKind::SkippedContact, problem, assumed)
 }

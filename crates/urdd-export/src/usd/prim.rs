@@ -55,12 +55,6 @@ impl Prim {
         self.properties.push(attribute.to_owned());
     }
 
-    #[must_use]
-    pub fn with(mut self, attribute: &str, value: impl AsRef<str>) -> Self {
-        self.set(attribute, value);
-        self
-    }
-
     /// Points a relationship at other prims.
     pub fn relate(&mut self, relationship: &str, paths: &[String]) {
         let target = |path: &String| format!("<{path}>");

@@ -15,9 +15,6 @@ use urdd_format::shapes::PieceShape;
 /// Maximum number of pieces with matrices over pieces, which grow with the square of that number.
 pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
 
-/// Shapes are in contact if their distance is at most this, metres (SPEC 8.6).
-pub(crate) const CONTACT: f64 = 0.001;
-
 /// The convex meshes from which shapes are built.
 #[derive(Clone, Copy)]
 pub(crate) struct ConvexMeshes<'a> {

@@ -3,7 +3,6 @@
 
 use std::collections::HashSet;
 
-use super::CONTACT;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
