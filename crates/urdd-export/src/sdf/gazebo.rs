@@ -237,7 +237,9 @@ fn follow(
         for mut element in said.remove(own).unwrap_or_default() {
             let place = word(&element).map(|word| word.1);
             if PLACED.contains(&element.name()) {
-                element.say("pose", "");
+                if element.child_mut("pose").is_none() {
+                    element.say("pose", "");
+                }
                 let pose = element.child_mut("pose");
                 if let Some(pose) = pose.filter(|pose| pose.attribute("relative_to").is_none()) {
                     pose.set("relative_to", Some(frame));

@@ -232,7 +232,7 @@ fn usd_has_empty_xforms_below_the_body() {
 #[test]
 fn groups_of_moveit_begin_at_the_body() {
     let (_folder, robot) = robot(&urdf(&parts()));
-    let setup = "robot = \"r\"\n[[group]]\nname = \"arm\"\nbase = \"plate\"\ntip = \"camera\"\n[[end_effector]]\nname = \"e\"\ngroup = \"f\"\nparent_link = \"camera\"\n[[group]]\nname = \"f\"\njoints = [\"slide\"]";
+    let setup = "robot = \"r\"\n[[group]]\nname = \"arm\"\nbase = \"plate\"\ntip = \"camera\"\n[[end_effector]]\nname = \"e\"\ngroup = \"f\"\nparent_link = \"camera\"\n[[group]]\nname = \"f\"\njoints = [\"turn\"]";
     let setup = Some(Setup::from_toml(setup, "x", &robot).expect("a setup"));
     let made = merged(&robot, Format::Moveit, Choices { setup, ..plain() });
     let (_, srdf) = made.files.iter().find(|(path, _)| path.ends_with(".srdf")).map_or_else(
