@@ -223,7 +223,7 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
         ("robot = \"m\"\n[base]\nposes.x = [nan, 0, 1, 1, 0, 0, 0]", "a pose is 7 numbers"),
         (
             "robot = \"m\"\n[actuators.joint.j1]\nctrlrange = [1.0, 1.0]",
-            ":3:1: `ctrlrange` is two numbers, the first below the second",
+            ":2:1: `ctrlrange` is two numbers, the first below the second",
         ),
         (
             "robot = \"m\"\n[actuators.joint.j1]\nforcerange = [0, inf]",
@@ -233,7 +233,7 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
         ("robot = \"m\"\n[actuators.joint.j1]\nname = \"\"", "must not be empty"),
         (
             "robot = \"m\"\n[actuators.joint.j1]\nname = \"a\"\n[actuators.joint.j2]\nname = \"a\"",
-            ":5:1: another actuator has the same `name`",
+            ":4:1: another actuator has the same `name`",
         ),
         (
             "robot = \"m\"\n[curobo]\nretract = \"home\"",
