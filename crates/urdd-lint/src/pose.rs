@@ -15,31 +15,44 @@ const MAX_FOLLOWED: usize = 100;
 
 /// The pose of each link in the root's frame.
 pub fn at_default(robot: &Robot, tree: &Tree) -> Vec<Isometry3<f64>> {
-    poses(robot, tree, &|joint| default_of(&robot.joints[joint]))
+    poses(robot, tree, &default_of)
 }
 
-/// The pose of each link in sample `k`: joints of one degree of freedom are within their limits, others as by default.
-pub fn sampled(robot: &Robot, tree: &Tree, k: u64) -> Vec<Isometry3<f64>> {
-    poses(robot, tree, &|joint| {
-        let turns = robot.joints[joint].joint_type == JointType::Continuous;
-        let limits = robot.joints[joint].position_limits();
+/// The pose of a link in sample `k`, in the root's frame: joints of one degree of freedom are within their limits, others
+/// as by default.
+pub fn sampled(robot: &Robot, tree: &Tree, link: usize, k: u64) -> Isometry3<f64> {
+    let position = |joint: &Joint| {
+        let turns = joint.joint_type == JointType::Continuous;
+        let limits = joint.position_limits();
         let (lower, upper) = limits.unwrap_or(if turns { (-PI, PI) } else { (0.0, 0.0) });
-        let u = urdd_kinematics::unit(k, joint as u64);
+        let u = urdd_kinematics::unit(k, robot.joint(&joint.name).unwrap_or_default() as u64);
         lower * (1.0 - u) + upper * u
-    })
+    };
+    let up = above(tree, link);
+    up.fold(Isometry3::identity(), |below, joint| step(robot, joint, &position) * below)
 }
 
-/// `position` is that of each joint that follows no other, by its index.
-fn poses(robot: &Robot, tree: &Tree, position: &dyn Fn(usize) -> f64) -> Vec<Isometry3<f64>> {
+/// The joints from a link up to the root. In a circle of joints, each once.
+pub fn above(tree: &Tree, link: usize) -> impl Iterator<Item = usize> {
+    let links = std::iter::successors(Some(link), move |link| tree.parent_link[*link]);
+    links.map_while(move |link| tree.parent_joint[link]).take(tree.parent_joint.len())
+}
+
+/// `position` is that of each joint that follows no other.
+fn poses(robot: &Robot, tree: &Tree, position: &dyn Fn(&Joint) -> f64) -> Vec<Isometry3<f64>> {
     let mut poses = vec![Isometry3::identity(); robot.links.len()];
     for &link in &tree.order {
         if let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link]) {
-            let position = followed(robot, joint, position, 0);
-            let joint = &robot.joints[joint];
-            poses[link] = poses[parent] * isometry(&joint.origin) * motion(joint, position);
+            poses[link] = poses[parent] * step(robot, joint, position);
         }
     }
     poses
+}
+
+/// The pose of a joint's child in its parent.
+fn step(robot: &Robot, joint: usize, position: &dyn Fn(&Joint) -> f64) -> Isometry3<f64> {
+    let joint = &robot.joints[joint];
+    isometry(&joint.origin) * motion(joint, followed(robot, joint, position, 0))
 }
 
 fn motion(joint: &Joint, position: f64) -> Isometry3<f64> {
@@ -55,16 +68,15 @@ fn motion(joint: &Joint, position: f64) -> Isometry3<f64> {
 
 /// The position of a joint of one degree of freedom in the default configuration, rad or m.
 pub fn default_position(robot: &Robot, joint: &Joint) -> f64 {
-    let own = robot.joint(&joint.name);
-    own.map_or(0.0, |own| followed(robot, own, &|joint| default_of(&robot.joints[joint]), 0))
+    followed(robot, joint, &default_of, 0)
 }
 
 /// The position of a joint, or what follows for it from the joint that it mimics.
-fn followed(robot: &Robot, joint: usize, position: &dyn Fn(usize) -> f64, depth: usize) -> f64 {
-    match robot.joints[joint].active_mimic().filter(|_| depth < MAX_FOLLOWED) {
+fn followed(robot: &Robot, joint: &Joint, position: &dyn Fn(&Joint) -> f64, depth: usize) -> f64 {
+    match joint.active_mimic().filter(|_| depth < MAX_FOLLOWED) {
         None => position(joint),
         Some(mimic) => {
-            let driver = robot.joint(&mimic.joint);
+            let driver = robot.joint(&mimic.joint).map(|driver| &robot.joints[driver]);
             let driver = driver.map_or(0.0, |driver| followed(robot, driver, position, depth + 1));
             mimic.multiplier * driver + mimic.offset
         }

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 
 use super::prelude::*;
 use crate::geometry::Shape;
-use crate::pose::{at_default, sampled};
+use crate::pose::{above as above_joints, at_default, sampled};
 use urdd_geometry::convex::across::PlacedPair;
 use urdd_geometry::convex::{ConvexShape, penetration};
 
@@ -31,6 +31,8 @@ const MANY: usize = 600;
 const MANY_PAIRS: usize = 5_000;
 /// Sampled configurations of the pair that is named.
 const SAMPLES: usize = 100;
+/// Maximum number of joints that the samples move.
+const MOST_STEPS: usize = 100_000;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
@@ -105,27 +107,26 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         1 => ", and 1 more pair".to_owned(),
         more => format!(", and {more} more pairs"),
     };
+    // Fewer samples of a robot with very many joints.
+    let joints = above_joints(&bodies.tree, a).count() + above_joints(&bodies.tree, b).count();
+    let samples = (MOST_STEPS / joints.max(1)).clamp(1, SAMPLES);
     // The hulls are where the default configuration has them.
-    let moved = |poses: &[Isometry3<f64>], now: &[Isometry3<f64>], link: usize| {
-        now[link] * poses[link].inverse()
-    };
-    let touches = |k: usize| {
-        let now = sampled(robot, &bodies.tree, k as u64);
-        let pose = moved(&poses, &now, a).inverse() * moved(&poses, &now, b);
+    let moved = |link: usize, k: u64| sampled(robot, &bodies.tree, link, k) * poses[link].inverse();
+    let touches = |k: u64| {
+        let pose = moved(a, k).inverse() * moved(b, k);
         let overlap = worst_shapes
             .and_then(|(first, second)| penetration(&PlacedPair::new(first, second, &pose)));
         overlap.is_some_and(|overlap| overlap.depth > LEAST)
     };
-    let touching = (0..SAMPLES).filter(|k| touches(*k)).count();
-    let advice = match touching {
-        SAMPLES => "make them smaller, or disable the pair",
-        _ => {
-            "make them smaller: once the pair is disabled, as `urdd generate` does, no program sees the two collide"
-        }
+    let touching = (0..samples as u64).filter(|k| touches(*k)).count();
+    let advice = if touching == samples {
+        "make them smaller, or disable the pair"
+    } else {
+        "make them smaller: once the pair is disabled, as `urdd generate` does, no program sees the two collide"
     };
     let message = format!(
         "in the default configuration, the convex hulls of `{}` and `{}` overlap by {}{more}; these two overlap in \
-        {touching} of {SAMPLES} sampled configurations; {advice}",
+        {touching} of {samples} sampled configurations; {advice}",
         robot.links[a].name,
         robot.links[b].name,
         metres(depth)
