@@ -33,25 +33,31 @@ pub(super) fn notes(context: &Context, plain: &PlainMeshesModule) -> Vec<Note> {
     let mut notes = Vec::new();
     if links.iter().all(|link| link.collision.is_empty()) {
         let problem = "no link has a collision element".to_owned();
-        let assumed = format!("the shapes of {} are those of their visual elements", listed(&only));
+        let assumed =
+            format!("the collision shapes of {} are made of visual elements", listed(&only));
         notes.extend(note(problem, &assumed));
     } else if !only.is_empty() {
-        let problem = format!("{} have no collision element", listed(&only));
-        notes.extend(note(problem, "their shapes are those of their visual elements"));
+        let problem = format!("{} {} no collision element", listed(&only), has(&only));
+        notes.extend(note(problem, "collision shapes are made of visual elements there"));
     }
     if !instead.is_empty() {
-        let problem = format!("{} have visual and collision elements", listed(&instead));
+        let problem =
+            format!("{} {} visual and collision elements", listed(&instead), has(&instead));
         let assumed = match plain.preferred_geometry {
             GeometryKind::Visual => {
-                "their shapes are those of the visual elements; `--geometry collision` takes the others"
+                "collision shapes are made of the visual elements; `--geometry collision` takes the collision elements"
             }
             GeometryKind::Collision => {
-                "their shapes are those of the visual elements, since the collision elements cannot be used"
+                "collision shapes are made of the visual elements, since the collision elements cannot be used"
             }
         };
         notes.extend(note(problem, assumed));
     }
     notes
+}
+
+fn has(names: &[&str]) -> &'static str {
+    if names.len() == 1 { "has" } else { "have" }
 }
 
 /// The number of these links and the names of the first.
