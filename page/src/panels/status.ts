@@ -33,7 +33,9 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
   if (answer.pairs === 0) return as("no pair to check for collisions", "open", "");
-  const skipped = answer.skipped_touching.map((links) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
+  const skipped = answer.skipped_touching.map((links) =>
+    links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "),
+  );
   if (pairs.length === 0 && skipped.length === 0) return as("no self-collision", "good", "");
   if (pairs.length === 0) {
     const are = skipped.length === 1 ? "touches" : "touch";

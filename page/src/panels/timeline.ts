@@ -241,7 +241,11 @@ export class Timeline {
         const answer = await app.engine.ask("proximity", { q, kind, k: 1 });
         if (turn !== this.turn) return;
         const [pair] = answer.nearest;
-        this.found[k] = { distance: pair?.distance ?? Infinity, collides: answer.in_collision, unseen: answer.skipped_touching.length > 0 };
+        this.found[k] = {
+          distance: pair?.distance ?? Infinity,
+          collides: answer.in_collision,
+          unseen: answer.skipped_touching.length > 0,
+        };
         pairs = answer.pairs;
         this.draw();
       }
