@@ -246,7 +246,8 @@ fn collision(
     as_said: Geometry,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
-    let mut collision = Element::new("collision").with_some("name", sound(shape.name.as_deref()));
+    let name = as_said.name(sound(shape.name.as_deref()));
+    let mut collision = Element::new("collision").with_some("name", name);
     let is_convex = matches!(shape.solid, Solid::Convex(_));
     let geometry = match shape.solid {
         Solid::Convex(mesh) | Solid::Mesh(mesh) => {

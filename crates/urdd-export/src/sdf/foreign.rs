@@ -101,7 +101,10 @@ impl Mended {
             "pose" => return self.pose(element),
             _ => {}
         }
+        // What has text refers to another element, as a contact sensor's `<collision>` does.
+        let refers = !element.own_text().is_empty();
         if let Some(typed) = TYPED.iter().find(|typed| **typed == element.name())
+            && !refers
             && !is_filled("type")
         {
             return Err((typed, TYPELESS));
@@ -119,7 +122,7 @@ impl Mended {
         let is_free = name != "world" && one(Format::Sdf, "element", name.trim()).is_ok();
         // A camera needs no name.
         match named {
-            Some(named) if !is_free && *named != "camera" => Err((named, NAMELESS)),
+            Some(named) if !is_free && !refers && *named != "camera" => Err((named, NAMELESS)),
             _ => Ok(true),
         }
     }

@@ -32,7 +32,7 @@ fn outside_of_plugins(made: &Export) -> (Vec<String>, bool) {
 #[test]
 fn names_with_a_delimiter_are_not_written() {
     let made = sdf(r#"<gazebo reference="base">
-        <sensor name="a::imu" type="imu"><driver name="lib::Driver"/><topic>a::b</topic></sensor>
+        <sensor name="a::imu" type="imu"><driver name="lib::Driver"/><other name="lib::Other">text</other><topic>a::b</topic></sensor>
         <sensor name="c" type="camera"><camera name="x::y"><horizontal_fov>1</horizontal_fov></camera></sensor>
         <light name="::lamp" type="point"/></gazebo>
         <gazebo reference="j"><physics><x name="p::q"/></physics></gazebo>
@@ -43,7 +43,7 @@ fn names_with_a_delimiter_are_not_written() {
     for kept in ["a__imu", "c", "x__y", "__lamp", "g__h"] {
         assert!(names.iter().any(|name| name == kept), "{kept}: {names:?}");
     }
-    assert!(!made.text.contains("lib::Driver"));
+    assert!(!made.text.contains("lib::Driver") && !made.text.contains("lib::Other"));
     assert!(made.text.contains("kept::here") && made.text.contains("<topic>a::b</topic>"));
     let said = notes(&made);
     assert!(said.contains("have `__` instead") && said.contains("are left out"), "{said}");
