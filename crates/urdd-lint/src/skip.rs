@@ -42,7 +42,7 @@ fn code(fault: &Fault) -> Code {
     match fault {
         Fault::TwoLinks { .. } => Code::URD002,
         Fault::TwoJoints { .. } => Code::URD003,
-        Fault::NoLinks | Fault::ManyRoots { .. } => Code::URD004,
+        Fault::NoLinks | Fault::IsSrdf | Fault::ManyRoots { .. } => Code::URD004,
         Fault::TwoParents { .. } => Code::URD005,
         Fault::Cycle(_) => Code::URD006,
         Fault::UnknownLink { .. } => Code::URD007,

@@ -28,6 +28,11 @@ struct Made {
 }
 
 impl Mended {
+    /// The memory that it takes, in bytes.
+    pub fn size(&self) -> usize {
+        self.0.get().map_or(0, |made| made.text.len() + size_of_val(&*made.places))
+    }
+
     /// Where the tag at a byte of the document is in the text that a person wrote.
     pub fn original(&self, at: usize) -> usize {
         let Some(made) = self.0.get() else { return at };

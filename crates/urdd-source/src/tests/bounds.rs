@@ -180,6 +180,16 @@ fn names_of_sdf_that_are_made_of_long_ones() {
     }
 }
 
+#[test]
+fn names_of_included_models_that_are_long() {
+    let name = long(300_000);
+    let part =
+        format!("<sdf version=\"1.9\"><model name=\"{name}\"><link name=\"l\"/></model></sdf>");
+    let includes = "<include><uri>b.sdf</uri></include>".repeat(1000);
+    let text = format!("<sdf version=\"1.9\"><world name=\"w\">{includes}</world></sdf>");
+    refused("r.sdf", &in_memory(&[("r.sdf", text.as_bytes()), ("b.sdf", part.as_bytes())]));
+}
+
 /// A part of a mesh has its own points, and is what it was as a part of the whole.
 #[test]
 fn parts_of_meshes_hold_what_they_need() {

@@ -123,4 +123,13 @@ fn documents_that_are_xml_are_not_touched() {
     let mended = Mended::default();
     let document = parse_leniently(text, "sdf", &mended).expect("a document");
     assert_eq!((document.input_text(), mended.original(7)), (text, 7));
+    assert_eq!(mended.size(), 0);
+}
+
+#[test]
+fn what_is_made_has_a_size() {
+    let text = format!("<sdf><a>{}</a><!-- -- --></sdf>", "&".repeat(1000));
+    let mended = Mended::default();
+    let document = parse_leniently(&text, "sdf", &mended).expect("a document");
+    assert!(mended.size() > document.input_text().len() && mended.size() > 5000);
 }

@@ -75,7 +75,7 @@ impl Expansion<'_> {
 
     fn root(&mut self, text: &str, file: usize) -> Fallible<Element> {
         let mended = Mended::default();
-        let document = parse(text, file, &mended)?;
+        let document = parse(text, file, &mended, self.gate)?;
         let node = document.root_element();
         let place = Place { file, offset: mended.original(node.range().start) };
         let mut root = Element::new(node.tag_name().name().to_owned(), attributes(node), place);
@@ -166,7 +166,7 @@ impl Expansion<'_> {
         self.models.push(self.models[place.file]);
         let file = self.files.len() - 1;
         let mended = Mended::default();
-        let document = parse(&text, file, &mended)?;
+        let document = parse(&text, file, &mended, self.gate)?;
         self.children(document.root_element(), (file, &mended), depth + 1, into)
     }
 }
@@ -194,9 +194,17 @@ fn attributes(node: Node<'_, '_>) -> Vec<(String, String)> {
     node.attributes().map(|of| (of.name().to_owned(), of.value().to_owned())).collect()
 }
 
-fn parse<'t>(text: &'t str, file: usize, mended: &'t Mended) -> Fallible<urdd_xml::Document<'t>> {
-    parse_leniently(text, "mujoco", mended).map_err(|error| {
+fn parse<'t>(
+    text: &'t str,
+    file: usize,
+    mended: &'t Mended,
+    gate: &Gate,
+) -> Fallible<urdd_xml::Document<'t>> {
+    let document = parse_leniently(text, "mujoco", mended).map_err(|error| {
         let place = Place { file, offset: offset_of(text, &error) };
         at(place, ImportFault::NotXml(error.words(text)))
-    })
+    })?;
+    let charged = gate.account().charge(mended.size());
+    charged.map_err(|why| at(Place { file, offset: 0 }, ImportFault::from(why)))?;
+    Ok(document)
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
+use super::super::model::LETTER;
 use super::super::options::ImportOptions;
 use super::super::place::Place;
 use super::fault::SdfFault;
@@ -136,6 +137,8 @@ fn look_inside(reader: &mut Reader, there: &mut Vec<Candidate>) -> Result<(), Re
         };
         is_model.push(inside != Some(None));
         let Some(Some((name, is_static))) = inside else { continue };
+        // It is a copy for each.
+        reader.charge(LETTER * name.len(), one.tag.place())?;
         if one.tag.words("name").is_none() {
             one.name = name;
         }

@@ -33,6 +33,20 @@ const KNOWN: &[&str] = &[
 /// If it is refused.
 pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
+    let (node, joint) = read(reader, tag, scope)?;
+    if !reader.scene.add(scope, &name, node) {
+        return Refusal::at(tag.place(), SdfFault::Twice { kind: "joint", name });
+    }
+    reader.scene.joints.push(joint);
+    Ok(())
+}
+
+/// What a joint says, and the node that is to be the next.
+///
+/// # Errors
+/// If it is refused.
+pub fn read(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(Node, Joint), Refusal> {
+    let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
     let kind = kind(tag, &name)?;
     let [parent, child] = [end(tag, "parent")?, end(tag, "child")?];
@@ -63,12 +77,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),
         }
     }
-    let index = reader.scene.nodes.len();
-    if !reader.scene.add(scope, &name, node) {
-        return Refusal::at(tag.place(), SdfFault::Twice { kind: "joint", name });
-    }
-    reader.scene.joints.push(Joint { node: index, kind, parent, axes });
-    Ok(())
+    Ok((node, Joint { node: reader.scene.nodes.len(), kind, parent, axes }))
 }
 
 fn kind(tag: Tag, name: &str) -> Result<Kind, Refusal> {

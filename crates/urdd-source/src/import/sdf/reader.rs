@@ -121,6 +121,7 @@ impl<'r> Reader<'r> {
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
+        self.charge(mended.size(), Place { file: index, offset: 0 })?;
         let node = document.root_element();
         let root = Tag { node, file: index, mended: &mended, version: 0 };
         let root = Tag { version: version(root)?, ..root };

@@ -1,6 +1,6 @@
 //! Joints of a world that hold on to the robot.
 
-use super::joint_reader::{end, joint};
+use super::joint_reader::{end, read};
 use super::reader::Reader;
 use super::refusal::Refusal;
 use super::scene::WORLD;
@@ -31,19 +31,19 @@ pub fn world_joints(reader: &mut Reader, world: Tag, model: &str) -> Result<(), 
             reader.tally.remark(tag.place(), text);
             continue;
         };
-        joint(reader, tag, 0)?;
-        let scene = &mut reader.scene;
-        if let (Some(node), Some(joint)) = (scene.nodes.last_mut(), scene.joints.last_mut()) {
-            node.attached_to = Some(child);
-            node.relative_to = node.relative_to.as_deref().and_then(inside);
-            joint.parent = parent;
-            for axis in &mut joint.axes {
-                axis.expressed_in = axis.expressed_in.as_deref().map(|name| match inside(name) {
-                    Some(inside) => inside,
-                    None => name.to_owned(),
-                });
-            }
+        let (mut node, mut joint) = read(reader, tag, 0)?;
+        node.attached_to = Some(child);
+        node.relative_to = node.relative_to.as_deref().and_then(inside);
+        joint.parent = parent;
+        for axis in &mut joint.axes {
+            axis.expressed_in = axis.expressed_in.as_deref().map(|name| match inside(name) {
+                Some(inside) => inside,
+                None => name.to_owned(),
+            });
         }
+        // Names in the model do not mean it: it is in no table.
+        reader.scene.nodes.push(node);
+        reader.scene.joints.push(joint);
     }
     Ok(())
 }

@@ -128,6 +128,12 @@ fn a_joint_of_the_world_holds_the_robot() {
         assert!(model.is_floating);
         assert_eq!(model.tally.all_unread().get("`<joint>` of `<world>`"), Some(&1));
     }
+    // Its name is not one of the model's.
+    let own = "<joint name='hold' type='fixed'><parent>a</parent><child>b</child></joint></model><model name='other'";
+    let both =
+        text(&joint("fixed", "world", "cart", "")).replace("</model><model name='other'", own);
+    let model = given(&both, &[]).expect("a model");
+    assert_eq!(model.bodies.len(), 3);
     let inside = given(&text(&joint("fixed", "cart::a", "cart::b", "")), &[]).expect("a model");
     assert_eq!(body(&inside, "b").fixed_by.as_deref(), Some("hold"));
 }
