@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use tempfile::TempDir;
 use urdd_export::{Choices, Export, ExportError, Format, Note, Shapes};
+use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::{Robot, ShapeKind};
 
 use crate::made::{export, robot, urdf};
@@ -339,8 +340,11 @@ fn row(distance: f64, visual: f64, middle: &str) -> String {
     .concat()
 }
 
-fn pairs(robot: &Robot) -> BTreeMap<[String; 2], String> {
-    let text = of_source(robot, Format::Srdf).text;
+/// The pairs of an SRDF, with those that never touch.
+fn pairs(robot: &Robot, shapes: Shapes) -> BTreeMap<[String; 2], String> {
+    let reasons = Some(vec![SkippedReason::Always, SkippedReason::Default, SkippedReason::Never]);
+    let choices = Choices { shapes, reasons, ..Choices::default() };
+    let text = export(robot, Format::Srdf, &choices).expect("an export").text;
     let is = |node: &urdd_xml::Node| node.has_tag_name("disable_collisions");
     let all = found(&text, is, &["link1", "link2", "reason"]).into_iter();
     all.map(|of| ([of[0].clone(), of[1].clone()], of[2].clone())).collect()
@@ -348,20 +352,23 @@ fn pairs(robot: &Robot) -> BTreeMap<[String; 2], String> {
 
 #[test]
 fn pairs_are_judged_by_what_is_written() {
-    let pair = ["a".to_owned(), "b".to_owned()];
+    let reason = |robot: &Robot, shapes: Shapes| {
+        let found = pairs(robot, shapes);
+        found.get(&["a".to_owned(), "b".to_owned()]).cloned().unwrap_or_default()
+    };
     // Balls on the axes of both joints: 0.1 m apart they always overlap, 0.5 m apart never.
     let (_folder, near) = robot(&urdf(&row(0.1, 0.5, "")));
-    assert_eq!(pairs(&near).get(&pair).map(String::as_str), Some("Always"));
+    assert_eq!(reason(&near, Shapes::Source), "Always");
     let (_folder, far) = robot(&urdf(&row(0.5, 0.1, "")));
-    assert_eq!(pairs(&far).get(&pair).map(String::as_str), Some("Never"));
+    assert_eq!(reason(&far, Shapes::Source), "Never");
     // By pieces, which are of the visual geometry, it is the other way round.
-    let text = export(&near, Format::Srdf, &Choices::default()).expect("an export").text;
-    assert!(text.contains("reason=\"Never\""), "{text}");
+    assert_eq!(reason(&near, ShapeKind::Pieces.into()), "Never");
+    assert_eq!(reason(&far, ShapeKind::Pieces.into()), "Always");
     // SPEC 8.6 counts a gap of 1 mm as contact.
     let (_folder, gap) = robot(&urdf(&row(0.2009, 0.5, "")));
-    assert_eq!(pairs(&gap).get(&pair).map(String::as_str), Some("Always"));
+    assert_eq!(reason(&gap, Shapes::Source), "Always");
     let (_folder, gap) = robot(&urdf(&row(0.2011, 0.5, "")));
-    assert_eq!(pairs(&gap).get(&pair).map(String::as_str), Some("Never"));
+    assert_eq!(reason(&gap, Shapes::Source), "Never");
 }
 
 #[test]
@@ -376,7 +383,7 @@ fn moveit_judges_a_hollow_by_its_pieces_and_mujoco_by_its_hull() {
     };
     let parts = link("a", &ell) + &link("m", "") + &link("b", &ball);
     let (_folder, robot) = with_meshes(&(parts + &fixed("i", "a", "m") + &fixed("j", "m", "b")));
-    assert_eq!(pairs(&robot).into_values().collect::<Vec<_>>(), ["Never"]);
+    assert_eq!(pairs(&robot, Shapes::Source).into_values().collect::<Vec<_>>(), ["Never"]);
     let drake = of_source(&robot, Format::Drake).text;
     assert!(
         drake.contains("ignored_collision_filter_group"),
