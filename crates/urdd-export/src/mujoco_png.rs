@@ -5,7 +5,7 @@ use std::io::{Cursor, Read, copy, sink};
 
 use flate2::Crc;
 use flate2::read::ZlibDecoder;
-use png::{Decoder, DecodingError, Encoder, Info, Transformations, Writer};
+use png::{ColorType, Decoder, DecodingError, Encoder, Info, Transformations, Writer};
 
 const SIGNATURE: usize = 8;
 /// Length, type and checksum of a chunk.
@@ -63,6 +63,9 @@ fn is_exact(image: &[u8], pixels: &[u8]) -> bool {
         return false;
     };
     let info = header.info();
+    if info.color_type == ColorType::Indexed && info.palette.is_none() {
+        return false;
+    }
     let expected = (info.raw_row_length() as u64).checked_mul(u64::from(info.height));
     let Some(expected) = expected.filter(|_| !info.interlaced) else {
         return false;

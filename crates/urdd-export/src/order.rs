@@ -45,11 +45,13 @@ enum Walk {
 
 use Walk::{AsWritten, BreadthFirstByName, DepthFirst, DepthFirstByName};
 
+const PYBULLET: &str = "pybullet";
+
 const PROGRAMS: [(&str, Format, Walk); 8] = [
     ("urdf", Format::Urdf, AsWritten),
     ("mujoco", Format::Mjcf, DepthFirst),
     ("pinocchio", Format::Urdf, DepthFirstByName),
-    ("pybullet", Format::Urdf, DepthFirst),
+    (PYBULLET, Format::Urdf, DepthFirst),
     ("drake", Format::Drake, DepthFirst),
     ("libsdformat", Format::Sdf, AsWritten),
     ("newton", Format::Usd, DepthFirstByName),
@@ -123,7 +125,12 @@ impl<'a> Joints<'a> {
     }
 
     fn order(&self, program: &'static str, walk: Walk, urdf: &UrdfModule) -> JointOrder {
-        let joints = self.moving(walk).into_iter().flat_map(|joint| {
+        // PyBullet holds a floating joint fixed.
+        let is_fixed = |joint: usize| {
+            program == PYBULLET && self.of.view.joints[joint].joint_type == JointType::Floating
+        };
+        let moving = self.moving(walk).into_iter().filter(|joint| !is_fixed(*joint));
+        let joints = moving.flat_map(|joint| {
             let parts = self.names.parts[joint].iter().map(|(name, _)| name.clone());
             let parts: Vec<String> = parts.filter(|_| self.is_chain(joint)).collect();
             if parts.is_empty() { vec![self.own[joint].clone()] } else { parts }

@@ -141,6 +141,8 @@ fn joints_are_called_and_moved_as_in_the_export() {
     assert_eq!(joints(&robot, "drake"), format!("{floating} slides held twin"));
     assert_eq!(joints(&robot, "libsdformat"), format!("{floating} {planar} held twin_joint"));
     assert_eq!(joints(&robot, "isaac"), "flies slides twin");
+    // It holds a floating joint fixed.
+    assert_eq!(joints(&robot, "pybullet"), "slides held twin");
     assert_eq!(joints(&robot, "urdf"), "flies slides held twin");
 }
 
