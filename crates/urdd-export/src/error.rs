@@ -284,11 +284,11 @@ pub enum Note {
     },
     /// The collision geometry of the source is in the file: how many shapes of which kinds.
     #[error(
-        "the file has the collision geometry of the source, {0}; pairs are judged by these shapes"
+        "the shapes are those of the source, {0}; pairs, where the format has them, are judged by these"
     )]
     SourceShapes(ShapeCounts),
     /// The collision geometry of the source is not in the file, or in another form.
-    #[error("the source's collision geometry ({elements}) is not in the file as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
+    #[error("the source's collision geometry ({elements}) is not taken as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
     NotOfSource {
         /// How many shapes of which kinds.
         elements: ShapeCounts,

@@ -311,7 +311,7 @@ fn solutions_are_free_of_obstacles_too() {
         assert!(verdicts.contains(&Refused) && verdicts.contains(&Reached), "{verdicts:?}");
         for margin in [f64::NAN, -0.1, f64::INFINITY] {
             asked.settings.margin = margin;
-            fails(asked.ask().0, Status::Value, "`margin`");
+            fails(asked.ask().0, Status::Value, "a margin");
         }
         ok(urdd_world_proximity_free(world));
         ok(urdd_proximity_free(proximity));

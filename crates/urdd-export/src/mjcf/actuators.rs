@@ -29,7 +29,7 @@ pub(super) fn actuators(
     let taken: HashSet<String> = (0..gains.len()).filter_map(given).collect();
     check_names(subject.format, "actuator", taken.iter().map(String::as_str), ANOTHER)?;
     for name in &taken {
-        names.free(name.clone());
+        names.insert(name);
     }
     for (index, gains) in gains.into_iter().enumerate() {
         let Some(gains) = gains else {
