@@ -88,8 +88,11 @@ pub(super) fn notes<'a>(
     let contacts = HiddenContacts::new(&skips.edits, names);
     let matrix = skips.decomposition_convex_hulls_skips.as_ref();
     let matrix = matrix.unwrap_or(&skips.full_convex_hulls_skips);
-    let hidden =
-        pairs(simple, |links, reason, (i, j)| contacts.touches_in(links, reason, matrix[i][j]));
+    let is_skipped = |i: usize, j: usize| matrix.get(i).and_then(|row| row.get(j)) == Some(&true);
+    let mut hidden =
+        pairs(simple, |links, reason, (i, j)| contacts.touches_in(links, reason, is_skipped(i, j)));
+    let always = pairs(simple, |_, reason, _| (reason == SkipReason::Always).then_some(()));
+    hidden.retain(|links, _| !always.contains_key(links));
     if hidden.is_empty() {
         return Ok(Vec::new());
     }
@@ -109,6 +112,8 @@ pub(super) fn notes<'a>(
         })
         .collect();
     context.settings.cancellation.check()?;
+    // Links that touch in all samples are as those that always do.
+    counted.retain(|(touching, ..)| *touching < motion.num_samples());
     // The most collisions first.
     counted.sort_by_key(|(touching, links, _)| (std::cmp::Reverse(*touching), *links));
     let mut places: Vec<TouchesIn> = Vec::new();
@@ -136,21 +141,21 @@ fn note(context: &Context, place: TouchesIn, pairs: &[(usize, Links)], samples: 
     let pair = |(touching, links): &(usize, Links)| {
         let [a, b] = links.map(|link| Short::of(&context.chain.links_in_chain[link].name));
         let share = 100.0 * *touching as f64 / samples as f64;
-        format!("`{a}` and `{b}` in {share:.1} %")
+        format!("`{a}` and `{b}` {share:.1} %")
     };
     let named = if pairs.len() <= MOST_NAMED + 1 { pairs.len() } else { MOST_NAMED };
     let mut list: Vec<String> = pairs.iter().take(named).map(pair).collect();
     if let Some((most, _)) = pairs.get(named) {
         let share = 100.0 * *most as f64 / samples as f64;
-        list.push(format!("{} more in at most {share:.1} % each", pairs.len() - named));
+        list.push(format!("{} more at most {share:.1} % each", pairs.len() - named));
     }
     let (number, list) = (pairs.len(), list.join(", "));
-    let [what, it, touches] = match number {
+    let [what, them, they] = match number {
         1 => ["pair of links touches", "it", "it touches"],
         _ => ["pairs of links touch", "them", "they touch"],
     };
     let problem = format!(
-        "{number} {what} in the {place}, so collision checks skip {it}; of {samples} sampled configurations, {touches} in: {list}"
+        "{number} {what} in the {place}, so collision checks skip {them}; share of {samples} sampled configurations in which {they}: {list}"
     );
     let assumed = "these collisions count as free; to check a pair, add an edit with `\"skip\": false`, or choose another reference configuration by `--reference`";
     context.note(NoteKind::SkippedContact, problem, assumed)

@@ -84,7 +84,7 @@ fn the_samples_in_which_a_skipped_pair_touches_are_counted() {
         let said = notes(&made, NoteKind::SkippedContact);
         let share = |at: usize| counts[at] as f64 / 5.0;
         let expected = format!(
-            "3 pairs of links touch in the default configuration, so collision checks skip them; of 500 sampled configurations, they touch in: `base` and `box1` in {:.1} %, `base` and `box0` in {:.1} %, `base` and `box2` in {:.1} %",
+            "3 pairs of links touch in the default configuration, so collision checks skip them; share of 500 sampled configurations in which they touch: `base` and `box1` {:.1} %, `base` and `box0` {:.1} %, `base` and `box2` {:.1} %",
             share(1),
             share(0),
             share(2)
@@ -103,7 +103,7 @@ fn of_many_pairs_the_worst_are_named() {
     let most = touching(5, ranges[5], 1000) as f64 / 10.0;
     assert!(said.starts_with("12 pairs of links touch in the default configuration"), "{said}");
     let end = format!(
-        "`base` and `box4` in {:.1} %, 7 more in at most {most:.1} % each",
+        "`base` and `box4` {:.1} %, 7 more at most {most:.1} % each",
         touching(4, ranges[4], 1000) as f64 / 10.0
     );
     assert!(said.ends_with(&end), "{said}");
@@ -162,7 +162,7 @@ fn a_named_configuration_is_the_reference() {
     assert_eq!(
         notes(&made, NoteKind::SkippedContact),
         [format!(
-            "1 pair of links touches in the reference configuration `home`, so collision checks skip it; of 200 sampled configurations, it touches in: `base` and `box1` in {:.1} %",
+            "1 pair of links touches in the reference configuration `home`, so collision checks skip it; share of 200 sampled configurations in which it touches: `base` and `box1` {:.1} %",
             count as f64 / 2.0
         )]
     );

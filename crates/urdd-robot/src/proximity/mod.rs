@@ -16,7 +16,7 @@ mod swept;
 mod vector;
 mod without;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::Robot;
@@ -27,6 +27,7 @@ use super::shapes::ShapeKind;
 use super::skips::Skips;
 use super::statistics::PairStatistics;
 use super::workspace::Placed;
+use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::skips::HiddenContacts;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
@@ -129,7 +130,8 @@ impl Robot {
 
     /// As [`Robot::proximity`], for the pairs that are skipped because they touch in the default configuration, or in the
     /// reference configuration that `urdd generate` was given: where they touch, the robot collides, and the other queries
-    /// call it free. Pairs that a person decided on are left out. `None` if there are no such pairs.
+    /// call it free. Pairs that a person decided on are left out, and those of links that always touch. `None` if there are
+    /// no such pairs.
     ///
     /// # Errors
     /// As [`Robot::proximity`].
@@ -137,16 +139,26 @@ impl Robot {
         let skips = self.skips(kind)?;
         let names = &self.shared_motion()?.links;
         let contacts = HiddenContacts::new(skips.edits(), names.iter().map(String::as_str));
-        let is_hidden = |i: usize, j: usize| {
+        let links = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|shape| skips.places()[shape].0);
-            let reason = skips.reason(i, j);
-            let touches = |reason| {
-                contacts.touches_in([a.min(b), a.max(b)], reason, skips.is_skipped(i, j)).is_some()
-            };
-            reason.is_some_and(touches)
+            [a.min(b), a.max(b)]
+        };
+        let shapes = 0..skips.len();
+        let mut always = HashSet::new();
+        for i in shapes.clone() {
+            for j in i + 1..skips.len() {
+                if skips.reason(i, j) == Some(SkipReason::Always) {
+                    always.insert(links(i, j));
+                }
+            }
+        }
+        let is_hidden = |i: usize, j: usize| {
+            let links = links(i, j);
+            let touches =
+                |reason| contacts.touches_in(links, reason, skips.is_skipped(i, j)).is_some();
+            !always.contains(&links) && skips.reason(i, j).is_some_and(touches)
         };
         // The shapes are read only where they are needed.
-        let shapes = 0..skips.len();
         if !shapes.clone().any(|i| shapes.clone().skip(i + 1).any(|j| is_hidden(i, j))) {
             return Ok(None);
         }

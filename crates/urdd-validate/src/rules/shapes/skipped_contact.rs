@@ -54,14 +54,20 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         })
         .collect();
     let mut pairs: BTreeMap<(usize, usize), Vec<(usize, usize)>> = BTreeMap::new();
+    let mut always = HashSet::new();
     for (i, j, reason) in sound_pairs(rows, Elements::Reasons) {
         let is_skipped = skipped.get(i).and_then(|row| row.get(j)) == Some(&true);
-        if reason == PairReason::Default && is_skipped {
+        if matches!(reason, PairReason::Default | PairReason::Always) {
             let (a, b) = (shapes.link(kind, i)?, shapes.link(kind, j)?);
-            pairs.entry((a.min(b), a.max(b))).or_default().push((i, j));
+            let links = (a.min(b), a.max(b));
+            if reason == PairReason::Always {
+                always.insert(links);
+            } else if is_skipped {
+                pairs.entry(links).or_default().push((i, j));
+            }
         }
     }
-    pairs.retain(|links, _| !decided.contains(links));
+    pairs.retain(|links, _| !decided.contains(links) && !always.contains(links));
     let of_shapes: usize = pairs.values().map(Vec::len).sum();
     let work = of_shapes as u64 * plan::HULL;
     let eights = (WORK / (8 * work.max(1))).clamp(1, CONFIGURATIONS / 8);
@@ -71,16 +77,20 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let motion = findings.or_skip(Poses::new(context).and_then(|poses| poses.motion(0..n)))?;
     let mut fold = Fold::new(findings);
     for ((a, b), of_links) in pairs {
-        fold.add(|| {
-            let mut touches = vec![false; n as usize];
-            for (i, j) in &of_links {
-                for (touches, distance) in
-                    touches.iter_mut().zip(set.pair(*i, *j, &motion).unwrap_or_default())
-                {
-                    *touches |= distance <= 0.0;
-                }
+        let mut touches = vec![false; n as usize];
+        for (i, j) in &of_links {
+            for (touches, distance) in
+                touches.iter_mut().zip(set.pair(*i, *j, &motion).unwrap_or_default())
+            {
+                *touches |= distance <= 0.0;
             }
-            let touching = touches.into_iter().filter(|touches| *touches).count();
+        }
+        let touching = touches.iter().filter(|touches| **touches).count();
+        // Links that touch in all samples are as those that always do.
+        if touching == touches.len() {
+            continue;
+        }
+        fold.add(|| {
             let [a, b] = [a, b].map(|link| robot.links[link].name.as_str());
             let (i, j) = of_links[0];
             let message = format!(
