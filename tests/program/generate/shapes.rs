@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use urdd_generate::{Settings, generate};
+use urdd_generate::note::{Note, NoteKind};
+use urdd_generate::{Generated, Settings, generate};
 
 use crate::generate::{bytes_below, findings_of, our_robots, read_json};
 
@@ -17,6 +18,12 @@ fn settings(num_samples: u32) -> Settings {
     Settings { num_samples, ..Settings::default() }
 }
 
+/// The notes, but for those that say how collisions are judged.
+fn odd(generated: &Generated) -> Vec<&Note> {
+    let of_collisions = [NoteKind::GeometryTaken, NoteKind::SkippedContact];
+    generated.notes.iter().filter(|note| !of_collisions.contains(&note.kind)).collect()
+}
+
 /// A URDD of a robot in `conformance/robots`.
 fn made(robot: &str, num_samples: u32) -> (tempfile::TempDir, PathBuf) {
     let folder = testkit::temporary::folder();
@@ -24,7 +31,7 @@ fn made(robot: &str, num_samples: u32) -> (tempfile::TempDir, PathBuf) {
     let robots = our_robots();
     let (_, source) = robots.iter().find(|(name, _)| name == robot).expect("ours");
     let generated = generate(source, &target, &settings(num_samples), &()).expect("a URDD");
-    assert_eq!(generated.notes, Vec::new());
+    assert_eq!(odd(&generated), [] as [&Note; 0]);
     (folder, target)
 }
 
@@ -310,7 +317,7 @@ fn edits_of_skips_outlive_a_new_run() {
     fs::write(&module, document.to_string()).expect("written");
 
     let generated = run();
-    assert_eq!(generated.notes, Vec::new());
+    assert_eq!(odd(&generated), [] as [&Note; 0]);
     assert_eq!(findings_of(&target), Vec::new());
     let document = read_json(&module);
     assert_eq!(document["edits"].as_array().map(Vec::len), Some(2));
@@ -319,7 +326,7 @@ fn edits_of_skips_outlive_a_new_run() {
 
     fs::write(&source, robot(&[link("a"), link("b"), joint("b", 1.0)])).expect("written");
     let generated = run();
-    assert_eq!(generated.notes.len(), 1, "{:?}", generated.notes);
+    assert_eq!(odd(&generated).len(), 1, "{:?}", generated.notes);
     assert_eq!(read_json(&module)["edits"], json!([edit("b")]));
     assert_eq!(findings_of(&target), Vec::new());
 }
