@@ -42,12 +42,13 @@ fn code(fault: &Fault) -> Code {
     match fault {
         Fault::TwoLinks { .. } => Code::URD002,
         Fault::TwoJoints { .. } => Code::URD003,
-        Fault::NoLinks | Fault::IsSrdf | Fault::ManyRoots { .. } => Code::URD004,
+        Fault::NoLinks | Fault::ManyRoots { .. } => Code::URD004,
         Fault::TwoParents { .. } => Code::URD005,
         Fault::Cycle(_) => Code::URD006,
         Fault::UnknownLink { .. } => Code::URD007,
         Fault::MimicCircle(_) => Code::URD009,
         Fault::ZeroAxis { .. } => Code::URD010,
+        // URD004 does not know that the file is an SRDF: the reader's words say it.
         _ => Code::URD011,
     }
 }

@@ -62,9 +62,9 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let found = all.paths().filter(|file| !is_passed(file));
     let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
     let mut found: Vec<(PathBuf, Kind)> = found.collect();
-    let is_mjcf = |(_, kind): &&(PathBuf, Kind)| *kind == Kind::Imported(Format::Mjcf);
-    let mjcfs = found.iter().filter(is_mjcf).map(|(file, _)| file.as_path());
-    let parts = parts(mjcfs, files);
+    let is_imported = |(_, kind): &&(PathBuf, Kind)| matches!(kind, Kind::Imported(_));
+    let imported = found.iter().filter(is_imported).map(|(file, _)| file.as_path());
+    let parts = parts(imported, files);
     // A part alone is shown with what is wrong with it.
     if found.iter().any(|(file, _)| !parts.contains(file)) {
         found.retain(|(file, _)| !parts.contains(file));

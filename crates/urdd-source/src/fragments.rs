@@ -1,4 +1,4 @@
-//! MJCF files that are parts of others, and descriptions of other formats in a folder.
+//! Files of MJCF and SDF that are parts of others, and descriptions of other formats in a folder.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -23,20 +23,21 @@ pub fn imported(file: &Path, files: &Files) -> Option<Format> {
     may_be_imported(file).then(|| format_of(file, files)).flatten()
 }
 
-/// The files among some MJCFs that are parts of others: that one of them includes, or without bodies.
-pub fn parts<'p>(mjcfs: impl Iterator<Item = &'p Path>, files: &Files) -> HashSet<PathBuf> {
-    mjcfs.flat_map(|mjcf| parts_of(mjcf, files).unwrap_or_default()).collect()
+/// The files among some that are imported and are no robots: MJCFs that one of them includes, or without bodies, and SDFs
+/// without models.
+pub fn parts<'p>(sources: impl Iterator<Item = &'p Path>, files: &Files) -> HashSet<PathBuf> {
+    sources.flat_map(|source| parts_of(source, files).unwrap_or_default()).collect()
 }
 
-fn parts_of(mjcf: &Path, files: &Files) -> Option<Vec<PathBuf>> {
-    let bytes = files.read(mjcf, MAX_SOURCE_BYTES).ok()?;
+fn parts_of(source: &Path, files: &Files) -> Option<Vec<PathBuf>> {
+    let bytes = files.read(source, MAX_SOURCE_BYTES).ok()?;
     let text = std::str::from_utf8(&bytes).ok()?;
-    if !["<body", "<include", "<attach"].iter().any(|tag| text.contains(tag)) {
-        return Some(vec![files.canonicalize(mjcf).ok()?]);
+    if !["<body", "<include", "<attach", "<model"].iter().any(|tag| text.contains(tag)) {
+        return Some(vec![files.canonicalize(source).ok()?]);
     }
     // A text that names no file is not parsed.
     let document = text.contains("<include").then(|| urdd_xml::parse(text, Kind::Other))?.ok()?;
     let elements = document.descendants().filter(|node| node.has_tag_name("include"));
-    let named = elements.filter_map(|node| Some(mjcf.parent()?.join(node.attribute("file")?)));
+    let named = elements.filter_map(|node| Some(source.parent()?.join(node.attribute("file")?)));
     Some(named.filter_map(|file| files.canonicalize(&file).ok()).collect())
 }

@@ -100,8 +100,7 @@ fn others(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
     let format = |file: &PathBuf| imported(file, &Files::Disk);
     let found = files.into_iter().filter_map(|file| Some((format(&file)?, file)));
     let found: Vec<(Format, PathBuf)> = found.collect();
-    let mjcfs = found.iter().filter(|(format, _)| *format == Format::Mjcf);
-    let found_in = fragments::parts(mjcfs.map(|(_, file)| file.as_path()), &Files::Disk);
+    let found_in = fragments::parts(found.iter().map(|(_, file)| file.as_path()), &Files::Disk);
     let is_part =
         move |file: &PathBuf| file.canonicalize().is_ok_and(|file| found_in.contains(&file));
     found.into_iter().map(|(_, file)| file).filter(move |file| !is_part(file))

@@ -49,6 +49,7 @@ fn a_folder_without_urdfs_has_other_descriptions() {
     write("look.xml", "<mujoco><asset/></mujoco>");
     write("package.xml", "<package/>");
     write("lamp.sdf", r#"<sdf version="1.9"><model name="m"><link name="l"/></model></sdf>"#);
+    write("sun.sdf", r#"<sdf version="1.9"><light name="sun" type="point"/></sdf>"#);
     let names = || -> Vec<String> {
         let run = lint(&[folder.path().to_owned()], &LintSettings::default()).expect("a report");
         run.report.urdds.into_iter().map(|urdf| urdf.path).collect()

@@ -36,6 +36,15 @@ fn macros_leave_every_rule_but_one_not_checked() {
 }
 
 #[test]
+fn an_srdf_is_called_one() {
+    let open = not_checked("<robot name=\"r\"><group name=\"arm\"/></robot>", &["LNT001"]);
+    let [(_, reason)] = &open[..] else {
+        panic!("{open:?}");
+    };
+    assert!(reason.contains("elements of an SRDF"), "{reason}");
+}
+
+#[test]
 fn the_rule_that_refused_the_file_is_named() {
     let reason = |from: &str, to: &str| {
         assert!(ARM.contains(from), "{from}");

@@ -167,11 +167,14 @@ fn names_of_sdf_that_are_made_of_long_ones() {
     let name = long(300_000);
     let links: String = (0..20_000).map(|at| format!("<link name=\"{at}\"/>")).collect();
     let sensors = "<sensor name=\"x\" type=\"camera\"/>".repeat(15_000);
+    let pose = "<pose relative_to=\"__model__\">1 0 0 0 0 0</pose>";
+    let posed = format!("<sensor name=\"x\" type=\"imu\">{pose}</sensor>").repeat(15_000);
     let middle = long(5000);
     let nested = format!("<model name=\"{middle}\"><link name=\"b\"/>");
     for inside in [
         format!("<link name=\"r\"/><model name=\"{name}\">{links}</model>"),
         format!("<link name=\"{name}\">{sensors}</link>"),
+        format!("<link name=\"{name}\">{posed}</link>"),
         format!("{}{links}{}", nested.repeat(60), "</model>".repeat(60)),
     ] {
         let text = format!("<sdf version=\"1.10\"><model name=\"m\">{inside}</model></sdf>");

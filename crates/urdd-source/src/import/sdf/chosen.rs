@@ -64,8 +64,11 @@ pub fn read_chosen(
         (None, ..) => return Refusal::at(root.place(), SdfFault::Models(names())),
     };
     if there.len() > 1 {
-        let others = there.len() - 1;
-        let text = format!("`{}` is the robot; {others} other models are left out", chosen.name);
+        let others = match there.len() - 1 {
+            1 => "1 other model is".to_owned(),
+            others => format!("{others} other models are"),
+        };
+        let text = format!("`{}` is the robot; {others} left out", chosen.name);
         reader.tally.remark(chosen.tag.place(), text);
     }
     around(root, chosen.world, &mut reader.tally);

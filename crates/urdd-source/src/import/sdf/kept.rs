@@ -6,7 +6,7 @@ use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
 use super::super::features;
-use super::super::model::GazeboElement;
+use super::super::model::{GazeboElement, LETTER};
 use super::super::place::Place;
 use super::poses::Frames;
 use super::reader::Reader;
@@ -45,7 +45,7 @@ pub fn keep(reader: &mut Reader, tag: Tag, owner: Option<Owner>) -> Result<(), R
         (Some((name, node)), Some(relative_to)) => {
             let owner = name.to_owned();
             let (pose, place) = ((pose, relative_to), tag.place());
-            reader.charge(element.fragment().len(), place)?;
+            reader.charge(element.fragment().len() + LETTER * name.len(), place)?;
             reader.posed.push(Posed { element, owner, node, pose, place });
             Ok(())
         }

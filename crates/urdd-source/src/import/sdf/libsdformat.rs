@@ -17,6 +17,21 @@ const NAMED: &[&str] = &["visual", "collision", "sensor", "light", "plugin", "wo
 /// Elements of links, models and shapes that say yes or no.
 const FLAGS: &[&str] =
     &["static", "self_collide", "allow_auto_disable", "enable_wind", "kinematic", "cast_shadows"];
+/// Elements that are looked into. In others, such as `<contact>` and `<state>`, `<collision>` and `<model>` mean other things.
+const READ: &[&str] = &[
+    "world",
+    "model",
+    "include",
+    "link",
+    "joint",
+    "frame",
+    "inertial",
+    "visual",
+    "collision",
+    "material",
+    "sensor",
+    "light",
+];
 /// The first minor version in which what is in a model has names of its own, and the first without `::` in names.
 const ONE_NAME: u32 = 7;
 const NO_SCOPES: u32 = 8;
@@ -38,9 +53,8 @@ pub fn say_refusals(root: Tag, tally: &mut Tally) {
     let mut open = vec![root];
     while let Some(tag) = open.pop() {
         siblings(tag, &mut say);
-        // What is in them is for others.
-        let is_own = |child: &Tag| child.name() != "plugin" && !child.name().contains(':');
-        let inside: Vec<Tag> = tag.children().filter(is_own).collect();
+        let is_read = |child: &Tag| READ.contains(&child.name());
+        let inside: Vec<Tag> = tag.children().filter(is_read).collect();
         open.extend(inside.into_iter().rev());
     }
 }

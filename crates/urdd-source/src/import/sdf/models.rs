@@ -100,7 +100,7 @@ fn enter(
     let prefix = around.map_or("", |around| &around.prefix);
     let names = LETTER * (prefix.len() + name.len());
     account.charge(ENTRY + names).or_else(|why| Refusal::at(tag.place(), why))?;
-    let whole = format!("{prefix}{name}");
+    let whole = format!("{prefix}{}", name.replace("::", "/"));
     let merged_into = parent.filter(|_| overrides.is_merged);
     let (table, inner) = match (around, merged_into) {
         (Some(around), Some(_)) => (around.table, around.prefix.clone()),

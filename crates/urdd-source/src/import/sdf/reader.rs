@@ -8,6 +8,7 @@ use urdd_directory::account::Charged;
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
 use super::super::model::{ENTRY, GazeboElement, LETTER};
+use super::super::names::Names;
 use super::super::place::{Place, TextFile, offset_of};
 use super::assets::Assets;
 use super::fault::SdfFault;
@@ -34,6 +35,9 @@ pub struct Reader<'r> {
     /// What is kept when it is known where frames are.
     pub posed: Vec<Posed>,
     pub friction: Friction,
+    /// The names of links and joints, with the models that they are in.
+    links: Names,
+    joints: Names,
     /// The files that are being read, the outermost first.
     open: Vec<PathBuf>,
 }
@@ -49,6 +53,8 @@ impl<'r> Reader<'r> {
             kept: Charged::default(),
             posed: Vec::new(),
             friction: Friction::default(),
+            links: Names::new(gate.account()),
+            joints: Names::new(gate.account()),
             open: Vec::new(),
         }
     }
@@ -79,15 +85,22 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// The name of something in a scope, with the models that it is in; it is charged.
+    /// The name of something in a scope, with the models that it is in; it is charged. Of two that would be the same, as
+    /// `n/b` and `b` of a model `n`, the second gets a number.
     ///
     /// # Errors
     /// If the account does not have its cost.
-    pub fn whole_name(&self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
+    pub fn whole_name(&mut self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
         let prefix = &self.scene.scopes[scope].prefix;
         self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
         // Files before 1.8 have names with the models that they are in.
-        Ok(format!("{prefix}{}", name.replace("::", "/")))
+        let whole = format!("{prefix}{}", name.replace("::", "/"));
+        let names = match tag.name() {
+            "link" => &mut self.links,
+            "joint" => &mut self.joints,
+            _ => return Ok(whole),
+        };
+        names.free(&whole).or_else(|why| Refusal::at(tag.place(), why))
     }
 
     /// Charges what is made at a place, in bytes.

@@ -111,8 +111,8 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
     let sizes = SIZES.iter().find(|(shape, _)| *shape == tag.name());
     let sizes = sizes.into_iter().flat_map(|(_, sizes)| *sizes);
     for size in sizes.filter(|size| tag.child(size).is_none()) {
-        let text =
-            format!("`<{}>` has no `<{size}>`: it has the size that SDF gives it", tag.name());
+        let metres = if (tag.name(), *size) == ("capsule", "radius") { 0.5 } else { 1.0 };
+        let text = format!("`<{}>` has no `<{size}>`: SDF gives it {metres} m", tag.name());
         reader.tally.remark(tag.place(), text);
     }
     let (feature, geometry) = match (primitive(tag)?, tag.name()) {

@@ -172,7 +172,7 @@ fn a_shape_without_a_size_has_that_of_sdf() {
             "<link name='a'><collision name='c'><geometry>{shape}</geometry></collision></link>"
         );
         let model = inside("1.12", &text).expect("a model");
-        let said = model.tally.remarks.iter().filter(|one| one.text.contains("that SDF gives it"));
+        let said = model.tally.remarks.iter().filter(|one| one.text.contains("SDF gives it"));
         (body(&model, "a").shapes[0].geometry.clone(), said.count())
     };
     // What the specification says of each.

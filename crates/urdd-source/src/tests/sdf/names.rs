@@ -25,9 +25,27 @@ fn names_of_nested_models_have_no_colons() {
         &[],
     );
     assert!(!text.contains("::"), "{text}");
+    let old = "<sdf version='1.7'><model name='m'><link name='a'/><model name='n::o'><link name='b'/></model></model></sdf>";
+    let model = super::given(old, &[]).expect("a model");
+    assert_eq!(super::body(&model, "n/o/b").name, "n/o/b");
     for name in
         ["link name=\"n/b\"", "link name=\"n/o/c\"", "joint name=\"n/k\"", "link name=\"n/f\""]
     {
+        assert!(text.contains(name), "{name}: {text}");
+    }
+}
+
+#[test]
+fn names_that_would_become_one_are_told_apart() {
+    let fixed = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<joint name='{name}' type='fixed'><parent>{parent}</parent><child>{child}</child></joint>"
+        )
+    };
+    let inner = format!("<link name='b'/><link name='c'/>{}", fixed("j", "b", "c"));
+    let outer = fixed("n/j", "n/b", "n::b");
+    let text = urdf(&format!("<link name='n/b'/><model name='n'>{inner}</model>{outer}"), &[]);
+    for name in ["link name=\"n/b_2\"", "joint name=\"n/j\"", "joint name=\"n/j_2\""] {
         assert!(text.contains(name), "{name}: {text}");
     }
 }

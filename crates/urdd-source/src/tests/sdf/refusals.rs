@@ -55,6 +55,12 @@ fn what_loads_is_not_said_to_be_refused() {
     for text in fine {
         assert_eq!(of_model("1.9", &text), [""; 0], "{text}");
     }
+    let contact =
+        "<sensor name='s' type='contact'><contact><collision>c</collision></contact></sensor>";
+    assert_eq!(of_model("1.9", &format!("<link name='a'>{contact}</link>")), [""; 0]);
+    let state = "<world name='w'><state world_name='w'><model name='m'/></state>";
+    let text = format!("<sdf version='1.9'>{state}<model name='m'>{LINKS}</model></world></sdf>");
+    assert_eq!(refusals(&text), [""; 0]);
     let joint = joint(["a", "b"], "a");
     assert_eq!(of_model("1.6", &format!("{LINKS}{joint}")), [""; 0]);
     assert_eq!(of_model("1.7", "<link name='x'/><link name='a::b'/>"), [""; 0]);
