@@ -178,6 +178,12 @@ pub struct ModuleInfo {
     pub unusable: Option<String>,
 }
 
+/// Those of a URDD that has skips: others are not opened again.
+fn skipped_contacts(urdd: &Urdd, path: &Path) -> Option<Vec<SkippedContact>> {
+    urdd.document(ModuleKind::LinkShapesSkips)?;
+    SkippedContact::all(path)
+}
+
 impl Info {
     /// Reads the URDD at `path`. `name` is its name in reports.
     ///
@@ -216,7 +222,7 @@ impl Info {
             parts: composition.map_or_else(Vec::new, |of| parts::tree(&of.parts, robot)),
             collision_model: model,
             geometry: GeometryInfo::of(&urdd),
-            skipped_contacts: SkippedContact::all(path),
+            skipped_contacts: skipped_contacts(&urdd, path),
             modules: urdd
                 .modules()
                 .map(|module| {

@@ -31,11 +31,9 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
-/// The number of findings, but for pairs that touch at rest: edits decide about them.
 fn findings(path: &Path) -> usize {
     let run = urdd_validate::validate(&[path], &Settings::default()).expect("a run");
-    let found = run.report.urdds.iter().flat_map(|urdd| &urdd.findings);
-    found.filter(|finding| finding.code != "SHP028").count()
+    run.report.urdds.iter().map(|urdd| urdd.findings.len()).sum()
 }
 
 fn edits() -> Value {

@@ -22,7 +22,6 @@ mod shape_list_length;
 mod shape_presence_differs;
 mod simple_skip_wrong;
 mod skip_reason_wrong;
-mod skipped_contact;
 mod skipped_pair_moves_apart;
 mod skipped_reasons_disordered;
 mod skips_not_from_edits;
@@ -38,6 +37,6 @@ rules! {
     needlessly_large_box, needlessly_large_sphere, negative_distance, no_samples,
     piece_matrix_missing, rigid_pair_not_constant, shape_does_not_touch, shape_leaves_out_part,
     shape_list_differs, shape_list_length, shape_presence_differs, simple_skip_wrong,
-    skip_reason_wrong, skipped_contact, skipped_pair_moves_apart, skipped_reasons_disordered,
+    skip_reason_wrong, skipped_pair_moves_apart, skipped_reasons_disordered,
     skips_not_from_edits, statistics_differ, statistics_out_of_order, unknown_link_in_edit
 }
