@@ -11,6 +11,8 @@ use urdd_source::beside::Companion;
 
 /// The parts of a file, by name.
 type Parts = Vec<(String, Fields)>;
+/// The parts of a side, or a note of why they are not compared.
+type Read<'a> = dyn Fn(&str, &Side) -> Result<Option<Parts>, String> + 'a;
 
 /// Differences of what stands beside two robots; `None` of what is not known of one.
 pub(super) struct Differences {
@@ -27,7 +29,7 @@ pub(super) fn differences(
     notes: &mut Vec<String>,
 ) -> Differences {
     let sides = [("A", before), ("B", after)];
-    let mut compare = |name: &str, read: &dyn Fn(&str, &Side) -> Result<Option<Parts>, String>| {
+    let mut compare = |name: &str, read: &Read<'_>| {
         let mut of = |(word, side): (&str, &Side)| match read(word, side) {
             Ok(parts) => parts,
             Err(note) => {

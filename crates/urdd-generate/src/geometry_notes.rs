@@ -16,6 +16,10 @@ pub(super) fn notes(context: &Context, plain: &PlainMeshesModule) -> Vec<Note> {
         vec![context.note(NoteKind::GeometryTaken, problem, assumed)]
     };
     if plain.link_meshes.iter().all(Option::is_none) {
+        // A single link has no pair, whatever it is made of.
+        if links.len() < 2 {
+            return Vec::new();
+        }
         let problem = "no link has a visual or collision element with a surface";
         return note(problem.to_owned(), "nothing can collide: there is no pair to check");
     }

@@ -141,7 +141,7 @@ def generate(
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
-        massless: the mass of links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m².
+        massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         drop_edits: discards the edits of skips and the named configurations in the URDD that is replaced.
         force: writes to a folder that contains something other than a URDD of this program.
         progress: called with the name of each module before it is generated, the number of finished modules, and the

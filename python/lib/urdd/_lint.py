@@ -60,7 +60,7 @@ def lint(
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
-        massless: the mass of links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m².
+        massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
         config: a settings file such as ``urdd.toml``. No such file is read by default.

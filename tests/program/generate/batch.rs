@@ -193,7 +193,7 @@ fn exit_status_tells_usage_from_failure() {
         (&["arm/arm.urdf", "-o", "o4", "--package", "x"], "NAME=PATH"),
         (&["arm/arm.urdf", "-o", "o4", "--package", "x=/no/such"], "not a folder"),
         (&["arm/arm.urdf", "-o", "o4", "--shard", "1/2"], "batches"),
-        (&["arm/arm.urdf", "-o", "o4", "--samples", "0"], "1.."),
+        (&["arm/arm.urdf", "-o", "o4", "--samples", "0"], "from 1 to 100,000"),
         (&[".hidden/../readme.txt", "nothing", "-o", "o4"], "no such file"),
         (&["o1", "-o", "o4"], "no .urdf"),
     ] {

@@ -70,7 +70,7 @@ fn strict_makes_nothing_of_what_has_to_be_assumed() {
     }
     assert!(!folder.path().join("out").exists());
     // A robot that needs none of these.
-    let robot = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"here.stl\"/></geometry></visual></link></robot>";
+    let robot = "<robot name=\"r\"><link name=\"a\"><collision><geometry><mesh filename=\"here.stl\"/></geometry></collision></link></robot>";
     fs::write(folder.path().join("r.urdf"), robot).unwrap();
     let (status, _, said) = run(folder.path(), &["--strict", "r.urdf"]);
     assert_eq!((status, said.as_str()), (Some(0), ""));

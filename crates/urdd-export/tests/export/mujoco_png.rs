@@ -113,7 +113,8 @@ fn mujoco_gets_the_pixels_without_what_it_refuses() {
     let mut wrong_sum = data.clone();
     *wrong_sum.last_mut().expect("a checksum") ^= 1;
     let of = |before: &[u8]| png(RGB, before, &data, b"");
-    let cases: Vec<(&str, Vec<u8>, Vec<[u8; 3]>)> = vec![
+    type Case = (&'static str, Vec<u8>, Vec<[u8; 3]>);
+    let cases: Vec<Case> = vec![
         ("significant bits, too many", of(&chunk(b"sBIT", &[9, 8, 8])), all.clone()),
         ("significant bits of another type", of(&chunk(b"sBIT", &[8])), all.clone()),
         ("gamma", of(&chunk(b"gAMA", &[0])), all.clone()),

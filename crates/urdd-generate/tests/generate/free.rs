@@ -18,7 +18,7 @@ fn slides(ranges: &[(f64, f64)], collision: bool) -> String {
             "<{element}><origin xyz=\"0 {y} 0\"/><geometry><box size=\"0.2 0.2 0.2\"/></geometry></{element}>"
         )
     };
-    let mut text = format!("<robot name=\"slides\"><link name=\"base\">");
+    let mut text = "<robot name=\"slides\"><link name=\"base\">".to_owned();
     (0..ranges.len()).for_each(|at| text += &cube(at as f64));
     text += "</link>";
     for (at, (lower, upper)) in ranges.iter().enumerate() {

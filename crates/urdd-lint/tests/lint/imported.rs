@@ -31,7 +31,7 @@ fn check(place: &Place, folder: &Path, with_line: &mut Vec<String>) {
     let file = place.file.as_deref().expect("a file");
     let text = fs::read_to_string(folder.join(file)).expect("a file that is there");
     if let Some(line) = place.line {
-        let line = text.lines().nth(line.get() as usize - 1).expect("a line of it");
+        let line = text.lines().nth(line.get() - 1).expect("a line of it");
         let name = place.subject.as_deref().and_then(name).expect("a name");
         assert!(line.contains(&format!("name=\"{name}\"")), "{name}: {line}");
         with_line.push(file.to_owned());
@@ -47,7 +47,7 @@ fn check_programs(urdf: &Urdd) {
     for effect in urdf.programs.iter().flat_map(|program| &program.effects) {
         let name = effect.part.as_deref().and_then(|part| part.split('/').nth(1));
         let name = name.unwrap_or_default();
-        let line = effect.line.map(|line| lines[line.get() as usize - 1]);
+        let line = effect.line.map(|line| lines[line.get() - 1]);
         assert!(line.is_none_or(|line| line.contains(&format!("name=\"{name}\""))), "{effect:?}");
         count[usize::from(line.is_some())] += 1;
     }
