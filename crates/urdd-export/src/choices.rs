@@ -6,11 +6,12 @@ use thiserror::Error;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
+use super::actuator_kind::ActuatorKind;
 use super::format::Format;
 use super::options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
-    ModelOptions, MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions,
-    SpherizedOptions, UrdfOptions, UsdOptions,
+    CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
+    UrdfOptions, UsdOptions,
 };
 use super::setup::Setup;
 use super::shapes::Shapes;

@@ -5,7 +5,6 @@ use thiserror::Error;
 use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
-use super::reasons::MOST_SHAPES;
 use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
@@ -66,9 +65,14 @@ pub enum ExportError {
     SpheresOf(Shapes),
     /// So many shapes of the source that judging their pairs would take too long.
     #[error(
-        "the source has {0} collision shapes, and pairs of at most {MOST_SHAPES} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
+        "the source has {count} collision shapes, and pairs of at most {most} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
     )]
-    TooManyShapes(usize),
+    TooManyShapes {
+        /// Number of shapes.
+        count: usize,
+        /// Maximum number.
+        most: usize,
+    },
     /// Distances between shapes of the source cannot be computed.
     #[error(
         "distances between the collision shapes of the source cannot be computed: {0}; choose the shapes `pieces`"

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
+use super::actuator_kind::ActuatorKind;
 use super::error::{ExportError, Note};
-use super::options::{ActuatorKind, MjcfOptions};
+use super::options::MjcfOptions;
 use super::subject::Subject;
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;

@@ -31,6 +31,7 @@
 //! ```
 
 // Hidden modules are public for `tests/`.
+mod actuator_kind;
 mod arrange;
 mod capsules;
 mod carried;
@@ -96,6 +97,7 @@ pub mod yaml;
 
 use urdd_robot::Robot;
 
+pub use actuator_kind::ActuatorKind;
 pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use counts::ShapeCounts;
@@ -103,9 +105,9 @@ pub use error::{ExportError, Note};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
-    ModelOptions, MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions,
-    SpherizedOptions, UrdfOptions, UsdOptions,
+    CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
+    UrdfOptions, UsdOptions,
 };
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;

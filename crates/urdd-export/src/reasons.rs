@@ -19,7 +19,7 @@ use urdd_geometry::primitives::Primitive;
 use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// The most shapes of which pairs are judged: time grows with their square.
-pub(super) const MOST_SHAPES: usize = 1_000;
+const MOST_SHAPES: usize = 1_000;
 
 /// Sides of the prism that stands for a cylinder.
 const SIDES: u32 = 64;
@@ -45,7 +45,7 @@ impl Judged {
     ) -> Result<Self, ExportError> {
         let count: usize = shapes.iter().map(Vec::len).sum();
         if count > MOST_SHAPES {
-            return Err(ExportError::TooManyShapes(count));
+            return Err(ExportError::TooManyShapes { count, most: MOST_SHAPES });
         }
         let (mut places, mut bodies, mut radii) = (Vec::new(), Vec::new(), Vec::new());
         for (link, shapes) in shapes.iter().enumerate() {

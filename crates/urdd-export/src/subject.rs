@@ -7,13 +7,14 @@ use std::ops::Deref;
 
 use nalgebra::Isometry3;
 
+use super::actuator_kind::ActuatorKind;
 use super::arrange::{self, Arranged};
 use super::contacts::{Basis, num_samples};
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::layout::Layout;
 use super::names;
-use super::options::{ActuatorKind, Options, Pairs};
+use super::options::{Options, Pairs};
 use super::pairs::LinkPair;
 use super::parts::JointNames;
 use super::reasons::Judged;

@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
+use super::super::actuator_kind::ActuatorKind;
 use super::super::error::{ExportError, Note};
 use super::super::gains::gains;
 use super::super::names::{ANOTHER, check_names};
-use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;

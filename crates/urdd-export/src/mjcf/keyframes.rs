@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::super::actuator_kind::ActuatorKind;
 use super::super::error::ExportError;
 use super::super::names::{ANOTHER, check_names};
-use super::super::options::ActuatorKind;
 use super::super::stand::Stand;
 use super::super::subject::Subject;
 use urdd_format::urdf::JointType;

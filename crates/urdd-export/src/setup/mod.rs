@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 
 pub use error::SetupError;
 
-use crate::options::ActuatorKind;
+use crate::actuator_kind::ActuatorKind;
 
 /// What exports need and a URDD does not say.
 ///

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use super::{Guess, Members, Setup};
+use crate::actuator_kind::ActuatorKind;
 use crate::error::ExportError;
-use crate::options::{ActuatorKind, MjcfOptions};
+use crate::options::MjcfOptions;
 use crate::structure::Structure;
 use crate::template::fill;
 use crate::yaml::{quoted, real};

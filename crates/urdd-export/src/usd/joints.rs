@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
+use super::super::actuator_kind::ActuatorKind;
 use super::super::error::{ExportError, Note};
 use super::super::gains::Gains;
-use super::super::options::ActuatorKind;
 use super::super::pose;
 use super::super::subject::Subject;
 use super::custom::elements;

@@ -8,6 +8,7 @@ use urdd_xml::writer::Element;
 use super::super::features;
 use super::super::model::{GazeboElement, LETTER};
 use super::super::place::Place;
+use super::posed::Posed;
 use super::poses::Frames;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -16,15 +17,6 @@ use super::tag::Tag;
 
 /// What an element of a link or joint is kept for: its name in the URDF, and its node.
 pub type Owner<'n> = (&'n str, usize);
-
-/// An element whose pose refers to another frame than that of its link or joint.
-pub struct Posed {
-    element: Element,
-    owner: String,
-    node: usize,
-    pose: (Isometry3<f64>, String),
-    place: Place,
-}
 
 /// Keeps an element of the model, or of a link or joint.
 ///

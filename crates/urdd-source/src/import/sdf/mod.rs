@@ -16,6 +16,7 @@ mod link_reader;
 mod models;
 mod moving;
 mod part;
+mod posed;
 mod poses;
 mod reader;
 mod refusal;

@@ -13,7 +13,7 @@ use super::super::place::{Place, TextFile, offset_of};
 use super::assets::Assets;
 use super::fault::SdfFault;
 use super::friction::Friction;
-use super::kept::Posed;
+use super::posed::Posed;
 use super::refusal::Refusal;
 use super::scene::Scene;
 use super::tag::Tag;
