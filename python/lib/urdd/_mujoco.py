@@ -40,8 +40,10 @@ class MujocoRobot:
 
     def data(self) -> Any:
         """``mujoco.MjData`` at the start: :attr:`start`, and the controls are :attr:`targets`."""
-        import mujoco
+        import mujoco as module
 
+        # Its types are incomplete.
+        mujoco: Any = module
         data = mujoco.MjData(self.model)
         data.qpos[:] = self.start
         data.ctrl[:] = self.targets
