@@ -197,5 +197,10 @@ fn the_geometry_that_was_taken_is_said() {
     );
     assert_eq!(taken(&both), ["1 link (`box0`) has visual and collision elements"]);
     let bare = "<robot name=\"bare\"><link name=\"a\"/></robot>";
-    assert_eq!(taken(bare), ["no link has a visual or collision element with a surface"]);
+    assert!(taken(bare).is_empty());
+    let bare = bare.replace(
+        "</robot>",
+        "<link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint></robot>",
+    );
+    assert_eq!(taken(&bare), ["no link has a visual or collision element with a surface"]);
 }

@@ -282,13 +282,13 @@ fn actuators_give_forces_speeds_and_gains() {
         (joint.effort, joint.velocity, joint.kp, joint.kv)
     };
     // A gear multiplies forces, its square gains; what has no limit has no greatest force. The dampings of `a` and `c` are
-    // ratios: MuJoCo's compiled model has these.
+    // ratios: 2 ratio sqrt(kp M), M the diagonal of MuJoCo's matrix of masses. MuJoCo 4 takes 1 / (the diagonal of its inverse).
     let ratio = |name, gear: f64, damping: f64| {
         let kv = joint(&model, name).kv.unwrap();
         assert!((kv - damping * gear * gear).abs() < 1e-7, "{name}: {kv}");
     };
-    ratio("a", 2.0, 1.14741187);
-    ratio("c", 1.0, 1.30351513);
+    ratio("a", 2.0, 1.2356094594);
+    ratio("c", 1.0, 1.4037118338);
     assert_eq!((of("a").0, of("a").2), (Some(10.0), Some(80.0)));
     assert_eq!(of("b"), (Some(3.0), None, None, None));
     assert_eq!((of("c").0, of("c").2), (None, Some(30.0)));

@@ -174,7 +174,7 @@ fn meshes_without_faces_are_hulls() {
     let path = folder.path().canonicalize().unwrap().join("m.xml");
     let text = r#"<mujoco><asset><mesh file="points.obj"/></asset><worldbody><body><joint/><geom type="mesh" mesh="points"/></body></worldbody></mujoco>"#;
     let model = of_text(&path, text.to_owned(), None).unwrap();
-    let inertial = model.bodies[0].inertial.as_ref().unwrap();
+    let inertial = model.bodies[1].inertial.as_ref().unwrap();
     assert!((inertial.mass - 1000.0 * 0.2 * 0.4 * 0.6).abs() < 1e-4, "{}", inertial.mass);
     assert!((inertial.centre - nalgebra::Point3::new(0.1, 0.2, 0.3)).norm() < 1e-6);
     assert_eq!(model.assets[0].path, "meshes/points.stl");

@@ -16,7 +16,7 @@ fn read(geoms: &str) -> Model {
 
 /// What each shape is for, in order.
 fn used(geoms: &str) -> Vec<Use> {
-    read(geoms).bodies[0].shapes.iter().map(|shape| shape.used).collect()
+    read(geoms).bodies[1].shapes.iter().map(|shape| shape.used).collect()
 }
 
 const TUBE: &str = r#"type="capsule" fromto="0 0 0 0 0 0.5" size="0.05""#;
@@ -41,7 +41,7 @@ fn groups_from_3_on_are_hidden() {
     let geoms =
         format!(r#"<geom {TUBE} group="3"/><geom {BADGE} group="2"/><geom {BADGE} group="4"/>"#);
     let model = read(&geoms);
-    let used: Vec<Use> = model.bodies[0].shapes.iter().map(|shape| shape.used).collect();
+    let used: Vec<Use> = model.bodies[1].shapes.iter().map(|shape| shape.used).collect();
     assert_eq!(used, [Use::Collision, Use::Visual]);
     assert_eq!([ONLY_COLLIDING, UNSEEN].map(|of| model.tally.number_of(of)), [1, 1]);
     // Without any that is shown, nothing would be seen of the robot.
@@ -53,7 +53,7 @@ fn shapes_that_collide_in_a_group_of_their_own_have_a_look() {
     let geoms = format!(r#"<geom {TUBE} group="0"/><geom {COVER} group="1"/>"#);
     let model = read(&geoms);
     assert_eq!(model.tally.number_of(ONLY_COLLIDING), 1);
-    let used: Vec<Use> = model.bodies[0].shapes.iter().map(|shape| shape.used).collect();
+    let used: Vec<Use> = model.bodies[1].shapes.iter().map(|shape| shape.used).collect();
     assert_eq!(used, [Use::Collision, Use::Visual]);
     // Elsewhere in the robot, their group is that of a look.
     let geoms = format!(

@@ -115,6 +115,7 @@ fn a_picture_and_what_the_gallery_says() {
     assert_eq!((&entry["links"], &entry["dofs"]), (&json!(9), &json!(6)));
     assert_eq!(entry["verdict"], "pass");
     fs::remove_dir_all(path.join("mesh_modules")).expect("removed");
-    assert_eq!(server.get("/robots/welding_arm/picture.png").status, 204);
+    // It is drawn of the shapes of the URDF then.
+    assert_eq!(server.get("/robots/welding_arm/picture.png").status, 200);
     assert_eq!(server.json("/robots/welding_arm/summary.json")["verdict"], "fail");
 }
