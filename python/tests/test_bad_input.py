@@ -232,7 +232,7 @@ def test_no_sources(tmp_path: Path) -> None:
         ({"samples": 0}, "from 1 to 100,000"),
         ({"pieces": 0}, "from 1 to 64"),
         ({"pieces": 300}, "from 1 to 64"),
-        ({"piece_tolerance": 0.0}, "metres above 0"),
+        ({"piece_tolerance": 0.0}, "above 0 metres"),
         ({"geometry": "both"}, "neither visual nor collision"),
         ({"mesh_formats": ["ply"]}, "there are: glb, stl, obj"),
         ({"skip": ["sometimes"]}, "there are: same-link"),

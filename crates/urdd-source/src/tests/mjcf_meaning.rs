@@ -182,7 +182,7 @@ fn meshes_without_faces_are_hulls() {
     let flat = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
     std::fs::write(folder.path().join("points.obj"), flat).unwrap();
     let fault = of_text(&path, text.to_owned(), None).unwrap_err().fault.to_string();
-    assert!(fault.contains("no convex hull"), "{fault}");
+    assert!(fault.contains("encloses no volume"), "{fault}");
 }
 
 #[test]

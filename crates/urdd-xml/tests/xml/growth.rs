@@ -94,15 +94,19 @@ pub fn kinds(bytes: usize) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The exponents of growth from 1 to 4 MB, printed: at most 1.2 when it was written.
+/// The exponents of growth from 1 to 4 MB, printed: at most 1.2 when it was written, and refused where they are nearer to a
+/// square than to a line. The shortest of three times counts: other work goes on beside it.
 #[test]
 fn every_kind_of_text_takes_time_in_proportion() {
-    // With `URDD_TRIALS`, three sizes and no other work beside it.
+    // With `URDD_TRIALS`, three sizes.
     let is_measured = std::env::var("URDD_TRIALS").is_ok();
     let took = |text: &str, kind: Kind| {
-        let start = Instant::now();
-        let _ = parse(text, kind).map(|document| document.descendants().count());
-        start.elapsed()
+        let once = || {
+            let start = Instant::now();
+            let _ = parse(text, kind).map(|document| document.descendants().count());
+            start.elapsed()
+        };
+        (0..if is_measured { 3 } else { 1 }).map(|_| once()).min().unwrap()
     };
     for kind in [Kind::Robot, Kind::Other, Kind::Lenient] {
         let small = kinds(1 << 20);
@@ -113,8 +117,8 @@ fn every_kind_of_text_takes_time_in_proportion() {
                 let others = [2 << 20, 4 << 20].map(|bytes| took(&kinds(bytes)[index].1, kind));
                 let exponent = (others[1].as_secs_f64() / first.as_secs_f64()).log2() / 2.0;
                 println!("{kind:?}: {name}: {first:.1?} {others:.1?}: {exponent:.2}");
-                let is_short = others[1] < Duration::from_millis(20);
-                assert!(exponent <= 1.2 || is_short, "{name}: {kind:?}: {exponent}");
+                let is_short = others[1] < Duration::from_millis(100);
+                assert!(exponent <= 1.5 || is_short, "{name}: {kind:?}: {exponent}");
             }
         }
     }
