@@ -32,14 +32,7 @@ pub fn failures(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
 pub fn not_well_formed(snapshot: &Snapshot) -> Option<Found> {
     let text = snapshot.text.content();
     let error = urdd_xml::parse(text, urdd_xml::Kind::Robot).err()?;
-    let place = error.pos();
-    // The parser's lines end at `\n` only.
-    let line = text.split_inclusive('\n').take((place.row as usize).saturating_sub(1));
-    let start: usize = line.map(str::len).sum();
-    let rest = &text[start.min(text.len())..];
-    let column = rest.char_indices().nth((place.col as usize).saturating_sub(1));
-    let offset = start + column.map_or(rest.len(), |(at, _)| at);
-    let offset = snapshot.text.content_start() + offset;
+    let offset = snapshot.text.content_start() + error.offset(text);
     let end = snapshot.text.line_end(offset).max(offset);
     let range = snapshot.text.range(offset..end);
     let words = error.words(text);

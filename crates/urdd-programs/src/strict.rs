@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use urdd_format::short;
-use urdd_xml::{Kind, Node, ParserError as Error, StringStorage, TextPos, XmlError};
+use urdd_xml::{Kind, Node, ParserError as Error, StringStorage, XmlError};
 
 use crate::tree::{Attribute, BEYOND, Element, Malformed, Parsed, Tree};
 
@@ -86,7 +86,7 @@ pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
         return Err(Malformed { at, why });
     }
     let document = urdd_xml::parse(text, Kind::Lenient)
-        .map_err(|error| Malformed { at: place_of(text, error.pos()), why: why(&error) })?;
+        .map_err(|error| Malformed { at: error.offset(text), why: why(&error) })?;
     let mut tree = Tree::default();
     // The element of each node that has one.
     let mut indices: Vec<usize> = Vec::new();
@@ -203,13 +203,6 @@ fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {
         Some(namespace) => format!("{{{}}}{name}", short::name(namespace)).into(),
         None => name.into(),
     }
-}
-
-fn place_of(text: &str, pos: TextPos) -> usize {
-    let row = pos.row.saturating_sub(1) as usize;
-    let start: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
-    let line = text[start..].char_indices();
-    line.map(|(at, _)| start + at).nth(pos.col.saturating_sub(1) as usize).unwrap_or(text.len())
 }
 
 fn why(error: &XmlError) -> &'static str {

@@ -8,7 +8,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use quick_xml::escape::escape;
-use roxmltree::{Error, TextPos};
+use roxmltree::Error;
 
 use crate::document::{Document, parse};
 use crate::error::{XmlError, text_pos};
@@ -62,7 +62,7 @@ pub fn parse_leniently<'t>(
     };
     let made = mended.0.get_or_init(|| made);
     parse(&made.text, Kind::Other).map_err(|error| {
-        let at = mended.original(offset(&made.text, error.pos()));
+        let at = mended.original(error.offset(&made.text));
         XmlError::Refused { what: error.words(&made.text), pos: text_pos(text, at) }
     })
 }
@@ -194,12 +194,4 @@ fn valid(text: &str) -> Cow<'_, str> {
 /// The character that a byte is of.
 fn floor(text: &str, at: usize) -> usize {
     (0..=at).rev().find(|at| text.is_char_boundary(*at)).unwrap_or_default()
-}
-
-/// The byte at a line and column of a text.
-fn offset(text: &str, pos: TextPos) -> usize {
-    let lines = text.split_inclusive('\n').take((pos.row as usize).saturating_sub(1));
-    let start: usize = lines.map(str::len).sum();
-    let before = text[start..].chars().take((pos.col as usize).saturating_sub(1));
-    start + before.map(char::len_utf8).sum::<usize>()
 }

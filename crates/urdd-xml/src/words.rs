@@ -2,7 +2,7 @@
 
 use roxmltree::Error;
 
-use super::error::XmlError;
+use super::error::{XmlError, offset};
 use super::limits::MAX_NODES;
 
 /// The message for a parser error, without the position.
@@ -101,11 +101,7 @@ fn expected_character(expected: &str, found: u8) -> String {
 
 /// The parser reports the same error for three faults; the position distinguishes them.
 fn unknown_token(text: &str, pos: roxmltree::TextPos) -> &'static str {
-    let (row, column) = (pos.row as usize, pos.col as usize);
-    let start: usize = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum();
-    let within: usize =
-        text[start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
-    let before = &text[..start + within];
+    let before = &text[..offset(text, pos)];
     let in_document_type =
         before.rfind("<!DOCTYPE").is_some_and(|begin| !before[begin..].contains("]>"));
     if before.trim_start_matches('\u{feff}').trim().is_empty() {

@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use urdd_directory::position::LineIndex;
-use urdd_xml::XmlError;
-
 use super::fault::ImportFault;
 use super::unreachable::Unreachable;
 use crate::decode::decode;
@@ -65,12 +62,4 @@ impl TextFile {
             ImportFault::File(Unreachable::Unreadable { file: shown, reason })
         })
     }
-}
-
-/// The byte offset of an error in the text of a file.
-pub fn offset_of(text: &str, error: &XmlError) -> usize {
-    let pos = error.pos();
-    let start = LineIndex::new(text).line_start(pos.row as usize).unwrap_or_default();
-    let before = text[start..].chars().take((pos.col as usize).saturating_sub(1));
-    start + before.map(char::len_utf8).sum::<usize>()
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
 
 use super::super::fault::ImportFault;
-use super::super::place::{Place, TextFile, offset_of};
+use super::super::place::{Place, TextFile};
 use super::super::unreachable::Unreachable;
 use super::at::{Fallible, at};
 use super::attach::{self, Models};
@@ -109,7 +109,7 @@ impl Expansion<'_> {
         if self.within.len() > DEEPEST || self.within.contains(&path) {
             return Err(at(asset.place, MjcfFault::DeepModels(DEEPEST)));
         }
-        let number = self.models.iter().max().map_or(0, |model| model + 1);
+        let number = self.models.last().map_or(0, |model| model + 1);
         self.models.push(number);
         self.model(&path, &text)
     }
@@ -201,7 +201,7 @@ fn parse<'t>(
     gate: &Gate,
 ) -> Fallible<urdd_xml::Document<'t>> {
     let document = parse_leniently(text, "mujoco", mended).map_err(|error| {
-        let place = Place { file, offset: offset_of(text, &error) };
+        let place = Place { file, offset: error.offset(text) };
         at(place, ImportFault::NotXml(error.words(text)))
     })?;
     let charged = gate.account().charge(mended.size());

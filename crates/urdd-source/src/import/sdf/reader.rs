@@ -9,7 +9,7 @@ use super::super::fault::ImportFault;
 use super::super::features::Tally;
 use super::super::model::{ENTRY, GazeboElement, LETTER};
 use super::super::names::Names;
-use super::super::place::{Place, TextFile, offset_of};
+use super::super::place::{Place, TextFile};
 use super::assets::Assets;
 use super::fault::SdfFault;
 use super::friction::Friction;
@@ -130,7 +130,7 @@ impl<'r> Reader<'r> {
         let document = match parse_leniently(&text, "sdf", &mended) {
             Ok(document) => document,
             Err(error) => {
-                let place = Place { file: index, offset: offset_of(&text, &error) };
+                let place = Place { file: index, offset: error.offset(&text) };
                 return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
             }
         };
