@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::Kind;
+use urdd_xml::{Mended, parse_leniently};
 
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::import::format::Format;
@@ -36,7 +36,9 @@ fn parts_of(source: &Path, files: &Files) -> Option<Vec<PathBuf>> {
         return Some(vec![files.canonicalize(source).ok()?]);
     }
     // A text that names no file is not parsed.
-    let document = text.contains("<include").then(|| urdd_xml::parse(text, Kind::Other))?.ok()?;
+    let mended = Mended::default();
+    let document =
+        text.contains("<include").then(|| parse_leniently(text, "mujoco", &mended))?.ok()?;
     let elements = document.descendants().filter(|node| node.has_tag_name("include"));
     let named = elements.filter_map(|node| Some(source.parent()?.join(node.attribute("file")?)));
     Some(named.filter_map(|file| files.canonicalize(&file).ok()).collect())

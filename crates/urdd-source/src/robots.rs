@@ -8,7 +8,6 @@ use thiserror::Error;
 
 use super::files::Files;
 use super::fragments::{self, imported, may_be_imported};
-use super::import::format::Format;
 
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
@@ -96,14 +95,11 @@ struct Found {
 }
 
 /// The MJCFs and SDFs among files, without those that are parts of others.
-fn others(files: Vec<PathBuf>) -> impl Iterator<Item = PathBuf> {
-    let format = |file: &PathBuf| imported(file, &Files::Disk);
-    let found = files.into_iter().filter_map(|file| Some((format(&file)?, file)));
-    let found: Vec<(Format, PathBuf)> = found.collect();
-    let found_in = fragments::parts(found.iter().map(|(_, file)| file.as_path()), &Files::Disk);
-    let is_part =
-        move |file: &PathBuf| file.canonicalize().is_ok_and(|file| found_in.contains(&file));
-    found.into_iter().map(|(_, file)| file).filter(move |file| !is_part(file))
+fn others(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
+    files.retain(|file| imported(file, &Files::Disk).is_some());
+    let parts = fragments::parts(files.iter().map(PathBuf::as_path), &Files::Disk);
+    files.retain(|file| !file.canonicalize().is_ok_and(|file| parts.contains(&file)));
+    files
 }
 
 fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchError> {

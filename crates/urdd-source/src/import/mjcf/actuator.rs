@@ -176,13 +176,7 @@ impl Actuator {
         let control = self.control.limits(element, "ctrllimited", compiler)?;
         let control = control.filter(|_| self.law == Law::Gain && !self.has_state);
         let control = control.map(|control| times(control, self.gain));
-        let both = match (force, control) {
-            (Some([least, most]), Some(control)) => {
-                Some(control.map(|force| force.max(least).min(most)))
-            }
-            (force, control) => force.or(control),
-        };
-        Ok(both.map(|force| times(force, self.gear)))
+        Ok(within(force, control).map(|force| times(force, self.gear)))
     }
 
     /// Whether its damping is a ratio: MuJoCo takes it for one in a servo of position.
@@ -223,6 +217,14 @@ fn times(ends: [f64; 2], factor: f64) -> [f64; 2] {
 /// The greatest force of a range, either way.
 pub fn greatest([least, most]: [f64; 2]) -> f64 {
     least.abs().max(most.abs())
+}
+
+/// A range of forces within a limit; the one that there is, where the other is none.
+pub fn within(limit: Option<[f64; 2]>, force: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    match (limit, force) {
+        (Some([least, most]), Some(force)) => Some(force.map(|of| of.max(least).min(most))),
+        (limit, force) => limit.or(force),
+    }
 }
 
 impl Range {

@@ -9,6 +9,7 @@ use super::super::place::Place;
 use super::at::{Fallible, at};
 use super::element::Element;
 use super::fault::MjcfFault;
+use super::reading::required;
 
 /// The tag of the default classes of a model that is attached. No element of XML has it.
 pub const CLASSES: &str = "default classes of a model";
@@ -45,9 +46,12 @@ pub fn splice(
             element.children.push(child);
             continue;
         }
-        let missing = |attribute| MjcfFault::Missing { element: child.tag.clone(), attribute };
-        let name = child.text("model").ok_or_else(|| at(child.place, missing("model")))?;
-        let prefix = child.get("prefix").ok_or_else(|| at(child.place, missing("prefix")))?;
+        let name = required(&child, "model")?;
+        // It may be empty.
+        let prefix = child.get("prefix").ok_or_else(|| {
+            let (element, attribute) = (child.tag.clone(), "prefix");
+            at(child.place, MjcfFault::Missing { element, attribute })
+        })?;
         let unknown = |what, name: &str| {
             let name = name.chars().take(60).collect();
             at(child.place, MjcfFault::Unknown { element: child.tag.clone(), what, name })
@@ -155,11 +159,7 @@ fn rename(element: &mut Element, prefix: &str) {
 
 /// Gives an asset without a name that of its file.
 fn name_by_file(asset: &mut Element) {
-    let file = asset.text("file").filter(|_| asset.text("name").is_none());
-    let stem = file.map(|file| {
-        let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
-        base.rsplit_once('.').map_or(base, |(stem, _)| stem).to_owned()
-    });
+    let stem = asset.stem().filter(|_| asset.text("name").is_none()).map(str::to_owned);
     if let Some(stem) = stem {
         asset.set("name", stem);
     }

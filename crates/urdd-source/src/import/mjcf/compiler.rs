@@ -46,14 +46,14 @@ pub struct Compiler {
 /// How a model and those that it attaches are read: each by its own settings.
 pub struct Compilers {
     all: Vec<Compiler>,
-    /// The model that each file is of.
+    /// The model that each file is of. Never falls: the files of a model follow each other.
     models: Vec<usize>,
 }
 
 impl Compilers {
     /// What the `<compiler>`s of the models say, the last one last. `models` has the model of each file.
     pub fn of(root: &Element, models: Vec<usize>) -> Fallible<Self> {
-        let count = models.iter().max().map_or(1, |last| last + 1);
+        let count = models.last().map_or(1, |last| last + 1);
         let all = (0..count).map(|_| Compiler::new()).collect();
         let mut compilers = Compilers { all, models };
         for element in root.all("compiler") {
@@ -75,7 +75,7 @@ impl Compilers {
     /// The first file of the model that has a place.
     pub fn first_file(&self, place: Place) -> usize {
         let model = self.model(place);
-        self.models.iter().position(|of| *of == model).unwrap_or(0)
+        self.models.partition_point(|of| *of < model)
     }
 }
 

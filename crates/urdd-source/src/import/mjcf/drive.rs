@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::features::{self, Tally};
 use super::super::model::{self, Joint, JointKind};
-use super::actuator::{Actuator, Law, TAGS, greatest};
+use super::actuator::{Actuator, Law, TAGS, greatest, within};
 use super::at::Fallible;
 use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN};
@@ -128,11 +128,8 @@ fn say(actuator: &Actuator, tally: &mut Tally) {
 }
 
 fn give(joint: &mut Joint, given: Given, tally: &mut Tally) {
-    let force = match (joint.actuator.force, given.force) {
-        // The joint clamps the sum.
-        (Some([least, most]), Some(sum)) => Some(sum.map(|force| force.max(least).min(most))),
-        (a, b) => a.or(b),
-    };
+    // The joint clamps the sum.
+    let force = within(joint.actuator.force, given.force);
     let is_lost = given.first.name.is_some() || given.first.control.is_some();
     if given.number > 1 && is_lost {
         tally.count(features::MORE_GAINS);

@@ -49,6 +49,13 @@ impl Element {
         self.get(name).filter(|text| !text.is_empty())
     }
 
+    /// The name of its file, without folders and ending: what an asset is called that has no name.
+    pub fn stem(&self) -> Option<&str> {
+        let file = self.text("file")?;
+        let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
+        Some(base.rsplit_once('.').map_or(base, |(stem, _)| stem))
+    }
+
     /// The children of a tag.
     pub fn all(&self, tag: &str) -> impl Iterator<Item = &Element> {
         self.children.iter().filter(move |child| child.tag == tag)

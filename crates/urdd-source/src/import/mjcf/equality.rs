@@ -63,7 +63,7 @@ fn tie(
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
     let mut who = [named("body1"), named("body2")].map(|name| name.unwrap_or("world".to_owned()));
-    let mut what = "closes a chain, which a URDF cannot say";
+    let (mut feature, mut what) = (features::CLOSED, "closes a chain, which a URDF cannot say");
     if let [Some(one), Some(other)] = sites {
         who = [one, other];
     } else {
@@ -73,18 +73,17 @@ fn tie(
             bodies.push(lookup.body(element, name, suffix.map_or("", String::as_str))?);
         }
         if bodies.iter().any(|body| all[*body].is_mocap) {
-            what = "follows a body that a program moves (`mocap`); it is left out";
+            (feature, what) =
+                (features::TIES, "follows a body that a program moves (`mocap`); it is left out");
         } else if !bodies.iter().all(|body| *body == WORLD || made.index.contains_key(body)) {
-            what = "is of a body that is not of the robot; it is left out";
+            (feature, what) =
+                (features::TIES, "is of a body that is not of the robot; it is left out");
         }
     }
     if !is_active {
-        what = "is not active; it is left out";
+        (feature, what) = (features::TIES, "is not active; it is left out");
     }
-    match what.starts_with("closes") {
-        true => tally.count(features::CLOSED),
-        false => tally.count(features::TIES),
-    }
+    tally.count(feature);
     let [one, other] = who;
     let at = match named("anchor").filter(|_| element.tag == "connect") {
         Some(anchor) => format!(" at {anchor} of `{one}`"),

@@ -29,11 +29,7 @@ impl<'d> Materials<'d> {
     pub fn of_model(root: &'d Element, defaults: &'d Defaults<'d>) -> Fallible<Self> {
         let mut materials = Materials { by_name: HashMap::new(), textures: HashMap::new() };
         for element in root.sections("asset") {
-            let file = element.text("file").map(|file| {
-                let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
-                base.rsplit_once('.').map_or(base, |(stem, _)| stem)
-            });
-            match (element.tag.as_str(), element.text("name").or(file)) {
+            match (element.tag.as_str(), element.text("name").or(element.stem())) {
                 ("material", Some(name)) => {
                     materials.by_name.insert(name, View::new(element, defaults, MAIN)?);
                 }

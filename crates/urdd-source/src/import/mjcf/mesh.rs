@@ -91,11 +91,7 @@ impl<'d> Meshes<'d> {
         for element in root.sections("asset").filter(|element| element.tag == "mesh") {
             let view = View::new(element, defaults, MAIN)?;
             let file = element.text("file");
-            let stem = file.map(|file| {
-                let base = file.rsplit(['/', '\\']).next().unwrap_or(file);
-                base.rsplit_once('.').map_or(base, |(stem, _)| stem)
-            });
-            let Some(name) = element.text("name").or(stem) else { continue };
+            let Some(name) = element.text("name").or(element.stem()) else { continue };
             let words = ["convex", "legacy", "exact", "shell"];
             let mode = view.word("inertia", &words, "`convex`, `legacy`, `exact` or `shell`")?;
             let asset = MeshAsset {

@@ -15,12 +15,19 @@ pub fn with_faces(mesh: Mesh) -> Option<Mesh> {
 
 /// The points of an OBJ that has no faces, in 32 bits as MuJoCo keeps them.
 pub fn of_obj(bytes: &[u8]) -> Option<Vec<[f64; 3]>> {
+    // Most have faces, behind their points: of these no number is read.
+    let is_face = |line: &[u8]| {
+        let mut words = line.split(u8::is_ascii_whitespace);
+        words.find(|word| !word.is_empty()) == Some(&b"f"[..]) && std::str::from_utf8(line).is_ok()
+    };
+    if lines(bytes).any(is_face) {
+        return None;
+    }
     let mut points = Vec::new();
     for line in lines(bytes) {
         let Ok(line) = std::str::from_utf8(line) else { continue };
         let mut words = line.split_ascii_whitespace();
         match words.next() {
-            Some("f") => return None,
             Some("v") => {
                 let mut point = [0.0; 3];
                 for coordinate in &mut point {

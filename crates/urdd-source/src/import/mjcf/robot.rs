@@ -200,7 +200,7 @@ impl<'d> Maker<'_, 'd> {
         for _ in parts.len()..geoms.len() {
             self.tally.count(features::DISCARDED);
         }
-        let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets);
+        let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets)?;
         for ((geom, fitted, is_visual), is_seen) in parts.into_iter().zip(seen) {
             let is_seen = is_seen && !self.materials.is_clear(geom, &self.meshes)?;
             let used = match (is_visual, is_seen) {

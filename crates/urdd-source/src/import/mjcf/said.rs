@@ -11,7 +11,7 @@ const READ: &str = "act active actuatorfrclimited actuatorfrcrange anchor angle 
     ctrllimited ctrlrange damping dampratio density diaginertia discardvisual dyntype euler \
     eulerseq face file fitaabb fitscale forcelimited forcerange friction frictionloss fromto \
     fullinertia gainprm gaintype gear geom1 geom2 gridlayout gridsize hfield inertia \
-    inertiafromgeom inertiagrouprange joint joint1 joint2 jointinparent kp kv limited mass \
+    inertiafromgeom inertiagrouprange inheritrange joint joint1 joint2 jointinparent kp kv limited mass \
     material mesh meshdir mocap model name offset params polycoef pos prefix qpos quat qvel \
     range ref refpos refquat rgba role scale sep settotalmass shellinertia site size \
     springdamper stiffness strippath texture texturedir timeconst type vertex xyaxes zaxis";
@@ -19,7 +19,7 @@ const READ: &str = "act active actuatorfrclimited actuatorfrcrange anchor angle 
 /// Attributes that concern only the simulator or the viewer.
 const SETTINGS: &str = "actdim actearly actlimited actrange actuatorgravcomp adhesion align alignfree colorspace \
     condim conflict delay dynprm emission fileback filedown filefront fileleft fileright fileup \
-    fluidcoef fluidshape gap group height hflip inheritrange interp lengthrange margin \
+    fluidcoef fluidshape gap group height hflip interp lengthrange margin \
     mark markrgb maxhullvert metallic mpos mquat nchannel normal nsample octree_maxdepth \
     priority random reflectance rgb1 rgb2 roughness saveinertial shininess simple sleep \
     smoothnormal solimp solimpfriction solimplimit solmix solref solreffriction solreflimit \

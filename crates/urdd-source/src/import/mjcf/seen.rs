@@ -6,8 +6,10 @@ use std::ops::RangeInclusive;
 use nalgebra::Point3;
 use urdd_geometry::mesh::Bounds;
 
+use super::super::fault::ImportFault;
 use super::super::model::Geometry;
 use super::assets::Assets;
+use super::at::Fallible;
 use super::body::{Bodies, WORLD};
 use super::contact::Contacts;
 use super::fit::Fitted;
@@ -52,30 +54,31 @@ impl Seen {
         parts: &[Part<'_, '_>],
         meshes: &mut Meshes<'_>,
         assets: &Assets<'_>,
-    ) -> Vec<bool> {
-        let mut look: Option<Option<Bounds>> = None;
+    ) -> Fallible<Vec<bool>> {
         let is_shown = |geom: &Geom<'_>| self.shows_all || SHOWN.contains(&geom.group);
-        let mut seen = Vec::with_capacity(parts.len());
-        for (geom, fitted, is_visual) in parts {
-            let may_be_covered = is_shown(geom) && !is_visual && !self.looks.contains(&geom.group);
-            if !may_be_covered {
-                seen.push(is_shown(geom));
-                continue;
+        let may_be_covered = |(geom, _, is_visual): &Part<'_, '_>| {
+            is_shown(geom) && !is_visual && !self.looks.contains(&geom.group)
+        };
+        let mut corners: Vec<[f64; 3]> = Vec::new();
+        if parts.iter().any(may_be_covered) {
+            let others = parts.iter().filter(|(geom, _, is_visual)| *is_visual && is_shown(geom));
+            for (geom, fitted, _) in others {
+                let own = bounds(geom, fitted, meshes, assets)?;
+                corners.extend(own.into_iter().flat_map(|own| [own.min, own.max]));
             }
-            let look = look.get_or_insert_with(|| {
-                let others =
-                    parts.iter().filter(|(geom, _, is_visual)| *is_visual && is_shown(geom));
-                let boxes = others.filter_map(|(of, fitted, _)| bounds(of, fitted, meshes, assets));
-                let corners: Vec<[f64; 3]> = boxes.flat_map(|of| [of.min, of.max]).collect();
-                (!corners.is_empty()).then(|| Bounds::of(corners))
-            });
-            let covered = match look {
-                Some(look) => bounds(geom, fitted, meshes, assets).map(|own| is_inside(&own, look)),
-                None => None,
-            };
-            seen.push(covered != Some(true));
         }
-        seen
+        let look = (!corners.is_empty()).then(|| Bounds::of(corners));
+        let mut seen = Vec::with_capacity(parts.len());
+        for part @ (geom, fitted, _) in parts {
+            seen.push(match look.as_ref().filter(|_| may_be_covered(part)) {
+                Some(look) => {
+                    let own = bounds(geom, fitted, meshes, assets)?;
+                    !own.is_some_and(|own| is_inside(&own, look))
+                }
+                None => is_shown(geom),
+            });
+        }
+        Ok(seen)
     }
 }
 
@@ -87,12 +90,15 @@ fn is_inside(own: &Bounds, look: &Bounds) -> bool {
 }
 
 /// The box around a shape, in the frame of its body; none of a surface without an end, and of what cannot be read.
+///
+/// # Errors
+/// If the account does not have a mesh.
 fn bounds(
     geom: &Geom<'_>,
     fitted: &Fitted,
     meshes: &mut Meshes<'_>,
     assets: &Assets<'_>,
-) -> Option<Bounds> {
+) -> Fallible<Option<Bounds>> {
     let moved = |point: [f64; 3]| (fitted.pose * Point3::from(point)).coords.into();
     let half = match geom.kind.solid(fitted.size) {
         Some(Geometry::Sphere(radius)) => [radius; 3],
@@ -101,10 +107,14 @@ fn bounds(
         Some(Geometry::Ellipsoid(radii)) => radii,
         Some(Geometry::Box(edges)) => edges.map(|edge| edge / 2.0),
         Some(Geometry::Mesh { .. }) | None => {
-            let mesh = meshes.placed(geom.mesh?, geom.place, assets).ok()?;
-            return Some(Bounds::of(mesh.vertices.into_iter().map(moved)));
+            let Some(mesh) = geom.mesh else { return Ok(None) };
+            return match meshes.placed(mesh, geom.place, assets) {
+                Ok(mesh) => Ok(Some(Bounds::of(mesh.vertices.into_iter().map(moved)))),
+                Err(why) if matches!(why.fault, ImportFault::TooMuch(_)) => Err(why),
+                Err(_) => Ok(None),
+            };
         }
     };
     let corner = |bits: usize| [0, 1, 2].map(|axis| half[axis] * [-1.0, 1.0][(bits >> axis) & 1]);
-    Some(Bounds::of((0..8).map(|bits| moved(corner(bits)))))
+    Ok(Some(Bounds::of((0..8).map(|bits| moved(corner(bits))))))
 }

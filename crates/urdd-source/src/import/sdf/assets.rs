@@ -36,7 +36,7 @@ pub struct Assets {
 }
 
 /// What looking for a file costs for each byte of its name and folder.
-const LOOKED_AT: usize = 100;
+pub const LOOKED_AT: usize = 100;
 
 /// A mesh file, the files that it names, and its parts, if it has names for them.
 #[derive(Debug)]

@@ -3,6 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
+use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
 use super::reader::Reader;
 use super::refusal::Refusal;
@@ -67,31 +68,29 @@ pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
 /// # Errors
 /// If there is none, or it may not be read.
 pub fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
-    let bare = uri.split_once("://").map_or(uri, |(_, rest)| rest).trim_start_matches("./");
-    let model = format!("model://{bare}");
     let missing = match find_as(reader, tag, uri)? {
         Ok(found) => return Ok(found),
         Err(missing) => missing,
     };
-    let is_outside = missing.outside.is_some();
-    if !is_outside
-        && !bare.starts_with('/')
+    if missing.outside.is_some() {
+        return Refusal::at(tag.place(), unreachable(uri, missing));
+    }
+    let bare = uri.split_once("://").map_or(uri, |(_, rest)| rest).trim_start_matches("./");
+    let model = format!("model://{bare}");
+    if !bare.starts_with('/')
+        && model != uri
         && let Ok(found) = find_as(reader, tag, &model)?
     {
         return Ok(found);
     }
-    match is_outside {
-        true => Refusal::at(tag.place(), unreachable(uri, missing)),
-        false => {
-            let (uri, why) = (uri.to_owned(), missing.in_words());
-            Refusal::at(tag.place(), SdfFault::NoInclude { uri, why })
-        }
-    }
+    let (uri, why) = (uri.to_owned(), missing.in_words());
+    Refusal::at(tag.place(), SdfFault::NoInclude { uri, why })
 }
 
 /// The file of a name as it is written.
 fn find_as(reader: &Reader, tag: Tag, uri: &str) -> Result<Result<FoundMesh, NotFound>, Refusal> {
     let folder = reader.folder(tag.file);
+    reader.charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()), tag.place())?;
     let gate = reader.gate;
     // A folder is not a file, but may have a manifest.
     let missing = match gate.find_from(uri, &folder) {
