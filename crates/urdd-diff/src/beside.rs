@@ -51,32 +51,32 @@ pub(super) fn differences(
         None
     };
     let srdf = compare("its SRDF", &|word, side| {
-        let parts = of(word, "SRDF", side.beside.srdf.as_ref(), words::of_srdf)?;
-        // A URDD has pairs and named configurations in its modules.
-        Ok(parts.or_else(|| (side.kind == Kind::Urdf).then(Vec::new)))
+        of(word, side, "SRDF", side.beside.srdf.as_ref(), words::of_srdf)
     });
     let setup = compare("its `export.toml`", &|word, side| {
-        let parts = of(word, "`export.toml`", side.beside.setup.as_ref(), words::of_toml)?;
-        Ok(parts.or_else(|| (side.kind == Kind::Urdf).then(Vec::new)))
+        of(word, side, "`export.toml`", side.beside.setup.as_ref(), words::of_toml)
     });
     for (word, side) in sides {
         notes.extend(lost_note(word, side));
     }
-    let lost = |side| lost(side).map(|parts| parts.collect::<Vec<_>>());
-    let lost = lost(before).zip(lost(after));
+    let parts = |side| lost(side).map(|parts| parts.collect::<Vec<_>>());
+    let lost = parts(before).zip(parts(after));
     let lost = lost.map(|(a, b)| parts::differences(&a, &b, 0.0));
     Differences { srdf, setup, lost }
 }
 
-/// The parts of a file of a side, if it is there.
+/// The parts of a file of a side, if it is there. A URDF without one has none; a URDD may have them in its modules.
 fn of(
     word: &str,
+    side: &Side,
     name: &str,
     file: Option<&Companion>,
     read: fn(&str) -> Result<Parts, String>,
 ) -> Result<Option<Parts>, String> {
     let read = file.map(|text| text.clone().and_then(|text| read(&text))).transpose();
-    read.map_err(|why| format!("{word}: the {name} beside it is not compared: {why}"))
+    let read =
+        read.map_err(|why| format!("{word}: the {name} beside it is not compared: {why}"))?;
+    Ok(read.or_else(|| (side.kind == Kind::Urdf).then(Vec::new)))
 }
 
 /// What an import lost, each with its number.

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use toml::{Table, Value};
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_xml::element::{children, name};
 use urdd_xml::{Kind, Node};
 
@@ -12,7 +13,17 @@ use crate::other_elements::numbered;
 /// The elements of an SRDF: `group_state "home" (arm)`, `disable_collisions a - b`.
 pub(super) fn of_srdf(text: &str) -> Result<Vec<(String, Fields)>, String> {
     let document = urdd_xml::parse(text, Kind::Robot).map_err(|error| error.words(text))?;
-    Ok(numbered(children(document.root_element()).map(|(_, element)| srdf_element(element))))
+    let account = account(text);
+    let parts = children(document.root_element()).map(|(_, one)| srdf_element(one, &account));
+    let parts = parts.collect::<Result<Vec<_>, Overdrawn>>().map_err(|why| why.to_string())?;
+    Ok(numbered(parts.into_iter()))
+}
+
+/// Each path has the names above it: what a text is made into is charged to what it has.
+fn account(text: &str) -> Account {
+    let account = Account::default();
+    account.deposit(text.len());
+    account
 }
 
 /// The attributes that tell an element from others of its tag: the first of these that it has.
@@ -22,7 +33,7 @@ const PAIR: &[&str] = &["link1", "link2"];
 /// A named configuration is one of a group.
 const OF_GROUP: (&str, &str) = ("group_state", "group");
 
-fn srdf_element(root: Node<'_, '_>) -> (String, Fields) {
+fn srdf_element(root: Node<'_, '_>, account: &Account) -> Result<(String, Fields), Overdrawn> {
     let attributes = NAMES.iter().find(|names| names.iter().all(|name| root.has_attribute(*name)));
     let mut names: Vec<&str> = attributes
         .into_iter()
@@ -46,6 +57,7 @@ fn srdf_element(root: Node<'_, '_>) -> (String, Fields) {
     while let Some((element, path)) = open.pop() {
         for attribute in element.attributes() {
             let own = attribute.name();
+            account.charge(path.len() + own.len())?;
             let is_named = match path.is_empty() {
                 true => attributes.is_some_and(|names| names.contains(&own)),
                 false => own == "name",
@@ -57,6 +69,9 @@ fn srdf_element(root: Node<'_, '_>) -> (String, Fields) {
         let mut counts: HashMap<String, usize> = HashMap::new();
         for (tag, child) in children(element) {
             let named = child.attribute("name").map(|name| format!(" {name}"));
+            // A path is kept three times.
+            let own = tag.len() + named.as_deref().map_or(0, str::len);
+            account.charge(3 * (path.len() + own))?;
             let mut below = format!("{path}{tag}{}", named.unwrap_or_default());
             let count = counts.entry(below.clone()).or_default();
             if *count > 0 {
@@ -67,13 +82,14 @@ fn srdf_element(root: Node<'_, '_>) -> (String, Fields) {
             open.push((child, below + "."));
         }
     }
-    (label.trim_end().to_owned(), fields.sorted())
+    Ok((label.trim_end().to_owned(), fields.sorted()))
 }
 
 /// The tables of an `export.toml` by their paths: `actuators.joint.elbow`, `group "arm"`. What is false or empty says as
 /// much as what is absent.
 pub(super) fn of_toml(text: &str) -> Result<Vec<(String, Fields)>, String> {
     let file: Table = toml::from_str(text).map_err(|error| error.message().to_owned())?;
+    let account = account(text);
     let mut parts = Vec::new();
     // A stack keeps the depth of tables off the call stack.
     let mut open = vec![(String::new(), &file)];
@@ -82,6 +98,9 @@ pub(super) fn of_toml(text: &str) -> Result<Vec<(String, Fields)>, String> {
             |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         let mut fields = Fields::default();
         for (key, value) in table {
+            let tables = value.as_array().map_or(1, |all| all.len().max(1));
+            let paths = 2 * tables * (path.len() + key.len());
+            account.charge(paths).map_err(|why| why.to_string())?;
             match value {
                 Value::Table(table) => open.push((below(key), table)),
                 Value::Array(all) if all.iter().any(Value::is_table) => {
