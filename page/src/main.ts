@@ -64,7 +64,7 @@ function start(): void {
   site.here = here;
   if (here && stage) {
     const { view } = stage;
-    stage.settled = () => void here.drawn(view.small(CARD));
+    stage.settled = () => void here.drawn(() => view.small(CARD));
   }
   const address = new Address(app, stage, here);
 

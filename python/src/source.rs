@@ -33,22 +33,8 @@ impl Source {
         let import = ImportOptions {
             body: self.body,
             model: self.model,
-            has_revolute_balls: match self.ball.as_str() {
-                "spherical" => false,
-                "revolute" => true,
-                other => {
-                    let other = other.escape_debug();
-                    return Err(format!("ball: `{other}` is neither spherical nor revolute"));
-                }
-            },
-            has_tiny_masses: match self.massless.as_str() {
-                "none" => false,
-                "tiny" => true,
-                other => {
-                    let other = other.escape_debug();
-                    return Err(format!("massless: `{other}` is neither none nor tiny"));
-                }
-            },
+            has_revolute_balls: is_second("ball", &self.ball, ["spherical", "revolute"])?,
+            has_tiny_masses: is_second("massless", &self.massless, ["none", "tiny"])?,
         };
         Ok(SourceSettings { packages, allowed_folders, xacro, import, ..SourceSettings::default() })
     }
@@ -70,5 +56,16 @@ pub fn places(
             Err(format!("allowed_folders: {folder} is not a folder"))
         }
         None => Ok((packages, allowed_folders)),
+    }
+}
+
+/// Whether an option has the second of its two words.
+fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result<bool, String> {
+    match word {
+        word if word == first => Ok(false),
+        word if word == second => Ok(true),
+        other => {
+            Err(format!("{option}: `{}` is neither {first} nor {second}", other.escape_debug()))
+        }
     }
 }

@@ -107,10 +107,10 @@ export class Here implements Keeper, Drafting {
   }
 
   /** The robot that is open is drawn: a small picture of it is for its card. */
-  async drawn(picture: Promise<Blob | null>): Promise<void> {
+  async drawn(picture: () => Promise<Blob | null>): Promise<void> {
     const { current } = this;
     if (!current || this.app.store.now.robot?.entry.id !== current.entry.id) return;
-    const blob = await picture;
+    const blob = await picture();
     if (blob && this.robots.includes(current)) current.draw(blob);
   }
 

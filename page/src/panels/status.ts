@@ -31,23 +31,22 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   });
   if (error !== null || !robot?.moves) return as("collisions unknown", "open", error ?? "the joints cannot be moved");
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
-  const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
+  const named = (links: readonly number[]): string =>
+    links.map((link) => name(robot.links[link]?.name ?? "")).join(" – ");
+  const listed = (all: string[]): string =>
+    all.slice(0, NAMED).join(", ") + (all.length > NAMED ? ` and ${all.length - NAMED} more` : "");
+  const pairs = contacts.pairs.map(({ links }) => named(links));
   if (answer.pairs === 0) return as("no pair to check for collisions", "open", "");
-  const skipped = answer.skipped_touching.map((links) =>
-    links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "),
-  );
+  const skipped = answer.skipped_touching.map(named);
   if (pairs.length === 0 && skipped.length === 0) return as("no self-collision", "good", "");
   if (pairs.length === 0) {
     const are = skipped.length === 1 ? "touches" : "touch";
-    const rest = skipped.length > NAMED ? ` and ${skipped.length - NAMED} more` : "";
-    const more = `skipped, because they touch at rest: ${skipped.slice(0, NAMED).join(", ")}${rest}`;
+    const more = `skipped, because they touch at rest: ${listed(skipped)}`;
     const number = count(skipped.length, "skipped pair");
     return as(`no self-collision, but ${number} ${are}`, "open", more, `${number} ${are}`);
   }
-  const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
-  const more = pairs.slice(0, NAMED).join(", ") + rest;
   const brief = count(pairs.length, "self-collision");
-  return as(`self-collision: ${count(pairs.length, "pair")} of links`, "bad", more, brief);
+  return as(`self-collision: ${count(pairs.length, "pair")} of links`, "bad", listed(pairs), brief);
 }
 
 export function status(app: App): HTMLElement {

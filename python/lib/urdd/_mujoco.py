@@ -139,5 +139,7 @@ def to_mujoco(
         qpos[:7] = base
     targets = np.zeros(model.nu)
     if actuators == "position":
-        targets = qpos[model.jnt_qposadr[model.actuator_trnid[:, 0]]]
+        held = qpos[model.jnt_qposadr[model.actuator_trnid[:, 0]]]
+        # A servo of speed stands still: one of positions alone has a bias by the position.
+        targets = np.where(model.actuator_biasprm[:, 1] != 0, held, 0.0)
     return replace(found, start=qpos, targets=targets)

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::statics::SAMPLES;
+
 use urdd_format::escape;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
-/// As the statistics of a URDD that `urdd generate` makes.
-const SAMPLES: u32 = 1000;
 /// Maximum number of pairs in text for people.
 const MOST_SHOWN: usize = 10;
 

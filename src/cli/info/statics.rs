@@ -13,7 +13,7 @@ use urdd_format::readable::number;
 use urdd_robot::{GravitySettings, Payload};
 
 /// As the statistics of a URDD that `urdd generate` makes.
-const SAMPLES: u32 = 1000;
+pub(super) const SAMPLES: u32 = 1000;
 /// A URDD may state any number.
 const MAX_SAMPLES: u32 = 100_000;
 
