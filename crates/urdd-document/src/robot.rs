@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::Matrix3;
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 
 use crate::pose::{has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion};
 use urdd_format::meshes::GeometryKind;
@@ -80,6 +80,12 @@ impl Origin {
             Some(unit) => rotation_of_quaternion(unit),
             None => rotation_of_rpy(self.rpy),
         }
+    }
+
+    /// It as a rigid motion, m.
+    pub fn motion(&self) -> Isometry3<f64> {
+        let rotation = Rotation3::from_matrix_unchecked(self.rotation());
+        Isometry3::from_parts(self.xyz.into(), UnitQuaternion::from_rotation_matrix(&rotation))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::error::Note;
+use super::error::{ExportError, Note};
 use super::format::Format;
 use super::order;
 use super::other_attributes::is_kept;
@@ -270,13 +270,13 @@ pub(super) fn lost(subject: &Subject) -> Option<Note> {
 }
 
 /// The report of an export, as JSON: what is carried, what otherwise, what is lost, and the notes.
-pub(super) fn report(subject: &Subject, made: &Export) -> String {
+pub(super) fn report(subject: &Subject, made: &Export) -> Result<String, ExportError> {
     let parts = carried(subject).chain(collision_geometry(made)).chain(textures(made));
     let parts: Vec<Part> = parts.map(|(name, count, how)| (name.to_owned(), count, how)).collect();
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
-    let order = order::report(subject.format, &subject.urdf, &subject.structure);
-    let more = [("order", order)];
-    carried::report_with(&subject.urdf.name, subject.format.name(), &parts, &notes, more)
+    let more = [("order", order::report(subject)?)];
+    let format = subject.format.name();
+    Ok(carried::report_with(&subject.urdf.name, format, &parts, &notes, more))
 }
 
 /// The table of docs/export.md, in Markdown.

@@ -8,8 +8,7 @@ use super::options::PairOptions;
 use super::pairs::{Contacts, LinkPair, pairs};
 use super::reasons::Judged;
 use urdd_format::link_shapes_simple_skips::SkipReason;
-use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_robot::{Robot, RobotError, ShapeKind};
+use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// Number of sampled configurations to evaluate if the URDD does not record its own.
 const USUAL_SAMPLES: u32 = 1_000;
@@ -19,36 +18,21 @@ const MAX_SAMPLES: u32 = 10_000;
 /// By what pairs are judged.
 pub(super) enum Basis {
     /// By the URDD's own skips of a kind of shapes.
-    Kind(ShapeKind),
+    Kind(ShapeKind, Skips),
     /// By shapes that only the export has.
     Written(Box<Judged>),
 }
 
 impl Basis {
-    /// The link and the number of each shape.
-    pub fn places(&self, robot: &Robot) -> Result<Vec<(usize, usize)>, RobotError> {
-        Ok(match self {
-            Basis::Kind(kind) => robot.skips(*kind)?.places().to_vec(),
-            Basis::Written(judged) => judged.skips.places().to_vec(),
-        })
+    /// The shapes, and which pairs of them are skipped.
+    pub fn skips(&self) -> &Skips {
+        match self {
+            Basis::Kind(_, skips) => skips,
+            Basis::Written(judged) => &judged.skips,
+        }
     }
 
-    /// Every pair of links with shapes, sorted by index. Does not count contacts.
-    pub fn pairs(
-        &self,
-        robot: &Robot,
-        layout: &Layout,
-        links: &[String],
-        reasons: Option<&[SkippedReason]>,
-        keep_pairs: bool,
-    ) -> Result<Vec<LinkPair>, ExportError> {
-        Ok(match self {
-            Basis::Kind(kind) => pairs(&robot.skips(*kind)?, layout, links, reasons, keep_pairs)?,
-            Basis::Written(judged) => pairs(&judged.skips, layout, links, reasons, keep_pairs)?,
-        })
-    }
-
-    /// As a link-level format represents them: the same, with contacts.
+    /// Every pair of links with shapes, sorted by index, as a link-level format represents them, with contacts.
     pub fn link_pairs(
         &self,
         robot: &Robot,
@@ -56,8 +40,8 @@ impl Basis {
         links: &[String],
         options: &PairOptions,
     ) -> Result<Vec<LinkPair>, ExportError> {
-        let (reasons, keep_pairs) = (options.reasons.as_deref(), options.keep_pairs);
-        let mut pairs = self.pairs(robot, layout, links, reasons, keep_pairs)?;
+        let reasons = options.reasons.as_deref();
+        let mut pairs = pairs(self.skips(), layout, links, reasons, options.keep_pairs)?;
         count(robot, layout, self, &mut pairs)?;
         Ok(pairs)
     }
@@ -107,18 +91,13 @@ fn count(
             shapes.sort_unstable();
             of_shapes.get(&shapes) == Some(&checked)
         };
-        let kind = match basis {
-            Basis::Written(judged) => return Ok(judged.contacts(is_wanted, body)),
-            Basis::Kind(kind) => *kind,
-        };
-        let found = robot.proximity_of(kind, is_wanted)?.contacts_of_links(&sampled, body)?;
-        let found = found.into_iter();
-        Ok(found
-            .map(|(mut links, count)| {
-                links.sort_unstable();
-                (links, count)
-            })
-            .collect())
+        Ok(match basis {
+            Basis::Written(judged) => judged.contacts(is_wanted, body),
+            Basis::Kind(kind, _) => {
+                let found = robot.proximity_of(*kind, is_wanted)?;
+                found.contacts_of_links(&sampled, body)?.into_iter().collect()
+            }
+        })
     };
     let (checked, skipped) = (contacts(true)?, contacts(false)?);
     for pair in pairs {

@@ -70,7 +70,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
     };
     Joint {
         joint_type: JointType::Fixed,
-        origin: Some(pose::origin(&(pose::motion(&view.origin) * motion))),
+        origin: Some(pose::origin(&(view.origin.motion() * motion))),
         axis: None,
         limit: None,
         dynamics: None,

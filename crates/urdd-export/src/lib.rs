@@ -134,7 +134,8 @@ pub fn base_pose(
     name: Option<&str>,
     configuration: &[f64],
 ) -> Result<Option<[f64; 7]>, ExportError> {
-    let subject = Subject::new(robot, options)?;
+    options.check()?;
+    let subject = Subject::without_pairs(robot, options)?;
     if !subject.has_free_base() {
         return Ok(None);
     }
@@ -165,6 +166,6 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
     made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());
     made.notes.extend(order::note(subject.format, &subject.structure));
-    made.report = carried::report(&subject, &made);
+    made.report = carried::report(&subject, &made)?;
     Ok(made)
 }

@@ -114,6 +114,7 @@ pub struct PairOptions {
 }
 
 /// The pairs that a format has.
+#[derive(Clone, Copy)]
 pub(super) enum Pairs<'a> {
     /// Of links.
     OfLinks(&'a PairOptions),

@@ -6,13 +6,15 @@
 
 use std::collections::VecDeque;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::drake;
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::mjcf::actuators;
 use super::parts::JointNames;
 use super::structure::Structure;
+use super::subject::Subject;
 use super::usd::names::names_of_joints;
 use urdd_format::urdf::{JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
@@ -30,13 +32,14 @@ pub struct JointOrder {
     pub rule: &'static str,
     /// The joints that move, in the order of their positions, as they are called there. Joints that follow others count.
     pub joints: Vec<String>,
-    /// The actuators of the export, for formats that have some beside joints.
+    /// The actuators of the export, for formats that have some beside joints. Those of MJCF are called as their joints,
+    /// unless an `export.toml` says otherwise.
     pub actuators: Vec<String>,
 }
 
 /// How a program goes from the root to the joints.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Walk {
+pub(super) enum Walk {
     AsWritten,
     DepthFirst,
     DepthFirstByName,
@@ -69,7 +72,7 @@ impl Walk {
     }
 
     /// All joints of a robot, as indices, by their names in the program.
-    fn joints(self, of: &Structure, names: &[String]) -> Vec<usize> {
+    pub(super) fn joints(self, of: &Structure, names: &[String]) -> Vec<usize> {
         let tree = &of.tree;
         if self == AsWritten {
             return (0..names.len()).collect();
@@ -174,23 +177,26 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// The orders in the programs that load an export of a format, as JSON.
-pub(super) fn report(format: Format, urdf: &UrdfModule, structure: &Structure) -> Value {
-    let format = match format {
+/// The orders in the programs that load an export, as JSON.
+pub(super) fn report(subject: &Subject) -> Result<Value, ExportError> {
+    let format = match subject.format {
         Format::Spherized | Format::Moveit => Format::Urdf,
         format => format,
     };
-    let joints = Joints::new(format, structure);
-    let programs = PROGRAMS.iter().filter(|(_, of, _)| *of == format);
-    let each = programs.map(|&(program, _, walk)| {
-        let order = joints.order(program, walk, urdf);
+    let joints = Joints::new(format, &subject.structure);
+    let mut all = Map::new();
+    for &(program, _, walk) in PROGRAMS.iter().filter(|(_, of, _)| *of == format) {
+        let mut order = joints.order(program, walk, &subject.urdf);
+        if format == Format::Mjcf {
+            order.actuators = actuators::names(subject)?.into_values().collect();
+        }
         let mut said = json!({"rule": order.rule, "joints": order.joints});
         if !order.actuators.is_empty() {
             said["actuators"] = order.actuators.into();
         }
-        (program.to_owned(), said)
-    });
-    Value::Object(each.collect())
+        all.insert(program.to_owned(), said);
+    }
+    Ok(Value::Object(all))
 }
 
 /// Which programs have the moving joints of an export in another order than the URDD. Readers of URDF are known to.

@@ -1,6 +1,5 @@
 //! The collision elements of the source as an export writes them, and what it says of them.
 
-use urdd_directory::account::Account;
 use urdd_document::usable_geometry::UsableGeometry;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -35,7 +34,7 @@ pub(super) struct SourceShapes {
 
 impl SourceShapes {
     pub fn new(robot: &Robot, urdf: &UrdfModule, format: Format) -> Result<Self, RobotError> {
-        let found = robot.source_elements(GeometryKind::Collision, &Account::default())?;
+        let found = robot.source_elements(GeometryKind::Collision)?;
         let mut by_link: Vec<Vec<Shape>> = urdf.links.iter().map(|_| Vec::new()).collect();
         let mut lost = found.lost;
         for of in found.usable {

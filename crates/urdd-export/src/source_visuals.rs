@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use super::subject::Subject;
-use urdd_directory::account::Account;
+use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::urdf::Material;
 use urdd_geometry::primitives::Primitive;
 use urdd_geometry::read::Part;
 use urdd_robot::{LinkVisual, RobotError, SourceShape};
@@ -24,13 +23,15 @@ pub(super) struct Painted {
 pub(super) fn source_visuals(
     subject: &Subject,
 ) -> Result<(Vec<LinkVisual>, Vec<Vec<Painted>>), RobotError> {
-    let found = subject.robot.source_elements(GeometryKind::Visual, &Account::default())?;
+    let found = subject.robot.source_elements(GeometryKind::Visual)?;
     let mut primitives: Vec<Vec<Painted>> = subject.links.iter().map(|_| Vec::new()).collect();
     let mut meshes: BTreeMap<usize, Vec<Part>> = BTreeMap::new();
+    let colors = Colors::of(&subject.described);
     for of in found.usable {
         let link = subject.described.links.get(of.link);
         let Some(visual) = link.and_then(|link| link.visual.get(of.element)) else { continue };
-        let color = color(visual.material.as_ref(), &subject.urdf.materials);
+        let color = colors.get(visual.material.as_ref());
+        let color = color.map(|rgba| rgba.map(|part| part.clamp(0.0, 1.0)));
         match of.shape {
             SourceShape::Primitive(pose, primitive) => {
                 let name = visual.name.clone();
@@ -52,13 +53,4 @@ pub(super) fn source_visuals(
     }
     let meshes = meshes.into_iter().map(|(link, parts)| LinkVisual { link, parts }).collect();
     Ok((meshes, primitives))
-}
-
-/// The colour of an element: its own, or that of the robot's first coloured material of the same name.
-fn color(material: Option<&Material>, materials: &[Material]) -> Option<[f64; 4]> {
-    let material = material?;
-    let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
-    let mut namesakes = materials.iter().filter(|of| of.name.is_some() && of.name == material.name);
-    let rgba = of(material).or_else(|| namesakes.find_map(of))?;
-    Some(rgba.map(|part| part.clamp(0.0, 1.0)))
 }

@@ -15,7 +15,7 @@ use super::format::Format;
 use super::layout::Layout;
 use super::names;
 use super::options::{Options, Pairs};
-use super::pairs::LinkPair;
+use super::pairs::{LinkPair, pairs};
 use super::parts::JointNames;
 use super::reasons::Judged;
 use super::setup::{JointGains, Setup};
@@ -41,8 +41,8 @@ pub(super) struct Subject<'a> {
     pub format: Format,
     /// The shapes that approximate links.
     pub shapes: Shapes,
-    /// Those of the source, where they are asked for.
-    pub source: Option<SourceShapes>,
+    /// Those of the source by link of the URDD, where they are asked for.
+    source: Vec<Vec<Shape>>,
     /// What the URDD does not say, if a person said it.
     pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
@@ -71,6 +71,19 @@ pub(super) struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
+        Self::with(robot, options, options.pairs())
+    }
+
+    /// The same without pairs, which take long to judge.
+    pub fn without_pairs(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
+        Self::with(robot, options, None)
+    }
+
+    fn with(
+        robot: &'a Robot,
+        options: &'a Options,
+        wanted: Option<Pairs<'a>>,
+    ) -> Result<Self, ExportError> {
         let (format, shapes, given) = options.common();
         let described = robot.description()?;
         let own = Structure::of(&described)?;
@@ -85,38 +98,35 @@ impl<'a> Subject<'a> {
             false => Cow::Owned(arrange::setup(setup, &own, &structure, &layout, &mut arranged)),
         });
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let source = match shapes {
+        let (source, shape_notes) = match shapes {
             Shapes::Source if format.has_spheres() => return Err(ExportError::SpheresOf(shapes)),
-            Shapes::Source => Some(SourceShapes::new(robot, &described, format)?),
-            Shapes::Kind(_) => None,
-        };
-        let shape_notes = match &source {
-            Some(source) => source.notes.clone(),
-            None => source_shapes::notes(robot, &described, shapes, format)?,
-        };
-        let basis = || match (shapes, &source) {
-            (Shapes::Kind(kind), _) => Ok(Basis::Kind(kind)),
-            (Shapes::Source, of) => {
-                let by_link = of.as_ref().map_or(&[][..], |of| &of.by_link);
-                let samples = num_samples(robot)?;
-                let judged = Judged::new(robot, &own, by_link, takes_hulls(format), samples)?;
-                Ok::<_, ExportError>(Basis::Written(Box::new(judged)))
+            Shapes::Source => {
+                let SourceShapes { by_link, notes } = SourceShapes::new(robot, &described, format)?;
+                (by_link, notes)
+            }
+            Shapes::Kind(_) => {
+                (Vec::new(), source_shapes::notes(robot, &described, shapes, format)?)
             }
         };
         // URDF cannot express pairs; the sphere formats compute their own.
-        let basis = match options.pairs() {
-            Some(_) => Some(basis()?),
-            None => None,
+        let basis = match (wanted, shapes) {
+            (None, _) => None,
+            (Some(_), Shapes::Kind(kind)) => Some(Basis::Kind(kind, robot.skips(kind)?)),
+            (Some(_), Shapes::Source) => {
+                let samples = num_samples(robot)?;
+                let judged = Judged::new(robot, &own, &source, takes_hulls(format), samples)?;
+                Some(Basis::Written(Box::new(judged)))
+            }
         };
         if !layout.is_empty() {
             let mut places = match (&basis, shapes) {
-                (Some(basis), _) => basis.places(robot)?,
+                (Some(basis), _) => basis.skips().places().to_vec(),
                 (None, Shapes::Kind(kind)) => {
                     robot.shapes(kind)?.iter().map(|shape| (shape.link, shape.piece)).collect()
                 }
                 (None, Shapes::Source) => Vec::new(),
             };
-            let by_link = source.iter().flat_map(|source| source.by_link.iter().enumerate());
+            let by_link = source.iter().enumerate();
             places.extend(
                 by_link.flat_map(|(link, shapes)| {
                     shapes.iter().map(move |shape| (link, shape.number))
@@ -124,12 +134,12 @@ impl<'a> Subject<'a> {
             );
             layout.number(places);
         }
-        let pairs = match (options.pairs(), &basis) {
+        let pairs = match (wanted, &basis) {
             (Some(Pairs::OfLinks(of)), Some(basis)) => {
                 basis.link_pairs(robot, &layout, &links, of)?
             }
             (Some(Pairs::OfPieces(reasons)), Some(basis)) => {
-                basis.pairs(robot, &layout, &links, reasons, false)?
+                pairs(basis.skips(), &layout, &links, reasons, false)?
             }
             _ => Vec::new(),
         };
@@ -175,12 +185,9 @@ impl<'a> Subject<'a> {
 
     /// The shapes of each link, in link order.
     pub fn shapes_by_link(&self) -> Result<Vec<Vec<Shape>>, ExportError> {
-        match (self.shapes, &self.source) {
-            (Shapes::Kind(kind), _) => self.shapes_of(kind),
-            (Shapes::Source, source) => {
-                let own = source.as_ref().map_or_else(Vec::new, |source| source.by_link.clone());
-                Ok(self.layout.gather_shapes(own))
-            }
+        match self.shapes {
+            Shapes::Kind(kind) => self.shapes_of(kind),
+            Shapes::Source => Ok(self.layout.gather_shapes(self.source.clone())),
         }
     }
 
@@ -241,7 +248,7 @@ impl<'a> Subject<'a> {
         if self.layout.is_empty() {
             return Ok(Cow::Owned(guess));
         }
-        let source = Structure::new(self.robot)?;
+        let source = Structure::of(&self.described)?;
         Ok(Cow::Owned(arrange::setup(&guess, &source, &self.structure, &self.layout, notes)))
     }
 

@@ -50,7 +50,8 @@ pub fn skips_module(
 /// collision that no check sees.
 pub struct HiddenContacts {
     by_reference: HashMap<[usize; 2], String>,
-    by_person: HashSet<[usize; 2]>,
+    /// Pairs that a person decided on, and pairs of which some shapes always touch.
+    left_out: HashSet<[usize; 2]>,
 }
 
 /// The configuration in which two links touch, so that they are skipped.
@@ -63,13 +64,18 @@ pub enum TouchesIn<'a> {
 }
 
 impl HiddenContacts {
-    /// `link_names` are the names of the robot's links in link order.
-    pub fn new<'a>(edits: &[SkipEdit], link_names: impl Iterator<Item = &'a str>) -> Self {
+    /// `link_names` are the names of the robot's links in link order. `always` are the links, the lower index first, of
+    /// which some shapes always touch.
+    pub fn new<'a>(
+        edits: &[SkipEdit],
+        link_names: impl Iterator<Item = &'a str>,
+        always: impl Iterator<Item = [usize; 2]>,
+    ) -> Self {
         let mut indices: HashMap<&str, usize> = HashMap::new();
         for (at, name) in link_names.enumerate() {
             indices.entry(name).or_insert(at);
         }
-        let mut hidden = Self { by_reference: HashMap::new(), by_person: HashSet::new() };
+        let mut hidden = Self { by_reference: HashMap::new(), left_out: always.collect() };
         for edit in edits {
             let links = [&edit.link_a, &edit.link_b].map(|name| indices.get(name.as_str()));
             let [Some(&a), Some(&b)] = links else {
@@ -78,7 +84,7 @@ impl HiddenContacts {
             let links = [a.min(b), a.max(b)];
             match edit.reference() {
                 Some(name) => drop(hidden.by_reference.insert(links, name.to_owned())),
-                None => drop(hidden.by_person.insert(links)),
+                None => drop(hidden.left_out.insert(links)),
             }
         }
         hidden
@@ -92,7 +98,7 @@ impl HiddenContacts {
         reason: SkipReason,
         is_skipped: bool,
     ) -> Option<TouchesIn<'_>> {
-        if !is_skipped || !reason.can_collide() || self.by_person.contains(&links) {
+        if !is_skipped || !reason.can_collide() || self.left_out.contains(&links) {
             return None;
         }
         match self.by_reference.get(&links) {

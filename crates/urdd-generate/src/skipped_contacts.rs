@@ -36,7 +36,7 @@ fn deciding(simple: &SimpleSkips) -> (&[Vec<SkipReason>], Vec<usize>) {
     }
 }
 
-/// The pairs of shapes of which `wanted` returns something, by links: the last of what it returned, and the pairs.
+/// The pairs of shapes of which `wanted` returns something, by links: the first of what it returned, and the pairs.
 fn pairs<T>(
     simple: &SimpleSkips,
     wanted: impl Fn(Links, SkipReason, (usize, usize)) -> Option<T>,
@@ -55,15 +55,16 @@ fn pairs<T>(
 }
 
 /// The edits by which pairs of links that touch in the reference configuration are skipped; none without one.
-pub(super) fn of_reference(
+pub(super) fn of_reference<'a>(
     context: &Context,
-    shapes: &Shapes,
+    shapes: impl FnOnce() -> Result<&'a Shapes, GenerateError>,
     simple: &SimpleSkips,
 ) -> Result<Vec<SkipEdit>, GenerateError> {
     let Some(reference) = &context.reference else {
         return Ok(Vec::new());
     };
     let name = format!("the reference configuration `{}`", reference.name.as_str());
+    let shapes = shapes()?;
     let kind = shapes.deciding_kind();
     let distances = distances_at(context, shapes, &name, &reference.configuration)?;
     let touches = |(i, j): (usize, usize)| {
@@ -85,14 +86,13 @@ pub(super) fn notes<'a>(
     skips: &Skips,
 ) -> Result<Vec<Note>, GenerateError> {
     let names = context.chain.links_in_chain.iter().map(|link| link.name.as_str());
-    let contacts = HiddenContacts::new(&skips.edits, names);
+    let always = pairs(simple, |_, reason, _| (reason == SkipReason::Always).then_some(()));
+    let contacts = HiddenContacts::new(&skips.edits, names, always.into_keys());
     let matrix = skips.decomposition_convex_hulls_skips.as_ref();
     let matrix = matrix.unwrap_or(&skips.full_convex_hulls_skips);
     let is_skipped = |i: usize, j: usize| matrix.get(i).and_then(|row| row.get(j)) == Some(&true);
-    let mut hidden =
+    let hidden =
         pairs(simple, |links, reason, (i, j)| contacts.touches_in(links, reason, is_skipped(i, j)));
-    let always = pairs(simple, |_, reason, _| (reason == SkipReason::Always).then_some(()));
-    hidden.retain(|links, _| !always.contains_key(links));
     if hidden.is_empty() {
         return Ok(Vec::new());
     }

@@ -1,9 +1,9 @@
 //! Bodies: links that fixed joints hold together.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::Isometry3;
 
 use super::inertial::mass;
-use urdd_document::robot::{Origin, Robot};
+use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_format::urdf::JointType;
 
@@ -33,7 +33,7 @@ impl Bodies {
             let joint = &robot.joints[joint];
             if joint.joint_type == JointType::Fixed {
                 top[link] = top[parent];
-                pose[link] = pose[parent] * isometry(&joint.origin);
+                pose[link] = pose[parent] * joint.origin.motion();
             }
         }
         let mut members = vec![Vec::new(); links];
@@ -72,14 +72,4 @@ pub fn slide_only(robot: &Robot, bodies: &Bodies) -> Vec<bool> {
         };
     }
     slides
-}
-
-/// The rigid transform of an origin.
-pub fn isometry(origin: &Origin) -> Isometry3<f64> {
-    let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
-    let [x, y, z] = origin.xyz;
-    Isometry3::from_parts(
-        Translation3::new(x, y, z),
-        UnitQuaternion::from_rotation_matrix(&rotation),
-    )
 }

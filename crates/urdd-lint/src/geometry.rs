@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Point3, Vector3};
 use rayon::prelude::*;
 
-use super::bodies::{Bodies, isometry};
+use super::bodies::Bodies;
 use super::hull::Hull;
 use super::primitives::{Solid, solid};
 use urdd_document::robot::Robot;
@@ -266,7 +266,7 @@ fn of_links(
                 });
                 match found {
                     Some((solid, scale)) => {
-                        let poses = [isometry(&element.origin), Isometry3::identity()];
+                        let poses = [element.origin.motion(), Isometry3::identity()];
                         geometry.shapes.push(Shape { kind, is_turned, solid, scale, poses });
                     }
                     None => geometry.is_partial = true,

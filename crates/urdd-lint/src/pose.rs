@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::bodies::isometry;
 use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Robot};
 use urdd_document::tree::Tree;
@@ -15,7 +14,13 @@ const MAX_FOLLOWED: usize = 100;
 
 /// The pose of each link in the root's frame.
 pub fn at_default(robot: &Robot, tree: &Tree) -> Vec<Isometry3<f64>> {
-    poses(robot, tree, &default_of)
+    let mut poses = vec![Isometry3::identity(); robot.links.len()];
+    for &link in &tree.order {
+        if let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link]) {
+            poses[link] = poses[parent] * step(robot, joint, &default_of);
+        }
+    }
+    poses
 }
 
 /// The pose of a link in sample `k`, in the root's frame: joints of one degree of freedom are within their limits, others
@@ -38,21 +43,10 @@ pub fn above(tree: &Tree, link: usize) -> impl Iterator<Item = usize> {
     links.map_while(move |link| tree.parent_joint[link]).take(tree.parent_joint.len())
 }
 
-/// `position` is that of each joint that follows no other.
-fn poses(robot: &Robot, tree: &Tree, position: &dyn Fn(&Joint) -> f64) -> Vec<Isometry3<f64>> {
-    let mut poses = vec![Isometry3::identity(); robot.links.len()];
-    for &link in &tree.order {
-        if let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link]) {
-            poses[link] = poses[parent] * step(robot, joint, position);
-        }
-    }
-    poses
-}
-
-/// The pose of a joint's child in its parent.
+/// The pose of a joint's child in its parent. `position` is that of each joint that follows no other.
 fn step(robot: &Robot, joint: usize, position: &dyn Fn(&Joint) -> f64) -> Isometry3<f64> {
     let joint = &robot.joints[joint];
-    isometry(&joint.origin) * motion(joint, followed(robot, joint, position, 0))
+    joint.origin.motion() * motion(joint, followed(robot, joint, position, 0))
 }
 
 fn motion(joint: &Joint, position: f64) -> Isometry3<f64> {

@@ -48,7 +48,7 @@ fn code(fault: &Fault) -> Code {
         Fault::UnknownLink { .. } => Code::URD007,
         Fault::MimicCircle(_) => Code::URD009,
         Fault::ZeroAxis { .. } => Code::URD010,
-        // URD004 does not know that the file is an SRDF: the reader's words say it.
+        // Also an SRDF in place of a URDF: URD004 would speak of a missing link, and the reader names the SRDF.
         _ => Code::URD011,
     }
 }

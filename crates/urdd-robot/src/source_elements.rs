@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+use nalgebra::Isometry3;
 use rayon::prelude::*;
 
 use super::Robot;
@@ -10,7 +10,7 @@ use super::error::RobotError;
 use super::textured::{bytes, in_link};
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::path::beside;
-use urdd_document::robot::{Element, Origin};
+use urdd_document::robot::Element;
 use urdd_document::urdd::Urdd;
 use urdd_document::usable_geometry::UsableGeometry;
 use urdd_format::meshes::GeometryKind;
@@ -55,28 +55,25 @@ impl Robot {
     /// The elements of a kind as the source URDF has them. Every call reads their meshes.
     ///
     /// # Errors
-    /// If `urdf_module` is missing or unusable, a mesh changed on disk or cannot be read, or small files are used so
-    /// often that the account does not allow it.
-    pub fn source_elements(
-        &self,
-        kind: GeometryKind,
-        account: &Account,
-    ) -> Result<SourceElements, RobotError> {
+    /// If `urdf_module` is missing or unusable, a mesh changed on disk or cannot be read, or more would be made of small
+    /// files than an [`Account`] allows.
+    pub fn source_elements(&self, kind: GeometryKind) -> Result<SourceElements, RobotError> {
+        let account = &Account::default();
         let modules = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
         let part = self.part_as_it_is(&modules)?;
         super::robot::usable(&part, ModuleKind::Urdf)?;
         let robot = part.robot().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
-        let paths = paths(&part, kind);
-        let scenes = scenes(&part, paths.values(), account)?;
+        let paths = paths(&part);
+        let of_kind = paths.iter().filter(|((_, of, _), _)| *of == kind);
+        let scenes = scenes(&part, of_kind.map(|(_, path)| *path).collect(), account)?;
         let usable = UsableGeometry::new(&part);
         let mut found = SourceElements::default();
         for (link, of) in robot.links.iter().enumerate() {
             for (element, of) in of.elements(kind).iter().enumerate() {
-                let path = paths.get(&(link, element));
+                let path = paths.get(&(link, kind, element));
+                let mesh = path.and_then(|path| Some((*path, scenes.get(path)?)));
                 let shape = match usable.is_usable(link, kind, element) {
-                    true => {
-                        shape(of, path.and_then(|path| Some((path, scenes.get(path)?))), account)?
-                    }
+                    true => shape(of, mesh, account)?,
                     false => None,
                 };
                 match shape {
@@ -89,36 +86,38 @@ impl Robot {
     }
 }
 
-/// The paths of the meshes of elements, by link and element.
-fn paths(part: &Urdd, kind: GeometryKind) -> BTreeMap<(usize, usize), String> {
+/// A visual or collision element: its link, its kind, its place in the link.
+pub(super) type Place = (usize, GeometryKind, usize);
+
+/// The paths of the meshes of elements.
+pub(super) fn paths(part: &Urdd) -> BTreeMap<Place, &str> {
     let Some(ModuleDocument::OriginalMeshes(module)) = part.document(ModuleKind::OriginalMeshes)
     else {
         return BTreeMap::new();
     };
-    let references = module.references.iter().filter(|reference| reference.geometry == kind);
-    let path = |reference: &urdd_format::original_meshes::MeshReference| {
-        let place = (reference.link_idx.get(), reference.element_idx.get());
-        Some((place, reference.path.clone()?))
-    };
-    references.filter_map(path).collect()
+    let mut paths = BTreeMap::new();
+    for of in &module.references {
+        let place = (of.link_idx.get(), of.geometry, of.element_idx.get());
+        paths.extend(of.path.as_deref().map(|path| (place, path)));
+    }
+    paths
 }
 
 /// What is in these files, each read once.
 fn scenes<'p>(
     part: &Urdd,
-    paths: impl Iterator<Item = &'p String>,
+    mut paths: Vec<&'p str>,
     account: &Account,
-) -> Result<BTreeMap<String, Scene>, RobotError> {
-    let mut paths: Vec<&String> = paths.collect();
+) -> Result<BTreeMap<&'p str, Scene>, RobotError> {
     paths.sort_unstable();
     paths.dedup();
-    let read = |path: &String| {
+    let read = |path: &'p str| {
         let content = bytes(part, path)?.unwrap_or_default();
         account.deposit(content.len());
         // Of its materials the colours count.
         let mut fetch = |named: &str| bytes(part, &beside(path, named)?).ok().flatten();
         let scene = read_with(&content, path, &mut fetch, &Options::default());
-        Ok(scene.ok().map(|scene| (path.clone(), scene)))
+        Ok(scene.ok().map(|scene| (path, scene)))
     };
     paths.into_par_iter().filter_map(|path| read(path).transpose()).collect()
 }
@@ -126,7 +125,7 @@ fn scenes<'p>(
 /// The shape of a usable element; `None` if its mesh is not in the URDD.
 fn shape(
     of: &Element,
-    mesh: Option<(&String, &Scene)>,
+    mesh: Option<(&str, &Scene)>,
     account: &Account,
 ) -> Result<Option<SourceShape>, RobotError> {
     let primitive = match &of.geometry {
@@ -134,7 +133,7 @@ fn shape(
         Some(Geometry::Mesh(_)) => {
             let Some((path, scene)) = mesh else { return Ok(None) };
             let overdrawn = |error: Overdrawn| RobotError::Mesh {
-                path: path.clone(),
+                path: path.to_owned(),
                 reason: error.to_string(),
             };
             account.charge(scene.triangle_count() * TRIANGLE).map_err(overdrawn)?;
@@ -150,10 +149,5 @@ fn shape(
         }
         Some(Geometry::Sphere(of)) => Primitive::Sphere { radius: of.radius },
     };
-    Ok(Some(SourceShape::Primitive(pose(&of.origin), primitive)))
-}
-
-fn pose(origin: &Origin) -> Isometry3<f64> {
-    let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
-    Isometry3::from_parts(origin.xyz.into(), UnitQuaternion::from_rotation_matrix(&rotation))
+    Ok(Some(SourceShape::Primitive(of.origin.motion(), primitive)))
 }

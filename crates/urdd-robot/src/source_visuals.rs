@@ -1,15 +1,16 @@
 //! What a robot looks like by its URDF, for a URDD without plain meshes.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::Robot;
 use super::error::RobotError;
 use super::mesh::{LinkVisual, read};
+use super::source_elements::{Place, paths};
 use urdd_document::robot::Element;
 use urdd_document::urdd::Urdd;
 use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_format::registry::{ModuleKind, Profile};
 use urdd_format::urdf::Geometry;
 use urdd_geometry::mesh::placement;
 use urdd_geometry::primitives;
@@ -17,9 +18,6 @@ use urdd_geometry::read::{GltfUp, Part};
 
 /// Maximum number of triangles: elements may name one large mesh many times. Those beyond are left out.
 const MAX_TRIANGLES: usize = 1_000_000;
-
-/// A visual or collision element: its link, its kind, its place in the link.
-type Place = (usize, GeometryKind, usize);
 
 impl Robot {
     /// The URDF's visual elements of each link in its frame, or its collision elements if it has no visual shape.
@@ -32,7 +30,7 @@ impl Robot {
         let part = self.part_as_it_is(&[ModuleKind::Urdf, ModuleKind::OriginalMeshes])?;
         let urdf = self.description()?;
         let colors = Colors::of(&urdf);
-        let mut carried = Carried::new(&part);
+        let mut carried = Carried { urdd: &part, paths: paths(&part), read: HashMap::new() };
         let mut room = MAX_TRIANGLES;
         let mut visuals = Vec::new();
         let links = part.robot().map_or(&[][..], |robot| &robot.links);
@@ -43,9 +41,13 @@ impl Robot {
             for (index, element) in of.elements(kind).iter().enumerate() {
                 let own = urdf.links.get(link).filter(|_| has_visual);
                 let material = own.and_then(|link| link.visual.get(index)?.material.as_ref());
-                let added = placed(element, carried.of((link, kind, index)), colors.get(material));
-                let count: usize = added.iter().map(|part| part.mesh.triangles.len()).sum();
-                let Some(left) = room.checked_sub(count) else { continue };
+                let mesh = carried.of((link, kind, index));
+                // It is not copied to be left out.
+                if triangles(mesh) > room {
+                    continue;
+                }
+                let added = placed(element, mesh, colors.get(material));
+                let Some(left) = room.checked_sub(triangles(&added)) else { continue };
                 room = left;
                 parts.extend(added);
             }
@@ -53,6 +55,10 @@ impl Robot {
         }
         Ok(visuals)
     }
+}
+
+fn triangles(parts: &[Part]) -> usize {
+    parts.iter().map(|part| part.mesh.triangles.len()).sum()
 }
 
 /// The parts of an element in the link's frame. `mesh` is the one that it names.
@@ -81,24 +87,11 @@ fn placed(element: &Element, mesh: &[Part], color: Option<[f64; 4]>) -> Vec<Part
 /// The meshes that the URDF names, of those that the URDD carries. Each file is read once.
 struct Carried<'a> {
     urdd: &'a Urdd,
-    paths: HashMap<Place, &'a str>,
+    paths: BTreeMap<Place, &'a str>,
     read: HashMap<&'a str, Vec<Part>>,
 }
 
 impl<'a> Carried<'a> {
-    fn new(urdd: &'a Urdd) -> Self {
-        let mut paths = HashMap::new();
-        if let Some(ModuleDocument::OriginalMeshes(module)) =
-            urdd.document(ModuleKind::OriginalMeshes)
-        {
-            for of in &module.references {
-                let place = (of.link_idx.get(), of.geometry, of.element_idx.get());
-                paths.extend(of.path.as_deref().map(|path| (place, path)));
-            }
-        }
-        Carried { urdd, paths, read: HashMap::new() }
-    }
-
     /// The mesh of an element; nothing if it names none, or one that cannot be read.
     fn of(&mut self, place: Place) -> &[Part] {
         let Some(&path) = self.paths.get(&place) else { return &[] };

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
-use crate::pose::{motion, origin};
+use crate::pose::origin;
 use urdd_document::robot::Inertial as View;
 use urdd_format::urdf::{Inertia, Inertial, Mass};
 
@@ -10,7 +10,7 @@ use urdd_format::urdf::{Inertia, Inertial, Mass};
 /// the parallel axis theorem. A mass below 0 counts as 0, whose centre is nowhere. `None` if a number is not finite.
 pub(super) fn lump(bodies: &[(Isometry3<f64>, &View)]) -> Option<Inertial> {
     let placed = bodies.iter().map(|(pose, of)| {
-        let place = pose * motion(&of.origin);
+        let place = pose * of.origin.motion();
         (of.mass.unwrap_or(0.0).max(0.0), place, of.inertia.unwrap_or_default())
     });
     let placed: Vec<_> = placed.collect();

@@ -5,7 +5,7 @@ use super::lump::lump;
 use super::root::place;
 use crate::error::{ExportError, Note};
 use crate::layout::{Layout, Place};
-use crate::pose::{motion, origin};
+use crate::pose::origin;
 use crate::structure::Structure;
 use urdd_format::urdf::{JointType, UrdfModule};
 
@@ -27,7 +27,7 @@ pub(super) fn merge(
             && !structure.is_world(parent)
         {
             let on = places[parent];
-            let pose = on.pose * motion(&view.joints[joint].origin);
+            let pose = on.pose * view.joints[joint].origin.motion();
             places[link] = Place { link: on.link, pose };
             members[on.link].push(link);
         }
@@ -37,7 +37,7 @@ pub(super) fn merge(
         if on.link != tree.joint_links[index].0 {
             let own = &mut urdf.joints[index];
             own.parent.link.clone_from(&view.links[on.link].name);
-            own.origin = Some(origin(&(on.pose * motion(&joint.origin))));
+            own.origin = Some(origin(&(on.pose * joint.origin.motion())));
         }
     }
     for (body, others) in members.iter().enumerate().filter(|(_, others)| !others.is_empty()) {

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use crate::error::{ExportError, Note};
 use crate::layout::{Layout, Place};
 use crate::parts::Taken;
-use crate::pose::{motion, origin};
+use crate::pose::origin;
 use crate::structure::Structure;
 use urdd_document::robot::Joint as View;
 use urdd_document::robot::Link as ViewOfLink;
@@ -32,7 +32,7 @@ pub(super) fn turn(
     let mut moved_by = Vec::new();
     for index in structure.between(tree.root, root).into_iter().rev() {
         let (joint, (parent, child)) = (&view.joints[index], tree.joint_links[index]);
-        let place = motion(&joint.origin);
+        let place = joint.origin.motion();
         let axis = place.rotation * Vector3::from(joint.axis);
         shifts[parent] = shift(joint, root, structure, &place, axis)?;
         if shifts[parent] != Translation3::identity() {
@@ -49,7 +49,7 @@ pub(super) fn turn(
     for (index, joint) in view.joints.iter().enumerate() {
         let shift = shifts[tree.joint_links[index].0];
         if !is_turned[index] && shift != Translation3::identity() {
-            urdf.joints[index].origin = Some(origin(&(shift.inverse() * motion(&joint.origin))));
+            urdf.joints[index].origin = Some(origin(&(shift.inverse() * joint.origin.motion())));
         }
     }
     let mut layout = Layout::new(count, root);
@@ -103,13 +103,13 @@ fn shift(
 /// Moves what is in a link.
 pub(super) fn place(link: &mut Link, view: &ViewOfLink, by: &Isometry3<f64>) {
     if let Some((inertial, view)) = link.inertial.as_mut().zip(view.inertial.as_ref()) {
-        inertial.origin = Some(origin(&(by * motion(&view.origin))));
+        inertial.origin = Some(origin(&(by * view.origin.motion())));
     }
     for (visual, view) in link.visual.iter_mut().zip(&view.visual) {
-        visual.origin = Some(origin(&(by * motion(&view.origin))));
+        visual.origin = Some(origin(&(by * view.origin.motion())));
     }
     for (collision, view) in link.collision.iter_mut().zip(&view.collision) {
-        collision.origin = Some(origin(&(by * motion(&view.origin))));
+        collision.origin = Some(origin(&(by * view.origin.motion())));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Actuators of the joints of one DOF.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::actuator_kind::ActuatorKind;
 use super::super::error::{ExportError, Note};
@@ -24,24 +24,14 @@ pub(super) fn actuators(
 ) -> Result<Actuators, ExportError> {
     let (gains, said) = gains(subject, bandwidth, kind, notes)?;
     let mut element = Element::new("actuator");
-    let mut names = subject.names.taken.clone();
-    let given = |joint: usize| subject.gains(joint).name;
-    let taken: HashSet<String> = (0..gains.len()).filter_map(given).collect();
-    check_names(subject.format, "actuator", taken.iter().map(String::as_str), ANOTHER)?;
-    for name in &taken {
-        names.insert(name);
-    }
+    let mut names = names(subject)?;
     for (index, gains) in gains.into_iter().enumerate() {
         let Some(gains) = gains else {
             continue;
         };
         let joint = &subject.view.joints[index];
         let chosen = subject.gains(index);
-        let name = match chosen.name {
-            Some(name) => name,
-            None if taken.contains(&joint.name) => names.free(joint.name.clone()),
-            None => joint.name.clone(),
-        };
+        let name = names.remove(&index).unwrap_or_default();
         let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
         let effort = positive(joint.limit.and_then(|limit| limit.effort));
         let velocity = positive(joint.limit.and_then(|limit| limit.velocity));
@@ -69,4 +59,26 @@ pub(super) fn actuators(
         element.push(actuator);
     }
     Ok(Actuators { element, said })
+}
+
+/// The names of actuators, by joint: as a person set, or that of the joint.
+pub(in super::super) fn names(subject: &Subject) -> Result<BTreeMap<usize, String>, ExportError> {
+    let joints = 0..subject.view.joints.len();
+    let given = |joint: usize| subject.gains(joint).name;
+    let taken: BTreeSet<String> = joints.clone().filter_map(given).collect();
+    check_names(subject.format, "actuator", taken.iter().map(String::as_str), ANOTHER)?;
+    let mut names = subject.names.taken.clone();
+    for name in &taken {
+        names.insert(name);
+    }
+    let of_joint = |index: usize| {
+        let joint = &subject.view.joints[index].name;
+        let name = match given(index) {
+            Some(name) => name,
+            None if taken.contains(joint) => names.free(joint.clone()),
+            None => joint.clone(),
+        };
+        (index, name)
+    };
+    Ok(joints.filter(|joint| subject.is_actuated(*joint)).map(of_joint).collect())
 }

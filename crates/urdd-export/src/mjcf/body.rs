@@ -8,7 +8,6 @@ use super::super::error::{ExportError, Note};
 use super::super::flat::FlatShapes;
 use super::super::meshes::{Looks, MeshFiles, MeshFormat, looks};
 use super::super::options::MjcfOptions;
-use super::super::pose::motion;
 use super::super::shapes::{Shape, Solid, thick};
 use super::super::subject::Subject;
 use super::{frames, inertia, joint, surface};
@@ -114,7 +113,7 @@ impl<'a> Bodies<'a> {
             };
         };
         let origin = &self.subject.view.joints[joint].origin;
-        placed(body, &motion(origin))
+        placed(body, &origin.motion())
     }
 
     /// Adds mass, joints and geoms.

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::super::actuator_kind::ActuatorKind;
 use super::super::error::ExportError;
 use super::super::names::{ANOTHER, check_names};
+use super::super::order::Walk;
 use super::super::stand::Stand;
 use super::super::subject::Subject;
 use urdd_format::urdf::JointType;
@@ -58,13 +59,7 @@ fn keyframe(
         positions.extend(stand.base(subject, Some(name), configuration)?);
     }
     // MuJoCo numbers joints as it meets their bodies: depth first, children in their order.
-    let mut links = vec![subject.tree.root];
-    while let Some(link) = links.pop() {
-        let children = subject.tree.child_joints[link].iter().rev();
-        links.extend(children.map(|joint| subject.tree.joint_links[*joint].1));
-        let Some(index) = subject.tree.parent_joint[link] else {
-            continue;
-        };
+    for index in Walk::DepthFirst.joints(subject, &subject.names.joints) {
         let joint = &subject.view.joints[index];
         let part = |part: &str| value(&format!("{}/{part}", joint.name));
         let rotation = || {

@@ -7,7 +7,7 @@
 //! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
 //! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
 
-mod actuators;
+pub(super) mod actuators;
 mod body;
 mod frames;
 #[doc(hidden)]

@@ -8,7 +8,6 @@ use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
-use super::super::pose::motion;
 use super::super::shapes::{Shape, Solid, thick};
 use super::super::subject::Subject;
 use super::super::urdf_elements::INERTIA;
@@ -134,7 +133,7 @@ fn frame(subject: &Subject, link: usize) -> Element {
     let frame = Element::new("frame").with("name", subject.links[link].as_str());
     let on = subject.tree.parent_link[link].map(|parent| subject.links[parent].as_str());
     let joint = subject.tree.parent_joint[link].map(|joint| &subject.view.joints[joint]);
-    let pose = joint.map(|joint| placed(&motion(&joint.origin)));
+    let pose = joint.map(|joint| placed(&joint.origin.motion()));
     pose.into_iter().fold(frame.with_some("attached_to", on), Element::holding)
 }
 

@@ -1,6 +1,6 @@
 //! Gains of joints by name, and by patterns: `*_hip_*` stands for all joints whose names have it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use toml::Spanned;
 
@@ -84,9 +84,8 @@ impl<'a> Chosen<'a> {
         Ok(())
     }
 
-    /// Whether two actuators have one name.
-    pub fn is_name_given_twice(&self) -> bool {
-        let mut names = BTreeSet::new();
-        self.gains.values().filter_map(|of| of.name.as_ref()).any(|name| !names.insert(name))
+    /// Whether two actuators have this name.
+    pub fn is_given_twice(&self, name: &str) -> bool {
+        self.gains.values().filter(|of| of.name.as_deref() == Some(name)).nth(1).is_some()
     }
 }

@@ -111,10 +111,12 @@ impl Reader<'_> {
         };
         let mut chosen = Chosen::default();
         for (name, of) in by_breadth(&file.actuators.joint) {
-            for joint in self.matching(name)? {
-                chosen.add(joint, name, joint_gains(of)?)?;
+            let joints = self.matching(name)?;
+            let own = joint_gains(of)?;
+            for joint in joints {
+                chosen.add(joint, name, own.clone())?;
             }
-            if chosen.is_name_given_twice() {
+            if own.name.is_some_and(|name| chosen.is_given_twice(&name)) {
                 return wrong(of, "another actuator has the same `name`: change one".to_owned());
             }
         }

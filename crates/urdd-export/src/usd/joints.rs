@@ -7,7 +7,6 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::super::actuator_kind::ActuatorKind;
 use super::super::error::{ExportError, Note};
 use super::super::gains::Gains;
-use super::super::pose;
 use super::super::subject::Subject;
 use super::custom::elements;
 use super::filters::Filters;
@@ -107,7 +106,7 @@ impl Joints<'_> {
     pub fn prim(&self, index: usize, notes: &mut Vec<Note>) -> Prim {
         let subject = self.subject;
         let (joint, name) = (&subject.view.joints[index], last(&self.paths.joints[index]));
-        let origin = pose::motion(&joint.origin);
+        let origin = joint.origin.motion();
         let motion = self.motion(index, notes);
         let (kind, frames) = match &motion {
             Motion::Fixed(position) => {

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use super::super::meshes::{Look, Looks, MeshFiles};
 use super::super::source_visuals::Painted;
-use super::names::VISUALS;
+use super::names::{VISUAL_PRIMITIVES, VISUALS};
 use super::prim::Prim;
 use super::primitive::primitive;
 use super::surface::{coordinates, material, set};
@@ -105,7 +105,7 @@ pub(super) fn add(
 /// Adds the primitives of visual geometry, in link order.
 fn add_primitives(primitives: &[Vec<Painted>], links: &mut [Prim], materials: &mut Materials) {
     for (own, link) in primitives.iter().zip(links) {
-        let mut holder = Prim::new("Xform", "visual_primitives");
+        let mut holder = Prim::new("Xform", VISUAL_PRIMITIVES);
         for (place, of) in own.iter().enumerate() {
             let mut prim = primitive(format!("primitive_{place}"), &of.pose, of.primitive);
             if let Some(material) = materials.of(of.color, None) {

@@ -30,7 +30,7 @@ impl Paths {
         let mut taken = Taken::default();
         if subject.layout.is_frame.contains(&true) {
             // Frames are beside what holds the shapes of their body.
-            for holder in [COLLISIONS, VISUALS] {
+            for holder in [COLLISIONS, VISUALS, VISUAL_PRIMITIVES] {
                 taken.insert(holder);
             }
         }
@@ -59,6 +59,8 @@ pub(super) const COLLISIONS: &str = "collisions";
 
 /// What holds the visual geometry of a link.
 pub(super) const VISUALS: &str = "visuals";
+/// What holds the primitives of visual geometry of a link.
+pub(super) const VISUAL_PRIMITIVES: &str = "visual_primitives";
 
 /// The path of a shape of a link.
 pub(super) fn path_of_shape(link: &str, piece: usize) -> String {

@@ -11,25 +11,22 @@ use urdd_xml::number::number;
 
 /// A box is a cube of 1 m, scaled.
 pub(super) fn primitive(name: String, pose: &Isometry3<f64>, primitive: Primitive) -> Prim {
-    let (tag, sizes, scale) = match thick(primitive) {
-        Primitive::Box(half) => ("Cube", vec![("size", 1.0)], Some(half.map(|half| 2.0 * half))),
-        Primitive::Sphere { radius } => ("Sphere", vec![("radius", radius)], None),
-        Primitive::Cylinder { radius, half } => {
-            ("Cylinder", vec![("radius", radius), ("height", 2.0 * half)], None)
+    let primitive = thick(primitive);
+    let extents = primitive.half_extents(&Matrix3::identity());
+    let long = |radius: f64, half: f64| vec![("radius", radius), ("height", 2.0 * half)];
+    let (tag, sizes, half, scale) = match primitive {
+        Primitive::Box(half) => {
+            ("Cube", vec![("size", 1.0)], [0.5; 3], Some(half.map(|half| 2.0 * half)))
         }
-        Primitive::Capsule { radius, half } => {
-            ("Capsule", vec![("radius", radius), ("height", 2.0 * half)], None)
-        }
-    };
-    let half = match scale {
-        Some(_) => [0.5; 3],
-        None => thick(primitive).half_extents(&Matrix3::identity()),
+        Primitive::Sphere { radius } => ("Sphere", vec![("radius", radius)], extents, None),
+        Primitive::Cylinder { radius, half } => ("Cylinder", long(radius, half), extents, None),
+        Primitive::Capsule { radius, half } => ("Capsule", long(radius, half), extents, None),
     };
     let mut prim = Prim::new(tag, name);
-    for (key, value) in sizes {
-        prim.set(&format!("double {key}"), number(value));
+    for (key, value) in &sizes {
+        prim.set(&format!("double {key}"), number(*value));
     }
-    if matches!(tag, "Cylinder" | "Capsule") {
+    if sizes.len() > 1 {
         prim.set("uniform token axis", "\"Z\"");
     }
     extent(&mut prim, &[half.map(|half| -half), half]);

@@ -16,7 +16,7 @@ mod swept;
 mod vector;
 mod without;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Robot;
@@ -138,28 +138,23 @@ impl Robot {
     pub fn skipped_contacts(&self, kind: ShapeKind) -> Result<Option<Proximity>, RobotError> {
         let skips = self.skips(kind)?;
         let names = &self.shared_motion()?.links;
-        let contacts = HiddenContacts::new(skips.edits(), names.iter().map(String::as_str));
+        let names = names.iter().map(String::as_str);
         let links = |i: usize, j: usize| {
             let [a, b] = [i, j].map(|shape| skips.places()[shape].0);
             [a.min(b), a.max(b)]
         };
-        let shapes = 0..skips.len();
-        let mut always = HashSet::new();
-        for i in shapes.clone() {
-            for j in i + 1..skips.len() {
-                if skips.reason(i, j) == Some(SkipReason::Always) {
-                    always.insert(links(i, j));
-                }
-            }
-        }
+        let pairs = || (0..skips.len()).flat_map(|i| (i + 1..skips.len()).map(move |j| (i, j)));
+        let always = pairs().filter(|(i, j)| skips.reason(*i, *j) == Some(SkipReason::Always));
+        let always = always.map(|(i, j)| links(i, j));
+        let contacts = HiddenContacts::new(skips.edits(), names, always);
         let is_hidden = |i: usize, j: usize| {
             let links = links(i, j);
             let touches =
                 |reason| contacts.touches_in(links, reason, skips.is_skipped(i, j)).is_some();
-            !always.contains(&links) && skips.reason(i, j).is_some_and(touches)
+            skips.reason(i, j).is_some_and(touches)
         };
         // The shapes are read only where they are needed.
-        if !shapes.clone().any(|i| shapes.clone().skip(i + 1).any(|j| is_hidden(i, j))) {
+        if !pairs().any(|(i, j)| is_hidden(i, j)) {
             return Ok(None);
         }
         let wanted = |_: [&Shape; 2], both: Option<(usize, usize)>| {
