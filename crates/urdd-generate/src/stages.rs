@@ -92,7 +92,7 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     let kind = ModuleKind::LinkShapesSkips;
     let skips = modules.product(kind, product::document, |_| {
         let simple = simple_skips.get()?;
-        let by_reference = skipped_contacts::of_reference(context, &prepared, simple)?;
+        let by_reference = skipped_contacts::of_reference(context, prepared, simple)?;
         shapes::edited_skips(context, simple, by_reference)
     })?;
     if modules.has(kind) {

@@ -158,3 +158,25 @@ fn what_cannot_be_read_is_a_note() {
         std::fs::remove_file(folder.path().join(name)).unwrap();
     }
 }
+
+/// Each path has the names above it: what a small file would make is charged to it.
+#[test]
+fn paths_of_long_names_are_not_multiplied() {
+    let folder = TempDir::new().unwrap();
+    let (name, urdf) = ("n".repeat(100_000), "<robot name='m'><link name='a'/></robot>");
+    let many: String = (0..4000).map(|k| format!("<c{k}/>")).collect();
+    let keys: String = (0..4000).map(|k| format!("k{k} = {{ x = {{ y = 1 }} }}\n")).collect();
+    for (at, file, text) in [
+        ("srdf", "m.srdf", format!("<robot name='m'><x><{name}>{many}</{name}></x></robot>")),
+        ("toml", "m.export.toml", format!("[{name}]\n{keys}")),
+    ] {
+        let own = folder.path().join(at);
+        std::fs::create_dir(&own).unwrap();
+        std::fs::write(own.join("m.urdf"), urdf).unwrap();
+        std::fs::write(own.join(file), text).unwrap();
+        let path = own.join("m.urdf");
+        let report = differences(&path, &path);
+        let refused = |note: &String| note.contains("is not compared") && note.contains("more");
+        assert!(report.notes.iter().any(refused), "{at}: {:?}", report.notes);
+    }
+}

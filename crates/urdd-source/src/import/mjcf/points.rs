@@ -27,15 +27,12 @@ pub fn of_obj(bytes: &[u8]) -> Option<Vec<[f64; 3]>> {
     for line in lines(bytes) {
         let Ok(line) = std::str::from_utf8(line) else { continue };
         let mut words = line.split_ascii_whitespace();
-        match words.next() {
-            Some("v") => {
-                let mut point = [0.0; 3];
-                for coordinate in &mut point {
-                    *coordinate = f64::from(words.next()?.parse::<f32>().ok()?);
-                }
-                points.push(point);
+        if words.next() == Some("v") {
+            let mut point = [0.0; 3];
+            for coordinate in &mut point {
+                *coordinate = f64::from(words.next()?.parse::<f32>().ok()?);
             }
-            _ => {}
+            points.push(point);
         }
     }
     let is_finite = points.as_flattened().iter().all(|x| x.is_finite());
