@@ -1,5 +1,6 @@
 //! Exports.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,10 +8,9 @@ use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd_directory::limits::MAX_SRDF_BYTES;
-use urdd_directory::range::OutOfRange;
 use urdd_directory::regular;
 use urdd_export::{
-    ActuatorKind, Choices, Detail, ExportError, Format, Setup, SetupError, SphereBudget,
+    ActuatorKind, Choices, Detail, ExportError, Fit, Format, Setup, SetupError, SphereBudget,
     joint_groups_of_srdf,
 };
 
@@ -41,6 +41,7 @@ pub struct Options {
     floating_base: bool,
     merge_fixed: bool,
     root: Option<String>,
+    fit: Option<(f64, f64)>,
     sensors: bool,
     scene: bool,
     output: Option<PathBuf>,
@@ -60,6 +61,7 @@ impl Options {
             None => Detail::Full,
             Some(given) => Detail::new(given).map_err(of_range)?,
         };
+        let fit = self.fit.map(|(volume, standoff)| Fit::new(volume, standoff));
         let shapes = self.shapes.parse::<urdd_export::Shapes>();
         let actuator = |word: String| {
             let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
@@ -80,6 +82,7 @@ impl Options {
             floating_base: self.floating_base,
             merge_fixed: self.merge_fixed,
             root: self.root,
+            fit: fit.transpose().map_err(of_range)?,
             actuators: self.actuators.map(actuator).transpose()?,
             bandwidth: self.bandwidth,
             sensors: self.sensors,
@@ -191,7 +194,7 @@ fn of_export(py: Python<'_>, error: ExportError) -> PyErr {
     }
 }
 
-fn of_range(error: OutOfRange) -> PyErr {
+fn of_range(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 

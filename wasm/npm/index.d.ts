@@ -159,6 +159,11 @@ export interface ExportOptions {
   merge_fixed?: boolean;
   /** The link that becomes the root. */
   root?: string;
+  /**
+   * Puts a box, cylinder, capsule or sphere around each convex mesh in its place: the tightest that has at most so many
+   * times the volume of the mesh and is at most so many metres off it, such as `[1.2, 0.005]`.
+   */
+  fit?: [number, number];
   /** The content of an `export.toml`. */
   setup?: string;
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use urdd_directory::range::Range;
 use urdd_directory::source::Memory;
 use urdd_export::{
-    ActuatorKind, Choices, Format, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
+    ActuatorKind, Choices, Fit, Format, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
     export as exported,
 };
 use urdd_robot::Robot;
@@ -38,6 +38,7 @@ struct Question {
     #[serde(default)]
     merge_fixed: bool,
     root: Option<String>,
+    fit: Option<[f64; 2]>,
     /// The content of an `export.toml`.
     setup: Option<String>,
 }
@@ -82,6 +83,7 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         let count = given.map(|given| range.check(given)).transpose().map_err(words)?;
         Ok(count.map(|count| count as usize))
     };
+    let fit = question.fit.map(|[volume, standoff]| Fit::new(volume, standoff));
     let mut choices = Choices {
         keep_pairs: question.keep_pairs,
         spheres: SphereBudget::new(
@@ -93,6 +95,7 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         floating_base: question.floating_base,
         merge_fixed: question.merge_fixed,
         root: question.root.clone(),
+        fit: fit.transpose().map_err(words)?,
         ..Choices::default()
     };
     if let Some(word) = &question.shapes {

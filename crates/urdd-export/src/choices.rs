@@ -7,6 +7,7 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
 use super::actuator_kind::ActuatorKind;
+use super::fit::Fit;
 use super::format::Format;
 use super::options::{
     CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
@@ -26,6 +27,7 @@ pub struct Choices {
     pub keep_pairs: bool,
     pub merge_fixed: bool,
     pub root: Option<String>,
+    pub fit: Option<Fit>,
     pub spheres: SphereBudget,
     pub cover: bool,
     pub samples: usize,
@@ -54,6 +56,7 @@ impl Default for Choices {
             keep_pairs: false,
             merge_fixed: false,
             root: None,
+            fit: None,
             spheres: SphereBudget::default(),
             cover: false,
             samples: 10_000,
@@ -92,7 +95,7 @@ impl Misfit {
 /// An option, whether it was chosen, and the formats that have it.
 type Only = (&'static str, fn(&Choices) -> bool, &'static [Format]);
 
-/// Formats of a tree of links. Spheres are fitted to links as the URDD has them.
+/// Formats of links with shapes. Spheres are fitted to links as the URDD has them.
 const WITH_TREE: &[Format] = &[
     Format::Srdf,
     Format::Urdf,
@@ -104,7 +107,8 @@ const WITH_TREE: &[Format] = &[
 ];
 
 /// Options that are refused for formats that do not have them. Others are passed over there.
-const ONLY: [Only; 8] = [
+const ONLY: [Only; 9] = [
+    ("fit", |of| of.fit.is_some(), WITH_TREE),
     ("merge_fixed", |of| of.merge_fixed, WITH_TREE),
     ("root", |of| of.root.is_some(), WITH_TREE),
     ("actuators", |of| of.actuators.is_some(), &[Format::Mjcf, Format::Usd]),
@@ -198,7 +202,7 @@ impl Choices {
     }
 
     fn links(&self) -> LinkOptions {
-        LinkOptions { merge_fixed: self.merge_fixed, root: self.root.clone() }
+        LinkOptions { merge_fixed: self.merge_fixed, root: self.root.clone(), fit: self.fit }
     }
 
     fn meshes(&self) -> MeshOptions {

@@ -291,6 +291,16 @@ pub enum Note {
         "the shapes are those of the source, {0}; pairs, where the format has them, are judged by these"
     )]
     SourceShapes(ShapeCounts),
+    /// Primitives are in the place of convex meshes.
+    #[error("{} of {of} convex meshes are primitives that enclose them ({counts}), each with {costs}; pairs, where the format has them, are judged by these", .counts.total())]
+    Fitted {
+        /// How many primitives of which kinds.
+        counts: ShapeCounts,
+        /// Number of convex meshes before.
+        of: usize,
+        /// What a primitive may cost.
+        costs: String,
+    },
     /// The collision geometry of the source is not in the file, or in another form.
     #[error("the source's collision geometry ({elements}) is not taken as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
     NotOfSource {

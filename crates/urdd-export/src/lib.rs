@@ -40,6 +40,7 @@ mod contacts;
 mod counts;
 mod drake;
 mod error;
+mod fit;
 mod flat;
 mod format;
 mod gains;
@@ -102,6 +103,7 @@ pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use counts::ShapeCounts;
 pub use error::{ExportError, Note};
+pub use fit::{Fit, NoFit};
 pub use format::Format;
 pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{

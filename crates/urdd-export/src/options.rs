@@ -3,6 +3,7 @@
 use urdd_format::link_shapes_skips::SkippedReason;
 
 use super::actuator_kind::ActuatorKind;
+use super::fit::Fit;
 use super::format::Format;
 use super::setup::Setup;
 use super::shapes::Shapes;
@@ -62,7 +63,7 @@ impl Options {
         })
     }
 
-    /// What is done to the tree of links; `None` for formats of spheres.
+    /// What is done to links; `None` for formats of spheres.
     pub(super) fn links(&self) -> Option<&LinkOptions> {
         match (self.pairs(), self) {
             (Some(Pairs::OfLinks(of)), _) => Some(&of.links),
@@ -89,14 +90,16 @@ impl Options {
     }
 }
 
-/// What is done to the tree of links before it is exported.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+/// What is done to links and their shapes before they are exported.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LinkOptions {
     /// Whether links that are fixed to each other become one, that nearest to the root. Each of the others is a frame on
     /// it, without mass and shapes.
     pub merge_fixed: bool,
     /// The link that becomes the root. Joints between it and the old root are turned round.
     pub root: Option<String>,
+    /// What primitives in the place of convex meshes may cost; `None` for the meshes.
+    pub fit: Option<Fit>,
 }
 
 /// Options of formats that list pairs of links that need no check: all options of SRDF.
@@ -109,7 +112,7 @@ pub struct PairOptions {
     /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
     /// pair is disabled, since pieces that are always in contact would collide in every configuration.
     pub keep_pairs: bool,
-    /// The tree of links.
+    /// What is done to links and shapes.
     pub links: LinkOptions,
 }
 

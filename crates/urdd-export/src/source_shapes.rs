@@ -134,7 +134,7 @@ pub(super) fn takes_hulls(format: Format) -> bool {
 }
 
 /// Whether every program of the format knows capsules.
-fn has_capsules(format: Format) -> bool {
+pub(super) fn has_capsules(format: Format) -> bool {
     takes_hulls(format)
 }
 

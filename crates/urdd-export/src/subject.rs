@@ -11,6 +11,7 @@ use super::actuator_kind::ActuatorKind;
 use super::arrange::{self, Arranged};
 use super::contacts::{Basis, num_samples};
 use super::error::{ExportError, Note};
+use super::fit::fit;
 use super::format::Format;
 use super::layout::Layout;
 use super::names;
@@ -20,7 +21,7 @@ use super::parts::JointNames;
 use super::reasons::Judged;
 use super::setup::{JointGains, Setup};
 use super::shapes::{Shape, Shapes};
-use super::source_shapes::{self, SourceShapes, takes_hulls};
+use super::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
@@ -41,8 +42,8 @@ pub(super) struct Subject<'a> {
     pub format: Format,
     /// The shapes that approximate links.
     pub shapes: Shapes,
-    /// Those of the source by link of the URDD, where they are asked for.
-    source: Vec<Vec<Shape>>,
+    /// Those that only the export has, by link of the URDD.
+    own_shapes: Option<Vec<Vec<Shape>>>,
     /// What the URDD does not say, if a person said it.
     pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
@@ -98,25 +99,31 @@ impl<'a> Subject<'a> {
             false => Cow::Owned(arrange::setup(setup, &own, &structure, &layout, &mut arranged)),
         });
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let (source, shape_notes) = match shapes {
+        let (mut own_shapes, mut shape_notes) = match shapes {
             Shapes::Source if format.has_spheres() => return Err(ExportError::SpheresOf(shapes)),
             Shapes::Source => {
                 let SourceShapes { by_link, notes } = SourceShapes::new(robot, &described, format)?;
-                (by_link, notes)
+                (Some(by_link), notes)
             }
-            Shapes::Kind(_) => {
-                (Vec::new(), source_shapes::notes(robot, &described, shapes, format)?)
-            }
+            Shapes::Kind(_) => (None, source_shapes::notes(robot, &described, shapes, format)?),
         };
+        if let Some(costs) = options.links().and_then(|links| links.fit) {
+            let mut by_link = match (own_shapes, shapes) {
+                (None, Shapes::Kind(kind)) => by_link(&described, robot.shapes(kind)?),
+                (own, _) => own.unwrap_or_default(),
+            };
+            shape_notes.push(fit(&mut by_link, costs, has_capsules(format)));
+            own_shapes = Some(by_link);
+        }
         // URDF cannot express pairs; the sphere formats compute their own.
-        let basis = match (wanted, shapes) {
-            (None, _) => None,
-            (Some(_), Shapes::Kind(kind)) => Some(Basis::Kind(kind, robot.skips(kind)?)),
-            (Some(_), Shapes::Source) => {
+        let basis = match (wanted, &own_shapes, shapes) {
+            (Some(_), Some(written), _) => {
                 let samples = num_samples(robot)?;
-                let judged = Judged::new(robot, &own, &source, takes_hulls(format), samples)?;
+                let judged = Judged::new(robot, &own, written, takes_hulls(format), samples)?;
                 Some(Basis::Written(Box::new(judged)))
             }
+            (Some(_), None, Shapes::Kind(kind)) => Some(Basis::Kind(kind, robot.skips(kind)?)),
+            _ => None,
         };
         if !layout.is_empty() {
             let mut places = match (&basis, shapes) {
@@ -126,7 +133,7 @@ impl<'a> Subject<'a> {
                 }
                 (None, Shapes::Source) => Vec::new(),
             };
-            let by_link = source.iter().enumerate();
+            let by_link = own_shapes.iter().flatten().enumerate();
             places.extend(
                 by_link.flat_map(|(link, shapes)| {
                     shapes.iter().map(move |shape| (link, shape.number))
@@ -151,7 +158,7 @@ impl<'a> Subject<'a> {
             robot,
             format,
             shapes,
-            source,
+            own_shapes,
             given,
             is_floating,
             described,
@@ -185,30 +192,15 @@ impl<'a> Subject<'a> {
 
     /// The shapes of each link, in link order.
     pub fn shapes_by_link(&self) -> Result<Vec<Vec<Shape>>, ExportError> {
-        match self.shapes {
-            Shapes::Kind(kind) => self.shapes_of(kind),
-            Shapes::Source => Ok(self.layout.gather_shapes(self.source.clone())),
+        match (&self.own_shapes, self.shapes) {
+            (None, Shapes::Kind(kind)) => self.shapes_of(kind),
+            (own, _) => Ok(self.layout.gather_shapes(own.clone().unwrap_or_default())),
         }
     }
 
     /// The URDD's shapes of a kind, by link.
     pub fn shapes_of(&self, kind: ShapeKind) -> Result<Vec<Vec<Shape>>, ExportError> {
-        Ok(self.layout.gather_shapes(self.by_link(self.robot.shapes(kind)?)))
-    }
-
-    /// Shapes by link of the URDD. They have the names of the link's collision elements, in their order.
-    pub fn by_link(&self, shapes: Vec<LinkShape>) -> Vec<Vec<Shape>> {
-        let links = &self.described.links;
-        let mut by_link: Vec<Vec<Shape>> = links.iter().map(|_| Vec::new()).collect();
-        for shape in shapes {
-            let link = shape.link;
-            if let (Some(of_link), Some(urdf)) = (by_link.get_mut(link), links.get(link)) {
-                let element = urdf.collision.get(of_link.len());
-                let name = element.and_then(|element| element.name.clone());
-                of_link.push(Shape { name, ..shape.into() });
-            }
-        }
-        by_link
+        Ok(self.layout.gather_shapes(by_link(&self.described, self.robot.shapes(kind)?)))
     }
 
     /// What a person set for the actuator of a joint.
@@ -302,4 +294,19 @@ impl<'a> Subject<'a> {
         lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
+}
+
+/// Shapes by link of the URDD. They have the names of the link's collision elements, in their order.
+pub(super) fn by_link(described: &UrdfModule, shapes: Vec<LinkShape>) -> Vec<Vec<Shape>> {
+    let links = &described.links;
+    let mut by_link: Vec<Vec<Shape>> = links.iter().map(|_| Vec::new()).collect();
+    for shape in shapes {
+        let link = shape.link;
+        if let (Some(of_link), Some(urdf)) = (by_link.get_mut(link), links.get(link)) {
+            let element = urdf.collision.get(of_link.len());
+            let name = element.and_then(|element| element.name.clone());
+            of_link.push(Shape { name, ..shape.into() });
+        }
+    }
+    by_link
 }

@@ -6,6 +6,7 @@
 //! - [`read`] reads STL, COLLADA, OBJ and glTF; [`write`](mod@write) writes STL, OBJ and GLB.
 //! - [`primitives`] tessellates box, cylinder, sphere and capsule.
 //! - [`hull`] computes convex hulls. [`oriented_box`] and [`bounding_sphere`] fit minimum-volume boxes and spheres.
+//!   [`enclosing`] puts boxes, cylinders, capsules and spheres around a hull.
 //!   [`decompose`](mod@decompose) splits a mesh into convex pieces.
 //! - [`surface`] compares two meshes, whatever the order of their triangles.
 //! - [`farthest`] measures the extent from the origin. [`convex`] measures distances between convex shapes, and
@@ -15,6 +16,7 @@ pub mod bounding_sphere;
 pub mod clean;
 pub mod convex;
 pub mod decompose;
+pub mod enclosing;
 pub mod farthest;
 pub mod half_spaces;
 pub mod hull;

@@ -14,6 +14,8 @@
 //! The sphere is an icosahedron with each face split in four, three times. Among bodies with as many vertices it is
 //! nearly the roundest; a sphere of meridians and parallels crowds its vertices at the poles.
 
+use std::f64::consts::PI;
+
 use nalgebra::Matrix3;
 
 use super::mesh::Mesh;
@@ -46,6 +48,19 @@ pub enum Primitive {
 }
 
 impl Primitive {
+    /// Cubic metres.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        match *self {
+            Primitive::Box(half) => 8.0 * half[0] * half[1] * half[2],
+            Primitive::Cylinder { radius, half } => PI * radius * radius * 2.0 * half,
+            Primitive::Capsule { radius, half } => {
+                PI * radius * radius * (2.0 * half + 4.0 / 3.0 * radius)
+            }
+            Primitive::Sphere { radius } => 4.0 / 3.0 * PI * radius * radius * radius,
+        }
+    }
+
     /// Half of the extents along x, y and z, metres, after a rotation.
     #[must_use]
     pub fn half_extents(&self, rotation: &Matrix3<f64>) -> [f64; 3] {

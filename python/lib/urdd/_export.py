@@ -73,6 +73,7 @@ def export(
     floating_base: bool = False,
     merge_fixed: bool = False,
     root: str | None = None,
+    fit: tuple[float, float] | None = None,
     sensors: bool = False,
     scene: bool = False,
     setup: str | os.PathLike[str] | None = None,
@@ -109,6 +110,9 @@ def export(
             keeps its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
         root: the link that becomes the root: joints between it and the old root are turned round. Values, limits and
             names of joints stay. Not for formats of spheres.
+        fit: puts a box, cylinder, capsule or sphere around each convex mesh in its place: the tightest that has at most
+            so many times the volume of the mesh and is at most so many metres off it, such as ``(1.2, 0.005)``. Pairs
+            are judged by these shapes. Not for formats of spheres.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
         scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
@@ -140,6 +144,7 @@ def export(
         floating_base=floating_base,
         merge_fixed=merge_fixed,
         root=root,
+        fit=fit,
         sensors=sensors,
         scene=scene,
         output=output,
@@ -176,6 +181,7 @@ def export_options(
     floating_base: bool = False,
     merge_fixed: bool = False,
     root: str | None = None,
+    fit: tuple[float, float] | None = None,
     sensors: bool = False,
     scene: bool = False,
     output: str | os.PathLike[str] | None = None,
@@ -203,6 +209,7 @@ def export_options(
         floating_base=bool(floating_base),
         merge_fixed=bool(merge_fixed),
         root=root,
+        fit=None if fit is None else (float(fit[0]), float(fit[1])),
         sensors=bool(sensors),
         scene=bool(scene),
         output=None if output is None else Path(output),

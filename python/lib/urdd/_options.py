@@ -127,6 +127,7 @@ class ExportOptions:
     floating_base: bool
     merge_fixed: bool
     root: str | None
+    fit: tuple[float, float] | None
     sensors: bool
     scene: bool
     output: Path | None

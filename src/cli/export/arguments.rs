@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::mjcf::MjcfArguments;
 use crate::cli::words::{Shapes, Skip};
-use urdd_export::{Detail, Format, SAMPLES, SPHERES, TOTAL_SPHERES};
+use urdd_export::{Detail, Fit, Format, SAMPLES, SPHERES, TOTAL_SPHERES};
 
 /// Arguments of `urdd export`.
 #[derive(Args)]
@@ -79,6 +79,12 @@ pub struct ExportArguments {
     /// MJCF, SDF and USD: the root link moves freely. Otherwise it is fixed to the world.
     #[arg(long)]
     pub floating_base: bool,
+
+    /// Puts a box, cylinder, capsule or sphere around each convex mesh in its place, the tightest that has at most VOLUME
+    /// times the volume of the mesh and is at most STANDOFF metres off it. Default: 1.2,0.005. Pairs are judged by these
+    /// shapes. Not for formats of spheres.
+    #[arg(long, value_name = "VOLUME,STANDOFF", num_args = 0..=1, require_equals = true)]
+    pub fit: Option<Option<Fit>>,
 
     /// Makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps its frame: a
     /// site, a frame, an empty `Xform`, or in URDF an empty link. Not for formats of spheres.

@@ -74,6 +74,7 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         floating_base: arguments.floating_base,
         merge_fixed: arguments.merge_fixed,
         root: arguments.root.clone(),
+        fit: arguments.fit.map(Option::unwrap_or_default),
         setup: Setup::find(arguments.setup.as_deref(), &arguments.path, robot)?,
         ..Choices::default()
     };

@@ -3,7 +3,7 @@
 use super::super::error::ExportError;
 use super::super::options::SpherizedOptions;
 use super::super::output::Export;
-use super::super::subject::Subject;
+use super::super::subject::{Subject, by_link};
 use super::super::urdf;
 use super::{Model, said};
 use urdd_robot::{LinkShape, Solid};
@@ -22,7 +22,7 @@ pub(in super::super) fn export(
         });
         shapes.extend(spheres);
     }
-    let shapes = subject.by_link(shapes);
+    let shapes = by_link(&subject.described, shapes);
     let mut notes = said::note(&model, subject).into_iter().collect();
     let (robot, files) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
     let said = model.said(&subject.links, options.spheres.cover).join(" ");

@@ -1,6 +1,6 @@
 //! What fits which format is said once, in the library.
 
-use urdd_export::{ActuatorKind, Choices, Format, Options};
+use urdd_export::{ActuatorKind, Choices, Fit, Format, Options};
 
 /// Each option that only some formats have is refused by all others, and named.
 #[test]
@@ -9,6 +9,7 @@ fn what_a_format_does_not_have_is_refused() {
     let tree = "srdf and urdf and drake and mjcf and moveit and sdf and usd";
     let cases = [
         ("merge_fixed", Choices { merge_fixed: true, ..none() }, tree),
+        ("fit", Choices { fit: Some(Fit::default()), ..none() }, tree),
         ("root", Choices { root: Some("a".to_owned()), ..none() }, tree),
         ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf and usd"),
         ("sensors", Choices { sensors: true, ..none() }, "mjcf"),

@@ -6,6 +6,7 @@
 mod carried;
 mod choices;
 mod drake;
+mod fitted;
 mod fitted_spheres;
 mod gazebo;
 mod gazebo_foreign;
