@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_export::{
-    ActuatorKind, Choices, Detail, ExportError, Fit, Format, Setup, SetupError, SphereBudget,
+    ActuatorKind, Choices, Detail, ExportError, Fit, Format, Ros, Setup, SetupError, SphereBudget,
     joint_groups_of_srdf,
 };
 
@@ -47,6 +47,7 @@ pub struct Options {
     output: Option<PathBuf>,
     setup: Option<PathBuf>,
     package: Option<String>,
+    ros: Option<String>,
     robot_file: Option<String>,
 }
 
@@ -67,6 +68,10 @@ impl Options {
             let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
             ActuatorKind::named(&word).ok_or_else(|| none_of("are no actuators", &word, words))
         };
+        let ros = |word: String| {
+            let words = Ros::ALL.iter().map(|ros| ros.word());
+            Ros::named(&word).ok_or_else(|| none_of("is no distribution", &word, words))
+        };
         Ok(Choices {
             shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
             reasons: reasons.transpose().map_err(PyValueError::new_err)?,
@@ -78,6 +83,7 @@ impl Options {
             mesh_folder: self.mesh_folder,
             output: self.output,
             package: self.package,
+            ros: self.ros.map(ros).transpose()?,
             robot_file: self.robot_file,
             floating_base: self.floating_base,
             merge_fixed: self.merge_fixed,

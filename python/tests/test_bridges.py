@@ -205,6 +205,13 @@ def test_a_package_of_moveit_is_written_whole(arm: urdd.Robot, tmp_path: Path) -
     urdf = next((tmp_path / "arm_config/config").glob("*.urdf")).read_text()
     assert "package://arm_config/meshes/" in urdf
     assert made.report["format"] == "MoveIt's configuration"
+    humble = urdd.export(arm, "moveit", ros="humble")
+    assert b"planning_plugin: " in humble.files["config/ompl_planning.yaml"]
+    assert b"planning_plugins:" in made.files["config/ompl_planning.yaml"]
+    with pytest.raises(ValueError, match="there are: humble, jazzy"):
+        urdd.export(arm, "moveit", ros="foxy")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="ros is for moveit only"):
+        urdd.export(arm, "sdf", ros="humble")
     (tmp_path / "arm_config/package.xml").write_text("mine")
     with pytest.raises(FileExistsError):
         urdd.export(arm, "moveit", tmp_path / "arm_config")

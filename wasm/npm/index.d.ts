@@ -31,7 +31,7 @@ export function load(
   makerBytes?: BufferSource | Promise<BufferSource>,
 ): Promise<Urdd>;
 
-/** A program that a URDF is for; a distribution of ROS stands for its urdfdom. */
+/** A program that a URDF is for; a distribution of ROS stands for its urdfdom, `gazebo` for each of its versions. */
 export type Program =
   | "ros"
   | "lyrical"
@@ -42,6 +42,9 @@ export type Program =
   | "noetic"
   | "iron"
   | "gazebo"
+  | "fortress"
+  | "harmonic"
+  | "jetty"
   | "mujoco"
   | "mujoco3.3"
   | "pinocchio"
@@ -164,6 +167,8 @@ export interface ExportOptions {
    * times the volume of the mesh and is at most so many metres off it, such as `[1.2, 0.005]`.
    */
   fit?: [number, number];
+  /** MoveIt: the distribution of ROS 2 that reads the package; by default `jazzy`, whose files Kilted reads too. */
+  ros?: "humble" | "jazzy";
   /** The content of an `export.toml`. */
   setup?: string;
 }

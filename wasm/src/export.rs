@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use urdd_directory::range::Range;
 use urdd_directory::source::Memory;
 use urdd_export::{
-    ActuatorKind, Choices, Fit, Format, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
+    ActuatorKind, Choices, Fit, Format, Ros, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
     export as exported,
 };
 use urdd_robot::Robot;
@@ -39,6 +39,7 @@ struct Question {
     merge_fixed: bool,
     root: Option<String>,
     fit: Option<[f64; 2]>,
+    ros: Option<String>,
     /// The content of an `export.toml`.
     setup: Option<String>,
 }
@@ -105,6 +106,12 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         let kind = ActuatorKind::named(word);
         choices.actuators =
             Some(kind.ok_or_else(|| format!("there are no actuators `{}`", word.escape_debug()))?);
+    }
+    if let Some(word) = &question.ros {
+        let ros = Ros::named(word);
+        choices.ros = Some(ros.ok_or_else(|| {
+            format!("there is no distribution `{}`; there are: humble, jazzy", word.escape_debug())
+        })?);
     }
     choices.samples = count(SAMPLES, question.samples)?.unwrap_or(choices.samples);
     choices.visuals = choices.visuals.filter(|_| question.visuals != Some(false));

@@ -124,6 +124,11 @@ try {
       same(files(exported.files), folder(target));
       compared++;
     }
+    const config = join(made, `${name}_moveit`, "r_config");
+    run("export", "moveit", own, "-o", config, "--ros", "humble");
+    const humble = urdd.export(urdds, { format: "moveit", output: "r_config", ros: "humble" });
+    same(files(humble.files), folder(config));
+    compared++;
     // A donor gives what did not change: the same result.
     const again = urdd.generate(all, { path: `${name}.urdf` }, generated.files);
     near(files(again.files), content);
@@ -149,6 +154,8 @@ try {
     [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: -5 }), /`bandwidth` must be from 0.01 to 1,000 Hz/],
     [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: 1e300 }), /`bandwidth` must be from/],
     [() => urdd.export(urdds, { format: "mjcf", output: "x", bandwidth: NaN }), /bandwidth must be a finite number/],
+    [() => urdd.export(urdds, { format: "moveit", output: "x", ros: "foxy" }), /there are: humble, jazzy/],
+    [() => urdd.export(urdds, { format: "sdf", output: "x", ros: "jazzy" }), /ros is for moveit only/],
     [() => urdd.export(all, { format: "pdf", output: "x" }), /there is no format `pdf`/],
   ];
   for (const [call, pattern] of refused) assert.throws(call, pattern);

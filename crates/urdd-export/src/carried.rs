@@ -43,9 +43,12 @@ const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 const DRIVEN: How = Otherwise("velocity for Newton and PhysX; effort of drives (`--actuators`)");
 const NEWTON: How = Otherwise("by Newton's attributes, which other programs ignore");
+const FROM_HARMONIC: How =
+    Otherwise("for Gazebo Harmonic, Jetty and Drake; Gazebo Fortress loads the file without them");
 const MIMICS: How = Otherwise("by attributes of Newton and of PhysX");
 const GENERIC: How = Otherwise("as a generic joint with free axes");
 const KEPT: How = Otherwise("for whole links; by piece with `--keep-pairs`");
+const MOCK: How = Otherwise("mock hardware for that of `<ros2_control>`");
 const CUSTOM: How = Otherwise("as custom data, which programs ignore");
 
 impl Feature {
@@ -58,6 +61,12 @@ impl Feature {
     ) -> Self {
         let e = Elsewhere;
         Feature { name, count, by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf, usd] }
+    }
+
+    /// The same, but for MoveIt.
+    const fn with_moveit(mut self, moveit: How) -> Self {
+        self.by_format[7] = moveit;
+        self
     }
 
     /// The same, but for cuRobo.
@@ -108,7 +117,7 @@ const TABLE: [Feature; 22] = [
     Feature::new(
         "mimic joints",
         |of| of.mimics.by_joint.iter().flatten().count(),
-        [Yes, Yes, MIMIC, Yes, MIMICS],
+        [Yes, Yes, MIMIC, FROM_HARMONIC, MIMICS],
     ),
     Feature::new("joints with the name of a link", namesakes, [Yes, Yes, Yes, RENAMED, Yes])
         .with_curobo(Yes),
@@ -147,7 +156,8 @@ const TABLE: [Feature; 22] = [
         "other elements that URDF does not define, such as transmissions",
         other_elements,
         [Yes, Yes, No, No, CUSTOM],
-    ),
+    )
+    .with_moveit(MOCK),
     // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",

@@ -14,6 +14,7 @@ use super::options::{
     MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
     UrdfOptions, UsdOptions,
 };
+use super::ros::Ros;
 use super::setup::Setup;
 use super::shapes::Shapes;
 
@@ -38,6 +39,8 @@ pub struct Choices {
     pub output: Option<PathBuf>,
     /// Of MoveIt, by default named after [`Choices::output`], or [`Choices::PACKAGE`].
     pub package: Option<String>,
+    /// Of MoveIt, by default [`Ros::Jazzy`].
+    pub ros: Option<Ros>,
     pub robot_file: Option<String>,
     pub floating_base: bool,
     pub actuators: Option<ActuatorKind>,
@@ -64,6 +67,7 @@ impl Default for Choices {
             mesh_folder: None,
             output: None,
             package: None,
+            ros: None,
             robot_file: None,
             floating_base: false,
             actuators: None,
@@ -107,7 +111,7 @@ const WITH_TREE: &[Format] = &[
 ];
 
 /// Options that are refused for formats that do not have them. Others are passed over there.
-const ONLY: [Only; 9] = [
+const ONLY: [Only; 10] = [
     ("fit", |of| of.fit.is_some(), WITH_TREE),
     ("merge_fixed", |of| of.merge_fixed, WITH_TREE),
     ("root", |of| of.root.is_some(), WITH_TREE),
@@ -116,6 +120,7 @@ const ONLY: [Only; 9] = [
     ("scene", |of| of.scene, &[Format::Mjcf]),
     ("floating_base", |of| of.floating_base, &[Format::Mjcf, Format::Sdf, Format::Usd]),
     ("robot_file", |of| of.robot_file.is_some(), &[Format::Curobo]),
+    ("ros", |of| of.ros.is_some(), &[Format::Moveit]),
     ("package", |of| of.package.is_some(), &[Format::Moveit, Format::Drake]),
 ];
 
@@ -174,7 +179,8 @@ impl Choices {
                     model.meshes.folder = format!("package://{package}/meshes");
                 }
                 let package = package.unwrap_or_else(|| Self::PACKAGE.to_owned());
-                Options::Moveit(MoveitOptions { model, package })
+                let ros = self.ros.unwrap_or_default();
+                Options::Moveit(MoveitOptions { model, package, ros })
             }
             Format::Sdf => {
                 Options::Sdf(SdfOptions { model: self.model(), floating_base: self.floating_base })

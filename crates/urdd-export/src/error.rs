@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
+use super::ros::Ros;
 use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
@@ -65,7 +66,7 @@ pub enum ExportError {
     SpheresOf(Shapes),
     /// So many shapes of the source that judging their pairs would take too long.
     #[error(
-        "the source has {count} collision shapes, and pairs of at most {most} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
+        "the source has {count} collision shapes or convex pieces of them, or more, and pairs of at most {most} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
     )]
     TooManyShapes {
         /// Number of shapes.
@@ -127,6 +128,16 @@ fn binary(ending: &str) -> &'static str {
         r#"UsdUtils.CreateNewUsdzPackage("x.usda", "x.usdz")"#
     } else {
         r#"Usd.Stage.Open("x.usda").Export("x.usdc")"#
+    }
+}
+
+/// Where a limit that MoveIt needs can be written.
+fn limit_of(what: &str) -> &'static str {
+    match what {
+        "velocity" => "`velocity` into the URDF, or limits into config/joint_limits.yaml",
+        _ => {
+            "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
+        }
     }
 }
 
@@ -205,6 +216,16 @@ pub enum Note {
         group: String,
         /// What is exported instead.
         what: &'static str,
+    },
+    /// Joints that MoveIt moves, without a limit.
+    #[error("joints without a limit of {what}: {}; {}. Write {}", few(.joints), .ros.without_limit(), limit_of(.what))]
+    Unlimited {
+        /// What has no limit: `velocity` or `acceleration`.
+        what: &'static str,
+        /// The joints; at least one.
+        joints: Vec<String>,
+        /// Whose MoveIt moves them.
+        ros: Ros,
     },
     /// A joint that has another name in the file.
     #[error("joint `{}` is called `{}`: a link has its name, or the format keeps it for itself", .joint.escape_debug(), .name.escape_debug())]

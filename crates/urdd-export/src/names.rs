@@ -16,8 +16,15 @@ pub const LONGEST: usize = 80;
 const XACRO: [&str; 6] = ["${", "$(", "$$", "\t", "\n", "\r"];
 
 /// The settings beside which MoveIt's file of planners names groups.
-const OMPL: [&str; 4] =
-    ["planning_plugins", "request_adapters", "response_adapters", "planner_configs"];
+const OMPL: [&str; 7] = [
+    "planning_plugin",
+    "planning_plugins",
+    "request_adapters",
+    "response_adapters",
+    "planner_configs",
+    "start_state_max_bounds_error",
+    "jiggle_fraction",
+];
 
 /// An error if the format cannot represent a name of the robot, a link or a joint.
 pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), ExportError> {

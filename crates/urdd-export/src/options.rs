@@ -5,6 +5,7 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use super::actuator_kind::ActuatorKind;
 use super::fit::Fit;
 use super::format::Format;
+use super::ros::Ros;
 use super::setup::Setup;
 use super::shapes::Shapes;
 
@@ -275,6 +276,8 @@ pub struct MoveitOptions {
     pub model: ModelOptions,
     /// The name of the package.
     pub package: String,
+    /// The distribution whose MoveIt and ros2_control read it.
+    pub ros: Ros,
 }
 
 /// Options of SDF.

@@ -12,7 +12,7 @@ use super::shapes::Shape;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, empty_robot, links, push_unknown,
-    type_name,
+    ros2_control, type_name,
 };
 use super::xacro;
 use urdd_xml::other_parts::Owner;
@@ -57,8 +57,10 @@ pub(super) fn robot(
 /// Elements that URDF does not define, as the format needs them; empty where it cannot have one.
 fn unknown<'a>(subject: &Subject, texts: &'a [String]) -> Cow<'a, [String]> {
     match subject.format {
+        // The package has hardware of its own.
         Format::Moveit => {
-            texts.iter().map(|text| xacro::element(text).unwrap_or_default()).collect()
+            let texts = texts.iter().filter(|text| ros2_control(text).is_none());
+            texts.map(|text| xacro::element(text).unwrap_or_default()).collect()
         }
         _ => Cow::Borrowed(texts),
     }

@@ -134,6 +134,12 @@ pub(super) fn document(text: &str) -> Option<Document<'_>> {
     document.descendants().all(has_namespaces).then_some(document)
 }
 
+/// An element that is hardware of ros2_control, as a document.
+pub(super) fn ros2_control(text: &str) -> Option<Document<'_>> {
+    let document = urdd_xml::parse(text, Kind::Other).ok()?;
+    document.root_element().has_tag_name("ros2_control").then_some(document)
+}
+
 /// A text that XML can hold: a URDF has no other, an edited module can.
 fn sound(text: Option<&str>) -> Option<&str> {
     text.filter(|text| text.chars().all(is_character))

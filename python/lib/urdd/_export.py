@@ -14,7 +14,7 @@ from ._answers import ExportShapes
 from ._description import RobotDescription
 from ._options import ExportOptions, ranged, words
 
-__all__ = ["Actuators", "Export", "Format", "export", "export_options", "exported_with"]
+__all__ = ["Actuators", "Export", "Format", "Ros", "export", "export_options", "exported_with"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
@@ -23,6 +23,9 @@ and Omniverse."""
 
 Actuators: TypeAlias = Literal["position", "velocity", "motor"]
 """What actuators are told: positions (rad or m), velocities (rad/s or m/s), or torques and forces (N m or N)."""
+
+Ros: TypeAlias = Literal["humble", "jazzy"]
+"""A distribution of ROS 2."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,7 @@ def export(
     scene: bool = False,
     setup: str | os.PathLike[str] | None = None,
     package: str | None = None,
+    ros: Ros | None = None,
     robot_file: str | None = None,
     force: bool = False,
 ) -> Export:
@@ -119,6 +123,8 @@ def export(
             URDD ``NAME``, if it is there.
         package: MoveIt: the name of the package, by default ``output``'s. Drake: writes ``package.xml`` and a model
             directive too.
+        ros: MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package, by default ``"jazzy"``,
+            whose files Kilted reads too.
         robot_file: cuRobo: the path of the URDF; the text is then the whole robot file.
         force: overwrites existing files.
 
@@ -150,6 +156,7 @@ def export(
         output=output,
         setup=setup,
         package=package,
+        ros=ros,
         robot_file=robot_file,
     )
     subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
@@ -187,6 +194,7 @@ def export_options(
     output: str | os.PathLike[str] | None = None,
     setup: str | os.PathLike[str] | None = None,
     package: str | None = None,
+    ros: Ros | None = None,
     robot_file: str | None = None,
 ) -> ExportOptions:
     """The options of :func:`export`, with their types checked."""
@@ -215,5 +223,6 @@ def export_options(
         output=None if output is None else Path(output),
         setup=None if setup is None else Path(setup),
         package=package,
+        ros=ros,
         robot_file=robot_file,
     )

@@ -133,6 +133,7 @@ class ExportOptions:
     output: Path | None
     setup: Path | None
     package: str | None
+    ros: str | None
     robot_file: str | None
 
 
@@ -160,6 +161,7 @@ class Reporting:
 
     fail_on: str | None
     config: str | None
+    config_folder: Path
     select: list[str]
     ignore: list[str]
     exclude: list[str]

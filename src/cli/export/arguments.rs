@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::mjcf::MjcfArguments;
 use crate::cli::words::{Shapes, Skip};
-use urdd_export::{Detail, Fit, Format, SAMPLES, SPHERES, TOTAL_SPHERES};
+use urdd_export::{Detail, Fit, Format, Ros, SAMPLES, SPHERES, TOTAL_SPHERES};
 
 /// Arguments of `urdd export`.
 #[derive(Args)]
@@ -108,6 +108,11 @@ pub struct ExportArguments {
     #[arg(long, value_name = "NAME")]
     pub package: Option<String>,
 
+    /// MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose files Kilted
+    /// reads too.
+    #[arg(long, value_name = "DISTRIBUTION", value_parser = ros())]
+    pub ros: Option<Ros>,
+
     /// Replaces the pairs of links in an existing SRDF, except those that a person wrote (their reason is `User` or free
     /// text). Everything else in the file is unchanged. For `moveit`, all other files that exist stay as they are.
     #[arg(long, conflicts_with = "force")]
@@ -131,6 +136,12 @@ fn shapes() -> impl TypedValueParser<Value = urdd_export::Shapes> {
     );
     PossibleValuesParser::new(kinds.chain([source]))
         .try_map(|word| word.parse::<urdd_export::Shapes>())
+}
+
+/// The distributions of ROS 2.
+fn ros() -> impl TypedValueParser<Value = Ros> {
+    PossibleValuesParser::new(Ros::ALL.iter().map(|ros| ros.word()))
+        .try_map(|word| Ros::named(&word).ok_or("not a distribution"))
 }
 
 /// A part of all triangles, or a number of them.

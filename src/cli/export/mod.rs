@@ -70,6 +70,7 @@ fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failur
         visuals: (!arguments.no_visuals).then(|| arguments.visuals.unwrap_or_default()),
         output: arguments.output.clone(),
         package: arguments.package.clone(),
+        ros: arguments.ros,
         robot_file,
         floating_base: arguments.floating_base,
         merge_fixed: arguments.merge_fixed,

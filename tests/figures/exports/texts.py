@@ -72,8 +72,8 @@ def walk(value, change):
 
 def tree(element):
     """An element, without what xacro may change: comments, white space, where a CDATA section begins."""
-    # A robot that has no hardware of its own, or one that is no XML, gets simulated hardware in MoveIt's folder.
-    inner = [tree(child) for child in element if child.get("name") != "mock_hardware"]
+    # MoveIt's folder has simulated hardware in the place of the robot's.
+    inner = [tree(child) for child in element if child.tag != "ros2_control"]
     parts = [element.text, *(child.tail for child in element)]
     texts = "".join("".join(part or "" for part in parts).split())
     attributes = sorted((key, " ".join(value.split())) for key, value in element.items() if key != "filename" or element.tag != "mesh")

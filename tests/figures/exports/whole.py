@@ -145,6 +145,7 @@ REASONS = {
     "renamed": "our groups are called `arm` and `hand`, theirs `panda_arm` and `hand`",
     "acceleration": "the URDF has no limits of acceleration and jerk; theirs are from Franka's data sheet",
     "fingers": "ours are the limits of the URDF, and the joint that follows the other has none",
+    "gripper": "theirs is deprecated in Jazzy, ours is its successor",
     "planners": "theirs lists every planner with OMPL's default parameters",
     "xacro": "theirs is a xacro of several hardware types; ours has simulated hardware in the URDF",
     "virtual": "theirs is `floating`, although the arm is fixed to the world by its launch file",
@@ -187,6 +188,8 @@ def of_panda(ours, theirs):
                 reason = "acceleration"
             elif "panda_finger_joint" in key:
                 reason = "fingers"
+            elif "hand_controller" in key and key.endswith("/type"):
+                reason = "gripper"
             elif name == "ompl_planning":
                 reason = "planners"
             elif key.startswith("moveit_simple_controller_manager/controller_names"):

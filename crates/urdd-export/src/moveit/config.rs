@@ -6,9 +6,9 @@ use super::super::names::FileNames;
 use super::super::options::MoveitOptions;
 use super::super::setup::{Members, Setup};
 use super::super::subject::Subject;
+use super::hardware::Hardware;
 use urdd_format::named_configurations::NamedConfiguration;
-use urdd_xml::number::number;
-use urdd_xml::writer::Element;
+use urdd_format::urdf::Limit;
 
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {
@@ -22,6 +22,7 @@ pub(super) struct Config<'a> {
     pub configurations: &'a [NamedConfiguration],
     dofs: Vec<Option<usize>>,
     pub default: Vec<f64>,
+    pub hardware: Hardware,
 }
 
 impl<'a> Config<'a> {
@@ -31,12 +32,14 @@ impl<'a> Config<'a> {
         setup: &'a Setup,
     ) -> Result<Self, ExportError> {
         let groups = 0..setup.groups.len();
+        let joints: Vec<_> = groups.map(|group| joints_of(setup, group, subject)).collect();
         Ok(Config {
+            hardware: Hardware::new(subject, setup, &joints),
             subject,
             options,
             setup,
             name: FileNames::default().of(&subject.urdf.name),
-            joints: groups.map(|group| joints_of(setup, group, subject)).collect(),
+            joints,
             configurations: subject.robot.named_configurations()?,
             dofs: subject.dofs()?,
             default: subject.robot.configurations()?.zero(),
@@ -77,37 +80,16 @@ impl<'a> Config<'a> {
         controlled
     }
 
-    /// Whether the source has `<ros2_control>` of its own.
-    pub fn has_hardware(&self) -> bool {
-        let texts = &self.subject.urdf.unknown_elements;
-        texts.iter().any(|text| {
-            let document = urdd_xml::parse(text, urdd_xml::Kind::Other);
-            document.is_ok_and(|document| document.root_element().has_tag_name("ros2_control"))
-        })
-    }
-
-    /// Simulated hardware that does what it is told, for the launch file.
-    pub fn hardware(&self) -> Element {
-        let plugin = Element::text("plugin", "mock_components/GenericSystem");
-        let mut hardware = Element::new("ros2_control")
-            .with("name", "mock_hardware")
-            .with("type", "system")
-            .holding(Element::new("hardware").holding(plugin));
-        let configuration = self.configurations.first();
-        let configuration = configuration.map_or(&self.default, |named| &named.configuration);
-        for (_, joints) in self.controlled() {
-            for joint in joints {
-                let initial = number(self.position(configuration, joint));
-                let position = Element::new("state_interface")
-                    .with("name", "position")
-                    .holding(Element::text("param", &initial).with("name", "initial_value"));
-                let velocity = Element::new("state_interface").with("name", "velocity");
-                let command = Element::new("command_interface").with("name", "position");
-                let joint = Element::new("joint").with("name", self.joint(joint));
-                hardware.push(joint.holding(command).holding(position).holding(velocity));
-            }
-        }
-        hardware
+    /// The limits of a joint: velocity, acceleration and jerk. Those of `[limits]` where the URDF has none.
+    pub fn limits(&self, joint: usize) -> [Option<f64>; 3] {
+        let source = self.subject.urdf.joints[joint].limit.as_ref();
+        let positive = |value: Option<f64>| value.filter(|value| *value > 0.0 && value.is_finite());
+        let of = |value: fn(&Limit) -> Option<f64>| positive(source.and_then(value));
+        [
+            of(|limit| limit.velocity),
+            of(|limit| limit.acceleration).or(self.setup.acceleration),
+            of(|limit| limit.jerk).or(self.setup.jerk),
+        ]
     }
 
     /// Says that a file was made, and of what.

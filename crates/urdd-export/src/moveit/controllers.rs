@@ -1,14 +1,126 @@
 //! Controllers: those that MoveIt sends trajectories to, and those of ros2_control that follow them.
 
-use super::super::error::ExportError;
+use super::super::error::{ExportError, Note};
+use super::super::parts::Taken;
+use super::super::ros::Ros;
 use super::super::yaml::{Yaml, head, quoted};
 use super::config::Config;
+use super::hardware::Command;
+
+/// How MoveIt executes trajectories.
+const EXECUTION: &str = include_str!("moveit_controllers.yaml.in");
+
+/// The controller that says where joints are.
+const BROADCASTER: &str = "joint_state_broadcaster";
+
+const NO_TRAJECTORIES: &str = "MoveIt sends it no trajectories, since not all of its joints take positions; config/ros2_controllers.yaml has what drives those that take velocity or effort";
+
+/// A controller of a group.
+pub(super) struct Controller {
+    name: String,
+    joints: Vec<usize>,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// It follows trajectories of positions.
+    Trajectory,
+    /// It is told a single position and the greatest effort, as grippers of one joint are.
+    Gripper,
+    /// It passes on velocities or efforts, which MoveIt does not send.
+    Forward(Command),
+}
+
+pub(super) fn controllers(config: &Config) -> Vec<Controller> {
+    let ends: Vec<usize> = config.setup.end_effectors.iter().map(|end| end.value.group).collect();
+    let mut taken = Taken::default();
+    taken.insert(BROADCASTER);
+    let mut controllers = Vec::new();
+    for (group, joints) in config.controlled() {
+        for command in Command::ALL {
+            let is_told = |joint: &usize| config.hardware.told(*joint) == Some(command);
+            let told: Vec<usize> = joints.iter().copied().filter(is_told).collect();
+            if told.is_empty() {
+                continue;
+            }
+            let (kind, what) = match command {
+                Command::Position if ends.contains(&group) && joints.len() == 1 => {
+                    (Kind::Gripper, String::new())
+                }
+                Command::Position => (Kind::Trajectory, String::new()),
+                other => (Kind::Forward(other), format!("_{}", other.word())),
+            };
+            let name = &config.setup.groups[group].value.name;
+            let name = taken.free(format!("{name}{what}_controller"));
+            controllers.push(Controller { name, joints: told, kind });
+        }
+    }
+    controllers
+}
+
+impl Controller {
+    /// What MoveIt sends it; nothing to one that follows no trajectories.
+    fn action(&self, ros: Ros) -> Option<[&'static str; 2]> {
+        match (self.kind, ros) {
+            (Kind::Trajectory, _) => Some(["follow_joint_trajectory", "FollowJointTrajectory"]),
+            (Kind::Gripper, Ros::Humble) => Some(["gripper_cmd", "GripperCommand"]),
+            (Kind::Gripper, Ros::Jazzy) => Some(["gripper_cmd", "ParallelGripperCommand"]),
+            (Kind::Forward(_), _) => None,
+        }
+    }
+
+    /// Its package and its plugin.
+    fn plugin(&self, ros: Ros) -> [&'static str; 2] {
+        match (self.kind, ros) {
+            (Kind::Gripper, Ros::Humble) => {
+                ["gripper_controllers", "position_controllers/GripperActionController"]
+            }
+            (Kind::Gripper, Ros::Jazzy) => [
+                "parallel_gripper_controller",
+                "parallel_gripper_action_controller/GripperActionController",
+            ],
+            (Kind::Forward(Command::Velocity), _) => {
+                ["velocity_controllers", "velocity_controllers/JointGroupVelocityController"]
+            }
+            (Kind::Forward(Command::Effort), _) => {
+                ["effort_controllers", "effort_controllers/JointGroupEffortController"]
+            }
+            (Kind::Trajectory | Kind::Forward(Command::Position), _) => [
+                "joint_trajectory_controller",
+                "joint_trajectory_controller/JointTrajectoryController",
+            ],
+        }
+    }
+
+    fn parameters(&self, config: &Config) -> Yaml {
+        let joints = || self.joints.iter().map(|joint| config.joint(*joint));
+        match self.kind {
+            Kind::Gripper => {
+                Yaml::Map(joints().map(|joint| ("joint".to_owned(), Yaml::text(joint))).collect())
+            }
+            Kind::Forward(_) => Yaml::map([("joints", Yaml::texts(joints()))]),
+            Kind::Trajectory => {
+                let mut states = vec![Yaml::plain("position")];
+                if self.joints.iter().all(|joint| config.hardware.tells_velocity(*joint)) {
+                    states.push(Yaml::plain("velocity"));
+                }
+                Yaml::map([
+                    ("command_interfaces", Yaml::List(vec![Yaml::plain("position")])),
+                    ("state_interfaces", Yaml::List(states)),
+                    ("joints", Yaml::texts(joints())),
+                    ("allow_nonzero_velocity_at_trajectory_end", Yaml::plain("true")),
+                ])
+            }
+        }
+    }
+}
 
 pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportError> {
     let controllers = controllers(config);
     let moveit = config.comments("The controllers that MoveIt sends trajectories to.")?;
     let ros2 = config.comments("The controllers of ros2_control.")?;
-    let moveit = head(&moveit) + EXECUTION + &manager(config, &controllers).document(&[]);
+    let moveit = head(&moveit) + EXECUTION + &manager(config, &controllers);
     let ros2 = self::ros2(config, &controllers).document(&ros2);
     Ok(vec![
         ("config/moveit_controllers.yaml".to_owned(), moveit),
@@ -16,43 +128,45 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
     ])
 }
 
-/// How MoveIt executes trajectories.
-const EXECUTION: &str = include_str!("moveit_controllers.yaml.in");
-
-/// A controller of a group.
-struct Controller {
-    name: String,
-    joints: Vec<usize>,
-    /// Whether it is told a single position and the greatest effort, as grippers of one joint are.
-    is_gripper: bool,
-}
-
-fn controllers(config: &Config) -> Vec<Controller> {
-    let ends: Vec<usize> = config.setup.end_effectors.iter().map(|end| end.value.group).collect();
-    let each = config.controlled().into_iter().map(|(group, joints)| Controller {
-        name: format!("{}_controller", config.setup.groups[group].value.name),
-        is_gripper: ends.contains(&group) && joints.len() == 1,
-        joints,
-    });
-    each.collect()
-}
-
 /// The names of the controllers that are started.
 pub(super) fn names(config: &Config) -> Vec<String> {
     controllers(config).into_iter().map(|controller| controller.name).collect()
 }
 
-fn manager(config: &Config, controllers: &[Controller]) -> Yaml {
-    let mut manager = vec![(
-        "controller_names".to_owned(),
-        Yaml::texts(controllers.iter().map(|controller| controller.name.as_str())),
-    )];
+/// The packages of the controllers.
+pub(super) fn packages(config: &Config) -> Vec<&'static str> {
+    let controllers = controllers(config);
+    controllers.iter().map(|controller| controller.plugin(config.options.ros)[0]).collect()
+}
+
+/// What a person has to know of controllers and limits.
+pub(super) fn notes(config: &Config) -> Vec<Note> {
+    let ros = config.options.ros;
+    let groups = config.controlled().into_iter().filter(|(_, joints)| {
+        joints.iter().any(|joint| config.hardware.told(*joint) != Some(Command::Position))
+    });
+    let groups = groups.map(|(group, _)| Note::Group {
+        group: config.setup.groups[group].value.name.clone(),
+        what: NO_TRAJECTORIES,
+    });
+    let controllers = controllers(config);
+    let moved = controllers.iter().filter(|controller| controller.action(ros).is_some());
+    let moved: Vec<usize> = moved.flat_map(|controller| controller.joints.clone()).collect();
+    let unlimited =
+        ["velocity", "acceleration"].into_iter().zip(0..).filter_map(|(what, which)| {
+            let is_without = |joint: &&usize| config.limits(**joint)[which].is_none();
+            let joints = moved.iter().filter(is_without);
+            let joints: Vec<String> = joints.map(|joint| config.joint(*joint).to_owned()).collect();
+            (!joints.is_empty()).then_some(Note::Unlimited { what, joints, ros })
+        });
+    groups.chain(unlimited).collect()
+}
+
+fn manager(config: &Config, controllers: &[Controller]) -> String {
+    let mut names = Vec::new();
+    let mut entries = Vec::new();
     for controller in controllers {
-        let [action, kind] = if controller.is_gripper {
-            ["gripper_cmd", "GripperCommand"]
-        } else {
-            ["follow_joint_trajectory", "FollowJointTrajectory"]
-        };
+        let Some([action, kind]) = controller.action(config.options.ros) else { continue };
         let joints = controller.joints.iter().map(|joint| config.joint(*joint));
         let entry = Yaml::map([
             ("action_ns", Yaml::plain(action)),
@@ -60,9 +174,15 @@ fn manager(config: &Config, controllers: &[Controller]) -> Yaml {
             ("default", Yaml::plain("true")),
             ("joints", Yaml::texts(joints)),
         ]);
-        manager.push((quoted(&controller.name), entry));
+        names.push(controller.name.as_str());
+        entries.push((quoted(&controller.name), entry));
     }
-    Yaml::map([("moveit_simple_controller_manager", Yaml::Map(manager))])
+    // ROS cannot tell of what type an empty list is.
+    if names.is_empty() {
+        return String::new();
+    }
+    entries.insert(0, ("controller_names".to_owned(), Yaml::texts(names)));
+    Yaml::map([("moveit_simple_controller_manager", Yaml::Map(entries))]).document(&[])
 }
 
 fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {
@@ -71,31 +191,12 @@ fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {
     let mut entries = Vec::new();
     for controller in controllers {
         let name = quoted(&controller.name);
-        let joints: Vec<&str> =
-            controller.joints.iter().map(|joint| config.joint(*joint)).collect();
-        let (plugin, parameters) = match (controller.is_gripper, &joints[..]) {
-            (true, [joint]) => (
-                "position_controllers/GripperActionController",
-                Yaml::map([("joint", Yaml::text(joint))]),
-            ),
-            _ => (
-                "joint_trajectory_controller/JointTrajectoryController",
-                Yaml::map([
-                    ("command_interfaces", Yaml::List(vec![Yaml::plain("position")])),
-                    (
-                        "state_interfaces",
-                        Yaml::List(vec![Yaml::plain("position"), Yaml::plain("velocity")]),
-                    ),
-                    ("joints", Yaml::texts(joints)),
-                    ("allow_nonzero_velocity_at_trajectory_end", Yaml::plain("true")),
-                ]),
-            ),
-        };
+        let [_, plugin] = controller.plugin(config.options.ros);
         manager.push((name.clone(), kind(plugin)));
-        entries.push((name, Yaml::map([("ros__parameters", parameters)])));
+        entries.push((name, Yaml::map([("ros__parameters", controller.parameters(config))])));
     }
     let broadcaster = kind("joint_state_broadcaster/JointStateBroadcaster");
-    manager.push(("joint_state_broadcaster".to_owned(), broadcaster));
+    manager.push((BROADCASTER.to_owned(), broadcaster));
     let manager = Yaml::map([("ros__parameters", Yaml::Map(manager))]);
     entries.insert(0, ("controller_manager".to_owned(), manager));
     Yaml::Map(entries)

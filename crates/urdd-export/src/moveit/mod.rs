@@ -4,11 +4,13 @@
 
 mod config;
 mod controllers;
+mod hardware;
+mod mock;
 mod package;
 mod planning;
 mod semantic;
 
-use super::error::ExportError;
+use super::error::{ExportError, Note};
 use super::names::check_package;
 use super::options::MoveitOptions;
 use super::output::Export;
@@ -17,6 +19,8 @@ use super::urdf;
 use super::xacro;
 use config::Config;
 
+const REPLACED: &str = "the hardware of the source's `<ros2_control>` is not in the package: `mock_components/GenericSystem` is in its place, with the same command interfaces; to drive the robot, put the source's into the URDF of `config`";
+
 pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Export, ExportError> {
     check_package(&options.package)?;
     let mut notes = Vec::new();
@@ -24,9 +28,11 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     let config = Config::new(subject, options, &setup)?;
     let shapes = subject.shapes_by_link()?;
     let (mut robot, meshes) = urdf::robot(subject, &options.model.meshes, shapes, &mut notes)?;
-    if !config.has_hardware() {
-        robot.push(config.hardware());
+    robot.push(mock::hardware(&config));
+    if config.hardware.is_of_source {
+        notes.push(Note::Robot(REPLACED));
     }
+    notes.extend(controllers::notes(&config));
     let text = semantic::srdf(&config, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.shapes);
     let name = &config.name;

@@ -1,5 +1,6 @@
 //! The package: its description, how it is installed, a launch file, and what RViz shows.
 
+use super::super::ros::Ros;
 use super::super::template::fill;
 use super::super::yaml::quoted;
 use super::config::Config;
@@ -10,6 +11,35 @@ const PACKAGE: &str = include_str!("package.xml.in");
 const LAUNCH: &str = include_str!("demo.launch.py.in");
 const RVIZ: &str = include_str!("moveit.rviz.in");
 
+/// What every package needs where it is started; controllers need others.
+const NEEDED: &[&str] = &[
+    "controller_manager",
+    "joint_state_broadcaster",
+    "moveit_configs_utils",
+    "moveit_kinematics",
+    "moveit_planners",
+    "moveit_ros_move_group",
+    "moveit_ros_visualization",
+    "moveit_simple_controller_manager",
+    "robot_state_publisher",
+    "rviz2",
+    "tf2_ros",
+    "xacro",
+];
+
+/// How the controller manager gets the URDF, as in the launch files of `moveit_configs_utils`.
+fn manager(ros: Ros) -> &'static str {
+    match ros {
+        Ros::Humble => {
+            "parameters=[moveit.robot_description, str(config / \"ros2_controllers.yaml\")],"
+        }
+        Ros::Jazzy => {
+            "parameters=[str(config / \"ros2_controllers.yaml\")],
+            remappings=[(\"/controller_manager/robot_description\", \"/robot_description\")],"
+        }
+    }
+}
+
 pub(super) fn files(config: &Config) -> Vec<(String, String)> {
     let robot = &config.subject.urdf.name;
     let root = quoted(&config.subject.links[config.subject.tree.root]);
@@ -17,7 +47,13 @@ pub(super) fn files(config: &Config) -> Vec<(String, String)> {
     let package = &config.options.package;
     let controllers: Vec<String> =
         controllers::names(config).iter().map(|name| quoted(name)).collect();
-    let description = [("PACKAGE", escaped(package)), ("ROBOT", escaped(robot))];
+    let mut needed = NEEDED.to_vec();
+    needed.extend(controllers::packages(config));
+    needed.sort_unstable();
+    needed.dedup();
+    let needed = needed.iter().map(|name| format!("  <exec_depend>{name}</exec_depend>\n"));
+    let description =
+        [("PACKAGE", escaped(package)), ("ROBOT", escaped(robot)), ("NEEDED", needed.collect())];
     let launch = [
         ("PACKAGE", quoted(package)),
         ("ROBOT", quoted(robot)),
@@ -25,6 +61,7 @@ pub(super) fn files(config: &Config) -> Vec<(String, String)> {
         ("SRDF", quoted(&format!("config/{}.srdf", config.name))),
         ("ROOT", root.clone()),
         ("CONTROLLERS", format!("[{}]", controllers.join(", "))),
+        ("MANAGER", manager(config.options.ros).to_owned()),
     ];
     let rviz = [("GROUP", quoted(group)), ("ROOT", root)];
     vec![

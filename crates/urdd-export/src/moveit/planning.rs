@@ -1,10 +1,19 @@
 //! Limits, solvers of inverse kinematics, and planners.
 
 use super::super::error::ExportError;
+use super::super::ros::Ros;
 use super::super::yaml::{Yaml, head};
 use super::config::Config;
 
-/// Adapters and planners, by MoveIt's names of their settings. Their parameters are OMPL's defaults.
+/// Plugins and adapters, by the names that a distribution's MoveIt has for them.
+fn pipeline(ros: Ros) -> &'static str {
+    match ros {
+        Ros::Humble => include_str!("ompl_humble.yaml.in"),
+        Ros::Jazzy => include_str!("ompl_jazzy.yaml.in"),
+    }
+}
+
+/// Planners. Their parameters are OMPL's defaults.
 const OMPL: &str = include_str!("ompl_planning.yaml.in");
 
 /// The planners of a group, the default one first.
@@ -24,7 +33,10 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
     Ok(vec![
         ("config/joint_limits.yaml".to_owned(), self::limits(config).document(&limits)),
         ("config/kinematics.yaml".to_owned(), self::kinematics(config).document(&kinematics)),
-        ("config/ompl_planning.yaml".to_owned(), head(&planning) + OMPL + &groups(config)),
+        (
+            "config/ompl_planning.yaml".to_owned(),
+            head(&planning) + pipeline(config.options.ros) + OMPL + &groups(config),
+        ),
     ])
 }
 
@@ -32,20 +44,12 @@ fn limits(config: &Config) -> Yaml {
     let subject = config.subject;
     let joints = (0..subject.view.joints.len()).filter(|joint| subject.is_driven(*joint));
     let limits = joints.map(|joint| {
-        let source = subject.urdf.joints[joint].limit.as_ref();
-        let positive = |value: Option<f64>| value.filter(|value| *value > 0.0 && value.is_finite());
-        let velocity = positive(source.and_then(|limit| limit.velocity));
-        let acceleration = positive(source.and_then(|limit| limit.acceleration));
-        let jerk = positive(source.and_then(|limit| limit.jerk));
+        let [velocity, acceleration, jerk] = config.limits(joint);
         let mut entries = Vec::new();
         for (has, most, value) in [
             ("has_velocity_limits", "max_velocity", velocity),
-            (
-                "has_acceleration_limits",
-                "max_acceleration",
-                acceleration.or(config.setup.acceleration),
-            ),
-            ("has_jerk_limits", "max_jerk", jerk.or(config.setup.jerk)),
+            ("has_acceleration_limits", "max_acceleration", acceleration),
+            ("has_jerk_limits", "max_jerk", jerk),
         ] {
             entries.push((has.to_owned(), Yaml::Plain(value.is_some().to_string())));
             entries.push((most.to_owned(), Yaml::number(value.unwrap_or(0.0))));

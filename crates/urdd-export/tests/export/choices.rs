@@ -1,6 +1,6 @@
 //! What fits which format is said once, in the library.
 
-use urdd_export::{ActuatorKind, Choices, Fit, Format, Options};
+use urdd_export::{ActuatorKind, Choices, Fit, Format, Options, Ros};
 
 /// Each option that only some formats have is refused by all others, and named.
 #[test]
@@ -16,6 +16,7 @@ fn what_a_format_does_not_have_is_refused() {
         ("scene", Choices { scene: true, ..none() }, "mjcf"),
         ("floating_base", Choices { floating_base: true, ..none() }, "mjcf and sdf and usd"),
         ("robot_file", Choices { robot_file: Some("r.urdf".to_owned()), ..none() }, "curobo"),
+        ("ros", Choices { ros: Some(Ros::Humble), ..none() }, "moveit"),
         ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
     ];
     for format in Format::ALL {

@@ -22,6 +22,7 @@ mod mjcf_actuators;
 mod mjcf_inertia;
 mod mjcf_surface;
 mod moveit;
+mod moveit_ros;
 mod mujoco_png;
 mod names;
 mod order;

@@ -1,10 +1,11 @@
-//! MoveIt's package, read by readers of its formats. `tests/figures/exports/moveit.py` compares one with MoveIt's own.
+//! MoveIt's package, read by readers of its formats. `tests/figures/exports/moveit.py` has MoveIt's
+//! own readers read them, `whole.py` compares one with MoveIt's.
 
 use std::collections::BTreeMap;
 
 use crate::made::export;
 use serde_json::{Value, json};
-use urdd_export::{Choices, Export, ExportError, Format, Setup};
+use urdd_export::{Choices, Export, ExportError, Format, Ros, Setup};
 use urdd_robot::Robot;
 
 use testkit::robots::{made, made_of, our_robots};
@@ -95,7 +96,7 @@ fn a_package_has_what_moveit_needs() {
         moveit["arm_controller"]["joints"],
         ros2["arm_controller"]["ros__parameters"]["joints"]
     );
-    assert_eq!(moveit["hand_controller"]["type"], "GripperCommand");
+    assert_eq!(moveit["hand_controller"]["type"], "ParallelGripperCommand");
     assert_eq!(ros2["hand_controller"]["ros__parameters"]["joint"], "g");
     for name in ["arm_controller", "hand_controller", "joint_state_broadcaster"] {
         assert!(ros2["controller_manager"]["ros__parameters"][name]["type"].is_string());
@@ -242,20 +243,23 @@ fn names_of_our_own_are_not_the_robots() {
     let srdf = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let ours = srdf.descendants().find(|node| node.has_tag_name("virtual_joint"));
     assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_2"));
-    let setup = |group: &str| {
-        let text =
-            format!("robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"virtual_joint\"]\n");
-        let setup = Setup::from_toml(&text, "x", &robot).expect("read");
-        Choices { setup: Some(setup), ..Choices::default() }
-    };
-    let made = export(&robot, Format::Moveit, &setup("arm")).expect("an export");
-    let planning = yaml(files(&made)["config/ompl_planning.yaml"]);
-    for (key, value) in planning.as_object().expect("a map") {
-        let is_group = value.get("default_planner_config").is_some();
-        assert_eq!(is_group, key == "arm");
-        if !is_group {
-            let error = export(&robot, Format::Moveit, &setup(key)).expect_err(key);
-            assert!(matches!(error, ExportError::Name { what: "group", .. }), "{error}");
+    for ros in Ros::ALL {
+        let setup = |group: &str| {
+            let text = format!(
+                "robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"virtual_joint\"]\n"
+            );
+            let setup = Setup::from_toml(&text, "x", &robot).expect("read");
+            Choices { setup: Some(setup), ros: Some(*ros), ..Choices::default() }
+        };
+        let made = export(&robot, Format::Moveit, &setup("arm")).expect("an export");
+        let planning = yaml(files(&made)["config/ompl_planning.yaml"]);
+        for (key, value) in planning.as_object().expect("a map") {
+            let is_group = value.get("default_planner_config").is_some();
+            assert_eq!(is_group, key == "arm");
+            if !is_group {
+                let error = export(&robot, Format::Moveit, &setup(key)).expect_err(key);
+                assert!(matches!(error, ExportError::Name { what: "group", .. }), "{error}");
+            }
         }
     }
 }
