@@ -80,7 +80,7 @@ impl Guesser<'_> {
             end_effectors: self.ends,
             tools: Guess {
                 value: self.tools,
-                why: "the frames at the ends of arms, without shapes and with a name like `tool`, where there are any".to_owned(),
+                why: "at the end of each arm, the frame without shapes and with a name like `tool0`; without one, the hand or the last link".to_owned(),
             },
             imus: Guess {
                 value: imus.collect(),
@@ -221,7 +221,7 @@ impl Guesser<'_> {
         driven: usize,
     ) -> (usize, usize) {
         let last = self.chains.all[chain].last;
-        let tool = self.tool(palm.unwrap_or(last));
+        let tool = self.tool(last, palm);
         let tip = match palm {
             Some(palm) if palm != last => self.structure.tree.parent_link[palm].unwrap_or(last),
             Some(_) => last,

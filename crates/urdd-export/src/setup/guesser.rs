@@ -49,17 +49,21 @@ impl Guesser<'_> {
         all.then_some(base)
     }
 
-    /// The tool frame among what is fixed to a link.
-    pub fn tool(&self, link: usize) -> usize {
-        let fixed = self.structure.fixed_to(link);
+    /// The tool frame of an arm: a frame with the name of a tool that is fixed to the palm, or else to the last link,
+    /// `tool0` first; without one, the palm or the last link.
+    pub fn tool(&self, last: usize, palm: Option<usize>) -> usize {
         let links = &self.structure.view.links;
-        let is_frame = |link: &&usize| {
-            let link = &links[**link];
-            link.visual.is_empty() && link.collision.is_empty()
+        let is_frame = |link: &usize| {
+            let link = &links[*link];
+            link.visual.is_empty() && link.collision.is_empty() && words::is_tool(&link.name)
         };
-        let frames: Vec<usize> = fixed[1..].iter().filter(is_frame).copied().collect();
-        let named = frames.iter().rev().find(|frame| words::is_tool(&links[**frame].name));
-        named.copied().unwrap_or(link)
+        let best = |link: usize| {
+            let fixed = self.structure.fixed_to(link);
+            let frames: Vec<usize> = fixed[1..].iter().copied().filter(is_frame).collect();
+            let tool0 = frames.iter().find(|frame| words::is_tool0(&links[**frame].name));
+            tool0.or(frames.last()).copied()
+        };
+        palm.and_then(best).or_else(|| best(last)).unwrap_or(palm.unwrap_or(last))
     }
 
     pub fn moving(&self, joints: &[usize]) -> Members {

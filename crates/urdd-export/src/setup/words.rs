@@ -95,6 +95,11 @@ pub fn is_tool(name: &str) -> bool {
     words(name).iter().any(|word| TOOLS.contains(&word.as_str()))
 }
 
+/// Whether a name is that of the tool frame of ROS-Industrial.
+pub(super) fn is_tool0(name: &str) -> bool {
+    words(name).iter().any(|word| word == "tool0")
+}
+
 /// Whether a name is that of an inertial measurement unit.
 pub fn is_imu(name: &str) -> bool {
     words(name).iter().any(|word| word == "imu")
