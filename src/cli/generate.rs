@@ -9,6 +9,7 @@ use clap::Args;
 use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output::{self, Failure, one_line};
+use super::robots::RobotArguments;
 use super::signals::{self, Signals};
 use super::xacro;
 use urdd_format::escape;
@@ -31,8 +32,8 @@ const STANDARD_INPUT: &str = "-";
     written; 130 or 143 stopped by a signal."
 )]
 pub struct GenerateArguments {
-    /// A URDF or xacro file, or `-` for a URDF from standard input; several files, or folders of them, are a batch.
-    /// `name:=value` is an argument for xacro.
+    /// A URDF or xacro file, or `-` for a URDF from standard input; several files, or folders of them, are a batch, and so
+    /// is a file of which urdd.toml declares several robots. `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "ROBOT.urdf")]
     robots: Vec<PathBuf>,
 
@@ -42,6 +43,9 @@ pub struct GenerateArguments {
 
     #[command(flatten)]
     making: MakingArguments,
+
+    #[command(flatten)]
+    declared: RobotArguments,
 
     /// Generates only the i-th of n parts of a batch.
     #[arg(long, value_name = "i/n")]
@@ -59,15 +63,25 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
 /// Returns the exit status.
 fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Failure> {
     let (robots, xacro_arguments) = xacro::split(&arguments.robots);
-    let settings = arguments.making.settings(xacro_arguments, signals)?;
+    let mut settings = arguments.making.settings(xacro_arguments, signals)?;
+    settings.source.robots = arguments.declared.declared()?;
     let pool = arguments.making.pool()?;
-    let is_batch = robots::is_batch(&robots);
-    if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+    let are_several = robots::is_batch(&robots);
+    if are_several && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
         Err("`-` cannot be part of a batch: it reads one robot from standard input")?;
     }
+    let mut jobs = match (robots::found(&robots, &settings.source), robots.as_slice()) {
+        (Ok(batch), _) => {
+            batch.asides(0).iter().for_each(|aside| output::error(aside));
+            batch.jobs
+        }
+        // What is wrong with a single file, its reader says.
+        (Err(_), [file]) if !are_several => vec![Job::new(file.clone(), String::new())],
+        (Err(error), _) => Err(one_line(error))?,
+    };
+    let is_batch = are_several || jobs.len() > 1;
     let printer = Printer::new(arguments.making.format, is_batch);
     let failed = if is_batch {
-        let mut jobs = robots::jobs(&robots).map_err(one_line)?;
         check_used(arguments, &settings, jobs.iter().map(|job| job.source.as_path()))?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
@@ -82,10 +96,10 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
         if arguments.shard.is_some() {
             Err("--shard is for batches: give several robots, or a folder")?;
         }
-        let source =
-            robots.into_iter().next().ok_or("no robot given; give a URDF or xacro file")?;
-        check_used(arguments, &settings, [source.as_path()])?;
-        one(source, &arguments.output, &settings, &pool, &printer)?
+        let job = jobs.pop().ok_or("no robot given; give a URDF or xacro file")?;
+        check_used(arguments, &settings, [job.source.as_path()])?;
+        let settings = Settings { source: job.settings(&settings.source), ..settings };
+        one(job, &arguments.output, &settings, &pool, &printer)?
     };
     printer.status(failed > 0)
 }
@@ -110,15 +124,16 @@ fn check_used<'a>(
 
 /// Generates a single robot, whose URDD is the output folder itself.
 fn one(
-    source: PathBuf,
+    job: Job,
     output: &Path,
     settings: &Settings,
     pool: &rayon::ThreadPool,
     printer: &Printer,
 ) -> Result<usize, String> {
     use urdd_generate::batch::Observer;
-    let piped = if source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
-    let job = Job { source, name: output.display().to_string() };
+    let piped =
+        if job.source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
+    let job = Job { name: output.display().to_string(), ..job };
     let progress = printer.begin_robot(&job);
     let outcome = pool.install(|| {
         batch::caught(&job.source, || match piped {

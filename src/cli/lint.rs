@@ -6,14 +6,15 @@ use std::process::ExitCode;
 use clap::Args;
 use similar::TextDiff;
 
-use super::output::{self, Color, Failure, about, shown};
+use super::output::{self, Color, Failure, about, one_line, shown};
 use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
 use super::signals::{self, Signals};
 use super::xacro::{self, XacroArguments};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
-use urdd_lint::{LeftAlone, LintSettings, Mended};
+use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
+use urdd_lint::{LeftAlone, LintSettings, Mended, declared};
 use urdd_validate::Run;
 
 /// Arguments of `urdd lint`.
@@ -29,7 +30,7 @@ use urdd_validate::Run;
     program)."
 )]
 pub struct LintArguments {
-    /// URDFs or xacro files, or folders with .urdf files at any depth (with --xacro, also .urdf.xacro). `name:=value` is an argument for
+    /// URDFs or xacro files, or folders with .urdf files at any depth (with --xacro, also .xacro files that are robots). `name:=value` is an argument for
     /// xacro.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
@@ -55,6 +56,11 @@ pub struct LintArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["baseline", "fix", "diff"])]
     write_baseline: Option<PathBuf>,
 
+    /// Writes the robots that need arguments into urdd.toml (or the file of --config), with the values for which their
+    /// packages have files, and lints nothing. What is there stays. With --xacro, those values that make a robot.
+    #[arg(long, conflicts_with_all = ["fix", "diff", "write_baseline"])]
+    write_robots: bool,
+
     /// The programs that the URDFs are for, such as `ros,mujoco`: what these refuse is an error, what they read otherwise a
     /// warning, and what only others do an information. `urdd explain LNT060` says more; in urdd.toml it is `for`.
     #[arg(long = "for", value_name = "PROGRAMS", value_delimiter = ',', value_parser = parse_program)]
@@ -77,12 +83,13 @@ pub fn run(arguments: &LintArguments, color: Color) -> ExitCode {
 
 fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8, Failure> {
     let file = arguments.report.settings_file()?;
+    let robots = declared(&file);
     // A new one has all that is found.
     let usual = file.baseline.filter(|_| arguments.write_baseline.is_none());
     let baseline = arguments.baseline.as_deref().or(usual.as_deref());
     let mut settings = LintSettings {
         report: file.settings,
-        source: arguments.packages.settings()?,
+        source: urdd_source::Settings { robots, ..arguments.packages.settings()? },
         baseline: baseline.map(Baseline::read).transpose()?,
         without_meshes: false,
     };
@@ -101,6 +108,9 @@ fn work(
     settings: &LintSettings,
     color: Color,
 ) -> Result<u8, Failure> {
+    if arguments.write_robots {
+        return write_robots(arguments, paths, settings);
+    }
     if arguments.fix || arguments.diff {
         let mended = urdd_lint::mend(paths, settings, arguments.force)?;
         if arguments.diff {
@@ -109,6 +119,7 @@ fn work(
         write(&mended)?;
     }
     let run = urdd_lint::lint(paths, settings)?;
+    run.asides.iter().for_each(|aside| output::error(aside));
     if let Some(file) = &arguments.write_baseline {
         return write_baseline(file, &run);
     }
@@ -144,6 +155,39 @@ fn write(mended: &[Mended]) -> Result<(), Failure> {
         output::error(&format!("mended {places} in {}", shown(&one.path)));
     }
     Ok(())
+}
+
+/// Adds the robots that need arguments to the settings file.
+fn write_robots(
+    arguments: &LintArguments,
+    paths: &[PathBuf],
+    settings: &LintSettings,
+) -> Result<u8, Failure> {
+    let file = arguments.report.file().unwrap_or_else(|| PathBuf::from(SETTINGS_FILE));
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let (mut told, mut lines, mut count) = (String::new(), String::new(), 0);
+    for one in urdd_lint::undeclared(paths, settings)? {
+        let listed: Vec<String> = one.needed.iter().map(ToString::to_string).collect();
+        let needs = format!("{}: needs {}", shown(&one.file), one_line(listed.join(", ")));
+        match one.lines(folder) {
+            Some(more) => {
+                lines += &more;
+                count += 1;
+                told += &format!("{needs}\n");
+            }
+            None => told += &format!("{needs}; no value is known, so write the entry yourself\n"),
+        }
+    }
+    if count > 0 {
+        output::write_file(&file, &SettingsFile::with_lines(&file, &lines)?)?;
+    }
+    output::print(&format!(
+        "{told}{}: added {}\n",
+        shown(&file),
+        output::counted(count, "robot file")
+    ))?;
+    Ok(0)
 }
 
 /// Writes a baseline. A file that is there must be one.

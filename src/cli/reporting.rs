@@ -103,6 +103,13 @@ impl Format {
     }
 }
 
+/// The settings file that is named, else that of the current folder, if there is one.
+pub(super) fn settings_file(named: Option<&Path>) -> Result<SettingsFile, Failure> {
+    let default = Path::new(SETTINGS_FILE);
+    let file = named.or_else(|| default.is_file().then_some(default));
+    Ok(file.map(SettingsFile::read).transpose()?.unwrap_or_default())
+}
+
 impl ReportArguments {
     /// The settings, of the file and of the command line.
     pub(super) fn settings(&self) -> Result<Settings, Failure> {
@@ -114,15 +121,7 @@ impl ReportArguments {
         for file in &self.output {
             check_name(file)?;
         }
-        let default = PathBuf::from(SETTINGS_FILE);
-        let file = match &self.config {
-            Some(file) => Some(file),
-            None => default.is_file().then_some(&default),
-        };
-        let mut read = match file {
-            None => SettingsFile::default(),
-            Some(file) => SettingsFile::read(file)?,
-        };
+        let mut read = settings_file(self.config.as_deref())?;
         let settings = &mut read.settings;
         for pattern in &self.exclude {
             let exclude = Exclude::new(pattern).map_err(|error| format!("--exclude: {error}"))?;
@@ -134,6 +133,11 @@ impl ReportArguments {
         Ok(read)
     }
 
+    /// The settings file that is named.
+    pub(super) fn file(&self) -> Option<PathBuf> {
+        self.config.clone()
+    }
+
     /// Writes the report to standard output and to the files; returns the exit status. `is_lint`: what `urdd lint` says
     /// need not point to it.
     pub(super) fn write(
@@ -143,7 +147,8 @@ impl ReportArguments {
         is_lint: bool,
         color: Color,
     ) -> Result<u8, Failure> {
-        if run.report.urdds.is_empty() {
+        // Parts of robots alone are no fault.
+        if run.report.urdds.is_empty() && run.excluded > 0 {
             let excluded = run.excluded;
             Err(format!("nothing to examine: everything found ({excluded}) is excluded"))?;
         }
@@ -196,7 +201,7 @@ impl ReportArguments {
 fn status(report: &Report) -> u8 {
     if report.count(Verdict::Incomplete) > 0 {
         INTERNAL
-    } else if report.count(Verdict::Unreadable) == report.urdds.len() {
+    } else if report.count(Verdict::Unreadable) == report.urdds.len() && !report.urdds.is_empty() {
         output::USAGE
     } else if report.count(Verdict::Pass) == report.urdds.len() {
         CONFORMING

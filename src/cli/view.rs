@@ -12,6 +12,7 @@ use super::configurations::Lines;
 use super::generate_output::{FAILED, Format, Printer};
 use super::output::{self, Failure, one_line};
 use super::packages::PackageArguments;
+use super::robots::RobotArguments;
 use super::signals::Signals;
 use super::viewed;
 use super::xacro::{self, XacroArguments};
@@ -31,12 +32,12 @@ const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
     after_help = "The page is served only on 127.0.0.1, and opens only from the printed address. A URDF is shown at once, and again \
     whenever it, a file that its xacro includes, or a mesh changes; its URDD is generated in a temporary folder. Robots of \
     a folder of URDFs are generated when they are opened, and drawn on their cards before.\n\n\
-    Exit status: 0 after Ctrl-C, or when the site is written; 1 a robot to export could not be generated; 2 usage error, \
+    Exit status: 0 after Ctrl-C, or when the site is written; 1 a robot to export could not be generated: the site has the others; 2 usage error, \
     no robot was found, or the server could not start."
 )]
 pub struct ViewArguments {
     /// URDDs, folders of them, zip archives of them; URDFs or xacro files; folders of URDFs, such as a ROS package: its
-    /// .urdf.xacro files only with --xacro. `name:=value` is an argument for xacro.
+    /// xacro files only with --xacro. `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -64,6 +65,9 @@ pub struct ViewArguments {
 
     #[command(flatten)]
     packages: PackageArguments,
+
+    #[command(flatten)]
+    declared: RobotArguments,
 
     #[command(flatten)]
     xacro: XacroArguments,
@@ -103,6 +107,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let settings = Settings {
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(xacro_arguments),
+            robots: arguments.declared.declared().map_err(usage)?,
             ..arguments.packages.settings().map_err(usage)?
         },
         cancellation: signals.cancellation(),
@@ -114,7 +119,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let collection = Collection::default()
         .with_drops(drops, arguments.xacro.xacro)
         .with_settings(settings.clone());
-    let counts = viewed::add(&paths, arguments.xacro.xacro, &collection).map_err(usage)?;
+    let counts = viewed::add(&paths, &settings.source, &collection).map_err(usage)?;
     let robots = collection.robots();
     let opens = match arguments.compare {
         true => Some(comparison(&paths, &counts, &robots)?),
@@ -127,14 +132,29 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         pause: FIRST_THE_PICTURE,
     };
     if let Some(folder) = &arguments.export {
+        let mut unmade = Vec::new();
         for robot in &robots {
             let is_made = live.generate(robot);
             if let Some(status) = signals.status() {
                 return Ok(status);
             }
             if !is_made {
-                return Err((FAILED, "there is nothing to show".to_owned()));
+                collection.remove(&robot.id);
+                unmade.push(one_line(&robot.name));
             }
+        }
+        // A site shows the others; a comparison is of both.
+        if unmade.len() == robots.len() || (opens.is_some() && !unmade.is_empty()) {
+            return Err((FAILED, "there is nothing to show".to_owned()));
+        }
+        if !unmade.is_empty() {
+            let status = written(&collection, folder, None, &signals)?;
+            let count = output::counted(unmade.len(), "robot");
+            output::error(&format!(
+                "without {count} that could not be made: {}",
+                unmade.join(", ")
+            ));
+            return Ok(status.max(FAILED));
         }
         return written(&collection, folder, opens.as_deref(), &signals);
     }

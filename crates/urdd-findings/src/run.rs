@@ -17,6 +17,8 @@ pub struct Run {
     pub folders: Vec<PathBuf>,
     /// Number of URDDs that the settings exclude.
     pub excluded: usize,
+    /// What else is there that a person may want to know, a line each. Nothing fails for it.
+    pub asides: Vec<String>,
     rules: BTreeMap<&'static str, &'static Description>,
 }
 
@@ -34,6 +36,7 @@ impl Run {
             report: report::fill(examined, settings),
             folders,
             excluded,
+            asides: Vec::new(),
         }
     }
 

@@ -73,7 +73,9 @@ pub fn mend(
     settings: &LintSettings,
     is_forced: bool,
 ) -> Result<Vec<Mended>, LintError> {
-    let (files, _) = sources(paths, settings)?;
+    let jobs = sources(paths, settings)?.jobs;
+    let mut files: Vec<PathBuf> = jobs.into_iter().map(|job| job.source).collect();
+    files.dedup();
     let to = |path: &Path| target(path, paths, is_forced).ok();
     let mended = files.par_iter().filter_map(|path| mended(path, settings, to)).collect();
     settings.report.cancellation.check()?;
@@ -94,7 +96,7 @@ fn mended(
     let size = read.text.len() + BYTE_ORDER_MARK.len();
     let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
     let mark = if before.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { "" };
-    if read.is_expanded || read.text != before[mark.len()..] {
+    if read.trail.is_some() || read.text != before[mark.len()..] {
         return None;
     }
     let (folder, name) = stems(path);

@@ -20,6 +20,7 @@ mod imports;
 pub mod inertial;
 mod named_file;
 mod namespaces;
+mod needs;
 pub mod pose;
 #[doc(hidden)]
 pub mod primitives;
@@ -29,17 +30,18 @@ pub mod rules;
 mod settings;
 pub mod skip;
 mod srdf;
+mod srdf_text;
 mod subject;
 mod target;
 mod textures;
 mod unknown;
 pub mod vocabulary;
-#[doc(hidden)]
-pub mod written;
+mod written;
 
 pub use fix::{ChangedError, Mended, mend};
+pub use needs::{Undeclared, undeclared};
 pub use rule::LintRule;
-pub use settings::LintSettings;
+pub use settings::{LintSettings, declared};
 pub use target::LeftAlone;
 
 use std::path::{Path, PathBuf};
@@ -53,9 +55,10 @@ use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_source::import::import;
-use urdd_source::robots::{BatchError, jobs};
-use urdd_source::{SourceError, SourceText, included, read_source};
-use written::{Sources, say_where};
+use urdd_source::macros::has_no_link;
+use urdd_source::robots::{Batch, BatchError, Job, find};
+use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
+use written::say_where_expanded;
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -77,14 +80,28 @@ pub enum LintError {
 /// # Errors
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
-    let (files, excluded) = sources(paths, settings)?;
-    let linted = files.par_iter().map(|path| lint_file(path, paths, settings)).collect();
+    let Sources { jobs, excluded, batch } = sources(paths, settings)?;
+    let included = batch.description.included();
+    let is_found = |job: &Job| match !paths.contains(&job.source) && job.arguments.is_empty() {
+        true if job.source.canonicalize().is_ok_and(|file| included.contains(&*file)) => {
+            Found::Included
+        }
+        true => Found::InFolder,
+        false => Found::Named,
+    };
+    let lint = |job: &Job| lint_file(job, is_found(job), paths, settings);
+    let linted: Vec<Option<Linted>> = jobs.par_iter().map(lint).collect();
     settings.report.cancellation.check()?;
-    Ok(run_of(&files, linted, excluded, settings))
+    let parts = linted.iter().filter(|one| one.is_none()).count();
+    let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));
+    let (files, linted): (Vec<PathBuf>, Vec<Linted>) = linted.unzip();
+    let mut run = run_of(&files, linted, excluded, settings);
+    run.asides = batch.asides(parts);
+    Ok(run)
 }
 
 /// Lints a URDF or xacro file. Patterns of the settings match its path from the folder `seen_from`, or its name. Returns
-/// also the text that lines refer to, which is the expanded one of a xacro file; `None` if the file cannot be read.
+/// also the file's text; `None` if it cannot be read.
 ///
 /// # Errors
 /// If the run is cancelled.
@@ -95,10 +112,11 @@ pub fn lint_with_text(
 ) -> Result<(Run, Option<String>), Cancelled> {
     let paths = [path.to_owned()];
     let from = seen_from.map_or_else(|| paths.to_vec(), |folder| vec![folder.to_owned()]);
-    let mut linted = lint_file(path, &from, settings);
+    let job = Job::new(path.to_owned(), String::new());
+    let mut linted = lint_file(&job, Found::Named, &from, settings);
     settings.report.cancellation.check()?;
-    let text = linted.text.take();
-    Ok((run_of(&paths, vec![linted], 0, settings), text))
+    let text = linted.as_mut().and_then(|linted| linted.text.take());
+    Ok((run_of(&paths, Vec::from_iter(linted), 0, settings), text))
 }
 
 /// What was found in a file.
@@ -119,23 +137,32 @@ fn run_of(files: &[PathBuf], linted: Vec<Linted>, excluded: usize, settings: &Li
     run
 }
 
-/// The files to lint, and the number of those that the settings exclude.
-fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<(Vec<PathBuf>, usize), LintError> {
-    let mut files: Vec<PathBuf> = jobs(paths)?.into_iter().map(|job| job.source).collect();
+/// What there is to lint.
+struct Sources {
+    jobs: Vec<Job>,
+    /// The number of those that the settings exclude.
+    excluded: usize,
+    /// What else was found.
+    batch: Batch,
+}
+
+fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<Sources, LintError> {
+    let mut batch = find(paths, &settings.source)?;
+    let mut jobs = std::mem::take(&mut batch.jobs);
     // A xacro file is a program: it runs where somebody names it, or asks for xacro.
-    let found = files.len();
-    let is_named = |file: &PathBuf| paths.contains(file) || settings.source.xacro.expand_urdf;
-    files.retain(|file| is_named(file) || file.extension().is_none_or(|end| end != "xacro"));
-    if files.is_empty() && found > 0 {
+    let found = jobs.len();
+    let is_named = |job: &Job| paths.contains(&job.source) || settings.source.xacro.expand_urdf;
+    jobs.retain(|job| is_named(job) || job.source.extension().is_none_or(|end| end != "xacro"));
+    if jobs.is_empty() && found > 0 {
         return Err(LintError::OnlyXacro);
     }
-    let all = files.len();
-    files.retain(|path| {
-        let seen = seen_from(path, paths);
+    let all = jobs.len();
+    jobs.retain(|job| {
+        let seen = seen_from(&job.source, paths);
         !settings.report.excludes.iter().any(|exclude| exclude.matches(&seen))
     });
-    let excluded = all - files.len();
-    Ok((files, excluded))
+    let excluded = all - jobs.len();
+    Ok(Sources { jobs, excluded, batch })
 }
 
 /// The folder and the name of a file.
@@ -158,23 +185,64 @@ pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
     }
 }
 
-fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted {
+/// How a file came to be examined.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Found {
+    /// A person names it, or declares it: it is to be a robot.
+    Named,
+    /// It is in a folder.
+    InFolder,
+    /// It is in a folder, and another file there includes it.
+    Included,
+}
+
+/// Lints a file; `None` for one that turns out to be a part of robots: its expansion has no link, or it has none by itself,
+/// and another file includes it.
+fn lint_file(
+    job: &Job,
+    found: Found,
+    given: &[PathBuf],
+    settings: &LintSettings,
+) -> Option<Linted> {
+    let with_arguments;
+    let settings = match job.arguments.is_empty() {
+        true => settings,
+        false => {
+            with_arguments =
+                LintSettings { source: job.settings(&settings.source), ..settings.clone() };
+            &with_arguments
+        }
+    };
+    let path = job.source.as_path();
     let seen = seen_from(path, given);
-    let (mut stale, mut text) = (Vec::new(), None);
+    let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
     let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
-                let found = imports::examined_import(&imported, stems(path), settings)?;
+                let examined = imports::examined_import(&imported, stems(path), settings)?;
                 text = Some(imported.original);
-                found
+                examined
             }
-            None => {
-                let read = read_source(path, &settings.source, &settings.report.cancellation)?;
-                let found = of_source(path, &read, settings);
-                text = Some(read.text);
-                found
-            }
+            None => match read_source(path, &settings.source, &settings.report.cancellation) {
+                Err(SourceError::NeedsArguments { needed, reason, .. }) => {
+                    (needs::examined(path, &needed, &reason, settings), Vec::new())
+                }
+                read => {
+                    let fails = matches!(read, Err(SourceError::Xacro { .. }));
+                    is_part = fails && found == Found::Included;
+                    let read = read?;
+                    is_part =
+                        found != Found::Named && read.trail.is_some() && has_no_link(&read.text);
+                    let examined = of_source(path, &read, settings);
+                    text = match read.trail {
+                        None => Some(read.text),
+                        Some(_) => as_written(path, &settings.source.files),
+                    };
+                    examined
+                }
+            },
         };
+        examined.report.xacro_arguments.clone_from(&job.arguments);
         stale.extend(unused);
         if let Some(baseline) = &settings.baseline {
             stale.extend(baseline.apply(path, &mut examined));
@@ -182,11 +250,18 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
         Ok(examined)
     });
     examined.report.path = seen;
-    Linted { examined, stale, text }
+    examined.report.xacro_arguments.clone_from(&job.arguments);
+    (!is_part).then_some(Linted { examined, stale, text })
 }
 
-/// Lints the text of a file as [`read_source`] gives it. Where xacro made the text, places also say where links and joints
-/// are written. Of the settings, only those that change what the rules compute apply here.
+/// The text of a xacro file.
+fn as_written(path: &Path, files: &Files) -> Option<String> {
+    let bytes = files.read(path, MAX_SOURCE_BYTES).ok();
+    bytes.and_then(|bytes| String::from_utf8(bytes).ok())
+}
+
+/// Lints the text of a file as [`read_source`] gives it. Where xacro made the text, places also say where in the xacro
+/// files that is written. Of the settings, only those that change what the rules compute apply here.
 pub fn lint_source(path: &Path, read: &SourceText, settings: &LintSettings) -> Examined {
     of_source(path, read, settings).0
 }
@@ -197,13 +272,13 @@ fn of_source(
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let name = stems(path).1;
-    let (mut examined, unused) = examined(&read.text, read.bytes(), &name, &read.folder, settings);
-    let mut checks = examined.checks.iter();
-    if read.is_expanded && checks.any(|check| !check.findings.is_empty()) {
-        let mut files = included(path, &settings.source, &settings.report.cancellation);
-        files.extend(path.canonicalize());
-        let sources = Sources::read(&files, &read.folder);
-        say_where(&mut examined.checks, |subject| sources.find(subject).cloned());
+    let (mut examined, mut unused) =
+        examined(&read.text, read.bytes(), &name, &read.folder, settings);
+    if let Some(trail) = &read.trail {
+        let expansion = (read.text.as_str(), trail, path, name.as_str());
+        // A line of the expansion.
+        unused.iter_mut().for_each(|one| one.path.clone_from(&name));
+        say_where_expanded(expansion, &mut examined.checks, &mut examined.report.programs);
     }
     (examined, unused)
 }

@@ -1,16 +1,15 @@
 //! The packages around a URDF: those that it is in, and those beside them.
 
+use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
 
 use super::files::Files;
-use super::packages::package_name;
+use super::packages::{MOST_NAMES, of_workspace, package_name};
 use urdd_format::escape;
 use urdd_format::nearest::nearest;
 
 /// How many folders above a URDF are searched for packages beside it.
 const LEVELS: usize = 4;
-/// Maximum number of entries of such a folder.
-const MOST_NAMES: usize = 1000;
 
 /// A folder that may be a package.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +49,11 @@ impl NearPackage {
     }
 }
 
-/// The folders above a URDF's folder, nearest first, and then those beside them.
+/// The name of the folder of a workspace that has its sources.
+const SOURCES: &str = "src";
+
+/// The folders above a URDF's folder, nearest first, then those beside them, then other packages of the workspace or
+/// repository.
 pub fn around(urdf_folder: &Path, files: &Files) -> Vec<Around> {
     let of = |folder: &Path, is_above| {
         let written = package_name(folder, files).filter(|name| is_plain(name));
@@ -70,7 +73,35 @@ pub fn around(urdf_folder: &Path, files: &Files) -> Vec<Around> {
             beside.filter(|folder| !urdf_folder.starts_with(folder) && files.is_dir(folder));
         found.extend(beside.filter_map(|folder| of(&folder, false)));
     }
+    if let (Files::Disk, Some(root)) = (files, workspace(urdf_folder)) {
+        let known: HashSet<PathBuf> = found.iter().map(|one| one.folder.clone()).collect();
+        let others = of_workspace(root, files).into_iter();
+        let others = others.filter(|(name, folder)| is_plain(name) && !known.contains(folder));
+        found.extend(others.map(|(name, folder)| {
+            let is_above = urdf_folder.starts_with(&folder);
+            Around { name, folder, has_manifest: true, is_above }
+        }));
+    }
     found
+}
+
+/// The highest folder above a URDF that has the sources of a workspace, or is a repository.
+fn workspace(urdf_folder: &Path) -> Option<&Path> {
+    let is_root = |folder: &&Path| {
+        let has_sources = folder.file_name().is_some_and(|name| name == SOURCES);
+        !is_broad(folder) && (has_sources || folder.join(".git").exists())
+    };
+    let home = std::env::home_dir();
+    let above = urdf_folder.ancestors().take_while(|folder| home.as_deref() != Some(*folder));
+    above.filter(is_root).last()
+}
+
+/// Whether a folder contains more than robots: the file system root or a folder directly in it, the user's home folder
+/// or a folder that contains it.
+pub(crate) fn is_broad(folder: &Path) -> bool {
+    let depth = folder.components().count();
+    let home = std::env::home_dir().and_then(|home| home.canonicalize().ok());
+    depth <= 2 || home.is_some_and(|home| home.starts_with(folder))
 }
 
 /// The package whose name differs from `name` in case, `-`, `_`, `.` and spaces alone; or one around the URDF that has the file

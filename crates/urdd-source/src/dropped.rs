@@ -3,11 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::declared::Declared;
+use super::described::{FileKind, describe};
 use super::endings::Endings;
 use super::files::Files;
 use super::fragments::{imported, parts};
 use super::import::format::Format;
 use super::robots::{Job, named};
+use super::settings::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::path;
 
@@ -48,7 +51,7 @@ impl Kind {
 }
 
 /// The descriptions among files in memory, in the order of their paths; none of files on a disk. Hidden folders are passed
-/// over, and URDDs, a `.urdf.xacro` beside its `.urdf`, and an MJCF that is a part of another.
+/// over, and URDDs, a `.urdf.xacro` beside its `.urdf` or without a robot, and an MJCF that is a part of another.
 pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let Files::Memory(all) = files else {
         return Vec::new();
@@ -64,13 +67,22 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let mut found: Vec<(PathBuf, Kind)> = found.collect();
     let is_imported = |(_, kind): &&(PathBuf, Kind)| matches!(kind, Kind::Imported(_));
     let imported = found.iter().filter(is_imported).map(|(file, _)| file.as_path());
-    let parts = parts(imported, files);
+    let mut parts = parts(imported, files);
+    let is_xacro = |(_, kind): &&(PathBuf, Kind)| *kind == Kind::Xacro;
+    let xacro: Vec<PathBuf> = found.iter().filter(is_xacro).map(|(file, _)| file.clone()).collect();
+    let settings = Settings { files: files.clone(), ..Settings::default() };
+    let described = describe(&xacro, &BTreeMap::new(), &settings).files.into_iter();
+    parts.extend(described.filter(|file| file.kind == FileKind::Fragment).map(|file| file.path));
     // A part alone is shown with what is wrong with it.
     if found.iter().any(|(file, _)| !parts.contains(file)) {
         found.retain(|(file, _)| !parts.contains(file));
     }
     let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.into_iter().unzip();
-    named(paths).into_iter().zip(kinds).map(|(job, kind)| Dropped { job, kind }).collect()
+    named(paths.into_iter().map(Declared::from).collect())
+        .into_iter()
+        .zip(kinds)
+        .map(|(job, kind)| Dropped { job, kind })
+        .collect()
 }
 
 fn kind(file: &Path, files: &Files) -> Option<Kind> {
@@ -172,6 +184,10 @@ mod tests {
             ("a/urdf/arm.urdf.xacro", "<robot/>"),
             ("a/urdf/hand.urdf.xacro", "<robot/>"),
             ("a/urdf/macros.xacro", "<robot/>"),
+            (
+                "a/urdf/finger.urdf.xacro",
+                "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:macro name='f'><link name='l'/></xacro:macro></robot>",
+            ),
             ("a/.git/old.urdf", "<robot/>"),
             ("b/robot.xml", "<mujoco><include file='../b/legs.xml'/><worldbody/></mujoco>"),
             ("b/legs.xml", "<mujoco/>"),

@@ -4,17 +4,20 @@
 //! folders a file is read, as what, and up to which size; it says what it refused, and which files are from elsewhere. A
 //! mesh or an image is given out only if it was read as one. It also keeps the account of the run: what was read.
 
+#[allow(unused_imports)]
+use crate::mutants::{Muted as _, MutedPush as _};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::around::is_broad;
 use super::files::Files;
 use super::import::fault::ImportFault;
 use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};
 use super::packages::Packages;
 use super::resolve::{FoundMesh, NotFound, resolve};
-use super::roots::{Place, Roots, is_broad};
+use super::roots::{Place, Roots};
 use super::settings::Settings;
 use super::sniff::is_image;
 use urdd_directory::account::Account;
@@ -162,7 +165,7 @@ impl Gate {
         if bytes.starts_with(start) && is_image(&bytes) {
             return Ok(Some(bytes));
         }
-        self.account.charge(bytes.len())?;
+        self.account.charge_at(bytes.len())?;
         Ok(None)
     }
 

@@ -4,10 +4,14 @@
 //! [`load`] reads one, [`SourceMeshes`] also finds and reads its meshes, [`robots`] finds descriptions below folders. Files
 //! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
 
+pub mod arguments;
 mod around;
 pub mod beside;
+mod cmake;
 mod cycles;
+mod declared;
 mod decode;
+pub mod described;
 pub mod dropped;
 mod endings;
 mod error;
@@ -18,7 +22,11 @@ pub mod gate;
 pub mod import;
 mod includes;
 mod inspect;
+mod installed;
+mod launch;
 mod load;
+pub mod macros;
+mod mutants;
 mod meshes;
 mod named;
 pub mod note;
@@ -31,14 +39,19 @@ mod resolve;
 pub mod robots;
 mod roots;
 mod settings;
+mod setup_py;
 mod sniff;
 #[cfg(test)]
 mod tests;
+mod tree;
 pub mod urdf;
+mod watch;
+pub mod written;
 mod xacro;
 
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
+pub use declared::{Declared, robots_of};
 pub use error::SourceError;
 pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
@@ -53,4 +66,5 @@ pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::Settings;
+pub use watch::Trail;
 pub use xacro::{XACRO_TIMEOUT, XacroSettings};

@@ -7,7 +7,9 @@ use std::process::Command;
 
 use crate::around::around;
 use crate::files::Files;
+use crate::installed::Installed;
 use crate::packages::Packages;
+use crate::tree::{self, link};
 use urdd_directory::outputs;
 use urdd_directory::temporary::Temporary;
 
@@ -18,12 +20,21 @@ const AMENT: &str = include_str!("ament_index_python.py");
 /// or that are beside it after them.
 pub(super) struct PackageIndex {
     prefix: Temporary,
-    /// The names in the layouts, each with its folder.
-    folders: Vec<(PathBuf, PathBuf)>,
+    linked: Vec<Linked>,
+}
+
+/// A package in a layout.
+struct Linked {
+    /// Its place there.
+    at: PathBuf,
+    folder: PathBuf,
+    installed: Installed,
 }
 
 /// The layouts, by their folders in the prefix.
 const GIVEN: &str = "given";
+/// Those of the environment: what is found there is told by its path from what was written so.
+const INSTALLED: &str = "installed";
 const FOUND: &str = "found";
 /// Folders without a `package.xml`, which ROS 1 would search to their ends.
 const NAMED: &str = "named";
@@ -33,18 +44,24 @@ impl PackageIndex {
     pub(super) fn new(packages: &Packages, file: &Path) -> io::Result<Self> {
         let mut index = PackageIndex {
             prefix: Temporary::begin(&std::env::temp_dir(), "packages")?,
-            folders: Vec::new(),
+            linked: Vec::new(),
         };
         for (name, folder) in packages.given() {
             index.add(GIVEN, name, &folder.canonicalize()?)?;
         }
+        for (name, folder) in packages.installed() {
+            let _ = index.add(INSTALLED, &name, &folder);
+        }
         let file = file.canonicalize()?;
-        let mut found = BTreeMap::new();
+        let mut found: BTreeMap<String, (&str, PathBuf)> = BTreeMap::new();
         for one in around(file.parent().unwrap_or(&file), &Files::Disk) {
             if one.has_manifest || one.is_above {
                 let layout = if one.has_manifest { FOUND } else { NAMED };
                 found.entry(one.name).or_insert((layout, one.folder));
             }
+        }
+        for (name, folder) in packages.crawl(&Files::Disk) {
+            found.entry(name).or_insert((FOUND, folder));
         }
         for (name, (layout, folder)) in found {
             // A machine without symbolic links expands what needs no package.
@@ -59,10 +76,17 @@ impl PackageIndex {
     fn add(&mut self, layout: &str, name: &str, folder: &Path) -> io::Result<()> {
         let share = self.prefix.path().join(layout).join("share");
         let index = share.join("ament_index/resource_index/packages");
-        outputs::fresh(&index.join(name), b"")?;
         let at = share.join(name);
-        link(folder, &at)?;
-        self.folders.push((at, folder.to_owned()));
+        if at.is_symlink() || at.exists() {
+            return Ok(());
+        }
+        outputs::fresh(&index.join(name), b"")?;
+        let installed = Installed::of(folder, &Files::Disk);
+        match installed.is_as_source() {
+            true => link(folder, &at)?,
+            false => tree::lay(&at, folder, &installed)?,
+        }
+        self.linked.push(Linked { at, folder: folder.to_owned(), installed });
         Ok(())
     }
 
@@ -70,50 +94,71 @@ impl PackageIndex {
     pub(super) fn tell(&self, command: &mut Command) {
         let inside = |name: &str| self.prefix.path().join(name);
         let share = |name: &str| inside(name).join("share");
-        let around = |name, first, last: &[PathBuf]| {
+        let around = |name, first: &[PathBuf], last: &[PathBuf]| {
             let paths = std::env::var_os(name).unwrap_or_default();
             let paths = std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty());
             let all: Vec<PathBuf> =
-                Option::into_iter(first).chain(paths).chain(last.iter().cloned()).collect();
+                first.iter().cloned().chain(paths).chain(last.iter().cloned()).collect();
             // A path that cannot be in a list leaves the variable as it is.
             std::env::join_paths(all).ok().map(|paths| (name, paths))
         };
         command.envs(around(
             "AMENT_PREFIX_PATH",
-            Some(inside(GIVEN)),
+            &[inside(GIVEN), inside(INSTALLED)],
             &[inside(FOUND), inside(NAMED)],
         ));
-        command.envs(around("ROS_PACKAGE_PATH", Some(share(GIVEN)), &[share(FOUND)]));
-        command.envs(around("PYTHONPATH", None, &[inside(PYTHON)]));
+        command.envs(around("ROS_PACKAGE_PATH", &[share(GIVEN)], &[share(FOUND)]));
+        command.envs(around("PYTHONPATH", &[], &[inside(PYTHON)]));
     }
 
     /// A text whose paths outlive the layouts. `file://$(find NAME)` becomes `package://NAME`, which no machine's folders are in.
     pub(super) fn lasting(&self, text: &str) -> String {
-        let folders = self
-            .folders
-            .iter()
-            .filter_map(|(at, to)| Some((at.to_str()?, at.file_name()?.to_str()?, to.to_str()?)));
-        folders.fold(text.to_owned(), |text, (at, name, to)| match text.contains(at) {
-            true => text
-                .replace(&format!("file://{at}/"), &format!("package://{name}/"))
-                .replace(&format!("{at}/"), &format!("{to}/")),
-            false => text,
+        let prefix = self.prefix.path().to_str();
+        if prefix.is_none_or(|prefix| !text.contains(prefix)) {
+            return text.to_owned();
+        }
+        self.linked.iter().fold(text.to_owned(), |text, one| one.lasting(text))
+    }
+
+    /// What to do where xacro did not find a file of a package whose installation is not known.
+    pub(super) fn advice(&self, words: &str) -> Option<String> {
+        let is_in =
+            |one: &&Linked| one.at.to_str().is_some_and(|at| words.contains(&format!("{at}/")));
+        self.linked.iter().filter(is_in).find_map(|one| {
+            let (file, line) = one.installed.unknown?;
+            let file = one.folder.join(file);
+            let folder = one.folder.display();
+            Some(format!(
+                "{}:{line} installs files by variables that only a build knows; if this is one of them, build {folder} and source its install/setup.bash", file.display()
+            ))
         })
     }
 }
 
-#[cfg(unix)]
-fn link(folder: &Path, at: &Path) -> io::Result<()> {
-    std::os::unix::fs::symlink(folder, at)
+impl Linked {
+    fn lasting(&self, text: String) -> String {
+        let name = self.at.file_name().and_then(|name| name.to_str());
+        let (Some(at), Some(name), Some(to)) = (self.at.to_str(), name, self.folder.to_str())
+        else {
+            return text;
+        };
+        let inside = format!("{at}/");
+        if !text.contains(&inside) {
+            return text;
+        }
+        let text = text.replace(&format!("file://{inside}"), &format!("package://{name}/"));
+        let mut parts = text.split(&inside);
+        let mut made = parts.next().unwrap_or_default().to_owned();
+        for rest in parts {
+            let end = rest.find(ENDS_PATH).unwrap_or(rest.len());
+            let is_there = |path: &String| self.folder.join(path).exists();
+            let source = self.installed.sources(&rest[..end]).find(is_there);
+            let source = source.as_deref().unwrap_or(&rest[..end]);
+            made += &format!("{to}/{source}{}", &rest[end..]);
+        }
+        made
+    }
 }
 
-#[cfg(windows)]
-fn link(folder: &Path, at: &Path) -> io::Result<()> {
-    std::os::windows::fs::symlink_dir(folder, at)
-}
-
-/// WebAssembly starts no program.
-#[cfg(not(any(unix, windows)))]
-fn link(_: &Path, _: &Path) -> io::Result<()> {
-    Err(io::ErrorKind::Unsupported.into())
-}
+/// What ends a path in a text of xacro.
+const ENDS_PATH: [char; 9] = ['"', '\'', '<', '>', ' ', '\n', ')', ',', ';'];

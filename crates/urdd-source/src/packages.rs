@@ -10,8 +10,15 @@ use super::files::Files;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
-/// Maximum number of folders to visit in one search.
+/// Maximum number of folders to visit in one search below `ROS_PACKAGE_PATH`, and in one of a workspace.
 const MOST_FOLDERS: usize = 20_000;
+const MOST_OF_WORKSPACE: usize = 2000;
+/// Maximum number of entries of a folder.
+pub(super) const MOST_NAMES: usize = 1000;
+/// Maximum number of packages of an installation.
+const MOST_INSTALLED: usize = 2000;
+/// Files that say that a folder has no packages for others. colcon's own folders, `build`, `install` and `log`, have one.
+pub(super) const IGNORED: [&str; 3] = ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"];
 /// Maximum size of a `package.xml` in bytes.
 const MAX_PACKAGE_XML: u64 = 1 << 20;
 
@@ -121,10 +128,24 @@ impl Packages {
     /// The packages deep below `ROS_PACKAGE_PATH`, by name, as ROS finds them. Slow, so only used when everything else has
     /// failed, and once.
     pub(super) fn crawl(&self, files: &Files) -> BTreeMap<String, PathBuf> {
-        let (mut looked, mut found) = (0, BTreeMap::new());
+        let (mut left, mut found) = (MOST_FOLDERS, BTreeMap::new());
         for folder in &self.ros_package_path {
-            crawl(folder, CRAWL_DEPTH, &mut looked, &mut found, files);
+            crawl(folder, CRAWL_DEPTH, &mut left, &mut found, files);
         }
+        found
+    }
+
+    /// The packages that are installed, as ament lists them: name and folder, the first of a name first.
+    pub(super) fn installed(&self) -> Vec<(String, PathBuf)> {
+        let mut found = Vec::new();
+        for share in self.ament_prefix_path.iter().map(|prefix| prefix.join("share")) {
+            let names = Files::Disk.names(&share.join("ament_index/resource_index/packages"));
+            let mut names: Vec<String> =
+                names.into_iter().filter_map(|name| name.into_string().ok()).collect();
+            names.sort();
+            found.extend(names.into_iter().map(|name| (name.clone(), share.join(name))));
+        }
+        found.truncate(MOST_INSTALLED);
         found
     }
 }
@@ -143,17 +164,24 @@ pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
     Some(name.text()?.trim().to_owned())
 }
 
+/// The packages below the sources of a workspace.
+pub(super) fn of_workspace(folder: &Path, files: &Files) -> BTreeMap<String, PathBuf> {
+    let (mut left, mut found) = (MOST_OF_WORKSPACE, BTreeMap::new());
+    crawl(folder, CRAWL_DEPTH, &mut left, &mut found, files);
+    found
+}
+
 fn crawl(
     folder: &Path,
     depth: usize,
-    looked: &mut usize,
+    left: &mut usize,
     found: &mut BTreeMap<String, PathBuf>,
     files: &Files,
 ) {
-    *looked += 1;
-    if *looked > MOST_FOLDERS || files.exists(&folder.join("CATKIN_IGNORE")) {
+    if *left == 0 || IGNORED.iter().any(|name| files.exists(&folder.join(name))) {
         return;
     }
+    *left -= 1;
     if let Some(name) = package_name(folder, files) {
         // Packages are not nested. The first of a name counts.
         found.entry(name).or_insert_with(|| folder.to_owned());
@@ -162,8 +190,11 @@ fn crawl(
     if depth == 0 {
         return;
     }
-    let below = files.names(folder).into_iter().map(|name| folder.join(name));
-    let mut below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();
-    below.sort();
-    below.iter().for_each(|folder| crawl(folder, depth - 1, looked, found, files));
+    let mut names = files.names(folder);
+    names.retain(|name| !name.to_string_lossy().starts_with('.'));
+    names.sort();
+    names.truncate(MOST_NAMES);
+    let below = names.into_iter().map(|name| folder.join(name));
+    let below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();
+    below.iter().for_each(|folder| crawl(folder, depth - 1, left, found, files));
 }

@@ -213,13 +213,13 @@ impl Search<'_> {
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
         for folder in &folders {
-            let found = self.try_file(folder, rest, Some((package, folder)));
+            let found = self.in_folder(folder, rest, package);
             if found.is_some() {
                 return found;
             }
         }
         if let Some(folder) = self.roots.crawled(package, packages) {
-            let found = self.try_file(folder, rest, Some((package, folder)));
+            let found = self.in_folder(folder, rest, package);
             if found.is_some() {
                 return found;
             }
@@ -228,7 +228,7 @@ impl Search<'_> {
         let around = self.roots.around(urdf_folder);
         let beside = around.iter().find(|one| one.has_manifest && one.name == package);
         if let Some(folder) = beside.map(|one| &one.folder).filter(|one| !folders.contains(one)) {
-            let found = self.try_file(folder, rest, Some((package, folder)));
+            let found = self.in_folder(folder, rest, package);
             if found.is_some() {
                 return found;
             }
@@ -246,7 +246,15 @@ impl Search<'_> {
                 urdf_folder.display()
             ),
             false => {
-                format!("if the package is elsewhere, give its folder: {option}")
+                let by_a_build = folders.iter().find_map(|folder| {
+                    let (file, line) = self.roots.installed(folder).unknown?;
+                    let file = folder.join(file);
+                    Some(format!(
+                        "{}:{line} installs files by variables that only a build knows: build the package and source its install/setup.bash; or, ", file.display()
+                    ))
+                });
+                let by_a_build = by_a_build.unwrap_or_default();
+                format!("{by_a_build}if the package is elsewhere, give its folder: {option}")
             }
         };
         let hint = near_package.as_ref().map_or(hint, |near| near.in_words(package));
@@ -255,6 +263,14 @@ impl Search<'_> {
             self.not_found.near_package.get_or_insert(Box::new(near));
         }
         None
+    }
+
+    /// A file of a package in a folder: from where it is installed, or else where it has this path.
+    fn in_folder(&mut self, folder: &Path, path: &str, package: &str) -> Option<FoundMesh> {
+        let installed = self.roots.installed(folder);
+        let is_there = |path: &String| self.roots.files().is_file(&folder.join(path));
+        let source = installed.sources(path).find(is_there);
+        self.try_file(folder, source.as_deref().unwrap_or(path), Some((package, folder)))
     }
 
     fn try_file(
@@ -302,7 +318,7 @@ fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
         folder = Path::new(name).parent()?.to_owned();
         parts = parts.pop().into_iter().collect();
     }
-    if parts.len() > MOST_PARTS {
+    if parts.len() > MOST_PARTS && !crate::mutants::off("resolve-parts") {
         return None;
     }
     let mut near = vec![(folder, String::new())];

@@ -1,17 +1,23 @@
 //! Finds the robot descriptions of paths and folders, and names them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use super::declared::{Declared, files_below, robots_of};
+use super::described::{Description, FileKind, Reason, describe};
 use super::files::Files;
 use super::fragments::{self, imported, may_be_imported};
+use super::packages::{IGNORED, package_name};
+use super::settings::Settings;
 
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
 use urdd_directory::path;
+use urdd_format::escape;
+use urdd_format::short::Short;
 
 /// A robot of a batch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,6 +26,23 @@ pub struct Job {
     pub source: PathBuf,
     /// The name of its URDD, unique in the batch regardless of case.
     pub name: String,
+    /// Arguments for xacro that are declared of it, each as `name:=value`.
+    pub arguments: Vec<String>,
+}
+
+impl Job {
+    /// A robot that nobody declares.
+    pub fn new(source: PathBuf, name: String) -> Self {
+        Job { source, name, arguments: Vec::new() }
+    }
+
+    /// The settings to read it with. Of two values of an argument, xacro takes the last.
+    pub fn settings(&self, all: &Settings) -> Settings {
+        let mut settings = all.clone();
+        let declared = self.arguments.iter().cloned();
+        settings.xacro.arguments = declared.chain(all.xacro.arguments.iter().cloned()).collect();
+        settings
+    }
 }
 
 /// Why a batch could not be set up.
@@ -34,8 +57,16 @@ pub enum BatchError {
         "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
     TooDeep { path: String },
-    #[error("{path}: there is no .urdf or .urdf.xacro file, and no MJCF or SDF, at any depth")]
+    #[error("{path}: there is no .urdf or .xacro file, and no MJCF or SDF, at any depth")]
     Empty { path: String },
+    #[error(
+        "{path}: there is no robot; each file there defines macros or other parts for files that include it (number of files: {files})"
+    )]
+    OnlyParts { path: String, files: usize },
+    #[error(
+        "{path}: this is a URDD, or has only URDDs in it: `urdd validate` checks these; here, give the URDF, xacro, MJCF or SDF file that it was made of"
+    )]
+    Urdd { path: String },
 }
 
 /// Whether these paths form a batch: several paths, or a folder.
@@ -43,18 +74,76 @@ pub fn is_batch(paths: &[PathBuf]) -> bool {
     paths.len() > 1 || paths.iter().any(|path| path.is_dir())
 }
 
-/// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.urdf.xacro`
-/// without a `.urdf` beside it; one without these, for every SDF, and for every MJCF that is no part of another. The search
-/// skips hidden folders, symbolic links to folders, and URDDs, which contain copies of their URDFs. Duplicate paths count
-/// once.
+/// The robots of paths, and what else is there.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Batch {
+    /// The robots.
+    pub jobs: Vec<Job>,
+    /// What the URDFs and xacro files of the folders are.
+    pub description: Description,
+    /// The packages in the folders, by name. Of two with one name, the first counts.
+    pub packages: BTreeMap<String, Vec<PathBuf>>,
+}
+
+/// Maximum number of macros that are named one by one.
+const MAX_NAMED: usize = 5;
+
+impl Batch {
+    /// What a person may want to know, and nothing fails for: parts of robots, macros that nothing calls, and packages of
+    /// one name. `more` are files of which only their expansion said that they have no robot.
+    pub fn asides(&self, more: usize) -> Vec<String> {
+        let files = &self.description.files;
+        let of = |kind: FileKind| files.iter().filter(|file| file.kind == kind).count();
+        let mut lines = Vec::new();
+        let counted = |count: usize, one: &str, several: &str| match count {
+            0 => None,
+            1 => Some(format!("1 file {one}")),
+            _ => Some(format!("{count} files {several}")),
+        };
+        let parts = of(FileKind::Fragment) + more;
+        lines.extend(counted(
+            parts,
+            "defines macros or other parts, and no robot",
+            "define macros or other parts, and no robot",
+        ));
+        lines.extend(counted(of(FileKind::Neither(Reason::Srdf)), "makes an SRDF", "make SRDFs"));
+        let uncalled = &self.description.uncalled;
+        let named = uncalled.iter().take(MAX_NAMED).map(|(file, one)| {
+            format!("`{}` ({}:{})", Short::of(&one.name), file.display(), one.line)
+        });
+        let named: Vec<String> = named.collect();
+        if !named.is_empty() {
+            let others = uncalled.len() - named.len();
+            let others = if others > 0 { format!(", and {others} more") } else { String::new() };
+            lines.push(format!("no robot here calls the macro {}{others}", named.join(", ")));
+        }
+        for (name, folders) in self.packages.iter().filter(|(_, folders)| folders.len() > 1) {
+            let all: Vec<String> =
+                folders.iter().take(MAX_NAMED).map(|folder| folder.display().to_string()).collect();
+            let name = Short::of(name);
+            lines.push(format!(
+                "{} packages are named `{name}`: {}; the first counts, or --package {name}=FOLDER",
+                folders.len(),
+                all.join(", ")
+            ));
+        }
+        lines.iter().map(|line| escape::line(line).to_string()).collect()
+    }
+}
+
+/// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.xacro` that is a
+/// robot and without a `.urdf` of its name beside it; one without these, for every SDF, and for every MJCF that is no part of
+/// another. The search skips hidden folders, those that colcon skips (`COLCON_IGNORE`), symbolic links to folders, and URDDs,
+/// which contain copies of their URDFs. Duplicate paths count once.
 ///
 /// Each robot is named after its file, without the extension. Where names collide, as many parent folder names as
 /// necessary are prepended, joined by `-`. If they still collide, a number is appended.
 ///
 /// # Errors
-/// If a path does not exist, or a folder cannot be searched or contains no robot.
-pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
-    let mut sources = Vec::new();
+/// If a path does not exist, or a folder cannot be searched or has no description. There may be parts of robots alone.
+pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError> {
+    let (mut sources, mut listed, mut batch) = (Vec::new(), Vec::new(), Batch::default());
+    let mut declared: BTreeSet<PathBuf> = BTreeSet::new();
     for path in paths {
         let shown = path.display().to_string();
         let metadata =
@@ -63,26 +152,82 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
             sources.push(path.clone());
             continue;
         }
-        let before = sources.len();
         let mut found = Found::default();
         search(path, 0, &mut found)?;
-        match found.urdfs.is_empty() {
-            false => sources.append(&mut found.urdfs),
-            true => sources.extend(others(found.others)),
+        let below = files_below(path, &settings.robots);
+        found.urdfs.extend(below.iter().cloned());
+        declared.extend(below);
+        if found.urdfs.is_empty() {
+            let others = others(found.others);
+            if others.is_empty() {
+                return Err(match found.has_urdd {
+                    true => BatchError::Urdd { path: shown },
+                    false => BatchError::Empty { path: shown },
+                });
+            }
+            sources.extend(others);
         }
-        if sources.len() == before {
-            return Err(BatchError::Empty { path: shown });
+        sources.extend(found.urdfs.iter().cloned());
+        listed.append(&mut found.urdfs);
+        for (name, folder) in found.packages {
+            batch.packages.entry(name).or_default().push(folder);
         }
     }
-    let mut seen = std::collections::BTreeSet::new();
-    sources.retain(|path| seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone())));
-    Ok(named(sources))
+    let first = batch.packages.iter().filter_map(|(name, all)| Some((name.clone(), all.first()?)));
+    let packages = first.map(|(name, folder)| (name, folder.clone())).collect();
+    batch.description = describe(&listed, &packages, settings);
+    let is_passed = |kind: &FileKind| match kind {
+        FileKind::Robot | FileKind::Neither(Reason::Unreadable(_)) => false,
+        FileKind::Fragment | FileKind::Neither(Reason::Srdf | Reason::Root(_)) => true,
+    };
+    let passed = batch.description.files.iter().filter(|file| is_passed(&file.kind));
+    let passed: BTreeSet<&PathBuf> = passed.map(|file| &file.path).collect();
+    let mut seen = BTreeSet::new();
+    sources.retain(|path| {
+        let is_new = seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone()));
+        is_new && (!passed.contains(path) || paths.contains(path) || declared.contains(path))
+    });
+    let robots = sources.into_iter().flat_map(|source| {
+        // Arguments on the command line make a robot of their own.
+        let is_own = paths.contains(&source) && !settings.xacro.arguments.is_empty();
+        if is_own { vec![source.into()] } else { robots_of(source, &settings.robots) }
+    });
+    batch.jobs = named(robots.collect());
+    Ok(batch)
 }
 
-/// Names each source as [`jobs`] does.
-pub(crate) fn named(sources: Vec<PathBuf>) -> Vec<Job> {
-    let names = names(&sources);
-    sources.into_iter().zip(names).map(|(source, name)| Job { source, name }).collect()
+/// As [`find`], where there is a robot.
+///
+/// # Errors
+/// As there, and if there are parts of robots alone.
+pub fn found(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError> {
+    let batch = find(paths, settings)?;
+    match (paths, batch.jobs.is_empty()) {
+        ([path, ..], true) => Err(BatchError::OnlyParts {
+            path: path.display().to_string(),
+            files: batch.description.files.len(),
+        }),
+        _ => Ok(batch),
+    }
+}
+
+/// The robots that [`found`] finds.
+///
+/// # Errors
+/// As there.
+pub fn jobs(paths: &[PathBuf], settings: &Settings) -> Result<Vec<Job>, BatchError> {
+    Ok(found(paths, settings)?.jobs)
+}
+
+/// Names each robot as [`jobs`] does.
+pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
+    let names = names(&robots);
+    let job = |(robot, name): (Declared, String)| Job {
+        source: robot.source,
+        name,
+        arguments: robot.arguments,
+    };
+    robots.into_iter().zip(names).map(job).collect()
 }
 
 /// What a folder holds.
@@ -90,8 +235,12 @@ pub(crate) fn named(sources: Vec<PathBuf>) -> Vec<Job> {
 struct Found {
     /// URDFs and xacro files.
     urdfs: Vec<PathBuf>,
+    /// Packages, by name.
+    packages: Vec<(String, PathBuf)>,
     /// What may be of another format.
     others: Vec<PathBuf>,
+    /// Whether there is a URDD.
+    has_urdd: bool,
 }
 
 /// The MJCFs and SDFs among files, without those that are parts of others.
@@ -107,8 +256,16 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
         path: folder.display().to_string(),
         reason: error.to_string(),
     };
-    if folder.join(ROOT_METADATA).is_file() {
+    let has = |name: &str| folder.join(name).is_file();
+    if has(ROOT_METADATA) {
+        found.has_urdd = true;
         return Ok(());
+    }
+    if depth > 0 && IGNORED.iter().any(|name| has(name)) {
+        return Ok(());
+    }
+    if let Some(name) = package_name(folder, &Files::Disk) {
+        found.packages.push((name, folder.to_owned()));
     }
     if depth > MAX_FOLDER_DEPTH {
         let path = folder.display().to_string();
@@ -128,7 +285,7 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
                 search(&path, depth + 1, found)?;
             }
         } else if lower.ends_with(".urdf")
-            || (lower.ends_with(".urdf.xacro") && !path.with_extension("").is_file())
+            || (lower.ends_with(".xacro") && !expansion(&path).is_file())
         {
             found.urdfs.push(path);
         } else if may_be_imported(&path) {
@@ -138,9 +295,19 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
     Ok(())
 }
 
-/// A unique name for each source.
-fn names(sources: &[PathBuf]) -> Vec<String> {
-    let parts: Vec<Vec<String>> = sources.iter().map(|source| parts(source)).collect();
+/// The URDF that a xacro file is expanded to by hand.
+fn expansion(xacro: &Path) -> PathBuf {
+    let stem = xacro.with_extension("");
+    if stem.extension().is_some_and(|end| end == "urdf") {
+        stem
+    } else {
+        stem.with_extension("urdf")
+    }
+}
+
+/// A unique name for each robot.
+fn names(sources: &[Declared]) -> Vec<String> {
+    let parts: Vec<Vec<String>> = sources.iter().map(parts).collect();
     let mut used = vec![1; sources.len()];
     let name = |idx: usize, used: usize| {
         path::file_name(&parts[idx][parts[idx].len() - used..].join("-"), "")
@@ -162,7 +329,7 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
             break;
         }
     }
-    let mut taken = std::collections::BTreeSet::new();
+    let mut taken = BTreeSet::new();
     let names = (0..sources.len()).map(|idx| {
         let name = name(idx, used[idx]);
         let mut candidate = name.clone();
@@ -176,8 +343,8 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
     names.collect()
 }
 
-/// The names of a path's folders and its file name without extension, none of them hidden.
-fn parts(source: &Path) -> Vec<String> {
+/// The names of a robot's folders, and its own name, or its file's without extension; none of them hidden.
+fn parts(Declared { source, name, .. }: &Declared) -> Vec<String> {
     let file = source.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &file;
     for extension in [".xacro", ".urdf", ".URDF", ".xml", ".sdf"] {
@@ -192,5 +359,5 @@ fn parts(source: &Path) -> Vec<String> {
         "" => "robot".to_owned(),
         name => name.to_owned(),
     };
-    folders.chain([stem.to_owned()]).map(plain).collect()
+    folders.chain([name.clone().unwrap_or_else(|| stem.to_owned())]).map(plain).collect()
 }

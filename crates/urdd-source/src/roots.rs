@@ -5,10 +5,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::around::{Around, around};
+use super::around::{Around, around, is_broad};
 use super::files::Files;
+use super::installed::Installed;
 use super::packages::{Packages, package_name};
 use super::settings::Settings;
 
@@ -27,6 +28,7 @@ pub struct Roots {
     allowed: Vec<PathBuf>,
     around: OnceLock<Vec<Around>>,
     crawled: OnceLock<BTreeMap<String, PathBuf>>,
+    installed: Mutex<BTreeMap<PathBuf, Arc<Installed>>>,
 }
 
 /// The folder from which a file is read.
@@ -60,6 +62,7 @@ impl Roots {
             files: files.clone(),
             around: OnceLock::new(),
             crawled: OnceLock::new(),
+            installed: Mutex::default(),
         }
     }
 
@@ -77,6 +80,13 @@ impl Roots {
     pub fn crawled(&self, package: &str, packages: &Packages) -> Option<&Path> {
         let all = self.crawled.get_or_init(|| packages.crawl(&self.files));
         all.get(package).map(PathBuf::as_path)
+    }
+
+    /// What the package in a folder installs.
+    pub fn installed(&self, folder: &Path) -> Arc<Installed> {
+        let mut known = self.installed.lock().unwrap_or_else(PoisonError::into_inner);
+        let of = || Arc::new(Installed::of(folder, &self.files));
+        Arc::clone(known.entry(folder.to_owned()).or_insert_with(of))
     }
 
     /// Where the files are.
@@ -136,12 +146,4 @@ fn own_folder(urdf_folder: &Path, files: &Files) -> PathBuf {
         Some(folder) => folder.to_owned(),
         None => urdf_folder.to_owned(),
     }
-}
-
-/// Whether a folder contains more than robots: the file system root or a folder directly in it, the user's home folder
-/// or a folder that contains it.
-pub(crate) fn is_broad(folder: &Path) -> bool {
-    let depth = folder.components().count();
-    let home = std::env::home_dir().and_then(|home| home.canonicalize().ok());
-    depth <= 2 || home.is_some_and(|home| home.starts_with(folder))
 }

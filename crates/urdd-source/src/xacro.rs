@@ -3,7 +3,7 @@
 //! A xacro file is a program: it may contain any expression and include any file. It therefore runs only if the user
 //! asks for it, by the file extension or by a flag, and with a time limit.
 
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 use std::process::{Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver};
@@ -15,6 +15,7 @@ use crate::files::MAX_SOURCE_BYTES;
 use crate::package_index::PackageIndex;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
+use crate::watch::{Trail, Watch};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::read_error::ReadError;
@@ -64,7 +65,7 @@ impl Default for XacroSettings {
     }
 }
 
-/// Expands a xacro file to a URDF.
+/// Expands a xacro file to a URDF, and says where its elements are from.
 ///
 /// # Errors
 /// If the program is missing, fails, takes too long, writes too much, or is cancelled.
@@ -74,12 +75,15 @@ pub(super) fn expand(
     settings: &XacroSettings,
     packages: &Packages,
     cancellation: &Cancellation,
-) -> Result<String, SourceError> {
-    let given = PackageIndex::new(packages, path).map_err(|error| {
+) -> Result<(String, Trail), SourceError> {
+    let failed = |error: io::Error| {
         let (file, reason) = (shown.to_owned(), error.to_string());
         SourceError::Xacro { file, reason }
-    })?;
-    run(&[], path, shown, settings, &given, cancellation)
+    };
+    let given = PackageIndex::new(packages, path).map_err(failed)?;
+    let watch = Watch::begin().map_err(failed)?;
+    let text = run(&[], path, shown, settings, &given, Some(&watch), cancellation)?;
+    Ok((text, watch.trail()))
 }
 
 /// Runs xacro with these options on a file, and returns its output.
@@ -92,6 +96,7 @@ pub(super) fn run(
     shown: &str,
     settings: &XacroSettings,
     given: &PackageIndex,
+    watch: Option<&Watch>,
     cancellation: &Cancellation,
 ) -> Result<String, SourceError> {
     let failed = |reason: String| SourceError::Xacro { file: shown.to_owned(), reason };
@@ -100,6 +105,9 @@ pub(super) fn run(
     let mut command = Command::new("xacro");
     command.args(options).arg(&path).args(&settings.arguments);
     given.tell(&mut command);
+    if let Some(watch) = watch {
+        watch.tell(&mut command);
+    }
     let mut running = Running::start(command).map_err(|error| match error.kind() {
         ErrorKind::NotFound => SourceError::NoXacro { file: shown.to_owned() },
         _ => failed(error.to_string()),
@@ -131,9 +139,11 @@ pub(super) fn run(
     if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
         let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
         let words = last_lines(&words.unwrap_or_default());
-        return Err(failed(
-            words.map_or_else(|| status.to_string(), |words| with_advice(given.lasting(&words))),
-        ));
+        let said = |words: String| {
+            let advice = given.advice(&words).map(|advice| format!("; {advice}"));
+            with_advice(given.lasting(&words)) + &advice.unwrap_or_default()
+        };
+        return Err(failed(words.map_or_else(|| status.to_string(), said)));
     }
     let text = String::from_utf8(written);
     let text = text.map_err(|_| failed("its output is not UTF-8".to_owned()))?;

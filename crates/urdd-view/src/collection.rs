@@ -51,12 +51,16 @@ pub struct Source {
     pub file: PathBuf,
     /// Folders of packages besides those of the settings, each as `NAME=PATH`.
     pub packages: Vec<String>,
+    /// Arguments for xacro that are declared of it, each as `name:=value`.
+    pub arguments: Vec<String>,
 }
 
 impl Source {
-    /// The settings to read it with: with its own packages.
+    /// The settings to read it with: with its own packages and arguments.
     pub fn settings(&self, all: &Settings) -> Settings {
         let mut settings = all.clone();
+        let given = std::mem::take(&mut settings.source.xacro.arguments);
+        settings.source.xacro.arguments = self.arguments.iter().cloned().chain(given).collect();
         for package in &self.packages {
             // A folder that is gone: its meshes are not found, and the page says so.
             let _ = settings.source.packages.add(package);
@@ -332,6 +336,11 @@ impl Collection {
         self.listed.lock().robots.clone()
     }
 
+    /// Takes out a robot, by its id.
+    pub fn remove(&self, id: &str) {
+        self.listed.lock().robots.retain(|robot| robot.id != id);
+    }
+
     /// Finds a robot by its id.
     pub fn find(&self, id: &str) -> Option<Arc<Shown>> {
         self.listed.lock().robots.iter().find(|robot| robot.id == id).cloned()
@@ -346,7 +355,8 @@ mod tests {
     fn ids_are_plain_and_unique() {
         let collection = Collection::default();
         for name in ["arms/a b", "arms/a_b", "<b>", ""] {
-            let source = Source { file: PathBuf::new(), packages: Vec::new() };
+            let source =
+                Source { file: PathBuf::new(), packages: Vec::new(), arguments: Vec::new() };
             collection.add_source(name.to_owned(), source);
         }
         let robots = collection.robots();

@@ -43,7 +43,7 @@ fn a_package_shows_its_urdfs_and_runs_xacro_only_if_it_may() {
         (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
     assert!(done.status.success(), "{errors}");
     assert!(said.contains("a site of 2 robots"), "{said}");
-    assert!(errors.contains("left out 1 .urdf.xacro file; --xacro runs them"), "{errors}");
+    assert!(errors.contains("left out 1 .xacro file; --xacro runs them"), "{errors}");
     fs::remove_file(package.join("urdf/one.urdf")).expect("removed");
     fs::remove_file(package.join("urdf/two.urdf")).expect("removed");
     let done = view(&[&package]).arg("--no-open").output().expect("it runs");

@@ -3,6 +3,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
+mod arguments;
 mod bounds;
 mod files;
 mod gate;
@@ -11,5 +12,6 @@ mod mjcf_faults;
 mod mjcf_meaning;
 mod mjcf_seen;
 mod origin;
+mod packages;
 mod sdf;
 mod sniff;

@@ -1,0 +1,310 @@
+//! What the xacro files of a folder are: robots, or parts of robots. Their texts decide, and nothing is expanded.
+
+#[allow(unused_imports)]
+use crate::mutants::{Muted as _, MutedPush as _};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::{Path, PathBuf};
+
+use crate::files::MAX_SOURCE_BYTES;
+use crate::installed::Installed;
+use crate::macros::{self, Argument, Content, Macro, MacroFile};
+use crate::settings::Settings;
+use urdd_directory::account::Account;
+use urdd_format::short::Short;
+
+/// Charged for a package that is looked up: the files that are looked at for it.
+const LOOK_UP: usize = 16 << 10;
+
+/// What a file of a folder is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FileKind {
+    /// A robot, as far as its text says: what it includes, or the macro that it calls, may be unknown.
+    Robot,
+    /// It defines macros, properties, arguments or other parts for files that include it, and makes no link.
+    Fragment,
+    /// It has no robot.
+    Neither(Reason),
+}
+
+/// Why a file has no robot.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Reason {
+    /// It cannot be read, or is not well-formed.
+    Unreadable(String),
+    /// It makes an SRDF.
+    Srdf,
+    /// Its outermost element, which is not `<robot>`.
+    Root(Short),
+}
+
+/// A file of a folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Described {
+    /// The file.
+    pub path: PathBuf,
+    /// What it is.
+    pub kind: FileKind,
+    /// The arguments that it declares itself.
+    pub arguments: Vec<Argument>,
+    /// The files that it includes directly, as far as that is known; symbolic links resolved.
+    pub includes: Vec<PathBuf>,
+}
+
+/// The files of a folder, and their macros.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Description {
+    /// The files, in the order in which they were given.
+    pub files: Vec<Described>,
+    /// The macros that nothing calls, each with its file. None where there is no robot, or a name is computed.
+    pub uncalled: Vec<(PathBuf, Macro)>,
+}
+
+impl Description {
+    /// The files that others of these include.
+    pub fn included(&self) -> HashSet<&Path> {
+        self.files.iter().flat_map(|file| &file.includes).map(PathBuf::as_path).collect()
+    }
+}
+
+/// Says what files are. `packages` are the packages that are known to be around them, by name.
+pub fn describe(
+    paths: &[PathBuf],
+    packages: &BTreeMap<String, PathBuf>,
+    settings: &Settings,
+) -> Description {
+    let mut texts = Texts {
+        settings,
+        packages,
+        account: Account::default(),
+        looked_up: HashMap::new(),
+        installed: HashMap::new(),
+        known: BTreeMap::new(),
+    };
+    let keys: Vec<PathBuf> = paths.iter().map(|path| texts.key(path)).collect();
+    texts.read_all(&keys);
+    let links = Links::of(&texts);
+    let files = paths.iter().zip(&keys).map(|(path, key)| {
+        let (kind, arguments, includes) = match &texts.known[key] {
+            Ok(text) => (
+                links.kind(key, &text.file),
+                text.file.arguments.clone(),
+                text.includes.values().flatten().cloned().collect(),
+            ),
+            Err(reason) => (FileKind::Neither(reason.clone()), Vec::new(), Vec::new()),
+        };
+        Described { path: path.clone(), kind, arguments, includes }
+    });
+    let files: Vec<Described> = files.collect();
+    let has_robot = files.iter().any(|file| file.kind == FileKind::Robot);
+    let uncalled = if has_robot { uncalled(&texts, paths, &keys) } else { Vec::new() };
+    Description { files, uncalled }
+}
+
+/// A file that was read.
+struct Text {
+    file: MacroFile,
+    /// The files that it includes, by their names as they are written; `None` if it is not known which.
+    includes: BTreeMap<String, Option<PathBuf>>,
+}
+
+/// The files that were read, by their paths with symbolic links resolved.
+struct Texts<'a> {
+    settings: &'a Settings,
+    packages: &'a BTreeMap<String, PathBuf>,
+    account: Account,
+    looked_up: HashMap<(String, PathBuf), Option<PathBuf>>,
+    installed: HashMap<PathBuf, Installed>,
+    known: BTreeMap<PathBuf, Result<Text, Reason>>,
+}
+
+impl Texts<'_> {
+    fn key(&self, path: &Path) -> PathBuf {
+        self.settings.files.canonicalize(path).unwrap_or_else(|_| path.to_owned())
+    }
+
+    /// Reads files, and what they include.
+    fn read_all(&mut self, keys: &[PathBuf]) {
+        let mut waiting = keys.to_vec();
+        while let Some(path) = waiting.pop() {
+            if self.known.contains_key(&path) {
+                continue;
+            }
+            let text = self.read(&path).map(|file| {
+                let contents = file.macros.iter().map(|one| &one.content).chain([&file.content]);
+                let names: HashSet<&String> = contents.flat_map(|one| &one.includes).collect();
+                let found =
+                    names.into_iter().map(|name| (name.clone(), self.included(name, &path)));
+                let includes: BTreeMap<String, Option<PathBuf>> = found.collect();
+                waiting.extend(includes.values().flatten().cloned());
+                Text { file, includes }
+            });
+            self.known.insert(path, text);
+        }
+    }
+
+    fn read(&self, path: &Path) -> Result<MacroFile, Reason> {
+        let unreadable = |why: String| Reason::Unreadable(why);
+        let bytes = self.settings.files.read(path, MAX_SOURCE_BYTES);
+        let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
+        self.account.deposit(bytes.len());
+        let text =
+            String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        if !text.contains("xacro") {
+            return Ok(MacroFile::plain(text));
+        }
+        macros::read(text).map_err(|error| unreadable(error.words(text)))
+    }
+
+    /// The file that a file includes, if its name is not computed and it is there.
+    fn included(&mut self, name: &str, from: &Path) -> Option<PathBuf> {
+        let folder = from.parent()?;
+        let path = match name.strip_prefix("$(find ").and_then(|rest| rest.split_once(')')) {
+            Some((package, rest)) if !rest.contains('$') => {
+                let (package, path) = (package.trim(), rest.trim_start_matches('/'));
+                let folder = self.package(package, folder)?;
+                let files = &self.settings.files;
+                let of = || Installed::of(&folder, files);
+                let installed = self.installed.entry(folder.clone()).or_insert_with(of);
+                let is_there = |path: &String| files.is_file(&folder.join(path));
+                let source = installed.sources(path).find(is_there);
+                folder.join(source.as_deref().unwrap_or(path))
+            }
+            None if !name.contains('$') => folder.join(name),
+            _ => return None,
+        };
+        self.settings
+            .files
+            .canonicalize(&path)
+            .ok()
+            .filter(|path| self.settings.files.is_file(path))
+    }
+
+    fn package(&mut self, name: &str, folder: &Path) -> Option<PathBuf> {
+        if let Some(found) = self.packages.get(name) {
+            return Some(found.clone());
+        }
+        let key = (name.to_owned(), folder.to_owned());
+        if let Some(found) = self.looked_up.get(&key) {
+            return found.clone();
+        }
+        self.account.charge_at(LOOK_UP).ok()?;
+        let files = &self.settings.files;
+        let folders = self.settings.packages.folders(name, folder, false, files);
+        let found = folders.into_iter().find(|folder| files.is_dir(folder));
+        self.looked_up.insert(key, found.clone());
+        found
+    }
+}
+
+/// A file, or all macros of a name.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+enum Maker<'t> {
+    File(&'t Path),
+    Macro(&'t str),
+}
+
+/// What makes links, or may.
+struct Links<'t> {
+    makers: HashSet<Maker<'t>>,
+    srdf: HashSet<Maker<'t>>,
+}
+
+impl<'t> Links<'t> {
+    fn of(texts: &'t Texts) -> Self {
+        let mut contents: Vec<(Maker, &Content, &Text, bool)> = Vec::new();
+        for (path, text) in &texts.known {
+            let Ok(text) = text else { continue };
+            let defines = text.file.has_properties || !text.file.macros.is_empty();
+            contents.push((Maker::File(path), &text.file.content, text, defines));
+            let macros = text.file.macros.iter();
+            contents.extend(macros.map(|one| (Maker::Macro(&one.name), &one.content, text, true)));
+        }
+        let defined: HashSet<&str> = contents
+            .iter()
+            .filter_map(|(maker, ..)| match maker {
+                Maker::Macro(name) => Some(*name),
+                Maker::File(_) => None,
+            })
+            .collect();
+        let (mut makers, mut srdf) = (HashSet::new(), HashSet::new());
+        // By what is used: who uses it.
+        let mut users: HashMap<Maker, Vec<Maker>> = HashMap::new();
+        for (maker, content, text, defines) in contents {
+            let mut may_make = content.has_link;
+            for name in &content.includes {
+                match text.includes.get(name).and_then(Option::as_deref) {
+                    Some(file) => users.entry(Maker::File(file)).or_default().push(maker.clone()),
+                    // A library for what this file defines, most likely.
+                    None => may_make |= !defines,
+                }
+            }
+            for call in content.calls.iter().filter(|call| call.is_beside_links) {
+                match call.name.as_deref().filter(|name| defined.contains(name)) {
+                    Some(name) => users.entry(Maker::Macro(name)).or_default().push(maker.clone()),
+                    // Without an include, the macro is of a file that includes this one.
+                    None => may_make |= !content.includes.is_empty(),
+                }
+            }
+            if may_make {
+                makers.insert(maker.clone());
+            }
+            if content.has_srdf {
+                srdf.insert(maker);
+            }
+        }
+        let spread = |found: &mut HashSet<Maker<'t>>| {
+            let mut waiting: Vec<Maker> = found.iter().cloned().collect();
+            while let Some(maker) = waiting.pop() {
+                for user in users.get(&maker).into_iter().flatten() {
+                    if found.insert(user.clone()) {
+                        waiting.push(user.clone());
+                    }
+                }
+            }
+        };
+        spread(&mut makers);
+        spread(&mut srdf);
+        Links { makers, srdf }
+    }
+
+    fn kind(&self, path: &'t Path, file: &MacroFile) -> FileKind {
+        let maker = Maker::File(path);
+        // What is wrong with one that is empty, or a URDF, is what its reader says.
+        let is_urdf = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
+        if !file.content.is_some || (is_urdf && !file.has_xacro) {
+            return FileKind::Robot;
+        }
+        match (file.root.as_str(), self.makers.contains(&maker), self.srdf.contains(&maker)) {
+            ("robot", true, _) => FileKind::Robot,
+            ("robot", false, true) => FileKind::Neither(Reason::Srdf),
+            ("robot", false, false) => FileKind::Fragment,
+            (root, ..) => FileKind::Neither(Reason::Root(root.into())),
+        }
+    }
+}
+
+/// The macros of these files that nothing calls which is expanded.
+fn uncalled(texts: &Texts, paths: &[PathBuf], keys: &[PathBuf]) -> Vec<(PathBuf, Macro)> {
+    let files = texts.known.values().flatten().map(|text| &text.file);
+    let mut bodies: HashMap<&str, Vec<&Content>> = HashMap::new();
+    for one in files.clone().flat_map(|file| &file.macros) {
+        bodies.entry(&one.name).or_default().push(&one.content);
+    }
+    let mut called: HashSet<&str> = HashSet::new();
+    let mut waiting: Vec<&Content> = files.map(|file| &file.content).collect();
+    while let Some(content) = waiting.pop() {
+        for call in &content.calls {
+            let Some(name) = call.name.as_deref() else { return Vec::new() };
+            if called.insert(name) {
+                waiting.extend(bodies.get(name).into_iter().flatten());
+            }
+        }
+    }
+    let of = |(path, key): (&PathBuf, &PathBuf)| {
+        let text = texts.known[key].as_ref().ok()?;
+        let macros = text.file.macros.iter().filter(|one| !called.contains(one.name.as_str()));
+        Some(macros.map(|one| (path.clone(), one.clone())).collect::<Vec<_>>())
+    };
+    paths.iter().zip(keys).filter_map(of).flatten().collect()
+}

@@ -1,0 +1,163 @@
+//! What a xacro file has, as its text says it. Nothing is expanded.
+
+use urdd_directory::position::LineIndex;
+use urdd_xml::element::{children, name};
+use urdd_xml::{Node, XmlError};
+
+/// The prefix of elements that xacro reads.
+const PREFIX: &str = "xacro:";
+/// Elements of an SRDF directly in `<robot>`.
+const OF_SRDF: &[&str] =
+    &["group", "group_state", "end_effector", "virtual_joint", "disable_collisions"];
+
+/// What a xacro file has.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct MacroFile {
+    /// The name of the outermost element.
+    pub root: String,
+    /// Whether something of xacro is in it, or its namespace.
+    pub has_xacro: bool,
+    /// What is made of it where it is expanded or included.
+    pub content: Content,
+    /// Whether it defines properties.
+    pub has_properties: bool,
+    /// The macros that it defines.
+    pub macros: Vec<Macro>,
+    /// The arguments that it declares.
+    pub arguments: Vec<Argument>,
+}
+
+/// What is expanded in place: in a file outside of its macros, or in a macro.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Content {
+    /// Whether there is an element at all.
+    pub is_some: bool,
+    /// Whether there is a `<link>`.
+    pub has_link: bool,
+    /// Whether there is an element of an SRDF.
+    pub has_srdf: bool,
+    /// The macros that it calls.
+    pub calls: Vec<Call>,
+    /// The files that it includes, as they are written.
+    pub includes: Vec<String>,
+}
+
+/// A call of a macro.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Call {
+    /// The name without its namespaces; `None` if it is computed.
+    pub name: Option<String>,
+    /// Whether what it makes is beside the links, and not in one.
+    pub is_beside_links: bool,
+}
+
+/// A macro.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Macro {
+    /// Its name.
+    pub name: String,
+    /// The line that it begins on.
+    pub line: u32,
+    /// What a call makes.
+    pub content: Content,
+}
+
+/// An argument: `<xacro:arg>`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Argument {
+    /// Its name.
+    pub name: String,
+    /// Its default as it is written; without one, a value has to be given.
+    pub default: Option<String>,
+    /// The line that it is declared on.
+    pub line: u32,
+}
+
+/// Reads a text.
+///
+/// # Errors
+/// If it is not well-formed, or beyond the limits.
+pub fn read(text: &str) -> Result<MacroFile, XmlError> {
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Robot)?;
+    let root = document.root_element();
+    let is_of_xacro = |uri: &str| uri.contains("xacro");
+    let mut file = MacroFile {
+        root: name(root).to_owned(),
+        has_xacro: root.namespaces().any(|one| is_of_xacro(one.uri())),
+        ..MacroFile::default()
+    };
+    let lines = LineIndex::new(text);
+    file.content = file.content_of(root, &lines);
+    Ok(file)
+}
+
+/// Whether the expansion of a file has no link; one that is not well-formed may have some.
+pub fn has_no_link(expansion: &str) -> bool {
+    read(expansion).is_ok_and(|file| !file.content.has_link)
+}
+
+impl MacroFile {
+    /// A text without anything of xacro, which need not be parsed.
+    pub fn plain(text: &str) -> Self {
+        let root = urdd_xml::root_name(text).unwrap_or("robot").to_owned();
+        let content = Content {
+            is_some: true,
+            has_link: text.contains("<link"),
+            has_srdf: text.contains("<group"),
+            ..Content::default()
+        };
+        MacroFile { root, content, ..MacroFile::default() }
+    }
+
+    /// The content of an element. What it declares goes into the lists, wherever that is.
+    fn content_of(&mut self, parent: Node, lines: &LineIndex) -> Content {
+        let mut content = Content::default();
+        let mut waiting = vec![(parent, true)];
+        while let Some((parent, is_beside_links)) = waiting.pop() {
+            for (tag, child) in children(parent) {
+                content.is_some = true;
+                let Some(of_xacro) = tag.strip_prefix(PREFIX) else {
+                    content.has_link |= is_beside_links && tag == "link";
+                    content.has_srdf |= is_beside_links && OF_SRDF.contains(&tag);
+                    waiting.push((child, false));
+                    continue;
+                };
+                self.has_xacro = true;
+                let attribute = |key| child.attribute(key).map(str::to_owned);
+                let line = lines.position(child.range().start).line;
+                match of_xacro {
+                    "macro" => {
+                        let name = attribute("name").unwrap_or_default();
+                        let name = name.strip_prefix(PREFIX).unwrap_or(&name).to_owned();
+                        // One level of the document is one of the calls of this function.
+                        let made = self.content_of(child, lines);
+                        self.macros.push(Macro { name, line, content: made });
+                        continue;
+                    }
+                    "arg" => self.arguments.push(Argument {
+                        name: attribute("name").unwrap_or_default(),
+                        default: attribute("default"),
+                        line,
+                    }),
+                    "include" => content.includes.extend(attribute("filename")),
+                    "property" => self.has_properties = true,
+                    "if" | "unless" | "insert_block" | "element" | "attribute" => {}
+                    called => {
+                        let named = attribute("macro").filter(|_| called == "call");
+                        let name = Some(named.unwrap_or_else(|| called.to_owned()));
+                        let name = name.filter(|name| !name.contains('$')).map(|name| last(&name));
+                        content.calls.push(Call { name, is_beside_links });
+                    }
+                }
+                // Also the blocks that a macro inserts.
+                waiting.push((child, is_beside_links));
+            }
+        }
+        content
+    }
+}
+
+/// A name without its namespaces.
+fn last(name: &str) -> String {
+    name.rsplit('.').next().unwrap_or(name).to_owned()
+}

@@ -1,0 +1,346 @@
+//! Packages as they are installed, and what the files of a folder are.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+
+use crate::described::{Description, FileKind, Reason, describe};
+use crate::installed::Installed;
+use crate::macros::has_no_link;
+use crate::package_index::PackageIndex;
+use crate::robots::{BatchError, find, jobs};
+use crate::{Files, Packages, Settings};
+
+const XACRO: &str = "xmlns:xacro=\"http://www.ros.org/wiki/xacro\"";
+
+fn memory(files: &[(&str, &str)]) -> Files {
+    let file = |(path, text): &(&str, &str)| ((*path).to_owned(), Arc::from(text.as_bytes()));
+    Files::in_memory(files.iter().map(file)).expect("files")
+}
+
+fn installed(name: &str, text: &str) -> Installed {
+    Installed::of(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
+}
+
+fn first(installed: &Installed, path: &str) -> Option<String> {
+    installed.sources(path).next()
+}
+
+#[test]
+fn cmake_says_where_files_are_installed() {
+    let text = r#"
+        project(arm_demo)  # project(other)
+        install(DIRECTORY description/ros2_control "description/urdf" DESTINATION share/${PROJECT_NAME})
+        install(DIRECTORY description/config/ DESTINATION "share/arm_demo/config/" FILES_MATCHING PATTERN "*.yaml")
+        install(FILES nested/a.yaml b.yaml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/data)
+        install(FILES odd.in DESTINATION share/${PROJECT_NAME} RENAME even.yaml)
+        install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/launch DESTINATION share/${PROJECT_NAME})
+        #[[ install(DIRECTORY commented DESTINATION share/arm_demo) ]]
+        install(DIRECTORY include/ DESTINATION include/${PROJECT_NAME})
+        install(DIRECTORY other DESTINATION share/other_package)
+        install(DIRECTORY ../up DESTINATION share/${PROJECT_NAME})
+        install(TARGETS arm LIBRARY DESTINATION lib)
+        if(X)
+        install(
+          DIRECTORY $<TARGET_FILE_DIR:arm>/made
+          DESTINATION share/${PROJECT_NAME})
+        endif()
+    "#;
+    let installed = installed("CMakeLists.txt", text);
+    // By the documentation of install(): a slash at the end leaves the last name out.
+    let expected = [
+        ("ros2_control/a.xacro", Some("description/ros2_control/a.xacro")),
+        ("urdf/b/c.xacro", Some("description/urdf/b/c.xacro")),
+        ("config/a.yaml", Some("description/config/a.yaml")),
+        ("data/a.yaml", Some("nested/a.yaml")),
+        ("data/b.yaml", Some("b.yaml")),
+        ("even.yaml", Some("odd.in")),
+        ("launch/a.py", Some("launch/a.py")),
+        ("description/urdf/b.xacro", None),
+        ("urdfs/b.xacro", None),
+        ("up/a", None),
+        ("commented/a", None),
+        ("other/a", None),
+        ("odd.in", None),
+    ];
+    for (path, source) in expected {
+        assert_eq!(first(&installed, path).as_deref(), source, "{path}");
+    }
+    assert!(!installed.is_as_source());
+    assert_eq!(installed.unknown, Some(("CMakeLists.txt", 14)));
+    let plain = "project(a)\ninstall(DIRECTORY urdf meshes DESTINATION share/${PROJECT_NAME})";
+    let plain = self::installed("CMakeLists.txt", plain);
+    assert!(plain.is_as_source() && plain.unknown.is_none() && plain.rules.len() == 2);
+}
+
+#[test]
+fn setup_py_says_where_files_are_installed() {
+    let text = "
+from glob import glob
+package_name = 'arm_demo'
+setup(
+    name=package_name,
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml', 'data/a.yaml']),
+        (os.path.join('share', package_name, 'urdf'), glob(os.path.join('description', '*.xacro'))),
+        ('share/' + package_name + '/launch', glob('launch/*.py')),
+    ],
+    zip_safe=True)";
+    let known = installed("setup.py", text);
+    assert_eq!(first(&known, "urdf/arm.xacro").as_deref(), Some("description/arm.xacro"));
+    assert_eq!(first(&known, "a.yaml").as_deref(), Some("data/a.yaml"));
+    assert_eq!(first(&known, "launch/a.py").as_deref(), Some("launch/a.py"));
+    assert_eq!(known.unknown, None);
+    let computed =
+        text.replace("('share/' + package_name + '/launch', glob('launch/*.py'))", "*all()");
+    assert_eq!(installed("setup.py", &computed).unknown, Some(("setup.py", 6)));
+}
+
+fn described(files: &[(&str, &str)]) -> Description {
+    let paths: Vec<PathBuf> = files.iter().map(|(path, _)| Path::new("/").join(path)).collect();
+    let settings = Settings { files: memory(files), ..Settings::default() };
+    describe(&paths, &BTreeMap::from([("p".to_owned(), PathBuf::from("/p"))]), &settings)
+}
+
+fn robot(content: &str) -> String {
+    format!("<robot name=\"r\" {XACRO}>{content}</robot>")
+}
+
+#[test]
+fn the_text_tells_robots_from_parts() {
+    let link = "<link name=\"a\"/>";
+    let files = [
+        (
+            "p/arm_macro.xacro",
+            robot(&format!(
+                "<xacro:macro name=\"arm\" params=\"p\">{link}</xacro:macro><xacro:macro name=\"wrap\"><xacro:arm/></xacro:macro>"
+            )),
+        ),
+        (
+            "p/arm.urdf.xacro",
+            robot(
+                "<xacro:arg name=\"p\"/><xacro:include filename=\"$(find p)/arm_macro.xacro\"/><xacro:wrap/>",
+            ),
+        ),
+        ("p/whole.xacro", robot(&format!("<xacro:if value=\"$(arg p)\">{link}</xacro:if>"))),
+        ("p/again.xacro", robot("<xacro:include filename=\"whole.xacro\"/>")),
+        ("p/gazebo.xacro", robot("<gazebo/><material name=\"m\"/>")),
+        ("p/control.xacro", robot("<xacro:macro name=\"control\"><ros2_control/></xacro:macro>")),
+        (
+            "p/calls_control.xacro",
+            robot("<xacro:include filename=\"control.xacro\"/><xacro:control/>"),
+        ),
+        ("p/part.xacro", robot("<xacro:of_the_file_that_includes_this/>")),
+        (
+            "p/elsewhere.xacro",
+            robot("<xacro:include filename=\"$(find other)/a.xacro\"/><xacro:made_there/>"),
+        ),
+        (
+            "p/library.xacro",
+            robot("<xacro:include filename=\"$(find other)/a.xacro\"/><xacro:macro name=\"m\"/>"),
+        ),
+        ("p/arm.srdf.xacro", robot("<group name=\"g\"><link name=\"a\"/></group>")),
+        (
+            "p/circle_a.xacro",
+            robot(
+                "<xacro:include filename=\"circle_b.xacro\"/><xacro:macro name=\"ca\"><xacro:cb/></xacro:macro>",
+            ),
+        ),
+        (
+            "p/circle_b.xacro",
+            robot(
+                "<xacro:include filename=\"circle_a.xacro\"/><xacro:macro name=\"cb\"><xacro:ca/></xacro:macro>",
+            ),
+        ),
+        ("p/empty.urdf", "<robot name=\"r\"/>".to_owned()),
+        ("p/no_link.urdf", "<robot name=\"r\"><material name=\"m\"/></robot>".to_owned()),
+        ("p/launch.xacro", "<launch/>".to_owned()),
+        ("p/broken.xacro", robot("<link>")),
+    ];
+    let files: Vec<(&str, &str)> = files.iter().map(|(path, text)| (*path, &**text)).collect();
+    let found = described(&files);
+    let kind = |name: &str| {
+        let path = Path::new("/p").join(name);
+        found.files.iter().find(|file| file.path == path).expect("it is listed").kind.clone()
+    };
+    let names = |wanted: FileKind| -> Vec<&str> {
+        let names = files.iter().map(|(path, _)| &path[2..]);
+        names.filter(|name| kind(name) == wanted).collect()
+    };
+    let robots = [
+        "arm.urdf.xacro",
+        "whole.xacro",
+        "again.xacro",
+        "elsewhere.xacro",
+        "empty.urdf",
+        "no_link.urdf",
+    ];
+    assert_eq!(names(FileKind::Robot), robots);
+    let parts = [
+        "arm_macro.xacro",
+        "gazebo.xacro",
+        "control.xacro",
+        "calls_control.xacro",
+        "part.xacro",
+        "library.xacro",
+        "circle_a.xacro",
+        "circle_b.xacro",
+    ];
+    assert_eq!(names(FileKind::Fragment), parts);
+    assert_eq!(kind("arm.srdf.xacro"), FileKind::Neither(Reason::Srdf));
+    assert_eq!(kind("launch.xacro"), FileKind::Neither(Reason::Root("launch".into())));
+    assert!(matches!(kind("broken.xacro"), FileKind::Neither(Reason::Unreadable(_))));
+    // The circle calls itself, and nothing calls it.
+    let uncalled: Vec<&str> = found.uncalled.iter().map(|(_, one)| one.name.as_str()).collect();
+    assert_eq!(uncalled, ["m", "ca", "cb"]);
+    let arm = found.files.iter().find(|file| file.path.ends_with("arm.urdf.xacro")).expect("it");
+    assert_eq!(arm.includes, [Path::new("/p/arm_macro.xacro")]);
+    assert_eq!((arm.arguments[0].name.as_str(), &arm.arguments[0].default), ("p", &None));
+}
+
+#[test]
+fn macros_of_computed_names_may_call_anything_and_a_library_calls_nothing() {
+    let library = robot("<xacro:macro name=\"a\"><link name=\"a\"/></xacro:macro>");
+    assert_eq!(described(&[("p/a.xacro", &library)]).uncalled, []);
+    let computed = robot("<link name=\"b\"/><xacro:call macro=\"${x}\"/>");
+    assert_eq!(described(&[("p/a.xacro", &library), ("p/b.xacro", &computed)]).uncalled, []);
+    let plain = robot("<link name=\"b\"><xacro:ns.a/></link>");
+    assert_eq!(described(&[("p/a.xacro", &library), ("p/b.xacro", &plain)]).uncalled, []);
+}
+
+#[test]
+fn an_expansion_without_a_link_is_no_robot() {
+    assert!(has_no_link("<robot name=\"r\"><gazebo/></robot>"));
+    assert!(!has_no_link("<robot name=\"r\"><link name=\"a\"/></robot>"));
+    assert!(!has_no_link("<robot name=\"r\">"));
+}
+
+fn put(folder: &Path, files: &[(&str, &str)]) {
+    for (path, text) in files {
+        let path = folder.join(path);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, text).expect("written");
+    }
+}
+
+fn manifest(name: &str) -> String {
+    format!("<package><name>{name}</name></package>")
+}
+
+/// What `$(find NAME)` is: the first prefix that has it, as ament does.
+fn share(index: &PackageIndex, name: &str) -> Option<PathBuf> {
+    let mut command = Command::new("xacro");
+    index.tell(&mut command);
+    let variable = command.get_envs().find(|(name, _)| *name == "AMENT_PREFIX_PATH");
+    let prefixes = variable.and_then(|(_, value)| value).expect("it is set").to_owned();
+    let found = std::env::split_paths(&prefixes).find(|prefix| {
+        prefix.join("share/ament_index/resource_index/packages").join(name).exists()
+    });
+    Some(found?.join("share").join(name))
+}
+
+#[test]
+#[cfg(unix)]
+fn find_leads_to_the_tree_as_it_is_installed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().canonicalize().expect("a path");
+    let (demo, other) = (manifest("demo"), manifest("other"));
+    put(
+        &root,
+        &[
+            ("ws/src/repo/demo/package.xml", &demo),
+            (
+                "ws/src/repo/demo/CMakeLists.txt",
+                "project(demo)\ninstall(DIRECTORY d/ros2_control d/urdf DESTINATION share/${PROJECT_NAME})\ninstall(FILES d/x.yaml DESTINATION share/${PROJECT_NAME}/urdf)",
+            ),
+            ("ws/src/repo/demo/d/ros2_control/a.xacro", "<robot/>"),
+            ("ws/src/repo/demo/d/urdf/b.xacro", "<robot/>"),
+            ("ws/src/repo/demo/d/x.yaml", "x"),
+            ("ws/src/repo/demo/meshes/m.stl", "m"),
+            ("ws/src/deep/er/other/package.xml", &other),
+            ("ws/src/deep/er/other/c.xacro", "<robot/>"),
+            ("ws/src/ignored/third/package.xml", &manifest("third")),
+            ("ws/src/ignored/COLCON_IGNORE", ""),
+        ],
+    );
+    let file = root.join("ws/src/repo/demo/d/urdf/b.xacro");
+    let index = PackageIndex::new(&Packages::none(), &file).expect("an index");
+    let share = |name| share(&index, name);
+    let at = share("demo").expect("demo");
+    for path in ["ros2_control/a.xacro", "urdf/b.xacro", "urdf/x.yaml", "meshes/m.stl", "d/x.yaml"]
+    {
+        assert!(at.join(path).is_file(), "{path}");
+    }
+    assert!(share("other").expect("a package of another repository").join("c.xacro").is_file());
+    assert_eq!(share("third"), None);
+    // What xacro writes outlives the layout.
+    let text = format!(
+        "<m f=\"file://{0}/meshes/m.stl\"/> {0}/ros2_control/a.xacro, {0}/none",
+        at.display()
+    );
+    let demo = root.join("ws/src/repo/demo");
+    let expected = format!(
+        "<m f=\"package://demo/meshes/m.stl\"/> {0}/d/ros2_control/a.xacro, {0}/none",
+        demo.display()
+    );
+    assert_eq!(index.lasting(&text), expected);
+}
+
+#[test]
+#[cfg(unix)]
+fn paths_of_installed_packages_are_theirs_and_those_of_the_machine_stay() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().canonicalize().expect("a path");
+    put(
+        &root,
+        &[
+            ("install/share/ament_index/resource_index/packages/arm", ""),
+            ("install/share/arm/package.xml", &manifest("arm")),
+            ("install/share/arm/meshes/m.stl", "m"),
+            ("robot/r.xacro", "<robot/>"),
+        ],
+    );
+    let packages = Packages::from_environment(|name| {
+        (name == "AMENT_PREFIX_PATH").then(|| root.join("install").into())
+    });
+    let index = PackageIndex::new(&packages, &root.join("robot/r.xacro")).expect("an index");
+    let at = share(&index, "arm").expect("arm");
+    let machine = format!("file://{}/install/share/arm/meshes/m.stl", root.display());
+    let text = format!("file://{}/meshes/m.stl {machine}", at.display());
+    assert_eq!(index.lasting(&text), format!("package://arm/meshes/m.stl {machine}"));
+}
+
+#[test]
+fn folders_say_what_they_have() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    let part = robot("<xacro:macro name=\"m\"><link name=\"a\"/></xacro:macro>");
+    put(root, &[("a/macros.xacro", &part), ("a/more.urdf.xacro", &part)]);
+    let settings = Settings::default();
+    let error = jobs(&[root.to_owned()], &settings).expect_err("parts alone");
+    assert!(matches!(error, BatchError::OnlyParts { files: 2, .. }), "{error}");
+    assert_eq!(find(&[root.to_owned()], &settings).expect("found").jobs, []);
+    put(
+        root,
+        &[
+            ("a/package.xml", &manifest("p")),
+            ("b/package.xml", &manifest("p")),
+            ("b/robot.xacro", &robot("<link name=\"a\"/>")),
+            ("b/robot.srdf.xacro", &robot("<group name=\"a\"/>")),
+            ("install/COLCON_IGNORE", ""),
+            ("install/robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>"),
+        ],
+    );
+    let batch = find(&[root.to_owned()], &settings).expect("found");
+    let names: Vec<&str> = batch.jobs.iter().map(|job| job.name.as_str()).collect();
+    assert_eq!(names, ["robot"]);
+    let asides = batch.asides(1);
+    let [parts, srdfs, macros, packages] = &asides[..] else { panic!("{asides:?}") };
+    assert_eq!(parts, "3 files define macros or other parts, and no robot");
+    assert_eq!(srdfs, "1 file makes an SRDF");
+    assert!(macros.contains("`m` (") && macros.contains("macros.xacro:1)"), "{macros}");
+    assert!(packages.starts_with("2 packages are named `p`: "), "{packages}");
+}

@@ -1,0 +1,148 @@
+//! Packages and workspaces of ROS 2, as `lint`, `generate` and `view` take them.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use testkit::site::{json, named};
+
+const ROBOT: &str = "<robot name='r'><link name='a'/></robot>";
+const XACRO: &str = "xmlns:xacro='http://www.ros.org/wiki/xacro'";
+
+fn put(folder: &Path, path: &str, text: &str) {
+    let path = folder.join(path);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, text).unwrap();
+}
+
+fn robot(content: &str) -> String {
+    format!("<robot name='r' {XACRO}>{content}</robot>")
+}
+
+/// Runs the program with a xacro that makes a robot of `robot*.xacro`, a robot without links of `thin.xacro`, and fails for
+/// anything else.
+fn urdd(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let script = format!(
+        "#!/bin/sh\nfor it in \"$@\"; do case \"$it\" in */robot*.xacro) echo \"{ROBOT}\"; exit 0;; */thin.xacro) echo \"<robot name='t'><gazebo/></robot>\"; exit 0;; esac; done\necho 'error: it failed' >&2; exit 3\n"
+    );
+    put(folder, "bin/xacro", &script);
+    fs::set_permissions(folder.join("bin/xacro"), fs::Permissions::from_mode(0o755)).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+    command.args(arguments).current_dir(folder).env("PATH", folder.join("bin"));
+    for variable in ["AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH"] {
+        command.env_remove(variable);
+    }
+    let output = command.output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+/// A robot, its macros, an SRDF, and a file of which only the expansion says that it has no link.
+fn package(folder: &Path) {
+    put(folder, "ws/src/p/package.xml", "<package><name>p</name></package>");
+    let arm = "<xacro:macro name='arm'><link name='a'/></xacro:macro><xacro:macro name='leg'/>";
+    put(folder, "ws/src/p/urdf/arm.urdf.xacro", &robot(arm));
+    let uses = "<xacro:include filename='$(find p)/urdf/arm.urdf.xacro'/><xacro:arm/>";
+    put(folder, "ws/src/p/urdf/robot.xacro", &robot(uses));
+    put(folder, "ws/src/p/urdf/materials.xacro", &robot("<material name='m'/>"));
+    put(folder, "ws/src/p/urdf/r.srdf.xacro", &robot("<group name='g'/>"));
+    put(
+        folder,
+        "ws/src/p/urdf/thin.xacro",
+        &robot("<xacro:if value='$(arg no)'><link name='b'/></xacro:if>"),
+    );
+}
+
+#[test]
+fn parts_of_robots_are_counted_and_fail_nothing() {
+    let folder = testkit::temporary::folder();
+    package(folder.path());
+    let (status, said, asides) =
+        urdd(folder.path(), &["lint", "ws", "--xacro", "--format", "json"]);
+    assert_eq!(status, Some(0), "{said}{asides}");
+    let report: Value = serde_json::from_str(&said).unwrap();
+    let paths: Vec<&str> = report["urdds"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["path"].as_str().unwrap())
+        .collect();
+    assert_eq!(paths, ["src/p/urdf/robot.xacro"]);
+    for line in
+        ["3 files define macros", "1 file makes an SRDF", "`leg` (ws/src/p/urdf/arm.urdf.xacro:1)"]
+    {
+        assert!(asides.contains(line), "{line} in {asides}");
+    }
+    // A file that somebody names is to be a robot.
+    let named = urdd(folder.path(), &["lint", "ws/src/p/urdf/thin.xacro", "--format", "json"]);
+    assert_eq!(named.0, Some(1), "{}", named.1);
+    let (status, said, asides) =
+        urdd(folder.path(), &["generate", "ws/src/p", "-o", "out", "--modules", "core"]);
+    assert!(folder.path().join("out/robot/urdd.json").is_file(), "{status:?} {said}{asides}");
+    assert!(
+        !folder.path().join("out/arm").exists() && asides.contains("2 files define macros"),
+        "{asides}"
+    );
+}
+
+#[test]
+fn a_package_of_macros_alone_has_no_finding_and_nothing_to_make() {
+    let folder = testkit::temporary::folder();
+    put(folder.path(), "p/a.xacro", &robot("<xacro:macro name='a'><link name='a'/></xacro:macro>"));
+    let (status, said, asides) = urdd(folder.path(), &["lint", "p", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}{asides}");
+    assert!(
+        asides.contains("1 file defines macros") && !asides.contains("no robot here calls"),
+        "{asides}"
+    );
+    let (status, _, said) = urdd(folder.path(), &["generate", "p", "-o", "out"]);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("there is no robot"), "{said}");
+}
+
+#[test]
+fn packages_that_go_in_circles_get_an_answer() {
+    let folder = testkit::temporary::folder();
+    let count = 500;
+    for k in 0..count {
+        let next = (k + 1) % count;
+        put(
+            folder.path(),
+            &format!("ws/src/p{k}/package.xml"),
+            &format!("<package><name>p{k}</name></package>"),
+        );
+        let text = format!(
+            "<xacro:include filename='$(find p{next})/a.xacro'/><xacro:include filename='$(find none{k})/b.xacro'/><xacro:macro name='m{k}'><xacro:m{next}/></xacro:macro>"
+        );
+        put(folder.path(), &format!("ws/src/p{k}/a.xacro"), &robot(&text));
+    }
+    put(folder.path(), "ws/src/twin/package.xml", "<package><name>p7</name></package>");
+    put(folder.path(), "ws/src/twin/robot.xacro", &robot("<link name='a'/><xacro:m1/>"));
+    let begun = std::time::Instant::now();
+    let (status, said, asides) = urdd(folder.path(), &["lint", "ws", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}{asides}");
+    for line in ["500 files define macros", "2 packages are named `p7`"] {
+        assert!(asides.contains(line), "{line} in {asides}");
+    }
+    assert!(!asides.contains("no robot here calls"), "each macro calls the next one: {asides}");
+    assert!(begun.elapsed().as_secs() < 60);
+}
+
+#[test]
+fn a_site_shows_the_robots_that_could_be_made() {
+    let folder = testkit::temporary::folder();
+    package(folder.path());
+    put(folder.path(), "ws/src/p/urdf/broken.xacro", &robot("<link name='a'/>"));
+    let (status, _, said) = urdd(folder.path(), &["view", "ws", "--xacro", "--export", "site"]);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("broken") && said.contains("could not be made"), "{said}");
+    let site = folder.path().join("site");
+    let robots = json(&site.join(&named(&site)["robots.json"]));
+    let names: Vec<&str> =
+        robots.as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["robot"]);
+}
