@@ -1,7 +1,5 @@
 //! What the xacro files of a folder are: robots, or parts of robots. Their texts decide, and nothing is expanded.
 
-#[allow(unused_imports)]
-use crate::mutants::{Muted as _, MutedPush as _};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -188,7 +186,7 @@ impl Texts<'_> {
         if let Some(found) = self.looked_up.get(&key) {
             return found.clone();
         }
-        self.account.charge_at(LOOK_UP).ok()?;
+        self.account.charge(LOOK_UP).ok()?;
         let files = &self.settings.files;
         let folders = self.settings.packages.folders(name, folder, false, files);
         let found = folders.into_iter().find(|folder| files.is_dir(folder));

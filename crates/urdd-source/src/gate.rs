@@ -4,8 +4,6 @@
 //! folders a file is read, as what, and up to which size; it says what it refused, and which files are from elsewhere. A
 //! mesh or an image is given out only if it was read as one. It also keeps the account of the run: what was read.
 
-#[allow(unused_imports)]
-use crate::mutants::{Muted as _, MutedPush as _};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -165,7 +163,7 @@ impl Gate {
         if bytes.starts_with(start) && is_image(&bytes) {
             return Ok(Some(bytes));
         }
-        self.account.charge_at(bytes.len())?;
+        self.account.charge(bytes.len())?;
         Ok(None)
     }
 

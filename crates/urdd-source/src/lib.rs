@@ -26,7 +26,6 @@ mod installed;
 mod launch;
 mod load;
 pub mod macros;
-mod mutants;
 mod meshes;
 mod named;
 pub mod note;

@@ -318,7 +318,7 @@ fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
         folder = Path::new(name).parent()?.to_owned();
         parts = parts.pop().into_iter().collect();
     }
-    if parts.len() > MOST_PARTS && !crate::mutants::off("resolve-parts") {
+    if parts.len() > MOST_PARTS {
         return None;
     }
     let mut near = vec![(folder, String::new())];
