@@ -12,6 +12,7 @@ use urdd_xml::other_parts::{OtherParts, Owner};
 pub(super) fn parts(side: &Side, others: Option<&OtherParts>) -> Vec<(String, Fields)> {
     let part = |joint: &Joint| {
         let mut fields = fields(joint, side.has_quaternions());
+        other_elements::add(&joint.unknown_elements, &side.account, &mut fields);
         other_elements::add_parts(others, &Owner::Joint(joint.name.clone()), &mut fields);
         (joint.name.clone(), fields)
     };
@@ -59,7 +60,6 @@ fn fields(joint: &Joint, quaternions: bool) -> Fields {
         fields.number("calibration.rising", position, calibration.rising);
         fields.number("calibration.falling", position, calibration.falling);
     }
-    other_elements::add(&joint.unknown_elements, &mut fields);
     fields
 }
 

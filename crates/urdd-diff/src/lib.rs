@@ -11,6 +11,7 @@ mod configurations;
 mod count;
 mod dof_state;
 mod dofs;
+mod element_values;
 mod fields;
 mod findings;
 mod geometry;
@@ -77,7 +78,9 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         links: links::differences(before, after, tolerance),
         joints,
         materials: parts(&|side| materials::parts(&side.robot.materials)),
-        other_elements: parts(&|side| other_elements::parts(&side.robot.unknown_elements)),
+        other_elements: parts(&|side| {
+            other_elements::parts(&side.robot.unknown_elements, &side.account)
+        }),
         poses: poses::difference(before, after, tolerance),
         dofs: dofs::differences(before, after, tolerance),
         pairs,

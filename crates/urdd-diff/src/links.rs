@@ -22,6 +22,7 @@ pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<Li
                 [(before, i, others[0]), (after, j, others[1])].map(|(side, link, others)| {
                     let link = &side.robot.links[link];
                     let mut fields = fields(link, side.has_quaternions());
+                    other_elements::add(&link.unknown_elements, &side.account, &mut fields);
                     let owner = Owner::Link(link.name.clone());
                     other_elements::add_parts(others, &owner, &mut fields);
                     fields
@@ -64,6 +65,5 @@ fn fields(link: &Link, quaternions: bool) -> Fields {
             }
         }
     }
-    other_elements::add(&link.unknown_elements, &mut fields);
     fields
 }

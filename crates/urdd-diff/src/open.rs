@@ -16,7 +16,8 @@ use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
 
 impl Side {
-    /// Opens a URDF (a file whose name ends in `.urdf`), an MJCF or SDF as the URDF that it becomes, or a URDD: a folder or a zip archive.
+    /// Opens a URDF (a file whose name ends in `.urdf`), a xacro file, an MJCF or an SDF as the URDF that it becomes, or a URDD: a
+    /// folder or a zip archive.
     ///
     /// # Errors
     /// If the path has no robot, or one that cannot be read.
@@ -24,12 +25,15 @@ impl Side {
         let shown = path.display().to_string();
         let extension = path.extension().unwrap_or_default();
         let is_urdf = extension.eq_ignore_ascii_case("urdf") && !path.is_dir();
-        if is_urdf && path.exists() {
+        // The validator reads what is written.
+        let is_expanded = options.urdf.xacro.expand_urdf;
+        if is_urdf && path.exists() && !is_expanded {
             let (mut side, _) = side_urdf::open(path, shown, options)?;
             side.validation = validation(options, |settings| validate(&[path], settings))?;
             return Ok(side);
         }
-        if format_of(path, &Files::Disk).is_some() {
+        let is_xacro = extension == "xacro" && path.is_file();
+        if is_urdf && path.exists() || is_xacro || format_of(path, &Files::Disk).is_some() {
             let (mut side, text) = side_urdf::open(path, shown, options)?;
             side.validation = validation(options, |settings| {
                 let examined = vec![examine_urdf(&text, &side.path)];

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::side::Side;
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::diff_report::{PairChange, PairDifference};
 use urdd_robot::{Robot, ShapeKind};
 
@@ -69,11 +70,16 @@ pub(super) fn differences(
             }
         }
     }
+    // Each pair has the names of its links; a URDD has an entry for each pair.
+    let account = Account::default();
+    account.deposit(names.len() * names.len());
     let found = found.into_iter().map(|(((i, j), change), shapes)| {
+        account.charge(names[i].len() + names[j].len())?;
         let links = [i, j].map(|link| names[link].to_owned());
-        PairDifference { links, change, shapes }
+        Ok(PairDifference { links, change, shapes })
     });
-    Some(found.collect())
+    let found = found.collect::<Result<Vec<_>, Overdrawn>>();
+    found.map_err(|why| notes.push(format!("skipped pairs are not compared: {why}"))).ok()
 }
 
 fn change(before: &Checked, after: &Checked) -> Option<PairChange> {

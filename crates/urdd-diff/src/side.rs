@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::dof_state::DofState;
 use crate::shapes::Shapes;
+use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
 use urdd_document::pose::has_quaternions;
@@ -90,6 +91,8 @@ pub struct Side {
     /// What stands beside it.
     pub(super) beside: Beside,
     pub(super) notes: Vec<String>,
+    /// What may be made of its elements.
+    pub(super) account: Account,
 }
 
 impl Side {

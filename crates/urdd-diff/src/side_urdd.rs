@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::dof_state;
 use crate::shapes::{Place, Shapes, mesh_at, shapes};
 use crate::side::{DiffError, Side};
+use urdd_directory::account::Account;
 use urdd_directory::layout::setup_beside;
 use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::path::beside;
@@ -55,6 +56,7 @@ pub(super) fn open(urdd: Urdd, path: &Path, shown: String) -> Result<Side, DiffE
         validation: None,
         beside: Beside { setup: setup(path), ..Beside::default() },
         notes,
+        account: Account::default(),
     })
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::dof_state;
 use crate::shapes::shapes;
 use crate::side::{DiffError, Options, Side};
+use urdd_directory::account::Account;
 use urdd_document::robot::of_urdf;
 use urdd_format::report::Kind;
 use urdd_source::SourceMeshes;
@@ -39,6 +40,7 @@ pub(super) fn open(
         urdd: None,
         validation: None,
         notes: Vec::new(),
+        account: Account::default(),
     };
     Ok((side, source.text))
 }

@@ -1,12 +1,11 @@
 //! The words of an SRDF and of an `export.toml`, as parts with values: all of them, known or not.
 
-use std::collections::HashMap;
-
 use toml::{Table, Value};
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_xml::element::{children, name};
 use urdd_xml::{Kind, Node};
 
+use crate::element_values::Way;
 use crate::fields::Fields;
 use crate::other_elements::numbered;
 
@@ -30,6 +29,9 @@ fn account(text: &str) -> Account {
 const NAMES: [&[&str]; 4] = [PAIR, &["joint_name", "property_name"], &["name"], &["link"]];
 const PAIR: &[&str] = &["link1", "link2"];
 
+/// Elements are told apart by their names, where they have any.
+const WAY: Way = Way { between: '.', has_names: true, has_numbers: true };
+
 /// A named configuration is one of a group.
 const OF_GROUP: (&str, &str) = ("group_state", "group");
 
@@ -51,38 +53,8 @@ fn srdf_element(root: Node<'_, '_>, account: &Account) -> Result<(String, Fields
     if let Some(group) = group {
         label += &format!(" ({group})");
     }
-    let mut fields = Fields::default();
-    // Depth is bounded by the parser; a stack keeps it off the call stack.
-    let mut open = vec![(root, String::new())];
-    while let Some((element, path)) = open.pop() {
-        for attribute in element.attributes() {
-            let own = attribute.name();
-            account.charge(path.len() + own.len())?;
-            let is_named = match path.is_empty() {
-                true => attributes.is_some_and(|names| names.contains(&own)),
-                false => own == "name",
-            };
-            if !is_named {
-                fields.value(format!("{path}{own}"), attribute.value());
-            }
-        }
-        let mut counts: HashMap<String, usize> = HashMap::new();
-        for (tag, child) in children(element) {
-            let named = child.attribute("name").map(|name| format!(" {name}"));
-            // A path is kept three times.
-            let own = tag.len() + named.as_deref().map_or(0, str::len);
-            account.charge(3 * (path.len() + own))?;
-            let mut below = format!("{path}{tag}{}", named.unwrap_or_default());
-            let count = counts.entry(below.clone()).or_default();
-            if *count > 0 {
-                below += &format!("[{count}]");
-            }
-            *count += 1;
-            fields.text(below.clone(), Some(""));
-            open.push((child, below + "."));
-        }
-    }
-    Ok((label.trim_end().to_owned(), fields.sorted()))
+    let fields = WAY.values(root, attributes.copied().unwrap_or_default(), account)?;
+    Ok((label.trim_end().to_owned(), fields))
 }
 
 /// The tables of an `export.toml` by their paths: `actuators.joint.elbow`, `group "arm"`. What is false or empty says as

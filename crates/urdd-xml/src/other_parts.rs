@@ -3,6 +3,8 @@
 
 use std::collections::HashMap;
 
+use roxmltree::Node;
+
 use crate::element::{children, name};
 use crate::vocabulary::of;
 
@@ -33,23 +35,51 @@ pub struct OtherPart {
 /// What a URDF says where URDF defines nothing, by what it belongs to, in document order.
 pub type OtherParts = HashMap<Owner, Vec<OtherPart>>;
 
+/// Levels of elements below an owner that are looked into, twice as many as URDF has: each part has a path.
+const DEEPEST: usize = 6;
+
 /// The parts of a robot. Nothing of a text that is not well-formed.
 pub fn other_parts(urdf: &str) -> OtherParts {
     let mut parts = OtherParts::new();
     let Ok(document) = crate::parse(urdf, crate::Kind::Robot) else {
         return parts;
     };
+    let root = document.root_element();
+    let owned = children(root).filter_map(|(tag, element)| Some((owner(tag, element)?, element)));
+    for (owner, element) in std::iter::once((Owner::Robot, root)).chain(owned) {
+        let of_owner = parts_below(element);
+        if !of_owner.is_empty() {
+            parts.entry(owner).or_default().extend(of_owner);
+        }
+    }
+    parts
+}
+
+/// The owner that an element directly in `<robot>` is.
+fn owner(tag: &str, element: Node<'_, '_>) -> Option<Owner> {
+    let name = || element.attribute("name").unwrap_or_default().to_owned();
+    match tag {
+        "link" => Some(Owner::Link(name())),
+        "joint" => Some(Owner::Joint(name())),
+        _ => None,
+    }
+}
+
+/// The parts of the element of an owner.
+fn parts_below(top: Node<'_, '_>) -> Vec<OtherPart> {
+    let mut parts = Vec::new();
+    let text = top.document().input_text();
+    let is_robot = top == top.document().root_element();
     // Depth is bounded by the parser; a stack keeps it off the call stack.
-    let mut open = vec![(document.root_element(), Owner::Robot, String::new())];
-    while let Some((element, owner, path)) = open.pop() {
+    let mut open = vec![(top, String::new(), 0)];
+    while let Some((element, path, depth)) = open.pop() {
         let mut add = |name: &str, value: &str, is_attribute: bool| {
             let (path, name, value) = (path.clone(), name.to_owned(), value.to_owned());
-            let part = OtherPart { path, name, value, is_attribute };
-            parts.entry(owner.clone()).or_default().push(part);
+            parts.push(OtherPart { path, name, value, is_attribute });
         };
         let known = of(name(element)).map_or(&[][..], |known| known.attributes);
         for attribute in element.attributes() {
-            let name = &document.input_text()[attribute.range_qname()];
+            let name = &text[attribute.range_qname()];
             if !known.contains(&name) {
                 add(name, attribute.value(), true);
             }
@@ -57,28 +87,17 @@ pub fn other_parts(urdf: &str) -> OtherParts {
         let start = open.len();
         let mut counts: HashMap<&str, usize> = HashMap::new();
         for (tag, child) in children(element) {
-            let named = || child.attribute("name").unwrap_or_default().to_owned();
-            let is_top = path.is_empty();
-            if of(tag).is_none() {
+            let is_top = depth == 0;
+            if of(tag).is_none() || depth == DEEPEST {
                 if !is_top {
-                    add(tag, &document.input_text()[child.range()], false);
+                    add(tag, &text[child.range()], false);
                 }
-                continue;
-            }
-            match (&owner, tag) {
-                (Owner::Robot, "link") if is_top => {
-                    open.push((child, Owner::Link(named()), String::new()));
-                }
-                (Owner::Robot, "joint") if is_top => {
-                    open.push((child, Owner::Joint(named()), String::new()));
-                }
-                _ => {
-                    let slash = if is_top { "" } else { "/" };
-                    let count = counts.entry(tag).or_default();
-                    let number = if *count == 0 { String::new() } else { format!("[{count}]") };
-                    *count += 1;
-                    open.push((child, owner.clone(), format!("{path}{slash}{tag}{number}")));
-                }
+            } else if !(is_robot && is_top && owner(tag, child).is_some()) {
+                let slash = if is_top { "" } else { "/" };
+                let count = counts.entry(tag).or_default();
+                let number = if *count == 0 { String::new() } else { format!("[{count}]") };
+                *count += 1;
+                open.push((child, format!("{path}{slash}{tag}{number}"), depth + 1));
             }
         }
         open[start..].reverse();

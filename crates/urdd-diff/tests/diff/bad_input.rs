@@ -105,3 +105,30 @@ fn many_equal_elements_in_one_link_take_linear_time() {
     assert_eq!(places(&report), ["links/a/visual[50000].radius"]);
     assert!(begun.elapsed().as_secs() < 15, "{:?}", begun.elapsed());
 }
+
+/// Each path in an element has the names above it: beyond what its text pays for, the text is compared.
+#[test]
+fn paths_of_long_tags_are_not_multiplied() {
+    let shop = Workshop::new();
+    let tag = "n".repeat(400_000);
+    let elements = (0..1000).map(|k| format!("<c{k}/>")).collect::<String>();
+    let attributes = (0..250).map(|k| format!(" a{k}='1'")).collect::<String>();
+    let of_elements = |last: &str| format!("{elements}<{last}/>");
+    let of_attributes = |last: &str| format!("<c{attributes} last='{last}'/>");
+    let inside: [&dyn Fn(&str) -> String; 2] = [&of_elements, &of_attributes];
+    for inside in inside {
+        let robot = |last: &str| {
+            let element = format!("<gazebo><{tag}>{}</{tag}></gazebo>", inside(last));
+            format!(
+                "<robot name='r'>{element}<link name='a'>{element}</link><link name='b'/>\
+                 <joint name='j' type='fixed'><parent link='a'/><child link='b'/>{element}</joint>\
+                 </robot>"
+            )
+        };
+        let write = |last: &str| shop.write(&format!("{last}.urdf"), &robot(last));
+        let (before, after) = (write("x"), write("y"));
+        assert!(differences(&before, &before).same);
+        let found = places(&differences(&before, &after));
+        assert_eq!(found, ["links/a/gazebo", "joints/j/gazebo", "other/gazebo/text"]);
+    }
+}

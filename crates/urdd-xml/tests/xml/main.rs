@@ -233,4 +233,12 @@ fn what_urdf_does_not_define_is_found_where_it_is() {
     );
     assert_eq!(of(Owner::Joint("j".to_owned())), [":f=4", "limit:g=5"]);
     assert!(other_parts("<robot").is_empty());
+    // URDF has three levels. A path has at most six, whatever is below it.
+    let deep = "<geometry>".repeat(200) + "<box a=''/>" + &"</geometry>".repeat(200);
+    let urdf = format!("<robot name='r'><link name='l'>{deep}</link></robot>");
+    let parts = &other_parts(&urdf)[&Owner::Link("l".to_owned())];
+    let [part] = parts.as_slice() else { panic!("{parts:?}") };
+    assert_eq!(part.path, ["geometry"; 6].join("/"));
+    assert_eq!((part.name.as_str(), part.is_attribute), ("geometry", false));
+    assert!(part.value.contains("<box a=''/>"), "{}", part.value);
 }
