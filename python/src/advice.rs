@@ -38,10 +38,9 @@ pub fn of_robot(error: &RobotError) -> String {
 pub fn of_generate(error: &GenerateError) -> String {
     match error {
         GenerateError::Source(SourceError::Refused { file, faults }) => {
-            let file = line(file);
             let each = faults.iter().map(|placed| {
                 let fault = of_fault(&placed.fault);
-                format!("{file}:{}:{}: {}", placed.line, placed.column, line(&fault))
+                format!("{}: {}", placed.place(file), line(&fault))
             });
             shown(each)
         }
@@ -50,8 +49,7 @@ pub fn of_generate(error: &GenerateError) -> String {
             let each = meshes.iter().map(|mesh| {
                 let (name, path) = (line(&mesh.name), mesh.path.display().to_string());
                 let words = "is outside of the folders of the robot and its packages, at";
-                let at = format!("{file}:{}:{}", mesh.line, mesh.column);
-                format!("{at}: mesh `{name}` {words} {}", line(&path))
+                format!("{}: mesh `{name}` {words} {}", mesh.place, line(&path))
             });
             let words = "a URDD includes its meshes, and a URDF must not make you publish other files; if these are \
                 intended, pass their folder: allowed_folders=[folder], or packages={name: folder}";

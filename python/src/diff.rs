@@ -8,7 +8,7 @@ use urdd_diff::{DiffError, Options, Side, compare};
 use urdd_validate::report;
 
 use crate::errors::raise;
-use crate::source::places;
+use crate::source::Source;
 use crate::work;
 
 /// How two robots differ, as JSON.
@@ -19,16 +19,12 @@ pub fn diff(
     after: PathBuf,
     findings: bool,
     tolerance: f64,
-    packages: Vec<(String, PathBuf)>,
-    allowed_folders: Vec<PathBuf>,
+    source: Source,
 ) -> PyResult<String> {
-    let (packages, allowed_folders) =
-        places(&packages, allowed_folders).map_err(PyValueError::new_err)?;
+    let urdf = source.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| -> Result<_, DiffError> {
-        let mut options = Options { without_findings: !findings, ..Options::default() };
-        options.urdf.packages = packages;
-        options.urdf.allowed_folders = allowed_folders;
-        options.cancellation = cancellation.clone();
+        let cancellation = cancellation.clone();
+        let options = Options { urdf, cancellation, without_findings: !findings };
         let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
         Ok(compare(&before, &after, tolerance))
     })?;

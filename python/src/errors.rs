@@ -128,16 +128,18 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
     let mut places = Vec::new();
     match error {
         GenerateError::Source(SourceError::Refused { file, faults }) => {
-            places.extend(faults.iter().map(|fault| {
-                (file.clone(), fault.line, fault.column, advice::of_fault(&fault.fault))
+            places.extend(faults.iter().map(|placed| {
+                let at = placed.place(file);
+                (at.file, at.line, at.column, advice::of_fault(&placed.fault))
             }))
         }
         GenerateError::Source(SourceError::Import { file, line, column, fault }) => {
             places.push((file.clone(), *line, *column, fault.to_string()));
         }
-        GenerateError::Outside { file, meshes } => places.extend(meshes.iter().map(|mesh| {
-            let leads = mesh.path.display();
-            (file.clone(), mesh.line, mesh.column, format!("mesh {}: leads to {leads}", mesh.name))
+        GenerateError::Outside { meshes, .. } => places.extend(meshes.iter().map(|mesh| {
+            let (leads, at) = (mesh.path.display(), &mesh.place);
+            let words = format!("mesh {}: leads to {leads}", mesh.name);
+            (at.file.clone(), at.line, at.column, words)
         })),
         GenerateError::Strict { notes } => places.extend(notes.iter().map(|note| {
             (

@@ -8,7 +8,9 @@ use clap::{Args, ValueEnum};
 use super::foreign;
 use super::output::{self, Failure};
 use super::packages::PackageArguments;
+use super::robots::RobotArguments;
 use super::signals::{self, Signals};
+use super::xacro::{self, XacroArguments};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_validate::report;
 
@@ -23,13 +25,17 @@ const DIFFERENT: u8 = 1;
     Exit status: 0 no difference; 1 different; 2 usage error, or one of the robots could not be read."
 )]
 pub struct DiffArguments {
-    /// The robot before: a URDF, or a URDD (a folder or a zip archive).
+    /// The robot before: a URDF, a xacro file, an MJCF or SDF, or a URDD (a folder or a zip archive).
     #[arg(value_name = "A")]
     before: PathBuf,
 
     /// The robot after.
     #[arg(value_name = "B")]
     after: PathBuf,
+
+    /// An argument for xacro, for both robots.
+    #[arg(value_name = "NAME:=VALUE")]
+    more: Vec<PathBuf>,
 
     /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -45,6 +51,12 @@ pub struct DiffArguments {
 
     #[command(flatten)]
     packages: PackageArguments,
+
+    #[command(flatten)]
+    xacro: XacroArguments,
+
+    #[command(flatten)]
+    declared: RobotArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -63,8 +75,13 @@ pub fn run(arguments: &DiffArguments) -> ExitCode {
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
+    let mut urdf = arguments.packages.settings()?;
+    urdf.xacro = arguments.xacro.settings(xacro::only_arguments(&arguments.more)?);
+    if urdf.xacro.arguments.is_empty() {
+        urdf.xacro.arguments = arguments.declared.arguments_of(&arguments.after)?;
+    }
     let options = Options {
-        urdf: arguments.packages.settings()?,
+        urdf,
         cancellation: signals.cancellation(),
         without_findings: arguments.no_findings,
     };

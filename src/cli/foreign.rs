@@ -22,8 +22,7 @@ fn of_file(path: &Path) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let by_name = match extension.to_ascii_lowercase().as_str() {
         "xacro" => Some(
-            "this is a xacro file; `urdd generate` expands it and generates a URDD, \
-             or `xacro FILE > robot.urdf` writes a URDF",
+            "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it",
         ),
         "sdf" | "world" => Some(SDF),
         "srdf" => Some(

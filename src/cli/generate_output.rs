@@ -350,7 +350,17 @@ fn faults(error: &GenerateError) -> Vec<Value> {
         GenerateError::Source(SourceError::Refused { faults, .. }) => faults.as_slice(),
         _ => &[],
     };
-    faults.iter().map(|placed| {
-        json!({ "line": placed.line, "column": placed.column, "message": placed.fault.to_string() })
-    }).collect()
+    faults
+        .iter()
+        .map(|placed| {
+            let message = placed.fault.to_string();
+            let mut fault =
+                json!({ "line": placed.line, "column": placed.column, "message": message });
+            // Another than that of the robot.
+            if let Some(file) = &placed.file {
+                fault["file"] = json!(file);
+            }
+            fault
+        })
+        .collect()
 }

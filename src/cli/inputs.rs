@@ -1,15 +1,20 @@
 //! Reads the files that commands are given: URDDs, SRDFs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use super::foreign;
-use super::output::{Failure, about, one_line};
+use super::output::{self, Failure, about, one_line, shown};
+use super::signals;
+use super::xacro;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_directory::source::is_archive;
 use urdd_format::escape;
 use urdd_robot::Robot;
+use urdd_source::{Packages, Settings, XacroSettings, read_source};
 
 /// Opens the robot of a URDD.
 ///
@@ -28,6 +33,44 @@ pub fn open(path: &Path) -> Result<Robot, Failure> {
         Err(foreign::advice(&DiscoverError::NotAFolder { path }))?;
     }
     Ok(Robot::open(path).map_err(one_line)?)
+}
+
+/// Prints what `work` makes of the text of an SRDF; of one that is xacro, of what xacro makes of it with these words of the
+/// command line.
+pub fn with_srdf(
+    file: &Path,
+    words: &[PathBuf],
+    work: impl FnOnce(&str) -> Result<String, Failure>,
+) -> ExitCode {
+    signals::run(None, |signals| {
+        let text = srdf_or_xacro(file, words, signals.cancellation())?;
+        output::print(&work(&text)?)?;
+        Ok(0)
+    })
+}
+
+fn srdf_or_xacro(
+    file: &Path,
+    words: &[PathBuf],
+    cancellation: Cancellation,
+) -> Result<String, Failure> {
+    let arguments = xacro::only_arguments(words)?;
+    if file.extension().is_none_or(|ending| ending != "xacro") {
+        return match arguments.first() {
+            None => srdf(file),
+            Some(argument) => Err(format!(
+                "{}: not a xacro file, so that `{}` has no meaning",
+                shown(file),
+                one_line(argument)
+            ))?,
+        };
+    }
+    let settings = Settings {
+        packages: Packages::from_environment(|name| std::env::var_os(name)),
+        xacro: XacroSettings { arguments, ..XacroSettings::default() },
+        ..Settings::default()
+    };
+    Ok(read_source(file, &settings, &cancellation).map_err(one_line)?.text)
 }
 
 /// The text of an SRDF.

@@ -56,13 +56,17 @@ enum ConfigurationsCommand {
         Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
-        /// The SRDF.
+        /// The SRDF; also one that is xacro (.srdf.xacro), which the program `xacro` expands.
         #[arg(value_name = "FILE.srdf")]
         srdf: PathBuf,
 
         /// The URDD: a folder.
         #[arg(value_name = "DIR")]
         urdd: PathBuf,
+
+        /// An argument for xacro.
+        #[arg(value_name = "NAME:=VALUE")]
+        more: Vec<PathBuf>,
 
         /// Replaces configurations of the same name that differ.
         #[arg(long)]
@@ -86,7 +90,9 @@ pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
     let text = match &arguments.command {
         ConfigurationsCommand::List { urdd } => list(urdd),
         ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
-        ConfigurationsCommand::Import { srdf, urdd, force } => import(srdf, urdd, *force),
+        ConfigurationsCommand::Import { srdf, urdd, more, force } => {
+            return inputs::with_srdf(srdf, more, |text| import(srdf, text, urdd, *force));
+        }
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
     output::printed(text)
@@ -137,10 +143,9 @@ fn remove(urdd: &Path, name: &str) -> Result<String, Failure> {
     })
 }
 
-fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
-    let text = inputs::srdf(srdf)?;
+fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
     editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
-        let imported = import_states(robot, &text, force).map_err(about(srdf))?;
+        let imported = import_states(robot, text, force).map_err(about(srdf))?;
         let read = imported.changed + imported.already + imported.out_of_bounds.len();
         editing::some_read(read + imported.left_out, &imported.wrong).map_err(about(srdf))?;
         let mut told = format!(

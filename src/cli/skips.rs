@@ -28,13 +28,17 @@ enum SkipsCommand {
         Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
-        /// The SRDF.
+        /// The SRDF; also one that is xacro (.srdf.xacro), which the program `xacro` expands.
         #[arg(value_name = "FILE.srdf")]
         srdf: PathBuf,
 
         /// The URDD: a folder.
         #[arg(value_name = "DIR")]
         urdd: PathBuf,
+
+        /// An argument for xacro.
+        #[arg(value_name = "NAME:=VALUE")]
+        more: Vec<PathBuf>,
 
         /// Replaces existing edits that the SRDF contradicts.
         #[arg(long)]
@@ -44,14 +48,13 @@ enum SkipsCommand {
 
 /// Runs `urdd skips`.
 pub fn run(arguments: &SkipsArguments) -> ExitCode {
-    let SkipsCommand::Import { srdf, urdd, force } = &arguments.command;
-    output::printed(import(srdf, urdd, *force))
+    let SkipsCommand::Import { srdf, urdd, more, force } = &arguments.command;
+    inputs::with_srdf(srdf, more, |text| import(srdf, text, urdd, *force))
 }
 
-fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, Failure> {
-    let text = inputs::srdf(srdf)?;
+fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
     editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
-        let imported = import_srdf(robot, &text, force).map_err(about(srdf))?;
+        let imported = import_srdf(robot, text, force).map_err(about(srdf))?;
         editing::some_read(imported.added + imported.already, &imported.wrong)
             .map_err(about(srdf))?;
         if imported.added == 0 {

@@ -5,12 +5,14 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::output::{Failure, shown};
 use urdd_source::{XACRO_TIMEOUT, XacroSettings};
 
 /// How xacro files are expanded.
 #[derive(Args)]
 pub(super) struct XacroArguments {
-    /// Also expands macros in .urdf files, and the xacro files named in a recipe or found in a folder by `view` or `lint`.
+    /// Also expands macros in .urdf files, and the xacro files named in a recipe, found in a folder by `view` or `lint`, or found
+    /// by `lint` as an SRDF of the robot.
     #[arg(long)]
     pub(super) xacro: bool,
 
@@ -43,4 +45,18 @@ pub(super) fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
         if is_argument { arguments.push(text.to_owned()) } else { robots.push(word.clone()) }
     }
     (robots, arguments)
+}
+
+/// The xacro arguments, where nothing else may be.
+///
+/// # Errors
+/// A message about a word that is none.
+pub(super) fn only_arguments(words: &[PathBuf]) -> Result<Vec<String>, Failure> {
+    match split(words) {
+        (others, arguments) if others.is_empty() => Ok(arguments),
+        (others, _) => Err(format!(
+            "{}: not an argument of xacro, which has the form name:=value",
+            shown(&others[0])
+        ))?,
+    }
 }

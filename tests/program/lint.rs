@@ -178,7 +178,7 @@ mod fix {
     }
 }
 
-/// With a program in place of xacro: what it prints for such files is that of xacro 2.1.
+/// With a program in place of xacro, which knows includes and macros of one parameter.
 #[cfg(unix)]
 pub mod xacro {
     use std::os::unix::fs::PermissionsExt;
@@ -194,26 +194,28 @@ pub mod xacro {
     const MACRO: &str = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
         <xacro:macro name=\"finger\" params=\"prefix\">\n\
         <link name=\"${prefix}_tip\"/>\n\
-        <joint name=\"${prefix}_slide\" type=\"prismatic\"><axis xyz=\"0 0 2\"/></joint>\n\
+        <joint name=\"${prefix}_slide\" type=\"prismatic\">\n  \
+        <parent link=\"a\"/><child link=\"${prefix}_tip\"/>\n  \
+        <axis xyz=\"0 0 2\"/>\n  \
+        <limit lower=\"-1\" upper=\"1\" effort=\"1\"\n   velocity=\"1\"/></joint>\n\
+        <transmission name=\"t\"><joint name=\"${prefix}_slid\"/></transmission>\n\
         </xacro:macro>\n\
         </robot>\n";
 
-    /// A folder with the two files, and a program `xacro` that knows them.
+    /// A folder with the two files, and the program.
     pub fn hand(name: &str) -> tempfile::TempDir {
         let folder = testkit::temporary::folder();
         let root = folder.path();
         write(root, &format!("{name}/hand.urdf.xacro"), MAIN);
         write(root, &format!("{name}/parts/finger.xacro"), MACRO);
-        let joint = super::SLIDE.replace("slide", "left_slide");
-        let joint = joint.replace("\"b\"", "\"left_tip\"");
-        let expanded = format!(
-            "<robot name=\"hand\">\n<link name=\"a\"/>\n<link name=\"left_tip\"/>\n{joint}\n</robot>\n"
+        write(root, "python/xacro/__init__.py", include_str!("xacro.py"));
+        let python = root.join("python");
+        let script = format!(
+            "#!/bin/sh\nPATH=/usr/local/bin:/usr/bin:/bin\n\
+            PYTHONPATH=\"$PYTHONPATH:{}\" exec python3 -c 'import xacro; xacro.main()' \"$@\"\n",
+            python.display()
         );
-        write(root, "expanded", &expanded);
-        let script = "#!/bin/sh\n\
-            if [ \"$1\" = --deps ]; then printf %s \"${2%/*}/parts/finger.xacro\"; exit; fi\n\
-            while read -r line; do echo \"$line\"; done < \"${1%/*/*}/expanded\"\n";
-        write(root, "bin/xacro", script);
+        write(root, "bin/xacro", &script);
         let mode = fs::Permissions::from_mode(0o755);
         fs::set_permissions(root.join("bin/xacro"), mode).expect("a program");
         folder
@@ -231,25 +233,73 @@ pub mod xacro {
     }
 
     #[test]
-    fn a_finding_in_a_macro_of_an_included_file_names_file_line_and_macro() {
-        // xacro lists files with blanks between them: a name with a blank cannot be told from two.
-        for name in ["hand", "my hand"] {
-            let folder = hand(name);
-            let file = format!("{name}/hand.urdf.xacro");
-            let text = lint(folder.path(), &[&file]);
-            let expected = "at hand.urdf.xacro:4:91 (joint `left_slide`)\n      \
-                written at parts/finger.xacro:4:1 (macro \"finger\")\n";
-            assert!(text.contains(expected), "{text}");
-            assert!(text.contains("\n  the URDF\n"), "{text}");
-            let json = lint(folder.path(), &[&file, "--format", "json"]);
-            let report: Value = serde_json::from_str(&json).expect("JSON");
-            let findings = report["urdds"][0]["findings"].as_array().expect("a list");
-            let axis = findings.iter().find(|one| one["code"] == "LNT012").expect("it");
-            let written = &axis["places"][0]["written_at"];
-            assert_eq!(written["file"], "parts/finger.xacro");
-            assert_eq!(written["line"], 4);
-            assert_eq!(written["macro_name"], "finger");
-        }
+    fn every_form_names_the_place_in_the_xacro_file() {
+        let folder = hand("my hand");
+        let file = "my hand/hand.urdf.xacro";
+        let text = lint(folder.path(), &[file]);
+        // The attribute: `  <axis xyz=` is the line.
+        let people = "at parts/finger.xacro:6:9 (joint `left_slide`) in the macro \"finger\"\n";
+        assert!(text.contains(people), "{text}");
+        assert!(text.contains("\n  the URDF\n"), "{text}");
+        // An element of no link or joint.
+        assert!(text.contains("at parts/finger.xacro:9:"), "{text}");
+        let json = lint(folder.path(), &[file, "--format", "json"]);
+        let report: Value = serde_json::from_str(&json).expect("JSON");
+        let findings = report["urdds"][0]["findings"].as_array().expect("a list");
+        let axis = findings.iter().find(|one| one["code"] == "LNT012").expect("it");
+        let place = (&axis["file"], &axis["line"], &axis["column"]);
+        assert_eq!(place, (&"parts/finger.xacro".into(), &6.into(), &9.into()));
+        let written = &axis["places"][0]["written_at"];
+        assert_eq!((&written["line"], &written["macro_name"]), (&6.into(), &"finger".into()));
+        let sarif = lint(folder.path(), &[file, "--format", "sarif"]);
+        let sarif: Value = serde_json::from_str(&sarif).expect("JSON");
+        let results = sarif["runs"][0]["results"].as_array().expect("a list");
+        let axis = results.iter().find(|one| one["ruleId"] == "LNT012").expect("it");
+        let place = &axis["locations"][0]["physicalLocation"];
+        assert_eq!(place["artifactLocation"]["uri"], "my%20hand/parts/finger.xacro");
+        assert_eq!(place["region"]["startLine"], 6);
+        assert!(axis["message"]["text"].as_str().expect("a text").contains("\nMacro: finger"));
+        let github = lint(folder.path(), &[file, "--format", "github"]);
+        let place = "file=my hand/parts/finger.xacro,line=6,col=9,title=LNT012";
+        assert!(github.contains(place) && github.contains("; macro: finger"), "{github}");
+        let junit = lint(folder.path(), &[file, "--format", "junit"]);
+        assert!(junit.contains("at parts/finger.xacro:6:9 (joint"), "{junit}");
+    }
+
+    /// As by a xacro of another language: then no line is named, rather than one of the expansion.
+    #[test]
+    fn a_program_that_cannot_be_watched_leaves_the_file() {
+        let folder = hand("hand");
+        let script = "#!/bin/sh\nPATH=/usr/bin:/bin\n\
+            exec env -u URDD_XACRO_PLACES sh \"${0%/*}/real\" \"$@\"\n";
+        fs::rename(folder.path().join("bin/xacro"), folder.path().join("bin/real")).expect("it");
+        write(folder.path(), "bin/xacro", script);
+        let mode = fs::Permissions::from_mode(0o755);
+        fs::set_permissions(folder.path().join("bin/xacro"), mode).expect("a program");
+        let text = lint(folder.path(), &["hand/hand.urdf.xacro"]);
+        assert!(text.contains("at hand.urdf.xacro (joint `left_slide`)\n"), "{text}");
+        assert!(!text.contains(".xacro:"), "{text}");
+    }
+
+    #[test]
+    fn an_srdf_that_is_xacro_is_expanded_by_leave_alone() {
+        let folder = hand("hand");
+        write(
+            folder.path(),
+            "hand/config/pairs.xacro",
+            &MACRO.replace(
+                "<link name=\"${prefix}_tip\"/>",
+                "<disable_collisions link1=\"a\" link2=\"${prefix}_top\"/>",
+            ),
+        );
+        let srdf = MAIN.replace("parts/finger", "pairs").replace("<link name=\"a\"/>\n", "");
+        write(folder.path(), "hand/config/hand.srdf.xacro", &srdf);
+        let file = "hand/hand.urdf.xacro";
+        let text = lint(folder.path(), &[file]);
+        assert!(!text.contains("LNT045"), "{text}");
+        let text = lint(folder.path(), &[file, "--xacro"]);
+        assert!(text.contains("at config/pairs.xacro:3:"), "{text}");
+        assert!(text.contains("`left_top`"), "{text}");
     }
 
     #[test]

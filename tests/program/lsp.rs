@@ -200,21 +200,41 @@ mod xacro {
         let axis = found.iter().find(|one| one["code"] == "LNT012").expect("LNT012");
         assert_eq!(axis["range"]["start"], json!({"line": 1, "character": 0}), "{axis}");
         let message = axis["message"].as_str().expect("a message");
-        let words = "(written at parts/finger.xacro:4, in the macro `finger`)";
+        let words = "(written at parts/finger.xacro:6, in the macro `finger`)";
         assert!(message.contains("`left_slide`") && message.contains(words), "{message}");
         let place = &axis["relatedInformation"][0]["location"];
         assert!(place["uri"].as_str().expect("it").ends_with("/hand/parts/finger.xacro"));
-        assert_eq!(place["range"]["start"]["line"], 3);
+        assert_eq!(place["range"]["start"]["line"], 5);
         let link = found.iter().find(|one| one["code"] == "LNT006").expect("LNT006");
         assert!(!link["message"].as_str().expect("it").contains("written"), "{link}");
     }
 
     #[test]
+    fn a_robot_that_needs_arguments_is_an_information_until_it_is_declared() {
+        let folder = crate::robots::package();
+        let file = "arms/urdf/arm.urdf.xacro";
+        let found = saved(folder.path(), file);
+        let needs = |one: &&Value| {
+            let message = one["message"].as_str().expect("a message");
+            message.contains("values are missing for `type` (broken, long, short)")
+        };
+        let severities: Vec<&Value> =
+            found.iter().filter(needs).map(|one| &one["severity"]).collect();
+        assert_eq!(severities, [&json!(3)], "{found:#?}");
+        let toml =
+            "[[robot]]\npath = \"urdf/arm.urdf.xacro\"\nargs = { type = [\"long\", \"broken\"] }\n";
+        std::fs::write(folder.path().join("arms/urdd.toml"), toml).expect("a file");
+        let found = saved(folder.path(), file);
+        assert_eq!(found.iter().filter(needs).count(), 0, "{found:#?}");
+        assert!(found.iter().all(|one| one["severity"] != json!(1)), "{found:#?}");
+    }
+
+    #[test]
     fn a_misspelt_name_is_as_severe_as_what_follows_from_it() {
         let folder = hand("hand");
-        let expanded = folder.path().join("expanded");
-        let text = std::fs::read_to_string(&expanded).expect("a file");
-        std::fs::write(&expanded, text.replace(" velocity=", " velocty=")).expect("written");
+        let file = folder.path().join("hand/parts/finger.xacro");
+        let text = std::fs::read_to_string(&file).expect("a file");
+        std::fs::write(&file, text.replace(" velocity=", " velocty=")).expect("written");
         let found = saved(folder.path(), "hand/hand.urdf.xacro");
         let of = |code: &str| found.iter().filter(|one| one["code"] == code).count();
         assert_eq!((of("LNT040"), of("LNT017")), (1, 0), "{found:#?}");
@@ -231,8 +251,6 @@ mod xacro {
         let text = std::fs::read_to_string(&path).expect("a file");
         let text = text.replace("<robot ", "<robot name=\"finger\" ");
         std::fs::write(&path, text).expect("written");
-        std::fs::write(folder.path().join("hand/expanded"), "<robot name=\"finger\"/>\n")
-            .expect("written");
         assert_eq!(saved(folder.path(), "hand/parts/finger.xacro"), [""; 0]);
     }
 }

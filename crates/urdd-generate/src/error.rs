@@ -12,7 +12,7 @@ use urdd_directory::staging::StagingError;
 use urdd_format::escape;
 use urdd_format::short::Short;
 use urdd_source::SourceError;
-use urdd_source::note::Note;
+use urdd_source::note::{Note, SourcePlace};
 
 /// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
@@ -198,10 +198,8 @@ pub enum EditsFault {
 /// A mesh outside the folders from which files may be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutsideMesh {
-    /// Line of the URDF, from 1.
-    pub line: u32,
-    /// Column in the line, from 1, in characters.
-    pub column: u32,
+    /// Where the description names it.
+    pub place: SourcePlace,
     /// The mesh file name as written in the URDF.
     pub name: String,
     /// The file that it resolves to, with symbolic links followed.
@@ -217,11 +215,11 @@ fn shown<T>(items: &[T], line: impl Fn(&T) -> String, more: impl Fn(usize) -> St
 
 fn outside_meshes(file: &str, meshes: &[OutsideMesh]) -> String {
     let file = escape::line(file);
-    let mesh = |OutsideMesh { line, column, name, path }: &OutsideMesh| {
+    let mesh = |OutsideMesh { place, name, path }: &OutsideMesh| {
         let (name, path) = (escape::line(name), path.display().to_string());
         let path = escape::line(&path);
         format!(
-            "{file}:{line}:{column}: mesh `{name}` is outside of the folders of the robot and its packages, at {path}"
+            "{place}: mesh `{name}` is outside of the folders of the robot and its packages, at {path}"
         )
     };
     let lines = shown(meshes, mesh, |more| format!("{file}: and {more} more such meshes"));

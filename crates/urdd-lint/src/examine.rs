@@ -10,6 +10,7 @@ use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
 use super::subject::Subject;
+use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
@@ -96,6 +97,12 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
+    for srdf in subject.read_srdfs() {
+        if let Some(trail) = &srdf.trail {
+            let expansion = (srdf.text.as_str(), trail, srdf.path.as_path(), srdf.shown.as_str());
+            say_where_expanded(expansion, &mut examined.checks, &mut []);
+        }
+    }
     if is_mended {
         namespaces::declare(text, name, &mut examined.checks);
     }
@@ -125,7 +132,7 @@ impl<'a> Job<'a> {
     {
         let files = &self.settings.source.files;
         let subject = Subject::new(self.name, self.folder, files, document, source.as_ref());
-        subject.without_meshes(self.settings.without_meshes)
+        subject.without_meshes(self.settings.without_meshes).with_xacro(self.settings)
     }
 
     /// Asks the programs; not about files beyond the limits of XML.
@@ -188,7 +195,7 @@ impl<'a> Job<'a> {
 }
 
 /// The rules of the family that the settings ask for.
-fn rules_to_run(settings: &LintSettings) -> impl Iterator<Item = &'static LintRule> {
+pub(crate) fn rules_to_run(settings: &LintSettings) -> impl Iterator<Item = &'static LintRule> {
     let report = &settings.report;
     let runs = |rule: &&LintRule| {
         let code = rule.description.code;

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use crate::examine::examined;
 use crate::settings::LintSettings;
-use crate::written::{named, say_where, seen_from};
+use crate::written::{named, say_where};
 use urdd_findings::examined::Examined;
-use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{ImportedFrom, ImportedPart, StaleIgnore, WrittenAt};
 use urdd_source::SourceError;
 use urdd_source::import::Imported;
+use urdd_source::written::seen_from;
 
 /// What is found in the URDF of an import of the file `name` in `folder`, and the comments in it that matched nothing.
 ///
@@ -36,8 +36,8 @@ pub(crate) fn examined_import(
             macro_name: None,
         })
     };
-    say_where(&mut examined.checks, |subject| {
-        let (kind, part) = named(subject)?;
+    say_where(&mut examined.checks, &name, |place| {
+        let (kind, part) = named(place.subject.as_deref()?)?;
         find(kind, part)
     });
     for effect in examined.report.programs.iter_mut().flat_map(|program| &mut program.effects) {
@@ -51,12 +51,6 @@ pub(crate) fn examined_import(
         // An effect has a line, and no file.
         let written = written.filter(|at| at.file == name);
         (effect.line, effect.column) = written.map_or((None, None), |at| (at.line, at.column));
-    }
-    // The text is in memory: there is nothing to mend.
-    let findings = examined.checks.iter_mut().flat_map(|check| &mut check.findings);
-    for place in findings.flat_map(Finding::places_mut) {
-        place.fixes.clear();
-        place.related.iter_mut().for_each(|related| related.fixes.clear());
     }
     examined.report.imported = Some(imported_from(imported));
     Ok((examined, unused))

@@ -3,35 +3,25 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::{Document, Node};
+use urdd_xml::Node;
 
+use super::srdf_text::Srdf;
 use super::subject::Subject;
 use urdd_directory::limits::MAX_SRDF_BYTES;
-use urdd_source::Files;
-use urdd_xml::XmlError;
+use urdd_source::{Files, Trail, read_source};
 
+/// Maximum number of SRDFs that xacro is run for to find those of a robot.
+const MAX_EXPANDED: usize = 10;
 /// Maximum number of SRDFs that are read to find those of a robot.
 const MAX_FILES: usize = 100;
 /// How far up from the URDF's folder MoveIt's packages are looked for.
 const LEVELS: usize = 3;
+/// How the name of an SRDF ends that xacro makes.
+const XACRO: &str = ".srdf.xacro";
 /// Folders of SRDFs, in a package.
 const FOLDERS: [&str; 2] = ["config", "srdf"];
 /// What the name of MoveIt's package of a robot has.
 const MOVEIT: &str = "moveit_config";
-
-/// An SRDF of the robot.
-pub struct Srdf {
-    /// Its path as seen from the URDF's folder.
-    pub shown: String,
-    pub text: String,
-}
-
-impl Srdf {
-    /// Its XML, or why it is none.
-    pub fn parse(&self) -> Result<Document<'_>, XmlError> {
-        urdd_xml::parse(&self.text, urdd_xml::Kind::Robot)
-    }
-}
 
 /// A file that may be an SRDF of the robot.
 struct Candidate {
@@ -45,7 +35,11 @@ struct Candidate {
 /// The SRDFs of the robot: each whose file has the URDF's name; or else the only one whose robot has the robot's name, or the
 /// only one there is, beside the only URDF, if most of the names in it are the URDF's. No other URDF beside this one has its
 /// file's name.
-pub fn of_robot(urdf: &Subject) -> Vec<Srdf> {
+pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
+    urdf.srdfs(|| read(urdf))
+}
+
+fn read(urdf: &Subject) -> Vec<Srdf> {
     let all = candidates(urdf);
     let has_stem = all.iter().any(|one| one.has_stem);
     let is_only_urdf = urdfs(urdf).filter(|name| name.ends_with(".urdf")).count() < 2;
@@ -123,8 +117,10 @@ fn stem(path: &Path) -> String {
 fn candidates(urdf: &Subject) -> Vec<Candidate> {
     let wanted = stem(Path::new(urdf.file));
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
+    let mut expanded = 0;
+    let ends = |name: &String| name.ends_with(".srdf") || name.ends_with(XACRO);
     for (folder, shown, is_own) in folders(urdf.files, urdf.folder) {
-        for name in names(urdf.files, &folder).into_iter().filter(|name| name.ends_with(".srdf")) {
+        for name in names(urdf.files, &folder).into_iter().filter(ends) {
             let path = folder.join(&name);
             let has_stem = stem(&path) == wanted;
             let Ok(file) = urdf.files.canonicalize(&path) else { continue };
@@ -132,12 +128,34 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
                 continue;
             }
             let Ok(bytes) = urdf.files.read(&path, MAX_SRDF_BYTES) else { continue };
-            let text = String::from_utf8_lossy(&bytes).into_owned();
-            let srdf = Srdf { shown: format!("{shown}{name}"), text };
+            let mut text = String::from_utf8_lossy(&bytes).into_owned();
+            let mut trail = None;
+            if name.ends_with(XACRO) {
+                if expanded == MAX_EXPANDED || !has_name(&text) {
+                    continue;
+                }
+                expanded += 1;
+                let Some(made) = expand(urdf, &path) else { continue };
+                (text, trail) = made;
+            }
+            let srdf = Srdf { shown: format!("{shown}{name}"), path: path.clone(), text, trail };
             found.push(Candidate { path, srdf, is_own, has_stem });
         }
     }
     found
+}
+
+/// What xacro makes of an SRDF, if it may run; `None` where it makes nothing: LNT063 is about what is read.
+fn expand(urdf: &Subject, path: &Path) -> Option<(String, Option<Trail>)> {
+    let settings = urdf.xacro()?;
+    let made = read_source(path, &settings.source, &settings.report.cancellation).ok()?;
+    Some((made.text, made.trail))
+}
+
+/// Whether an SRDF makes a robot: files of macros alone name none.
+fn has_name(text: &str) -> bool {
+    let document = urdd_xml::parse(text, urdd_xml::Kind::Robot);
+    document.is_ok_and(|document| document.root_element().has_attribute("name"))
 }
 
 /// The folders that SRDFs are looked for in, each as seen from the URDF's, and whether it is of its own package.

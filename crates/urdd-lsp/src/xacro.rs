@@ -15,7 +15,7 @@ use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_lint::lint_source;
-use urdd_source::read_source;
+use urdd_source::{SourceError, read_source};
 
 /// What is wrong with the text as it is.
 pub fn of_text(snapshot: &Snapshot) -> Vec<Found> {
@@ -39,8 +39,11 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
         match read_source(path, &project.settings.source, &project.settings.report.cancellation) {
             Ok(read) => read,
             Err(error) => {
-                let message = error.to_string();
-                found.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &message));
+                let severity = match error {
+                    SourceError::NeedsArguments { .. } => DiagnosticSeverity::INFORMATION,
+                    _ => DiagnosticSeverity::ERROR,
+                };
+                found.push(at_the_top(snapshot, severity, &error.to_string()));
                 return found;
             }
         };
@@ -69,7 +72,7 @@ fn is_part(snapshot: &Snapshot) -> bool {
 }
 
 /// A finding at the place in the file that xacro made the element from, or at the element that includes that place's file;
-/// if that is not known, at the element of the same name; else at the top, with the place in the expansion.
+/// if that is not known, at the element of the same name; else at the top.
 fn of_place(
     snapshot: &Snapshot,
     files: &Files,
@@ -79,18 +82,15 @@ fn of_place(
 ) -> Diagnostic {
     let mut message = message(finding, place);
     let mut related = None;
-    let offset = match place.written_at.as_ref().map(|at| Written::new(snapshot, files, at)) {
+    let written = place.written_at.as_ref().filter(|at| at.line.is_some());
+    let offset = match written.map(|at| Written::new(snapshot, files, at)) {
         Some(Written::Here(offset)) => offset,
         Some(Written::There { location, words, offset }) => {
             message += &format!(" ({words})");
             related = location.map(|location| vec![further(location, &words)]);
             offset
         }
-        None => same_name(snapshot, place).unwrap_or_else(|| {
-            let line = place.line.map_or(1, Count::get);
-            message += &format!(" (line {line} of the expanded file)");
-            snapshot.text.content_start()
-        }),
+        None => same_name(snapshot, place).unwrap_or_else(|| snapshot.text.content_start()),
     };
     let mut found = of_offset(snapshot, check, finding, place, offset, &message);
     found.related_information = related;

@@ -1,6 +1,8 @@
 //! Faults for which a file is refused: any interpretation of it would be a guess.
 
 use thiserror::Error;
+
+use super::note::SourcePlace;
 use urdd_format::short::Short;
 
 /// Why a text is not a valid robot description.
@@ -30,9 +32,9 @@ pub enum Fault {
     UnknownJointType { joint: Short, found: Short },
     #[error("`rpy` and `quat_xyzw` both give the rotation of an `<origin>`; keep one of them")]
     TwoRotations,
-    #[error("two links are named `{name}`; the other one is on line {first}")]
+    #[error("two links are named `{name}`{other}", other = other(*.first))]
     TwoLinks { name: Short, first: u32 },
-    #[error("two joints are named `{name}`; the other one is on line {first}")]
+    #[error("two joints are named `{name}`{other}", other = other(*.first))]
     TwoJoints { name: Short, first: u32 },
     #[error("joint `{joint}` has the {end} link `{link}`, which does not exist{hint}")]
     UnknownLink {
@@ -106,6 +108,11 @@ pub enum Fault {
     TooMany(u32),
 }
 
+/// Where the other one of a name is; 0 if that is in no file.
+fn other(line: u32) -> String {
+    if line == 0 { String::new() } else { format!("; the other one is on line {line}") }
+}
+
 fn sdf_hint(element: &str) -> &'static str {
     match element {
         "sdf" => ": this is SDF; `urdd import` makes a URDF of a file of it",
@@ -118,10 +125,20 @@ fn sdf_hint(element: &str) -> &'static str {
 /// A fault and its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlacedFault {
-    /// Line in the text, from 1; 0 for the text as a whole.
+    /// The file, where that is not the one that the user named, but one that it includes.
+    pub file: Option<String>,
+    /// Line in the file, from 1; 0 for the file as a whole.
     pub line: u32,
     /// Column in the line, from 1, in characters.
     pub column: u32,
     /// What is wrong.
     pub fault: Fault,
+}
+
+impl PlacedFault {
+    /// Where it is, in a file that the user named so or in one that it includes.
+    pub fn place(&self, named: &str) -> SourcePlace {
+        let file = self.file.as_deref().unwrap_or(named).to_owned();
+        SourcePlace { file, line: self.line, column: self.column }
+    }
 }

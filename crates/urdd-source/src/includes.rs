@@ -34,7 +34,7 @@ fn has_macros(file: &Path) -> bool {
 
 fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
     let given = PackageIndex::new(&settings.packages, file).ok()?;
-    let text = run(&["--deps"], file, "", &settings.xacro, &given, cancellation).ok()?;
+    let text = run(&["--deps"], file, "", &settings.xacro, &given, None, cancellation).ok()?;
     let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
     // A name with a blank is listed as two.
     files.iter().all(|file| file.is_file()).then_some(files)

@@ -2,18 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
+use super::arguments::needed;
 use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
-use super::note::{Note, Remark};
+use super::note::{Note, Remark, SourcePlace};
 use super::repair;
 use super::settings::Settings;
 use super::urdf::{self, Reading};
+use super::watch::Trail;
+use super::written::WrittenMap;
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::path;
-use urdd_directory::position::LineIndex;
+use urdd_directory::position::{LineIndex, Position};
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::element::apply;
@@ -38,8 +41,8 @@ pub struct Source {
     pub reading: Reading,
     /// Deviations in the source.
     pub notes: Vec<Note>,
-    /// The line and column in the file of each mesh in `reading.mesh_offsets`.
-    pub mesh_places: Vec<(u32, u32)>,
+    /// Where each mesh in `reading.mesh_offsets` is.
+    pub mesh_places: Vec<SourcePlace>,
 }
 
 impl Source {
@@ -47,7 +50,7 @@ impl Source {
     pub fn refused(&self, fault: Fault) -> SourceError {
         SourceError::Refused {
             file: self.shown.clone(),
-            faults: vec![PlacedFault { line: 1, column: 1, fault }],
+            faults: vec![PlacedFault { file: None, line: 1, column: 1, fault }],
         }
     }
 }
@@ -71,8 +74,8 @@ pub fn load(
 pub struct SourceText {
     /// The text: of the file, or what xacro made of it. Nothing is repaired.
     pub text: String,
-    /// Whether it was expanded.
-    pub is_expanded: bool,
+    /// Where xacro has its elements from, if it was expanded.
+    pub trail: Option<Trail>,
     /// The folder that relative names refer to, with symbolic links resolved.
     pub folder: PathBuf,
     /// The bytes of the file, where they are not those of the text: another encoding, or a byte order mark.
@@ -96,11 +99,11 @@ pub fn read_source(
     cancellation: &Cancellation,
 ) -> Result<SourceText, SourceError> {
     let read = read(path, settings, cancellation, &mut Vec::new())?;
-    let is_same = read.is_expanded || read.bytes == read.text.as_bytes();
+    let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
         original: (!is_same).then_some(read.bytes),
         text: read.text,
-        is_expanded: read.is_expanded,
+        trail: read.trail,
         folder: read.folder,
     })
 }
@@ -117,8 +120,9 @@ struct Read {
     text: String,
     /// Whether the text is an exact decoding of the bytes.
     is_verbatim: bool,
-    /// Whether xacro made it.
-    is_expanded: bool,
+    /// Where xacro has its elements from, if it made it, and the file.
+    trail: Option<Trail>,
+    path: PathBuf,
 }
 
 /// Decodes the bytes of a file, and expands them where they are macros.
@@ -139,21 +143,31 @@ fn read(
     // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = path.extension().is_some_and(|extension| extension == "xacro");
     let is_expanded = is_xacro_file || (settings.xacro.expand_urdf && text.contains("<xacro:"));
-    Ok(Read {
-        text: match (is_expanded, &settings.files) {
-            (true, Files::Disk) => {
-                xacro::expand(path, &shown, &settings.xacro, &settings.packages, cancellation)?
-            }
-            (true, Files::Memory(_)) => return Err(SourceError::NoXacro { file: shown }),
-            (false, _) => text,
-        },
-        is_verbatim: is_verbatim && !is_expanded,
-        is_expanded,
-        shown,
-        bytes,
-        stem: stem(&canonical),
-        folder,
-    })
+    let (text, trail) = match (is_expanded, &settings.files) {
+        (true, Files::Disk) => {
+            let (xacro, packages) = (&settings.xacro, &settings.packages);
+            let expanded = xacro::expand(path, &shown, xacro, packages, cancellation);
+            let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
+            (text, Some(trail))
+        }
+        (true, Files::Memory(_)) => return Err(SourceError::NoXacro { file: shown }),
+        (false, _) => (text, None),
+    };
+    let (stem, is_verbatim) = (stem(&canonical), is_verbatim && !is_expanded);
+    Ok(Read { text, is_verbatim, trail, shown, bytes, stem, folder, path: canonical })
+}
+
+/// An error of xacro, which says what is missing where arguments are.
+fn explained(error: SourceError, path: &Path, settings: &Settings) -> SourceError {
+    let (file, reason) = match &error {
+        SourceError::Xacro { file, reason } => (file.clone(), format!("xacro says: {reason}")),
+        SourceError::NoXacro { file } => (file.clone(), error.to_string()),
+        _ => return error,
+    };
+    match needed(path, settings) {
+        needed if needed.is_empty() => error,
+        needed => SourceError::NeedsArguments { file, needed, reason },
+    }
 }
 
 /// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`.
@@ -197,7 +211,10 @@ fn in_memory(
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
     let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
-    mend(Read { shown, bytes, stem, folder, text, is_verbatim, is_expanded: false }, notes)
+    mend(
+        Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path: PathBuf::new() },
+        notes,
+    )
 }
 
 /// A robot, read from memory.
@@ -224,29 +241,23 @@ pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
 
 /// Reads a robot, and repairs its text until both match.
 fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
-    let Read { shown, bytes, stem, folder, text, mut is_verbatim, .. } = read;
+    let Read { shown, bytes, stem, folder, text, mut is_verbatim, trail, path } = read;
     let (mut text, remarks, first_line) = repair::mend_xml(text);
     is_verbatim &= remarks.is_empty();
-    place(&remarks, &text, &shown, first_line, &mut notes);
+    let origin = Origin { shown: &shown, first_line, trail: trail.as_ref(), path: &path };
+    note(&remarks, &text, &origin, &mut notes);
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
-        let refused = |mut faults: Vec<PlacedFault>| {
-            for placed in &mut faults {
-                placed.line += first_line;
-            }
-            SourceError::Refused { file: shown.clone(), faults }
+        let refused = |faults| SourceError::Refused {
+            file: shown.clone(),
+            faults: origin.faults(&text, faults),
         };
         let mut reading = urdf::read(&text, &stem).map_err(refused)?;
         // Later texts are repaired; positions in them mean nothing to the user.
         let places = mesh_places.get_or_insert_with(|| {
-            place(&reading.remarks, &text, &shown, first_line, &mut notes);
-            let lines = LineIndex::new(&text);
-            let places = reading.mesh_offsets.iter().map(|offset| {
-                let at = lines.position(*offset);
-                (at.line + first_line, at.column)
-            });
-            places.collect()
+            note(&reading.remarks, &text, &origin, &mut notes);
+            origin.offsets(&text, reading.mesh_offsets.iter().copied())
         });
         if !reading.edits.is_empty() {
             is_verbatim = false;
@@ -268,19 +279,69 @@ fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
     Err(SourceError::Internal { file: shown, reason })
 }
 
-fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mut Vec<Note>) {
-    let lines = LineIndex::new(text);
-    notes.extend(remarks.iter().map(|remark| {
-        let at = lines.position(remark.offset);
-        Note {
-            kind: remark.kind,
-            file: file.to_owned(),
-            line: at.line + first_line,
-            column: at.column,
-            problem: remark.problem.clone(),
-            assumed: remark.assumed.clone(),
-        }
+fn note(remarks: &[Remark], text: &str, origin: &Origin, notes: &mut Vec<Note>) {
+    let places = origin.offsets(text, remarks.iter().map(|remark| remark.offset));
+    notes.extend(remarks.iter().zip(places).map(|(remark, SourcePlace { file, line, column })| {
+        let (problem, assumed) = (remark.problem.clone(), remark.assumed.clone());
+        Note { kind: remark.kind, file, line, column, problem, assumed }
     }));
+}
+
+/// What a text was made from.
+struct Origin<'a> {
+    shown: &'a str,
+    /// Number of lines that are missing at the beginning.
+    first_line: u32,
+    trail: Option<&'a Trail>,
+    path: &'a Path,
+}
+
+impl Origin<'_> {
+    /// Where offsets of the text are in the user's files.
+    fn offsets(&self, text: &str, offsets: impl Iterator<Item = usize>) -> Vec<SourcePlace> {
+        let lines = LineIndex::new(text);
+        self.places(text, offsets.map(|offset| lines.position(offset)).collect())
+    }
+
+    /// Where places of the text are in the user's files: lines of an expansion are in none.
+    fn places(&self, text: &str, places: Vec<Position>) -> Vec<SourcePlace> {
+        let Some(trail) = self.trail.filter(|_| !places.is_empty()) else {
+            let line = |at: Position| if at.line == 0 { 0 } else { at.line + self.first_line };
+            let place = |at: Position| SourcePlace {
+                file: self.shown.to_owned(),
+                line: line(at),
+                column: at.column,
+            };
+            return places.into_iter().map(place).collect();
+        };
+        let found = WrittenMap::new(text, trail, self.path).find(places.iter().copied());
+        let beside = |file: &str| Path::new(self.shown).with_file_name(file).display().to_string();
+        let place = |at: Position| match found.get(&at) {
+            Some(written) => SourcePlace {
+                file: if written.is_main { self.shown.to_owned() } else { beside(&written.file) },
+                line: written.at.line,
+                column: written.at.column,
+            },
+            None => SourcePlace { file: self.shown.to_owned(), line: 0, column: 0 },
+        };
+        places.into_iter().map(place).collect()
+    }
+
+    fn faults(&self, text: &str, mut faults: Vec<PlacedFault>) -> Vec<PlacedFault> {
+        let places = faults.iter().map(|one| Position { line: one.line, column: one.column });
+        let places = self.places(text, places.collect());
+        for (placed, SourcePlace { file, line, column }) in faults.iter_mut().zip(places) {
+            placed.file = Some(file).filter(|file| file != self.shown);
+            (placed.line, placed.column) = (line, column);
+            if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } =
+                &mut placed.fault
+                && self.trail.is_some()
+            {
+                *first = 0;
+            }
+        }
+        faults
+    }
 }
 
 /// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC

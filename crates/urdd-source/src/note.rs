@@ -91,6 +91,25 @@ impl NoteKind {
     }
 }
 
+/// A place in a file of the user's.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourcePlace {
+    /// The file, as the user named it; as seen from there for one that it includes.
+    pub file: String,
+    /// Line in the file, from 1; 0 for the file as a whole.
+    pub line: u32,
+    /// Column in the line, from 1, in characters; 0 for the file as a whole.
+    pub column: u32,
+}
+
+impl fmt::Display for SourcePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // One line: a name must not add line breaks.
+        f.write_str(&escape::line(&self.file))?;
+        if self.line > 0 { write!(f, ":{}:{}", self.line, self.column) } else { Ok(()) }
+    }
+}
+
 /// A deviation in the source, and how it was interpreted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {

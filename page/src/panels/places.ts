@@ -42,7 +42,7 @@ export function placeList(app: App, all: readonly Place[], of: number): HTMLElem
 function placeRow(app: App, place: Place): HTMLElement {
   const { robot } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
-  const written = place.written_at;
+  const macro = place.written_at?.macro_name;
   const { draft } = app.store.now;
   const isInDraft = draft !== null && place.line !== null && isDraft(draft, place.file);
   const fixes = fixesOf(draft, place);
@@ -63,7 +63,7 @@ function placeRow(app: App, place: Place): HTMLElement {
     {},
     go,
     place.subject && where && h("span", { class: "kind" }, ` ${name(where)}`),
-    written && h("span", { class: "kind" }, ` written at ${name(said(written))}`),
+    macro && h("span", { class: "kind" }, ` in the macro ${name(macro)}`),
     place.message && h("span", { class: "what" }, ...prose(name(place.message))),
     fix &&
       h(
@@ -84,10 +84,6 @@ function placeRow(app: App, place: Place): HTMLElement {
     place.related.length > 0 && h("ul", { class: "places" }, ...place.related.map((other) => placeRow(app, other))),
     text,
   );
-}
-
-function said({ file, line, macro_name }: NonNullable<Place["written_at"]>): string {
-  return `${file}${line === null ? "" : `:${line}`}${macro_name === null ? "" : `, macro ${macro_name}`}`;
 }
 
 /** The text of a file in the report. */

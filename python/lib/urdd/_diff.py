@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _urdd
+from ._options import source
 
 if TYPE_CHECKING:
     from .report import DiffReport
@@ -23,6 +24,9 @@ def diff(
     tolerance: float = 0.0,
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
+    xacro: bool = False,
+    xacro_arguments: Mapping[str, object] | None = None,
+    xacro_timeout: float = 60.0,
 ) -> DiffReport:
     """Tells how two robots differ in meaning, as ``urdd diff`` does: formatting, the order of attributes, and the
     format of meshes make no difference.
@@ -33,13 +37,16 @@ def diff(
     True
 
     Args:
-        before: a URDF, or a URDD: a folder or a zip archive.
+        before: a URDF, a xacro file, an MJCF or SDF, or a URDD: a folder or a zip archive.
         after: the other robot.
         findings: also compares what :func:`validate` finds in each, which takes most of the time.
         tolerance: numbers that differ by at most this, in the unit of each value (metres, radians, kilograms, …), are
             equal. Meshes are compared exactly.
         packages: the folders of ROS packages, by name, for meshes of URDFs.
         allowed_folders: folders besides those of the robot and its packages from which mesh files may be read.
+        xacro: also expands macros in .urdf files.
+        xacro_arguments: arguments of the xacro files, by name, for both robots.
+        xacro_timeout: time limit of the program xacro, seconds.
 
     Raises:
         OpenError: if one of the robots cannot be read.
@@ -52,7 +59,6 @@ def diff(
         Path(after),
         bool(findings),
         float(tolerance),
-        [(name, Path(path)) for name, path in (packages or {}).items()],
-        [Path(folder) for folder in allowed_folders],
+        source(packages, allowed_folders, xacro, xacro_arguments, xacro_timeout),
     )
     return read_diff_report(text)

@@ -211,8 +211,7 @@ def diff(
     after: Path,
     findings: bool,
     tolerance: float,
-    packages: list[tuple[str, Path]],
-    allowed_folders: list[Path],
+    source: Source,
 ) -> str: ...
 def generate(
     source: Path,

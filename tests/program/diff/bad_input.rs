@@ -33,6 +33,7 @@ fn what_is_no_robot_is_refused_with_advice() {
         ("two.urdf", "two.urdf:1:"),
         ("robot.sdf", "robot.sdf:1:"),
         ("robot.xacro", "xacro"),
+        ("none.xacro", "no such file"),
         ("bomb.urdf", "bomb.urdf:1:"),
         ("deep.urdf", "deep.urdf:1:"),
         ("junk.urdf", "not a text file: its byte 5 is 0"),

@@ -9,12 +9,14 @@ use urdd_format::schema::{Subject, Variant};
 
 /// Exit status, standard output, standard error of `urdd diff` in a folder.
 pub fn diff(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .arg("diff")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
+    run(folder, arguments, None)
+}
+
+/// The same, with programs in a folder.
+pub fn run(folder: &Path, arguments: &[&str], programs: Option<&Path>) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+    command.arg("diff").args(arguments).current_dir(folder);
+    let output = command.envs(programs.map(|path| ("PATH", path))).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }

@@ -2,3 +2,5 @@
 
 mod bad_input;
 mod command;
+#[cfg(unix)]
+mod expanded;

@@ -116,3 +116,33 @@ fn an_import_waits_for_others_and_sees_what_they_wrote() {
     });
     assert_eq!(skipped(&urdd).len(), 10);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_srdf_that_is_xacro_is_expanded() {
+    let (folder, urdd) = made_of(&line());
+    let programs = crate::lint::xacro::hand("hand");
+    let text = "<robot name=\"line\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
+        <xacro:macro name=\"pair\" params=\"prefix\">\
+        <disable_collisions link1=\"${prefix}4\" link2=\"l2\" reason=\"Never\"/></xacro:macro>\n\
+        <xacro:pair prefix=\"l\"/></robot>";
+    std::fs::write(folder.path().join("x.srdf.xacro"), text).expect("a file");
+    std::fs::write(folder.path().join("x.srdf"), srdf("")).expect("a file");
+    let run = |arguments: &[&str]| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .args(["skips", "import"])
+            .args(arguments)
+            .current_dir(folder.path())
+            .env("PATH", programs.path().join("bin"))
+            .output()
+            .expect("the program");
+        let [out, err] =
+            [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        out + &err
+    };
+    let told = run(&["x.srdf.xacro", "robot", "a:=1"]);
+    assert!(told.starts_with("robot: 1 edit added; 0 pairs"), "{told}");
+    assert!(skipped(&urdd).contains(&(2, 4)));
+    let told = run(&["x.srdf", "robot", "a:=1"]);
+    assert!(told.contains("x.srdf: not a xacro file"), "{told}");
+}

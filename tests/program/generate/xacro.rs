@@ -237,3 +237,32 @@ fn what_left_its_session_ends_too() {
     assert!(asked.elapsed() < Duration::from_secs(4));
     assert!(!is_alive());
 }
+
+#[test]
+fn faults_and_notes_name_the_place_in_the_xacro_file() {
+    let folder = crate::lint::xacro::hand("hand");
+    let file = folder.path().join("hand/parts/finger.xacro");
+    let text = fs::read_to_string(&file).unwrap();
+    let said = |text: &str| {
+        fs::write(&file, text).unwrap();
+        let output = urdd(&["generate", "hand/hand.urdf.xacro", "-o", "out", "--force"])
+            .current_dir(folder.path())
+            .env("PATH", folder.path().join("bin"))
+            .output()
+            .unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    // A joint without limits is a note.
+    let without = text.replace("<limit lower=", "<limits lower=");
+    let noted = said(&without);
+    assert!(noted.contains("hand/parts/finger.xacro:4:1: "), "{noted}");
+    let refused = said(&text.replace("\"prismatic\"", "\"wheel\""));
+    assert!(refused.contains("hand/parts/finger.xacro:4:"), "{refused}");
+    // Two links of one name, on one line of the macro: no line of the expansion is named.
+    let main = folder.path().join("hand/hand.urdf.xacro");
+    let twice = "<xacro:finger prefix=\"left\"/>";
+    let twice = fs::read_to_string(&main).unwrap().replace(twice, &twice.repeat(2));
+    fs::write(&main, twice).unwrap();
+    let refused = said(&text);
+    assert!(refused.contains("finger.xacro:3:1: two links are named `left_tip`\n"), "{refused}");
+}

@@ -19,9 +19,10 @@ use urdd_format::report::{
 /// The report on examined URDDs, with severities, ignores and the selection of the settings applied.
 pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     let stale_ignores = settings.apply(&mut examined);
-    for one in examined.iter_mut().filter(|one| one.report.imported.is_some()) {
+    for one in &mut examined {
+        let is_import = one.report.imported.is_some();
         let findings = one.checks.iter_mut().flat_map(|check| &mut check.findings);
-        findings.flat_map(Found::places_mut).for_each(in_original);
+        findings.flat_map(Found::places_mut).for_each(|place| in_original(place, is_import));
     }
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let urdds: Vec<Urdd> = examined.into_iter().map(|examined| urdd(examined, fail_on)).collect();
@@ -44,13 +45,22 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     }
 }
 
-/// Moves a place to where the original of an import has what it is about: nobody has the URDF that the import makes. Until
-/// here, places in that URDF tell which findings follow from others.
-fn in_original(place: &mut Place) {
-    let written = place.written_at.take();
-    (place.line, place.column) = written.as_ref().map_or((None, None), |at| (at.line, at.column));
-    place.file = written.map(|at| at.file).or(place.file.take());
-    place.related.iter_mut().for_each(in_original);
+/// Moves a place to where the original of an import or an expansion has what it is about: nobody has the URDF that was made
+/// of it. Until here, places in that URDF tell which findings follow from others.
+fn in_original(place: &mut Place, is_import: bool) {
+    match &place.written_at {
+        Some(at) => {
+            place.file = Some(at.file.clone());
+            (place.line, place.column) = (at.line, at.column);
+        }
+        None if is_import => (place.line, place.column) = (None, None),
+        None => {}
+    }
+    // It speaks of xacro.
+    if is_import || place.line.is_none() {
+        place.written_at = None;
+    }
+    place.related.iter_mut().for_each(|related| in_original(related, is_import));
 }
 
 pub(super) fn urdd(examined: Examined, fail_on: Severity) -> Urdd {

@@ -41,6 +41,11 @@ pub fn file_in(place: &str, file: Option<&str>) -> String {
     if parts.is_empty() { folder(place) } else { parts.join("/") }
 }
 
+/// Whether a file of the URDD at `place` is in the folder that `place` is relative to: tools show no other.
+pub fn is_inside(place: &str, file: Option<&str>) -> bool {
+    file.is_none() || !file_in(place, file).ends_with('/')
+}
+
 /// A path as seen from the current folder, with `/`. None if it is outside.
 #[doc(hidden)]
 pub fn relative(path: &Path, current: &Path) -> Option<String> {

@@ -15,7 +15,7 @@ use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesMo
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::read::Scene;
 use urdd_source::gate::Gate;
-use urdd_source::note::{Note, NoteKind};
+use urdd_source::note::{Note, NoteKind, SourcePlace};
 use urdd_source::{FoundMesh, Inspected, NotFound, Place, named};
 
 /// The module, and what later stages use.
@@ -51,10 +51,10 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
     let gate = Gate::new(&source.folder, &settings.source);
     let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
     // The distinct names in the order of the URDF, each with its first position.
-    let mut names: Vec<(&str, (u32, u32))> = Vec::new();
+    let mut names: Vec<(&str, &SourcePlace)> = Vec::new();
     for (mesh, place) in named.iter().zip(&source.mesh_places) {
         found_files.entry(mesh.filename).or_insert_with(|| {
-            names.push((mesh.filename, *place));
+            names.push((mesh.filename, place));
             gate.find(mesh.filename)
         });
     }
@@ -78,8 +78,7 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
         progress.reads(Path::new(tried));
     }
 
-    let mut notes =
-        Notes { file: &source.shown, gate: &gate, said: BTreeSet::new(), notes: Vec::new() };
+    let mut notes = Notes { gate: &gate, said: BTreeSet::new(), notes: Vec::new() };
     let mut count = MeshCount { named: names.len(), ..MeshCount::default() };
     let mut carried = Vec::new();
     for (name, place) in &names {
@@ -87,7 +86,7 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
             Ok(found) => found,
             Err(why) => {
                 count.not_found += 1;
-                notes.not_found(name, *place, why);
+                notes.not_found(name, place, why);
                 continue;
             }
         };
@@ -100,7 +99,7 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
             (Some(_), Err(_)) => count.not_usable += 1,
             (Some(_), Ok(_)) => {}
         }
-        notes.found(name, *place, found, inside);
+        notes.found(name, place, found, inside);
         if inside.bytes.is_some() {
             let side_files =
                 inside.side_files.iter().map(|(path, side)| (path.as_path(), &side.place));
@@ -153,12 +152,12 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
 /// Refuses a robot that references files outside the folders from which they may be read.
 fn refuse_outside(
     file: &str,
-    names: &[(&str, (u32, u32))],
+    names: &[(&str, &SourcePlace)],
     found: &BTreeMap<&str, Result<FoundMesh, NotFound>>,
 ) -> Result<(), GenerateError> {
-    let outside = names.iter().filter_map(|(name, (line, column))| {
+    let outside = names.iter().filter_map(|(name, place)| {
         let path = found[name].as_ref().err()?.outside.clone()?;
-        Some(OutsideMesh { line: *line, column: *column, name: (*name).to_owned(), path })
+        Some(OutsideMesh { place: (*place).clone(), name: (*name).to_owned(), path })
     });
     let meshes: Vec<OutsideMesh> = outside.collect();
     if meshes.is_empty() {
@@ -168,7 +167,6 @@ fn refuse_outside(
 }
 
 struct Notes<'a> {
-    file: &'a str,
     gate: &'a Gate,
     /// Files whose notes are complete.
     said: BTreeSet<&'a Path>,
@@ -176,18 +174,18 @@ struct Notes<'a> {
 }
 
 impl<'a> Notes<'a> {
-    fn note(&mut self, kind: NoteKind, place: (u32, u32), problem: String, assumed: &str) {
+    fn note(&mut self, kind: NoteKind, place: &SourcePlace, problem: String, assumed: &str) {
         self.notes.push(Note {
             kind,
-            file: self.file.to_owned(),
-            line: place.0,
-            column: place.1,
+            file: place.file.clone(),
+            line: place.line,
+            column: place.column,
             problem,
             assumed: assumed.to_owned(),
         });
     }
 
-    fn not_found(&mut self, name: &str, place: (u32, u32), why: &NotFound) {
+    fn not_found(&mut self, name: &str, place: &SourcePlace, why: &NotFound) {
         let problem = format!("mesh `{name}` was not found ({})", why.in_words());
         let assumed = "not carried; the element has no surface";
         self.note(NoteKind::MeshNotFound, place, problem, assumed);
@@ -196,7 +194,7 @@ impl<'a> Notes<'a> {
     fn found(
         &mut self,
         name: &str,
-        place: (u32, u32),
+        place: &SourcePlace,
         found: &'a FoundMesh,
         inside: &'a Inspected,
     ) {
@@ -240,7 +238,7 @@ impl<'a> Notes<'a> {
     }
 
     /// Notes a stored file that is outside the robot's own folder.
-    fn outside(&mut self, what: String, place: (u32, u32), file: &Path, of: &Place) {
+    fn outside(&mut self, what: String, place: &SourcePlace, file: &Path, of: &Place) {
         let Some(why) = self.gate.elsewhere(file, of) else { return };
         let assumed = format!("carried, {why}");
         let path = file.display();

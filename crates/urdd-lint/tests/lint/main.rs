@@ -21,7 +21,6 @@ mod severities;
 mod skips;
 mod srdf;
 mod vocabulary;
-mod written;
 
 use std::fs;
 use std::path::Path;

@@ -40,7 +40,7 @@ pub fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
         if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } = &mut fault {
             *first = lines.position(*first as usize).line;
         }
-        PlacedFault { line: at.line, column: at.column, fault }
+        PlacedFault { file: None, line: at.line, column: at.column, fault }
     });
     Err(faults.collect())
 }

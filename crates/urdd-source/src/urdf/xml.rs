@@ -20,5 +20,5 @@ pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
         XmlError::Entities(_) => Fault::Entities,
         _ => Fault::NotXml(error.words(text)),
     };
-    PlacedFault { line: at.row, column: at.col, fault }
+    PlacedFault { file: None, line: at.row, column: at.col, fault }
 }
