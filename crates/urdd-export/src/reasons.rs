@@ -18,7 +18,7 @@ use urdd_geometry::oriented_box::corners;
 use urdd_geometry::primitives::Primitive;
 use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
-/// The most shapes of which pairs are judged: time grows with their square.
+/// The most shapes, or pieces of them, of which pairs are judged: time grows with their square.
 const MOST_SHAPES: usize = 1_000;
 
 /// Sides of the prism that stands for a cylinder.
@@ -43,10 +43,11 @@ impl Judged {
         as_hulls: bool,
         samples: u32,
     ) -> Result<Self, ExportError> {
-        let count: usize = shapes.iter().map(Vec::len).sum();
-        if count > MOST_SHAPES {
-            return Err(ExportError::TooManyShapes { count, most: MOST_SHAPES });
-        }
+        let within = |count: usize| match count > MOST_SHAPES {
+            true => Err(ExportError::TooManyShapes { count, most: MOST_SHAPES }),
+            false => Ok(()),
+        };
+        within(shapes.iter().map(Vec::len).sum())?;
         let (mut places, mut bodies, mut radii) = (Vec::new(), Vec::new(), Vec::new());
         for (link, shapes) in shapes.iter().enumerate() {
             let of_link = shapes.iter().flat_map(|shape| cores(shape, as_hulls));
@@ -56,6 +57,8 @@ impl Judged {
                 places.push((link, if as_hulls { number } else { place }));
                 radii.push(radius);
             }
+            // A mesh may have become several.
+            within(bodies.len())?;
         }
         let groups = RigidGroups::new(&structure.view, &structure.tree).of_link;
         let space = robot.configurations()?;

@@ -45,7 +45,7 @@ pub(super) struct BaseTable {
     #[serde(default)]
     pub floating: bool,
     #[serde(default)]
-    pub poses: BTreeMap<String, Spanned<Vec<f64>>>,
+    pub poses: BTreeMap<Name, Spanned<Vec<f64>>>,
 }
 
 #[derive(Deserialize)]

@@ -133,15 +133,13 @@ impl Reader<'_> {
             curobo.locked.insert(self.driven(name)?, *position.get_ref());
         }
         if let Some(name) = &file.curobo.retract {
-            let known = self.configurations.iter().map(String::as_str);
-            find(name, "named configuration", known)?;
-            curobo.retract = Some(name.get_ref().clone());
+            curobo.retract = Some(self.configuration(name)?);
         }
         let links = |names: &[Name]| -> Placed<Vec<usize>> {
             names.iter().map(|name| self.link(name)).collect()
         };
         let poses = file.base.poses.iter();
-        let poses = poses.map(|(name, pose)| Ok((name.clone(), base_pose(pose)?)));
+        let poses = poses.map(|(name, pose)| Ok((self.configuration(name)?, base_pose(pose)?)));
         Ok(Setup {
             of: self.structure.identity(),
             floating: Guess::read(file.base.floating),
@@ -241,6 +239,18 @@ impl Reader<'_> {
     fn link(&self, name: &Name) -> Placed<usize> {
         let links = &self.structure.view.links;
         find(name, "link", links.iter().map(|link| link.name.as_str()))
+    }
+
+    fn configuration(&self, name: &Name) -> Placed<String> {
+        let found =
+            find(name, "named configuration", self.configurations.iter().map(String::as_str));
+        // `urdd import` writes them into an SRDF.
+        let advice = match self.configurations.is_empty() {
+            true => "; `urdd configurations import` takes those of an SRDF into a URDD",
+            false => "",
+        };
+        found.map_err(|(at, reason)| (at, reason + advice))?;
+        Ok(name.get_ref().clone())
     }
 
     /// The joint of a name that something can drive, or all such joints that a pattern stands for.

@@ -85,11 +85,11 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
     assert_eq!(actuator.attribute("ctrlrange"), Some("-20 20"));
 }
 
-/// Adds a named configuration with `turn` at 0.5 rad.
-pub fn name_configuration(robot: &Robot, path: &Path, name: &str) {
+/// Adds a named configuration with a DOF at 0.5 rad.
+pub fn name_configuration(robot: &Robot, path: &Path, name: &str, dof: &str) {
     let edit = ConfigurationEdit {
         name: ConfigurationName::new(name).expect("a name"),
-        positions: vec![DofPosition { dof_name: "turn".to_owned(), position: 0.5 }],
+        positions: vec![DofPosition { dof_name: dof.to_owned(), position: 0.5 }],
     };
     let edited = robot.with_named_configurations(&[edit]).expect("files");
     for (file, bytes) in edited.files {
@@ -111,7 +111,7 @@ fn named_configurations_are_keyframes() {
     let robot = Robot::open(&path).expect("a robot");
     // 0 is out of the bounds of `push`; `follow` is at 2 * 0.1 + 0.05.
     assert_eq!(key(&robot, "default"), ["0 0.1 0.25", "0 0.1"]);
-    name_configuration(&robot, &path, "home");
+    name_configuration(&robot, &path, "home", "turn");
     let robot = Robot::open(&path).expect("a robot");
     assert_eq!(key(&robot, "home"), ["0.5 0.1 0.25", "0.5 0.1"]);
     // Without actuators there is nothing to control.
@@ -159,7 +159,7 @@ fn names_of_configurations_come_out_as_they_went_in() {
         ("\u{0}", false),
     ] {
         let (_folder, path) = made_of(URDF);
-        name_configuration(&Robot::open(&path).expect("a robot"), &path, name);
+        name_configuration(&Robot::open(&path).expect("a robot"), &path, name, "turn");
         let robot = Robot::open(&path).expect("a robot");
         match export(&robot, Format::Mjcf, &Choices::default()) {
             Ok(made) => {

@@ -1,7 +1,9 @@
 //! Pairs of links that need no collision check.
 
+use crate::made::{export, robot, urdf};
 use SkipReason::{Adjacent, Always, Default as Resting, Never, None as Sometimes};
 use urdd_export::pairs::*;
+use urdd_export::{Choices, Format};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 
 #[test]
@@ -23,4 +25,25 @@ fn names_in_very_many_pairs_are_charged() {
     }
     assert!(charge(40_000 * 300, 300).is_err());
     assert!(charge(usize::MAX / 1000, 2_000).is_err());
+}
+
+#[test]
+fn an_export_of_long_names_in_very_many_pairs_is_refused() {
+    let exported = |length: usize| {
+        let name = |k: usize| format!("{k}{}", "n".repeat(length));
+        let link = |k: usize| {
+            let geometry = "<collision><geometry><box size='1 1 1'/></geometry></collision>";
+            format!("<link name='{}'>{geometry}</link>", name(k))
+        };
+        let joint = |k: usize| {
+            let ends = format!("<parent link='{}'/><child link='{}'/>", name(0), name(k));
+            format!("<joint name='j{k}' type='fixed'>{ends}</joint>")
+        };
+        let parts = (0..60).map(link).chain((1..60).map(joint)).collect::<String>();
+        let (_folder, robot) = robot(&urdf(&parts));
+        export(&robot, Format::Srdf, &Choices::default()).map(drop)
+    };
+    assert!(exported(40).is_ok());
+    let error = exported(20_000).expect_err("too much").to_string();
+    assert!(error.contains("more would be made"), "{error}");
 }

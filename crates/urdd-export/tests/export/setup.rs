@@ -1,6 +1,7 @@
 //! What exports need and a URDD does not say: guesses, the file, and what is wrong in it.
 
 use crate::made::export;
+use crate::mjcf_actuators::name_configuration;
 use urdd_export::{ActuatorKind, Choices, Format, Setup};
 use urdd_robot::Robot;
 
@@ -96,11 +97,36 @@ fn an_arm_on_wheels_with_a_gripper() {
     assert_eq!(said(&read.to_toml(&robot).expect("text")), expected);
 }
 
+/// The tool frame of ROS-Industrial is before the hand that is mounted on it; a frame of the hand is before both.
+#[test]
+fn tool0_is_the_tool_of_an_arm_with_a_hand() {
+    let tcp = "<link name=\"hand_tcp\"/><joint name=\"t\" type=\"fixed\"><parent link=\"palm_link\"/>\
+        <child link=\"hand_tcp\"/></joint></robot>";
+    let mounted = mobile().replace("mount_link", "tool0");
+    let flange = mounted.replace("palm_link", "gripper_base").replace(
+        "</robot>",
+        "<link name=\"flange\"/><joint name=\"t\" type=\"fixed\"><parent link=\"tool0\"/>\
+        <child link=\"flange\"/></joint></robot>",
+    );
+    for (urdf, tool) in [
+        (mounted.clone(), "tools = [\"tool0\"]"),
+        (flange, "tools = [\"tool0\"]"),
+        (mounted.replace("</robot>", tcp), "tools = [\"hand_tcp\"]"),
+    ] {
+        let (_folder, path) = made_of(&urdf);
+        let robot = Robot::open(path).expect("a robot");
+        let text = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
+        assert!(said(&text).contains(&tool), "{text}");
+    }
+}
+
 /// All that a person set is in the text again.
 #[test]
 fn what_a_person_set_is_written_again() {
     let (_folder, path) = made_of(&mobile());
-    let robot = Robot::open(path).expect("a robot");
+    let robot = Robot::open(&path).expect("a robot");
+    name_configuration(&robot, &path, "up", "j1");
+    let robot = Robot::open(&path).expect("a robot");
     let guess = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
     let mine = guess
         .replace(
@@ -156,7 +182,9 @@ fn a_pattern_stands_for_joints_and_what_says_more_counts() {
 #[test]
 fn what_is_wrong_in_the_file_is_said_with_its_place() {
     let (_folder, path) = made_of(&mobile());
-    let robot = Robot::open(path).expect("a robot");
+    let robot = Robot::open(&path).expect("a robot");
+    name_configuration(&robot, &path, "up", "j1");
+    let robot = Robot::open(&path).expect("a robot");
     let group = |inner: &str| format!("robot = \"m\"\n[[group]]\nname = \"g\"\n{inner}\n");
     let cases = [
         ("robot = \"n\"", ":1:9: this file is for robot `n`, not for `m`"),
@@ -218,9 +246,13 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
             "robot = \"m\"\n[actuators.joint]\n\"j*\" = { kp = 1.0 }\n\"*1\" = { kp = 2.0 }",
             "say `kp` of one joint, and neither is longer",
         ),
-        ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1]", ":3:11: a pose is 7 numbers"),
-        ("robot = \"m\"\n[base]\nposes.x = [0, 0, 1, 0, 0, 0, 0]", "a pose is 7 numbers"),
-        ("robot = \"m\"\n[base]\nposes.x = [nan, 0, 1, 1, 0, 0, 0]", "a pose is 7 numbers"),
+        ("robot = \"m\"\n[base]\nposes.up = [0, 0, 1]", ":3:12: a pose is 7 numbers"),
+        ("robot = \"m\"\n[base]\nposes.up = [0, 0, 1, 0, 0, 0, 0]", "a pose is 7 numbers"),
+        ("robot = \"m\"\n[base]\nposes.up = [nan, 0, 1, 1, 0, 0, 0]", "a pose is 7 numbers"),
+        (
+            "robot = \"m\"\n[base]\nposes.x = [0, 0, 1, 1, 0, 0, 0]",
+            ":3:7: there is no named configuration `x`",
+        ),
         (
             "robot = \"m\"\n[actuators.joint.j1]\nctrlrange = [1.0, 1.0]",
             ":2:1: `ctrlrange` is two numbers, the first below the second",

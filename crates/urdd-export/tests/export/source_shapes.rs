@@ -390,3 +390,56 @@ fn moveit_judges_a_hollow_by_its_pieces_and_mujoco_by_its_hull() {
         "always in contact with the hull: {drake}"
     );
 }
+
+/// Fewer than the limit, and more when each L is two pieces.
+#[test]
+fn pieces_count_as_shapes() {
+    let ells = |count: usize| -> String {
+        let at = |k: usize| format!("xyz=\"{k} 0 0\"");
+        let each = (0..count).map(|k| shape("collision", &at(k), "<mesh filename=\"ell.obj\"/>"));
+        each.collect()
+    };
+    let seen = shape("visual", "", "<box size=\"1 1 1\"/>");
+    let (_folder, robot) = with_meshes(&link("a", &(seen + &ells(501))));
+    let choices = Choices { shapes: Shapes::Source, ..Choices::default() };
+    let error = export(&robot, Format::Srdf, &choices).expect_err("too many");
+    let is_counted = |count: usize| (1002..=3006).contains(&count);
+    assert!(
+        matches!(error, ExportError::TooManyShapes { count, .. } if is_counted(count)),
+        "{error}"
+    );
+    assert!(export(&robot, Format::Mjcf, &choices).is_ok(), "as hulls");
+}
+
+/// A mesh of 20,000 triangles, which the file has once.
+#[test]
+fn one_mesh_by_very_many_elements_is_refused() {
+    let height = |x: u32, y: u32| ((x * 7 + y * 13) % 5) as f32 * 0.01;
+    let corner = |x: u32, y: u32| [x as f32, y as f32, height(x, y)];
+    let mut bytes = vec![0; 80];
+    bytes.extend(20_000_u32.to_le_bytes());
+    for (x, y) in (0..100).flat_map(|x| (0..100).map(move |y| (x, y))) {
+        let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| corner(x + i, y + j));
+        for triangle in [[a, b, c], [a, c, d]] {
+            bytes.extend([0; 12]);
+            bytes.extend(triangle.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
+            bytes.extend([0; 2]);
+        }
+    }
+    let uses = |count: usize| {
+        let folder = TempDir::new().expect("a folder");
+        std::fs::write(folder.path().join("grid.stl"), &bytes).expect("a mesh");
+        let seen = shape("visual", "", "<box size=\"1 1 1\"/>");
+        let each = shape("collision", "", "<mesh filename=\"grid.stl\"/>").repeat(count);
+        let source = folder.path().join("robot.urdf");
+        std::fs::write(&source, urdf(&link("a", &(seen + &each)))).expect("a URDF");
+        let path = folder.path().join("urdd");
+        urdd_generate::generate(&source, &path, &Default::default(), &()).expect("a URDD");
+        let robot = Robot::open(&path).expect("a robot");
+        let choices = Choices { shapes: Shapes::Source, ..Choices::default() };
+        export(&robot, Format::Urdf, &choices).map(drop)
+    };
+    assert!(uses(2).is_ok());
+    let error = uses(40).expect_err("too much").to_string();
+    assert!(error.contains("more would be made"), "{error}");
+}

@@ -272,7 +272,7 @@ fn the_robot_is_one_articulation_whose_parts_say_what_they_are() {
         + &joint("turn", "continuous", "a", "Looks", &format!("<axis xyz=\"0 0 1\"/>{element}"));
     let name = "1st robot";
     let (folder, robot) = robot(&format!("<robot name=\"{name}\">{parts}</robot>"));
-    name_configuration(&robot, &folder.path().join("robot"), "at home");
+    name_configuration(&robot, &folder.path().join("robot"), "at home", "turn");
     let robot = Robot::open(folder.path().join("robot")).expect("a robot");
     let made = exported(&robot, Format::Usd);
     let read = Read::new(&made.text);
