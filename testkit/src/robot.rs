@@ -109,32 +109,12 @@ impl Robot {
 
 /// A link with only a name.
 pub fn link(name: &str) -> Link {
-    Link {
-        name: name.to_owned(),
-        inertial: None,
-        visual: Vec::new(),
-        collision: Vec::new(),
-        unknown_elements: Vec::new(),
-    }
+    Link::new(name)
 }
 
 /// A joint with only the required parts.
 pub fn joint(name: &str, joint_type: JointType, parent: &str, child: &str) -> Joint {
-    let link_name = |link: &str| LinkName { link: link.to_owned() };
-    Joint {
-        name: name.to_owned(),
-        joint_type,
-        origin: None,
-        parent: link_name(parent),
-        child: link_name(child),
-        axis: None,
-        limit: None,
-        dynamics: None,
-        mimic: None,
-        safety_controller: None,
-        calibration: None,
-        unknown_elements: Vec::new(),
-    }
+    Joint::new(name, joint_type, parent, child)
 }
 
 /// An `<origin>` with position and rotation.

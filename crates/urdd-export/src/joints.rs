@@ -69,15 +69,9 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
         (None, _) => Isometry3::identity(),
     };
     Joint {
-        joint_type: JointType::Fixed,
         origin: Some(pose::origin(&(view.origin.motion() * motion))),
-        axis: None,
-        limit: None,
-        dynamics: None,
-        mimic: None,
-        safety_controller: None,
-        calibration: None,
-        ..joint
+        unknown_elements: joint.unknown_elements,
+        ..Joint::new(joint.name, JointType::Fixed, joint.parent.link, joint.child.link)
     }
 }
 

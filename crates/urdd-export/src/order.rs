@@ -6,6 +6,7 @@
 
 use std::collections::VecDeque;
 
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 use super::drake;
@@ -21,12 +22,13 @@ use urdd_kinematics::rotation::unit_axis;
 use urdd_robot::Robot;
 
 /// The joints and actuators of a robot in a program.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct JointOrder {
     /// The program; `urdf` for the order of the URDF, which is that of a URDD too.
     pub program: &'static str,
     /// The export that the program loads.
+    #[serde(rename = "export", serialize_with = "word")]
     pub format: Format,
     /// How the program orders joints.
     pub rule: &'static str,
@@ -34,7 +36,13 @@ pub struct JointOrder {
     pub joints: Vec<String>,
     /// The actuators of the export, for formats that have some beside joints. Those of MJCF are called as their joints,
     /// unless an `export.toml` says otherwise.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub actuators: Vec<String>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's form")]
+fn word<S: Serializer>(format: &Format, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(format.word())
 }
 
 /// How a program goes from the root to the joints.

@@ -288,3 +288,36 @@ module! {
         pub falling: Option<f64> where { unit: "rad or m" },
     }
 }
+
+impl Link {
+    /// A link with only a name.
+    pub fn new(name: impl Into<String>) -> Self {
+        let (visual, collision, unknown_elements) = Default::default();
+        Link { name: name.into(), inertial: None, visual, collision, unknown_elements }
+    }
+}
+
+impl Joint {
+    /// A joint with only what every joint has.
+    pub fn new(
+        name: impl Into<String>,
+        joint_type: JointType,
+        parent: impl Into<String>,
+        child: impl Into<String>,
+    ) -> Self {
+        Joint {
+            name: name.into(),
+            joint_type,
+            origin: None,
+            parent: LinkName { link: parent.into() },
+            child: LinkName { link: child.into() },
+            axis: None,
+            limit: None,
+            dynamics: None,
+            mimic: None,
+            safety_controller: None,
+            calibration: None,
+            unknown_elements: Vec::new(),
+        }
+    }
+}

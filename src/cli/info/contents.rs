@@ -7,12 +7,13 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::names::{safe, widest};
-use super::order::{self, OrderInfo};
+use super::order;
 use super::parts::{self, PartInfo};
 use super::skipped::{self, SkippedContact};
 use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
+use urdd_export::JointOrder;
 use urdd_format::dof::Quantity;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::rate::Rate;
@@ -49,7 +50,7 @@ pub struct Info {
     pub modules: Vec<ModuleInfo>,
     /// The joints in the order of each program, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub order: Option<Vec<OrderInfo>>,
+    pub order: Option<Vec<JointOrder>>,
     /// What holds the robot still against gravity, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub statics: Option<Statics>,

@@ -16,7 +16,6 @@ use clap::{Args, ValueEnum};
 use super::inputs;
 use super::output::{self, Failure, one_line};
 use contents::Info;
-use order::OrderInfo;
 use statics::{Statics, StaticsArguments};
 use urdd_directory::discover::{Found, discover};
 use urdd_export::joint_orders;
@@ -66,8 +65,7 @@ fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
             info.statics = statics.map_err(|error| about(&error))?;
             if arguments.order {
                 let robot = inputs::open(&path).map_err(|error| about(&error))?;
-                let orders = joint_orders(&robot).map_err(|error| about(&error))?;
-                info.order = Some(orders.into_iter().map(OrderInfo::from).collect());
+                info.order = Some(joint_orders(&robot).map_err(|error| about(&error))?);
             }
             infos.push(info);
         }

@@ -2,36 +2,11 @@
 
 use std::fmt::{self, Write};
 
-use serde::Serialize;
-
 use super::names::{safe, widest};
 use urdd_export::JointOrder;
 
-/// The joints of a robot in the order of a program.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OrderInfo {
-    /// The program; `urdf` for the order of the URDD itself.
-    pub program: &'static str,
-    /// The export that the program loads.
-    pub export: &'static str,
-    /// How the program orders joints.
-    pub rule: &'static str,
-    /// The joints that move, in the order of their positions, as they are called there.
-    pub joints: Vec<String>,
-    /// The actuators of the export, if it has any beside joints.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub actuators: Vec<String>,
-}
-
-impl From<JointOrder> for OrderInfo {
-    fn from(order: JointOrder) -> Self {
-        let JointOrder { program, format, rule, joints, actuators, .. } = order;
-        OrderInfo { program, export: format.word(), rule, joints, actuators }
-    }
-}
-
 /// Writes the joints for people: a column for each order, with the programs that have it.
-pub(super) fn write(orders: &[OrderInfo], out: &mut impl Write) -> fmt::Result {
+pub(super) fn write(orders: &[JointOrder], out: &mut impl Write) -> fmt::Result {
     columns("order", "of joints that move", orders, |order| &order.joints, out)?;
     columns("actuators", "of exports that have them", orders, |order| &order.actuators, out)
 }
@@ -39,8 +14,8 @@ pub(super) fn write(orders: &[OrderInfo], out: &mut impl Write) -> fmt::Result {
 fn columns(
     what: &str,
     of: &str,
-    orders: &[OrderInfo],
-    list: fn(&OrderInfo) -> &Vec<String>,
+    orders: &[JointOrder],
+    list: fn(&JointOrder) -> &Vec<String>,
     out: &mut impl Write,
 ) -> fmt::Result {
     let mut columns: Vec<(&Vec<String>, Vec<&str>)> = Vec::new();

@@ -11,7 +11,7 @@ use crate::pose::origin;
 use crate::structure::Structure;
 use urdd_document::robot::Joint as View;
 use urdd_document::robot::Link as ViewOfLink;
-use urdd_format::urdf::{Axis, Joint, JointType, Link, LinkName, UrdfModule};
+use urdd_format::urdf::{Axis, Joint, JointType, Link, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 
 /// A distance that is rounding, m.
@@ -66,12 +66,12 @@ pub(super) fn turn(
         layout.frame_of[link] = urdf.links.len();
         layout.frames.push(Place::at(link));
         layout.is_frame.push(true);
-        urdf.joints.push(fixed(taken.free(format!("{frame}_joint")), name, &frame, &back));
+        let fixed = taken.free(format!("{frame}_joint"));
+        let fixed = Joint::new(fixed, JointType::Fixed, name, frame.as_str());
+        urdf.joints.push(Joint { origin: Some(origin(&back)), ..fixed });
         let joint = view.joints[joint].name.clone();
         notes.push(Note::Moved { link: name.to_owned(), joint, frame: frame.clone() });
-        let (visual, collision, unknown_elements) = Default::default();
-        let link = Link { name: frame, inertial: None, visual, collision, unknown_elements };
-        urdf.links.push(link);
+        urdf.links.push(Link::new(frame));
     }
     Ok(layout)
 }
@@ -110,23 +110,5 @@ pub(super) fn place(link: &mut Link, view: &ViewOfLink, by: &Isometry3<f64>) {
     }
     for (collision, view) in link.collision.iter_mut().zip(&view.collision) {
         collision.origin = Some(origin(&(by * view.origin.motion())));
-    }
-}
-
-fn fixed(name: String, parent: &str, child: &str, pose: &Isometry3<f64>) -> Joint {
-    let link = |name: &str| LinkName { link: name.to_owned() };
-    Joint {
-        name,
-        joint_type: JointType::Fixed,
-        origin: Some(origin(pose)),
-        parent: link(parent),
-        child: link(child),
-        axis: None,
-        limit: None,
-        dynamics: None,
-        mimic: None,
-        safety_controller: None,
-        calibration: None,
-        unknown_elements: Vec::new(),
     }
 }
