@@ -26,13 +26,15 @@ pub struct Options {
 impl Options {
     /// The settings, without the baseline.
     fn settings(self) -> Result<LintSettings, String> {
+        let robots = self.reporting.robots()?;
         let mut report = self.reporting.settings()?;
         if let Some(words) = self.for_ {
             let each = words.iter().map(|word| parse_program(word));
             report.programs =
                 each.collect::<Result<_, _>>().map_err(|error| format!("for_: {error}"))?;
         }
-        Ok(LintSettings { report, source: self.source.settings()?, ..LintSettings::default() })
+        let source = urdd_source::Settings { robots, ..self.source.settings()? };
+        Ok(LintSettings { report, source, ..LintSettings::default() })
     }
 }
 

@@ -5,9 +5,12 @@ use std::path::PathBuf;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, from_value};
+use urdd_lint::declared;
+use urdd_source::Declared;
 use urdd_validate::report;
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};
+use urdd_validate::settings_file::SettingsFile;
 use urdd_validate::{ValidateError, rules};
 
 use crate::errors::raise;
@@ -27,6 +30,8 @@ pub struct Reporting {
     fail_on: Option<String>,
     /// The text of a settings file.
     config: Option<String>,
+    /// Its folder.
+    config_folder: PathBuf,
     select: Vec<String>,
     ignore: Vec<String>,
     exclude: Vec<String>,
@@ -49,6 +54,13 @@ impl Options {
 }
 
 impl Reporting {
+    /// The robots that the settings file declares.
+    pub fn robots(&self) -> Result<Vec<Declared>, String> {
+        let text = self.config.as_deref().unwrap_or_default();
+        let file = SettingsFile::from_toml(text, &self.config_folder);
+        file.map(|file| declared(&file)).map_err(|error| format!("config: {error}"))
+    }
+
     /// The settings of the file, with the other options.
     pub fn settings(self) -> Result<Settings, String> {
         let mut settings = match self.config {

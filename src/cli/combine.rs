@@ -77,8 +77,7 @@ fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, F
     }
     let target = arguments.output.clone().unwrap_or_default();
     let source = arguments.from.as_ref().or(arguments.sources.first());
-    let job =
-        Job { source: source.cloned().unwrap_or_default(), name: target.display().to_string() };
+    let job = Job::new(source.cloned().unwrap_or_default(), target.display().to_string());
     let mut legacy_notes = Vec::new();
     let recipe = match (arguments.sources.as_slice(), &arguments.at) {
         ([], _) => Recipe::of_legacy(&job.source).map(|(recipe, notes)| {

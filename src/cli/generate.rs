@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 
@@ -13,9 +14,11 @@ use super::robots::RobotArguments;
 use super::signals::{self, Signals};
 use super::xacro;
 use urdd_format::escape;
-use urdd_generate::batch::{self, Shard};
-use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
-use urdd_source::robots::{self, Job};
+use urdd_generate::batch::{self, Observer, Shard};
+use urdd_generate::{
+    GenerateError, Generated, MAX_SOURCE_BYTES, Progress, Settings, generate_text,
+};
+use urdd_source::robots::{self, Batch, Job};
 
 /// The argument for a URDF from standard input.
 const STANDARD_INPUT: &str = "-";
@@ -70,15 +73,15 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
     if are_several && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
         Err("`-` cannot be part of a batch: it reads one robot from standard input")?;
     }
-    let mut jobs = match (robots::found(&robots, &settings.source), robots.as_slice()) {
-        (Ok(batch), _) => {
-            batch.asides(0).iter().for_each(|aside| output::error(aside));
-            batch.jobs
-        }
+    let mut found = match (robots::found(&robots, &settings.source), robots.as_slice()) {
+        (Ok(found), _) => found,
         // What is wrong with a single file, its reader says.
-        (Err(_), [file]) if !are_several => vec![Job::new(file.clone(), String::new())],
+        (Err(_), [file]) if !are_several => {
+            Batch { jobs: vec![Job::new(file.clone(), String::new())], ..Batch::default() }
+        }
         (Err(error), _) => Err(one_line(error))?,
     };
+    let mut jobs = std::mem::take(&mut found.jobs);
     let is_batch = are_several || jobs.len() > 1;
     let printer = Printer::new(arguments.making.format, is_batch);
     let failed = if is_batch {
@@ -87,11 +90,14 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
             jobs = shard.of(jobs);
         }
         printer.begin(jobs.len());
-        let failed = pool.install(|| batch::run(&jobs, &arguments.output, &settings, &printer));
+        let sieve = Sieve { printer: &printer, found: &found, parts: AtomicUsize::new(0) };
+        let failed = pool.install(|| batch::run(&jobs, &arguments.output, &settings, &sieve));
+        let parts = sieve.parts.into_inner();
         if signals.status().is_none() {
-            printer.end(jobs.len(), failed);
+            printer.end(jobs.len() - parts, failed - parts);
         }
-        failed
+        found.asides(parts).iter().for_each(|aside| output::error(aside));
+        failed - parts
     } else {
         if arguments.shard.is_some() {
             Err("--shard is for batches: give several robots, or a folder")?;
@@ -102,6 +108,28 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
         one(job, &arguments.output, &settings, &pool, &printer)?
     };
     printer.status(failed > 0)
+}
+
+/// Passes on what becomes of robots, and counts the files that turn out to be parts of robots.
+struct Sieve<'a> {
+    printer: &'a Printer,
+    found: &'a Batch,
+    parts: AtomicUsize,
+}
+
+impl Observer for Sieve<'_> {
+    fn begin(&self, job: &Job) -> Box<dyn Progress> {
+        self.printer.begin_robot(job)
+    }
+
+    fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
+        match outcome {
+            Err(GenerateError::Source(error)) if self.found.is_part(&job.source, error) => {
+                self.parts.fetch_add(1, Ordering::Relaxed);
+            }
+            outcome => self.printer.done(job, outcome),
+        }
+    }
 }
 
 /// Refuses xacro arguments if no file needs xacro, since they would have no effect.
@@ -130,7 +158,6 @@ fn one(
     pool: &rayon::ThreadPool,
     printer: &Printer,
 ) -> Result<usize, String> {
-    use urdd_generate::batch::Observer;
     let piped =
         if job.source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
     let job = Job { name: output.display().to_string(), ..job };

@@ -23,6 +23,7 @@ mod output;
 mod packages;
 mod rehash;
 mod reporting;
+mod robots;
 mod schema;
 mod signals;
 mod skips;

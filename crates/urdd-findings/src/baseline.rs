@@ -18,7 +18,7 @@ use super::places::retain;
 use super::run::Run;
 use super::skip::SkipReason;
 use urdd_directory::position::Position;
-use urdd_format::report::{Kind, StaleIgnore};
+use urdd_format::report::{Kind, StaleIgnore, Urdd};
 
 /// The only version of the file.
 const VERSION: u32 = 1;
@@ -77,7 +77,7 @@ impl Baseline {
         let urdfs = run.report.urdds.iter().zip(&run.folders);
         for (urdf, at) in urdfs.filter(|(urdf, _)| urdf.kind == Kind::Urdf) {
             let name = urdf.path.rsplit('/').next().unwrap_or_default();
-            let file = baseline.name(&at.join(name));
+            let file = baseline.name(&at.join(name), urdf);
             for finding in &urdf.findings {
                 for place in &finding.places {
                     let counts = baseline.files.entry(file.clone()).or_default();
@@ -102,7 +102,7 @@ impl Baseline {
 
     /// Leaves out what it counts in the file at `path`. Returns what it counts and was not found.
     pub fn apply(&self, path: &Path, examined: &mut Examined) -> Vec<StaleIgnore> {
-        let name = self.name(path);
+        let name = self.name(path, &examined.report);
         let Some(counts) = self.files.get(&name) else {
             return Vec::new();
         };
@@ -131,11 +131,13 @@ impl Baseline {
             .collect()
     }
 
-    /// The name of a file as seen from the baseline's folder; outside of it, its whole path.
-    fn name(&self, path: &Path) -> String {
+    /// The name of a file as seen from the baseline's folder, outside of it its whole path; and the arguments of one of its
+    /// robots.
+    fn name(&self, path: &Path, urdf: &Urdd) -> String {
         let path = resolved(path);
         let inside = path.strip_prefix(&self.folder).unwrap_or(&path);
-        inside.to_string_lossy().replace('\\', "/")
+        let path = inside.to_string_lossy().replace('\\', "/");
+        urdf.label_at(&path)
     }
 }
 

@@ -50,6 +50,7 @@ pub fn blank(kind: Kind, path: &str) -> Urdd {
         kind,
         path: path.to_owned(),
         name: None,
+        xacro_arguments: Vec::new(),
         verdict: Verdict::Pass,
         reason: None,
         size: Size::default(),

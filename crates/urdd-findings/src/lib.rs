@@ -20,6 +20,7 @@ pub mod part;
 pub mod places;
 pub mod programs;
 pub mod report;
+pub mod robots;
 pub mod run;
 pub mod scope;
 pub mod selection;

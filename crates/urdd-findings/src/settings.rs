@@ -12,6 +12,7 @@ use super::check::Outcome;
 use super::code::Code;
 use super::examined::Examined;
 use super::programs::NAMES;
+use super::robots::{DeclaredRobot, Entry, RobotError, declared};
 use super::selection::Selection;
 use super::skip::SkipReason;
 use urdd_directory::cancellation::Cancellation;
@@ -111,6 +112,9 @@ pub enum SettingsError {
     /// An ignore without a reason.
     #[error("the ignore of `{0}` has an empty reason; state why, for later readers")]
     EmptyReason(String),
+    /// An entry of `[[robot]]`.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
 }
 
 #[derive(Deserialize, Default)]
@@ -124,6 +128,7 @@ struct File {
     #[serde(rename = "for")]
     programs: Vec<Spanned<String>>,
     baseline: Option<String>,
+    robot: Vec<Entry>,
 }
 
 #[derive(Deserialize)]
@@ -140,21 +145,34 @@ pub(crate) struct Parsed {
     pub(crate) settings: Settings,
     /// The file that `baseline` names.
     pub(crate) baseline: Option<String>,
+    /// The robots that it declares.
+    pub(crate) robots: Vec<DeclaredRobot>,
 }
 
 impl Parsed {
+    /// As [`Parsed::new`], with the place in the words where that is all that is known.
+    pub(crate) fn of_text(text: &str) -> Result<Self, SettingsError> {
+        Parsed::new(text).map_err(|(place, error)| match (place, error) {
+            (Some(place), SettingsError::Syntax(words)) => {
+                SettingsError::Syntax(format!("at {place}: {words}"))
+            }
+            (_, error) => error,
+        })
+    }
+
     /// Parses the text of a settings file; what is wrong comes with its place.
     pub(crate) fn new(text: &str) -> Result<Self, (Option<Position>, SettingsError)> {
-        let file: File = toml::from_str(text).map_err(|error| {
+        let mut file: File = toml::from_str(text).map_err(|error| {
             let place = error.span().map(|span| position::position(text, span.start));
             (place, SettingsError::Syntax(error.message().to_owned()))
         })?;
         let baseline = file.baseline.clone();
-        let settings = file.settings().map_err(|(start, error)| {
-            let place = position::position(text, start);
-            (Some(place), error)
-        })?;
-        Ok(Parsed { settings, baseline })
+        let placed =
+            |(start, error): (usize, SettingsError)| (Some(position::position(text, start)), error);
+        let robots = declared(std::mem::take(&mut file.robot), text.len());
+        let robots = robots.map_err(|(start, error)| placed((start, error.into())))?;
+        let settings = file.settings().map_err(placed)?;
+        Ok(Parsed { settings, baseline, robots })
     }
 }
 
@@ -205,13 +223,7 @@ impl Settings {
     /// # Errors
     /// If it is not TOML, or has unknown keys, unknown codes or invalid patterns.
     pub fn from_toml(text: &str) -> Result<Settings, SettingsError> {
-        let parsed = Parsed::new(text).map_err(|(place, error)| match (place, error) {
-            (Some(place), SettingsError::Syntax(words)) => {
-                SettingsError::Syntax(format!("at {place}: {words}"))
-            }
-            (_, error) => error,
-        })?;
-        Ok(parsed.settings)
+        Ok(Parsed::of_text(text)?.settings)
     }
 
     /// Applies severities, ignores and the selection, then leaves out what follows from what is left. Returns the ignores that

@@ -50,6 +50,19 @@ impl Tool {
     }
 }
 
+impl Urdd {
+    /// Its path, and the arguments that tell it from other robots of the same file: the words of a command line.
+    pub fn label(&self) -> String {
+        self.label_at(&self.path)
+    }
+
+    /// As [`Urdd::label`], with another path.
+    pub fn label_at(&self, path: &str) -> String {
+        let words = std::iter::once(path).chain(self.xacro_arguments.iter().map(String::as_str));
+        words.collect::<Vec<_>>().join(" ")
+    }
+}
+
 types! {
     /// One URDD, or a URDF by itself.
     pub struct Urdd {
@@ -60,6 +73,8 @@ types! {
         pub path: String,
         /// Name of the robot; null where no module says it.
         pub name: Option<String>,
+        /// The arguments, each as `name:=value`, with which xacro expanded it, where settings declare robots of the file.
+        pub xacro_arguments: Vec<String>,
         /// What came of it.
         pub verdict: Verdict,
         /// Why it is unreadable; else null.

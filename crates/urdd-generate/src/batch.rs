@@ -63,7 +63,8 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
         }
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
-        let outcome = caught(&job.source, || generate(&job.source, &target, settings, &*progress));
+        let own = Settings { source: job.settings(&settings.source), ..settings.clone() };
+        let outcome = caught(&job.source, || generate(&job.source, &target, &own, &*progress));
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;

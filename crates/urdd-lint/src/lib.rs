@@ -81,11 +81,8 @@ pub enum LintError {
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
     let Sources { jobs, excluded, batch } = sources(paths, settings)?;
-    let included = batch.description.included();
     let is_found = |job: &Job| match !paths.contains(&job.source) && job.arguments.is_empty() {
-        true if job.source.canonicalize().is_ok_and(|file| included.contains(&*file)) => {
-            Found::Included
-        }
+        true if batch.description.may_be_part(&job.source) => Found::Included,
         true => Found::InFolder,
         false => Found::Named,
     };

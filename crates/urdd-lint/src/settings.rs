@@ -5,6 +5,8 @@ use std::path::Path;
 use urdd_findings::baseline::Baseline;
 use urdd_findings::examined::Examined;
 use urdd_findings::settings::Settings;
+use urdd_findings::settings_file::SettingsFile;
+use urdd_source::Declared;
 
 /// How URDFs are linted.
 #[derive(Debug, Clone, Default)]
@@ -17,6 +19,16 @@ pub struct LintSettings {
     pub baseline: Option<Baseline>,
     /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
     pub without_meshes: bool,
+}
+
+/// The robots that a settings file declares.
+pub fn declared(file: &SettingsFile) -> Vec<Declared> {
+    let one = |robot: &urdd_findings::robots::DeclaredRobot| Declared {
+        source: robot.file.clone(),
+        name: robot.name.clone(),
+        arguments: robot.arguments.clone(),
+    };
+    file.robots.iter().map(one).collect()
 }
 
 impl LintSettings {

@@ -12,6 +12,9 @@ use urdd_source::fault::Fault;
 pub const NOT_EXPANDED: SkipReason = SkipReason::Obstacle(Cow::Borrowed(
     "the file has xacro macros, which were not expanded (LNT051)",
 ));
+/// Xacro needs arguments that nobody gives.
+pub const NEEDS_ARGUMENTS: SkipReason =
+    SkipReason::Obstacle(Cow::Borrowed("the robot needs arguments (LNT065)"));
 /// No mesh file is read, as while somebody types.
 pub const WITHOUT_MESHES: SkipReason = SkipReason::LeftOut(Cow::Borrowed("no mesh file was read"));
 

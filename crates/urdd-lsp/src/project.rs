@@ -10,7 +10,8 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_findings::baseline::Baseline;
 use urdd_findings::examined::Examined;
 use urdd_findings::settings_file::{SettingsFile, SettingsFileError, nearest};
-use urdd_lint::{LintSettings, seen_from};
+use urdd_lint::{LintSettings, declared, seen_from};
+use urdd_source::robots_of;
 
 /// The settings that count for a document.
 pub struct Project {
@@ -35,6 +36,11 @@ impl Project {
             None
         });
         let file = file.unwrap_or_default();
+        // An editor shows one robot of a file: the first.
+        let robots = declared(&file);
+        let first =
+            snapshot.path.clone().and_then(|path| robots_of(path, &robots).into_iter().next());
+        settings.source.xacro.arguments = first.map(|robot| robot.arguments).unwrap_or_default();
         let cancellation = std::mem::take(&mut settings.report.cancellation);
         settings.report = file.settings;
         settings.report.cancellation = cancellation;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::arguments::XacroArgument;
 use super::fault::PlacedFault;
 use super::import::fault::ImportFault;
 use urdd_directory::cancellation::Cancelled;
@@ -31,6 +32,13 @@ pub enum SourceError {
         /// The last lines of the program's output.
         reason: String,
     },
+    /// It was not expanded, for want of arguments.
+    #[error(
+        "{}: values are missing for {}; give them as `name:=value`, or declare the robots in urdd.toml (`urdd lint --write-robots`); {reason}",
+        escape::line(file),
+        Listed(needed)
+    )]
+    NeedsArguments { file: String, needed: Vec<XacroArgument>, reason: String },
     /// A description of another format than URDF.
     #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
     Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
@@ -61,9 +69,20 @@ impl SourceError {
             | SourceError::IsUrdf { .. } => "refused",
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
+            SourceError::NeedsArguments { .. } => "needs-arguments",
             SourceError::Cancelled => "cancelled",
             SourceError::Internal { .. } => "internal",
         }
+    }
+}
+
+/// Formats arguments, on one line.
+struct Listed<'a>(&'a [XacroArgument]);
+
+impl fmt::Display for Listed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all: Vec<String> = self.0.iter().map(|one| one.to_string()).collect();
+        f.write_str(&escape::line(&all.join(", ")))
     }
 }
 
@@ -74,20 +93,20 @@ impl fmt::Display for FaultLines<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FaultLines(file, faults) = self;
         // One line per fault: a name must not add line breaks.
-        let file = escape::line(file);
         for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
             if number > 0 {
                 f.write_str("\n")?;
             }
-            let (line, column) = (placed.line, placed.column);
             let fault = placed.fault.to_string();
-            match line {
-                0 => write!(f, "{file}: {}", escape::line(&fault))?,
-                _ => write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?,
-            }
+            write!(f, "{}: {}", placed.place(file), escape::line(&fault))?;
         }
         if faults.len() > MOST_SHOWN {
-            write!(f, "\n{file}: and {} more such faults", faults.len() - MOST_SHOWN)?;
+            write!(
+                f,
+                "\n{}: and {} more such faults",
+                escape::line(file),
+                faults.len() - MOST_SHOWN
+            )?;
         }
         Ok(())
     }

@@ -8,6 +8,8 @@ use thiserror::Error;
 
 use super::declared::{Declared, files_below, robots_of};
 use super::described::{Description, FileKind, Reason, describe};
+use super::error::SourceError;
+use super::fault::Fault;
 use super::files::Files;
 use super::fragments::{self, imported, may_be_imported};
 use super::packages::{IGNORED, package_name};
@@ -89,6 +91,22 @@ pub struct Batch {
 const MAX_NAMED: usize = 5;
 
 impl Batch {
+    /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link, or it has
+    /// none by itself, and another file includes it.
+    pub fn is_part(&self, source: &Path, error: &SourceError) -> bool {
+        let is_listed = self.description.files.iter().any(|file| file.path == source);
+        let is_xacro = source.extension().is_some_and(|end| end == "xacro");
+        is_listed
+            && is_xacro
+            && match error {
+                SourceError::Refused { faults, .. } => faults.iter().any(|one| {
+                    matches!(one.fault, Fault::NoLinks | Fault::OnlyMacros | Fault::IsSrdf)
+                }),
+                SourceError::Xacro { .. } => self.description.may_be_part(source),
+                _ => false,
+            }
+    }
+
     /// What a person may want to know, and nothing fails for: parts of robots, macros that nothing calls, and packages of
     /// one name. `more` are files of which only their expansion said that they have no robot.
     pub fn asides(&self, more: usize) -> Vec<String> {

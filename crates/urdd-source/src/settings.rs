@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::declared::Declared;
 use super::files::Files;
 use super::import::options::ImportOptions;
 use super::packages::Packages;
@@ -18,6 +19,8 @@ pub struct Settings {
     pub xacro: XacroSettings,
     /// What is chosen of a description that is no URDF.
     pub import: ImportOptions,
+    /// The robots that are declared of files: of one in a folder, and of one that is named without arguments.
+    pub robots: Vec<Declared>,
     /// Where files are.
     pub files: Files,
 }

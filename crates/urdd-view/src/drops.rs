@@ -20,7 +20,7 @@ use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 use urdd_directory::{outputs, path};
 use urdd_source::dropped::PackageFolders;
-use urdd_source::robots;
+use urdd_source::{Settings as SourceSettings, robots};
 
 /// Maximum size of one drop, bytes.
 pub const MAX_BODY: u64 = 256 << 20;
@@ -170,7 +170,7 @@ fn sources(
     with_xacro: bool,
     wanted: &dyn Fn() -> Result<(), Failure>,
 ) -> Result<Vec<(String, Source)>, Failure> {
-    let mut jobs = robots::jobs(&[folder.to_owned()])
+    let mut jobs = robots::jobs(&[folder.to_owned()], &SourceSettings::default())
         .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
     if !with_xacro {
         jobs.retain(|job| job.source.extension().is_none_or(|it| it != "xacro"));
@@ -186,7 +186,8 @@ fn sources(
         let text = String::from_utf8_lossy(&text);
         let packages = dropped.of_text(&text, false).into_iter();
         let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
-        let source = Source { file: job.source, packages: packages.collect() };
+        let source =
+            Source { file: job.source, packages: packages.collect(), arguments: Vec::new() };
         Ok((job.name, source))
     });
     sources.collect()

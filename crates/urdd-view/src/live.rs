@@ -135,7 +135,7 @@ impl Live<'_> {
         // The URDD's folder has the robot's name, which the page shows.
         let name = shown.name.replace(['/', '\\', '\0'], "_");
         Followed {
-            job: Job { source: source.file.clone(), name },
+            job: Job::new(source.file.clone(), name),
             source,
             folder,
             files: Files::new(),

@@ -54,7 +54,7 @@ def lint(
             and what only others do is an information. By default those of ``config``; without any, all count.
         packages: the folders of ROS packages, by name.
         allowed_folders: folders besides those of the robot and its packages from which mesh files may be read.
-        xacro: also expands xacro files in folders, and macros in .urdf files.
+        xacro: also expands xacro files in folders, macros in .urdf files, and SRDFs of robots that are xacro.
         xacro_arguments: arguments of the xacro files, by name.
         xacro_timeout: time limit of the program xacro, seconds.
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
@@ -63,7 +63,8 @@ def lint(
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
-        config: a settings file such as ``urdd.toml``. No such file is read by default.
+        config: a settings file such as ``urdd.toml``, also for the robots of xacro files (``[[robot]]``). No such file is
+            read by default.
         select: codes or families of the only rules to report.
         ignore: codes or families of rules not to report.
         exclude: patterns of files and folders to exclude.

@@ -98,6 +98,7 @@ def reporting(
     return Reporting(
         fail_on=fail_on,
         config=text,
+        config_folder=Path() if config is None else Path(config).parent,
         select=words(select, "select"),
         ignore=words(ignore, "ignore"),
         exclude=words(exclude, "exclude"),

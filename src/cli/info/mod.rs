@@ -4,6 +4,7 @@ mod contents;
 mod names;
 mod order;
 mod parts;
+mod robots;
 mod skipped;
 mod statics;
 
@@ -16,6 +17,7 @@ use clap::{Args, ValueEnum};
 use super::inputs;
 use super::output::{self, Failure, one_line};
 use contents::Info;
+use robots::robot_files;
 use statics::{Statics, StaticsArguments};
 use urdd_directory::discover::{Found, discover};
 use urdd_export::joint_orders;
@@ -25,7 +27,8 @@ use urdd_validate::report;
 /// Arguments of `urdd info`.
 #[derive(Args)]
 pub struct InfoArguments {
-    /// URDDs, or folders with URDDs at any depth.
+    /// URDDs, or folders with URDDs at any depth; xacro files, or folders of them such as a ROS package, for the arguments
+    /// that they take.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -55,9 +58,19 @@ pub fn run(arguments: &InfoArguments) -> ExitCode {
 }
 
 fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
-    let mut infos = Vec::new();
+    let (mut infos, mut files) = (Vec::new(), Vec::new());
     for path in &arguments.paths {
-        for Found { path, name, closed } in discover(path).map_err(one_line)? {
+        let found = match discover(path) {
+            Err(error) => match robot_files(path) {
+                Ok(more) if !more.is_empty() => {
+                    files.extend(more);
+                    continue;
+                }
+                _ => Err(one_line(error))?,
+            },
+            Ok(found) => found,
+        };
+        for Found { path, name, closed } in found {
             let info = closed.map_or_else(|| Info::read(&path, &name), Err);
             let about = |error: &dyn Display| format!("{}: {error}", escape::line(&name));
             let mut info = info.map_err(|error| about(&error))?;
@@ -71,9 +84,15 @@ fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
         }
     }
     if arguments.format == Format::Json {
-        return Ok(report::json(&infos)?);
+        let infos = infos.iter().map(serde_json::to_value);
+        let all: Result<Vec<_>, _> = infos.chain(files.iter().map(serde_json::to_value)).collect();
+        return Ok(report::json(&all?)?);
     }
     let mut text = String::new();
+    for file in &files {
+        robots::write(file, &mut text)?;
+        text.push('\n');
+    }
     for info in &infos {
         contents::write(info, &mut text)?;
         text.push('\n');

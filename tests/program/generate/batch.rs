@@ -106,7 +106,11 @@ impl Observer for Watcher {
 #[test]
 fn a_crash_stops_nothing() {
     let folder = folder();
-    let jobs = jobs(&["arm", "leg", "hand/left"].map(|name| folder.path().join(name))).unwrap();
+    let jobs = jobs(
+        &["arm", "leg", "hand/left"].map(|name| folder.path().join(name)),
+        &Default::default(),
+    )
+    .unwrap();
     let out = folder.path().join("out");
     let watcher = Watcher { told: Mutex::default(), last: out.join("deep-robot") };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
@@ -128,7 +132,7 @@ fn a_crash_stops_nothing() {
 fn names_tell_robots_apart() {
     let folder = folder();
     let names = |paths: &[PathBuf]| {
-        let jobs = jobs(paths).unwrap();
+        let jobs = jobs(paths, &Default::default()).unwrap();
         let below = |path: &Path| path.strip_prefix(folder.path()).unwrap().display().to_string();
         jobs.iter().map(|job| (below(&job.source), job.name.clone())).collect::<Vec<_>>()
     };
@@ -162,7 +166,7 @@ fn plain_parts(path: &Path) -> String {
 #[test]
 fn shards_are_the_whole() {
     let folder = folder();
-    let all = jobs(&[folder.path().to_owned()]).unwrap();
+    let all = jobs(&[folder.path().to_owned()], &Default::default()).unwrap();
     let mut found = Vec::new();
     for number in 1..=3 {
         found.extend(Shard { number, of: 3 }.of(all.clone()));
@@ -195,7 +199,7 @@ fn exit_status_tells_usage_from_failure() {
         (&["arm/arm.urdf", "-o", "o4", "--shard", "1/2"], "batches"),
         (&["arm/arm.urdf", "-o", "o4", "--samples", "0"], "from 1 to 100,000"),
         (&[".hidden/../readme.txt", "nothing", "-o", "o4"], "no such file"),
-        (&["o1", "-o", "o4"], "no .urdf"),
+        (&["o1", "-o", "o4"], "`urdd validate` checks these"),
     ] {
         let (code, message) = status(arguments);
         assert_eq!(code, Some(2), "{arguments:?}: {message}");
@@ -210,8 +214,8 @@ fn folders_too_deep_to_search_are_named() {
     let deep = folder.path().join("d/".repeat(33));
     fs::create_dir_all(&deep).unwrap();
     fs::write(folder.path().join("a.urdf"), "<robot name=\"a\"/>").unwrap();
-    let error = jobs(&[folder.path().to_owned()]).unwrap_err().to_string();
+    let error = jobs(&[folder.path().to_owned()], &Default::default()).unwrap_err().to_string();
     assert!(error.contains("more than 32 levels deep"), "{error}");
     fs::remove_dir(&deep).unwrap();
-    assert_eq!(jobs(&[folder.path().to_owned()]).unwrap().len(), 1);
+    assert_eq!(jobs(&[folder.path().to_owned()], &Default::default()).unwrap().len(), 1);
 }

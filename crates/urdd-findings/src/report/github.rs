@@ -3,8 +3,8 @@
 
 use std::fmt::{self, Write};
 
-use super::human::times;
-use super::place::file_in;
+use super::human::{self, times};
+use super::place::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::report::{Report, Severity, Status};
 
@@ -31,14 +31,18 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
             };
             let file = property(&file_in(place, finding.file.as_deref()));
             write!(out, "::{command} file={file}")?;
-            if let Some(line) = finding.line {
+            let is_inside = is_inside(place, finding.file.as_deref());
+            if let Some(line) = finding.line.filter(|_| is_inside) {
                 write!(out, ",line={line}")?;
             }
-            if let Some(column) = finding.column {
+            if let Some(column) = finding.column.filter(|_| is_inside) {
                 write!(out, ",col={column}")?;
             }
             let mut text = finding.message.clone();
+            let first = finding.places.first();
             let parts = [
+                ("at", &first.filter(|_| !is_inside).map(|first| human::place(first, true))),
+                ("macro", &first.and_then(human::macro_of).map(str::to_owned)),
                 ("of", &finding.subject),
                 ("expected", &finding.expected),
                 ("found", &finding.actual),
@@ -47,6 +51,9 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
                 if let Some(part) = part {
                     text += &format!("; {label}: {part}");
                 }
+            }
+            for argument in &urdd.xacro_arguments {
+                text += &format!("; with {argument}");
             }
             text += &times(finding);
             let title = property(&format!("{} {}", finding.code, finding.name));

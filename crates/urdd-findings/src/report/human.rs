@@ -17,7 +17,7 @@ use super::{programs, summary, unverified};
 use crate::skip::SkipReason;
 use urdd_format::report::{
     CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, Place, Report, Skipped, Status,
-    Urdd, Verdict, WrittenAt,
+    Urdd, Verdict,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -62,7 +62,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     writeln!(
         out,
         "{} {verdict}  {}",
-        style.paint(BOLD, safe(&urdd.path)),
+        style.paint(BOLD, safe(&urdd.label())),
         style.paint(DIM, describe(urdd))
     )?;
     if let Some(reason) = &urdd.reason {
@@ -146,9 +146,6 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
     if !at.is_empty() {
         writeln!(out, "      {} {at}", style.paint(DIM, "at"))?;
     }
-    if let Some(written) = first.and_then(|first| first.written_at.as_ref()) {
-        writeln!(out, "      {} {}", style.paint(DIM, "written at"), written_at(written))?;
-    }
     writeln!(out, "      {}", safe(&finding.message))?;
     let mut line = |label: &str, text: &str| {
         let label = style.paint(DIM, format!("{label}:"));
@@ -218,9 +215,9 @@ pub(super) fn off_by(magnitude: &Magnitude) -> String {
     }
 }
 
-/// File, line and column, pointer, and subject. Line and column are omitted within the first line of a file: in a file of
+/// File, line and column, pointer, subject, and macro. Line and column are omitted within the first line of a file: in a file of
 /// one line, the pointer and the subject are more useful.
-fn place(found: &Place, with_file: bool) -> String {
+pub(super) fn place(found: &Place, with_file: bool) -> String {
     let file = found.file.as_deref().filter(|_| with_file);
     let mut place = safe(file.unwrap_or_default()).into_owned();
     let pointer = found.pointer.as_deref().filter(|text| !text.is_empty());
@@ -233,6 +230,7 @@ fn place(found: &Place, with_file: bool) -> String {
     let parts = [
         pointer.map(|pointer| safe(pointer).into_owned()),
         found.subject.as_ref().map(|subject| format!("({})", safe(subject))),
+        macro_of(found).map(|name| format!("in the macro {}", escape::quoted(name))),
     ];
     for part in parts.into_iter().flatten() {
         let space = if place.is_empty() { "" } else { " " };
@@ -241,16 +239,9 @@ fn place(found: &Place, with_file: bool) -> String {
     place
 }
 
-/// A place in a .xacro file.
-fn written_at(written: &WrittenAt) -> String {
-    let mut place = safe(&written.file).into_owned();
-    if let (Some(line), Some(column)) = (written.line, written.column) {
-        place.push_str(&format!(":{line}:{column}"));
-    }
-    if let Some(name) = &written.macro_name {
-        place.push_str(&format!(" (macro {})", escape::quoted(name)));
-    }
-    place
+/// The macro of a xacro file that holds a place.
+pub(super) fn macro_of(found: &Place) -> Option<&str> {
+    found.written_at.as_ref()?.macro_name.as_deref()
 }
 
 /// What was not checked, by reason. Rules for other formats are not mentioned, nor are rules about absent modules that

@@ -70,10 +70,10 @@ impl Suite {
             });
         }
         let name = match place {
-            "" => &urdd.path,
+            "" => urdd.path.as_str(),
             place => place,
         };
-        Suite { name: allowed(name), cases }
+        Suite { name: allowed(&urdd.label_at(name)), cases }
     }
 
     fn count(&self, element: &str) -> usize {

@@ -33,7 +33,7 @@ pub fn markdown(report: &Report, out: &mut impl Write) -> fmt::Result {
     write_row(&head, out)?;
     write_row(&vec!["---".to_owned(); head.len()], out)?;
     for urdd in report.urdds.iter().take(ROWS) {
-        let mut cells = vec![in_table(&urdd.path), findings(urdd)];
+        let mut cells = vec![in_table(&urdd.label()), findings(urdd)];
         cells.extend(programs().map(|program| in_table_words(&cell(urdd, &program.program))));
         write_row(&cells, out)?;
     }

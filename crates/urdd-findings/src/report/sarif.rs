@@ -9,7 +9,8 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::place::file_in;
+use super::human::macro_of;
+use super::place::{file_in, is_inside};
 use super::unverified;
 use crate::code::Code;
 use crate::description::Description;
@@ -154,7 +155,7 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             "ruleId": finding.code,
             "ruleIndex": rules.index(&finding.code),
             "level": level(finding.severity),
-            "message": message(&text(finding)),
+            "message": message(&text(finding, &urdd.xacro_arguments)),
             "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
         });
         let others = finding.places.iter().skip(1).take(MOST_LOCATIONS);
@@ -184,7 +185,7 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             result["properties"]["programs"] = json!(finding.programs);
         }
         result["occurrenceCount"] = json!(finding.count.get());
-        let kind = kind(finding, place);
+        let kind = kind(finding, urdd, place);
         let nth = alike.entry(kind.clone()).or_insert(0);
         *nth += 1;
         result["partialFingerprints"] = json!({"urddFinding/v1": fingerprint(&kind, *nth)});
@@ -194,13 +195,15 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
 }
 
 /// The whole finding as one text: few readers show other fields of a result.
-fn text(finding: &Finding) -> String {
+fn text(finding: &Finding, arguments: &[String]) -> String {
     let mut text = escape::line(&finding.message).into_owned();
     let lines = [
         ("Expected", finding.expected.clone()),
         ("Found", finding.actual.clone()),
         ("Tolerance", finding.tolerance.map(|tolerance| number(tolerance, 2))),
         ("Of", finding.subject.clone()),
+        ("With", Some(arguments.join(" ")).filter(|text| !text.is_empty())),
+        ("Macro", finding.places.first().and_then(macro_of).map(str::to_owned)),
         ("Times", Some(finding.count).filter(|count| count.get() > 1).map(|n| n.to_string())),
     ];
     for (label, value) in lines {
@@ -218,7 +221,7 @@ fn message(text: &str) -> Value {
 
 /// Identity of a finding. Does not change when lines move, when an element is inserted before, or when the wording of
 /// the message changes.
-fn kind(finding: &Finding, place: &str) -> [String; 3] {
+fn kind(finding: &Finding, urdd: &Urdd, place: &str) -> [String; 3] {
     let what = match &finding.pointer {
         Some(pointer) => {
             let is_index = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
@@ -227,7 +230,7 @@ fn kind(finding: &Finding, place: &str) -> [String; 3] {
         }
         None => finding.subject.clone().unwrap_or_default(),
     };
-    let file = file_in(place, finding.file.as_deref());
+    let file = urdd.label_at(&file_in(place, finding.file.as_deref()));
     [finding.code.clone(), file, what]
 }
 
@@ -279,7 +282,7 @@ fn mend(urdd: &str, fix: &Fix) -> Value {
 
 fn location(urdd: &str, place: &Place) -> Value {
     let mut physical = json!({"artifactLocation": artifact(urdd, place.file.as_deref())});
-    if let Some(line) = place.line {
+    if let Some(line) = place.line.filter(|_| is_inside(urdd, place.file.as_deref())) {
         physical["region"] = json!({"startLine": line.get()});
         if let Some(column) = place.column {
             physical["region"]["startColumn"] = json!(column.get());

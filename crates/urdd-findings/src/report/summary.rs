@@ -212,7 +212,7 @@ fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Resu
     columns.retain(|column| rows.iter().any(|urdd| cell(urdd, column).0 != Cell::Absent));
     if !rows.is_empty() {
         let shown = rows.iter().take(most);
-        let names: Vec<String> = shown.map(|urdd| shorten(&safe(&urdd.path), NAME)).collect();
+        let names: Vec<String> = shown.map(|urdd| shorten(&safe(&urdd.label()), NAME)).collect();
         let lengths = names.iter().map(|name| name.chars().count());
         let width = lengths.max().unwrap_or(0).max(4);
         let titles: String = columns.iter().map(|title| format!(" {title:>4}")).collect();

@@ -11,6 +11,7 @@ mod fold;
 mod report_causes;
 mod report_place;
 mod report_summary;
+mod robots;
 mod scope;
 mod worst;
 

@@ -31,6 +31,7 @@ mod misplaced;
 mod misspelt;
 mod moving_link_without_inertial;
 mod name_refused;
+mod needs_arguments;
 mod not_read_as_written;
 mod odd_density;
 mod origin_in_millimetres;
@@ -62,7 +63,7 @@ rules! {
     inertia_beyond_geometry, inertia_far_below_geometry, inertial_incomplete, letter_case,
     limit_incomplete, limits_look_like_degrees, material_not_defined, mesh_in_millimetres,
     mesh_names_clash, mesh_not_found, mesh_not_readable, mirrored_scale, misplaced, misspelt,
-    moving_link_without_inertial, name_refused, not_read_as_written, odd_density,
+    moving_link_without_inertial, name_refused, needs_arguments, not_read_as_written, odd_density,
     origin_in_millimetres, package_not_found, refused_by_programs, root_link_with_inertial,
     ros2_control_unknown_joint, same_default_inertia, self_collision_in_default, size_not_positive,
     srdf_not_read, srdf_unknown_name, stl_refused,

@@ -21,7 +21,7 @@ pub fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = paths
         .filter(|path| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            name.starts_with(prefix) && name.ends_with(".urdf")
+            name.starts_with(prefix) && (name.ends_with(".urdf") || name.ends_with(".urdf.xacro"))
         })
         .collect();
     found.sort();

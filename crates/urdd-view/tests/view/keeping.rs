@@ -14,7 +14,8 @@ use testkit::robots::made_named;
 /// A server that shows a generated URDD.
 fn generated(path: &Path) -> (Running, Arc<Shown>) {
     let collection = Collection::default();
-    let source = Source { file: path.with_extension("urdf"), packages: Vec::new() };
+    let source =
+        Source { file: path.with_extension("urdf"), packages: Vec::new(), arguments: Vec::new() };
     let shown = collection.add_source("gripper".to_owned(), source);
     (Running::with(collection), shown)
 }

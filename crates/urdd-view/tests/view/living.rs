@@ -58,7 +58,8 @@ fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Runni
 pub fn of(urdfs: &[&Path]) -> Collection {
     let collection = Collection::default();
     for urdf in urdfs {
-        let source = Source { file: urdf.to_path_buf(), packages: Vec::new() };
+        let source =
+            Source { file: urdf.to_path_buf(), packages: Vec::new(), arguments: Vec::new() };
         let name = urdf.file_stem().unwrap_or_default().to_string_lossy();
         collection.add_source(name.into_owned(), source);
     }

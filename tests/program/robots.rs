@@ -1,0 +1,136 @@
+//! Robots that need arguments, and `[[robot]]` in `urdd.toml`, with a program in place of xacro.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::generate::urdd;
+
+const MAIN: &str = "<robot name=\"arm\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
+    <xacro:arg name=\"type\" default=\"other\"/>\n\
+    <xacro:property name=\"limits\" value=\"${xacro.load_yaml('$(find arms)/config/$(arg type)/limits.yaml')}\"/>\n\
+    <link name=\"base\"/>\n</robot>\n";
+/// As xacro, it needs the files of a type, and fails for one of them.
+const XACRO: &str = "#!/bin/sh\nfor word; do case \"$word\" in type:=*) type=\"${word#type:=}\";; esac; done\n\
+    case \"$type\" in long | short) echo \"<robot name='arm_$type'><link name='base'/></robot>\";;\n\
+    *) echo \"error: no file\" >&2; exit 2;; esac\n";
+
+/// A package with a robot of two types, and a third one that makes none.
+pub fn package() -> tempfile::TempDir {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    for (path, text) in [
+        ("arms/package.xml", "<package><name>arms</name></package>"),
+        ("arms/urdf/arm.urdf.xacro", MAIN),
+        ("arms/config/broken/limits.yaml", ""),
+        ("arms/config/long/limits.yaml", ""),
+        ("arms/config/short/limits.yaml", ""),
+        ("bin/xacro", XACRO),
+    ] {
+        fs::create_dir_all(root.join(path).parent().unwrap()).unwrap();
+        fs::write(root.join(path), text).unwrap();
+    }
+    fs::set_permissions(root.join("bin/xacro"), fs::Permissions::from_mode(0o755)).unwrap();
+    folder
+}
+
+fn run(root: &Path, words: &[&str]) -> (Option<i32>, String) {
+    let output = urdd(words).current_dir(root).env("PATH", root.join("bin")).output().unwrap();
+    let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code(), said.concat())
+}
+
+#[test]
+fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
+    let folder = package();
+    let root = folder.path();
+    let (status, said) = run(root, &["lint", "arms", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+    for words in [
+        "info LNT065 needs-arguments",
+        "arm.urdf.xacro:2:1 (argument `type`)",
+        "`type` (broken, long, short)",
+        "[[robot]] path = \"arms/urdf/arm.urdf.xacro\" args = { type = [\"broken\", \"long\", \"short\"] }",
+        "xacro says: error: no file",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert_eq!(run(root, &["lint", "arms", "--xacro", "--fail-on", "info"]).0, Some(1));
+    let own = "# ours\n[severity]\nLNT001 = \"info\"\n";
+    fs::write(root.join("urdd.toml"), own).unwrap();
+    let (status, said) = run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    assert_eq!(status, Some(0), "{said}");
+    let lines = "\n[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { type = [\"long\", \"short\"] }\n";
+    assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap(), format!("{own}{lines}"));
+    // Whoever runs it again adds nothing.
+    run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap(), format!("{own}{lines}"));
+}
+
+#[test]
+fn declared_robots_are_linted_and_named_in_every_form() {
+    let folder = package();
+    let root = folder.path();
+    let toml =
+        "[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { type = [\"long\", \"short\"] }\n";
+    fs::write(root.join("urdd.toml"), toml).unwrap();
+    let (status, said) = run(root, &["lint", "arms", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("urdf/arm.urdf.xacro type:=long pass  robot \"arm_long\""), "{said}");
+    assert!(said.contains("urdf/arm.urdf.xacro type:=short pass  robot \"arm_short\""), "{said}");
+    for form in ["junit", "markdown"] {
+        let (_, said) = run(root, &["lint", "arms", "--xacro", "--format", form]);
+        assert!(said.contains("type:=long") && said.contains("type:=short"), "{form}: {said}");
+    }
+    let (_, said) = run(root, &["lint", "arms", "--xacro", "--format", "json"]);
+    let report: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(report["urdds"][1]["xacro_arguments"], serde_json::json!(["type:=short"]));
+    // A xacro file of a folder runs only where somebody says so, whatever a file in the folder declares.
+    let (status, said) = run(root, &["lint", "arms"]);
+    assert_eq!(status, Some(2), "{said}");
+    // Somebody who names one names its robots; with arguments, one.
+    let (_, said) = run(root, &["lint", "arms/urdf/arm.urdf.xacro"]);
+    assert!(said.contains("2 URDFs: 2 passed"), "{said}");
+    let (_, said) = run(root, &["lint", "arms/urdf/arm.urdf.xacro", "type:=long"]);
+    assert!(said.contains("1 URDF: 1 passed"), "{said}");
+}
+
+#[test]
+fn declared_robots_are_generated_each_by_its_name() {
+    let folder = package();
+    let root = folder.path();
+    let toml = "[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nname = \"a\"\nargs = { type = [\"long\", \"short\"] }\n";
+    fs::write(root.join("robots.toml"), toml).unwrap();
+    for source in ["arms", "arms/urdf/arm.urdf.xacro"] {
+        let out = format!("out_{}", source.len());
+        let words = ["generate", source, "-o", &out, "--config", "robots.toml"];
+        let (status, said) = run(root, &words);
+        assert_eq!(status, Some(0), "{said}");
+        for name in ["long", "short"] {
+            let text = fs::read_to_string(root.join(format!("{out}/a_{name}/urdd.json"))).unwrap();
+            assert!(text.contains(&format!("\"arm_{name}\"")), "{text}");
+        }
+    }
+    let (status, said) = run(root, &["generate", "arms", "-o", "none"]);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("values are missing for `type` (broken, long, short)"), "{said}");
+}
+
+#[test]
+fn info_lists_the_arguments_and_runs_nothing() {
+    let folder = package();
+    let root = folder.path();
+    fs::remove_file(root.join("bin/xacro")).unwrap();
+    let (status, said) = run(root, &["info", "arms"]);
+    assert_eq!(status, Some(0), "{said}");
+    let expected =
+        "arms/urdf/arm.urdf.xacro\n  type = \"other\", needs a value: broken, long, short\n\n";
+    assert_eq!(said, expected);
+    let (_, said) = run(root, &["info", "arms", "--format", "json"]);
+    let all: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(all[0]["arguments"][0]["values"], serde_json::json!(["broken", "long", "short"]));
+}
