@@ -14,6 +14,7 @@ pub mod options;
 mod origin;
 pub mod place;
 pub mod placed;
+mod refusal;
 pub mod report;
 pub mod sdf;
 mod solid;

@@ -250,3 +250,28 @@ fn parts_whose_names_are_alike_are_told_apart() {
     let parts: Vec<&[u8]> = parts.map(|(_, bytes)| &**bytes).collect();
     assert!(parts.len() == 2 && parts[0] != parts[1], "{:?}", imported.files.keys());
 }
+
+#[test]
+fn models_that_are_attached_very_often() {
+    let part = mjcf("", &format!("<body name=\"x\">{}</body>", "<body/>".repeat(3000)), "");
+    let attach = "<attach model=\"m\" body=\"x\" prefix=\"p\"/>".repeat(300);
+    let assets = "<asset><model name=\"m\" file=\"b.xml\"/></asset>";
+    let text = mjcf(assets, &format!("<body><geom size=\"1\"/>{attach}</body>"), "");
+    let files = in_memory(&[("r.xml", text.as_bytes()), ("b.xml", part.as_bytes())]);
+    let error = import(Path::new("/r.xml"), &files).unwrap_err().to_string();
+    // At an `<attach>`, before anything is copied.
+    assert!(error.starts_with("/r.xml:1:") && error.contains("more would be made"), "{error}");
+}
+
+#[test]
+fn pairs_of_bodies_with_long_names() {
+    let name = long(20_000);
+    let body = |at: usize| {
+        let geom = "<geom size=\"1\" contype=\"1\" conaffinity=\"2\"/>";
+        format!("<body name=\"{at}{name}\"><joint/>{geom}</body>")
+    };
+    let bodies = |count: usize| mjcf("", &(0..count).map(body).collect::<String>(), "");
+    let read = |text: &str| import(Path::new("/r.xml"), &in_memory(&[("r.xml", text.as_bytes())]));
+    assert!(read(&bodies(20)).is_ok());
+    refused("r.xml", &in_memory(&[("r.xml", bodies(200).as_bytes())]));
+}

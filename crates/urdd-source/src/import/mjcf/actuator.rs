@@ -1,6 +1,6 @@
 //! Actuators, with what default classes say of them: any kind sets the same numbers.
 
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::element::Element;
 use super::fault::MjcfFault;

@@ -6,10 +6,10 @@ use urdd_directory::account::Account;
 use urdd_xml::MAX_LEVELS;
 
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::reading::required;
+use super::reading::{missing, required, unknown};
 
 /// The tag of the default classes of a model that is attached. No element of XML has it.
 pub const CLASSES: &str = "default classes of a model";
@@ -48,20 +48,13 @@ pub fn splice(
         }
         let name = required(&child, "model")?;
         // It may be empty.
-        let prefix = child.get("prefix").ok_or_else(|| {
-            let (element, attribute) = (child.tag.clone(), "prefix");
-            at(child.place, MjcfFault::Missing { element, attribute })
-        })?;
-        let unknown = |what, name: &str| {
-            let name = name.chars().take(60).collect();
-            at(child.place, MjcfFault::Unknown { element: child.tag.clone(), what, name })
-        };
-        let model = models.get(name).ok_or_else(|| unknown("model", name))?;
+        let prefix = child.get("prefix").ok_or_else(|| missing(&child, "prefix"))?;
+        let model = models.get(name).ok_or_else(|| unknown(&child, "model", name))?;
         let charged = account.charge(cost(model, prefix));
         charged.map_err(|why| at(child.place, why))?;
         let body = child.text("body");
         let bodies = bodies(model, body, prefix, child.place);
-        let bodies = bodies.ok_or_else(|| unknown("body", body.unwrap_or_default()))?;
+        let bodies = bodies.ok_or_else(|| unknown(&child, "body", body.unwrap_or_default()))?;
         if levels + depth(&bodies) > MAX_LEVELS {
             return Err(at(child.place, MjcfFault::TooDeep(MAX_LEVELS)));
         }

@@ -8,7 +8,7 @@ use urdd_directory::account::Account;
 use super::super::features::{self, Tally};
 use super::super::model::LETTER;
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN, PASSED};
 use super::element::Element;

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::{flag, number_of, numbers, word, wrong};

@@ -7,7 +7,7 @@ use urdd_directory::account::{Account, Charged};
 
 use super::super::model::{Apart, LETTER};
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::body::{RawBody, WORLD};
 use super::element::Element;
 use super::geom::{Geom, Kind};

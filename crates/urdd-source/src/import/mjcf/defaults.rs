@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use urdd_directory::account::Account;
 
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::attach::CLASSES;
 use super::element::Element;
 use super::fault::MjcfFault;

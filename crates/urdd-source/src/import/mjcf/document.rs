@@ -8,8 +8,8 @@ use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
 
 use super::super::fault::ImportFault;
 use super::super::place::{Place, TextFile};
+use super::super::refusal::{Fallible, at};
 use super::super::unreachable::Unreachable;
-use super::at::{Fallible, at};
 use super::attach::{self, Models};
 use super::element::Element;
 use super::fault::MjcfFault;

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::super::features::{self, Tally};
 use super::super::model::{self, Joint, JointKind};
+use super::super::refusal::Fallible;
 use super::actuator::{Actuator, Law, TAGS, greatest, within};
-use super::at::Fallible;
 use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;

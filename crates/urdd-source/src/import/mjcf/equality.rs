@@ -2,7 +2,7 @@
 
 use super::super::features::{self, Tally};
 use super::super::model::Mimic;
-use super::at::Fallible;
+use super::super::refusal::Fallible;
 use super::body::{RawBody, WORLD};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
@@ -10,6 +10,7 @@ use super::joint::Kind;
 use super::lookup::Lookup;
 use super::made::Made;
 use super::reading::{View, flag};
+use urdd_format::short::Short;
 
 /// Joints that follow one another; a longer chain is left out.
 const LONGEST: usize = 1000;
@@ -59,7 +60,7 @@ fn tie(
     tally: &mut Tally,
 ) -> Fallible<()> {
     let element = view.element;
-    let named = |key| element.text(key).map(|name: &str| name.chars().take(60).collect::<String>());
+    let named = |key| element.text(key).map(|name| Short::of(name).to_string());
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
     let mut who = [named("body1"), named("body2")].map(|name| name.unwrap_or("world".to_owned()));

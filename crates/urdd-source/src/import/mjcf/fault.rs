@@ -1,6 +1,7 @@
 //! Why an MJCF is refused.
 
 use thiserror::Error;
+use urdd_format::short::Short;
 
 /// Why an MJCF is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -106,7 +107,7 @@ pub enum MjcfFault {
     )]
     Unsupported(String),
     #[error("`<{element}>` names the {what} `{name}`, which the model does not have")]
-    Unknown { element: String, what: &'static str, name: String },
+    Unknown { element: String, what: &'static str, name: Short },
     #[error("`qpos` of the key has {found} numbers, but the model has {expected} positions")]
     Qpos { found: usize, expected: usize },
 }

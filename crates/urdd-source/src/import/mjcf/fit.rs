@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, Point3, Translation3};
 use urdd_geometry::mesh::Bounds;
 
+use super::super::refusal::{Fallible, at};
 use super::assets::Assets;
-use super::at::{Fallible, at};
 use super::compiler::Compiler;
 use super::fault::MjcfFault;
 use super::geom::{Geom, Kind};

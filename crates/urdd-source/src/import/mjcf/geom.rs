@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
 use super::super::model::Geometry;
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::fault::MjcfFault;
 use super::orientation::{pose, z_to};

@@ -6,9 +6,9 @@ use super::super::mass::Mass;
 use super::super::model::Inertial;
 
 use super::super::place::Place;
+use super::super::refusal::{Fallible, at};
 use super::super::solid::{moments, volume};
 use super::assets::Assets;
-use super::at::{Fallible, at};
 use super::body::RawBody;
 use super::compiler::{Compiler, FromShapes};
 use super::fault::MjcfFault;
@@ -17,7 +17,7 @@ use super::geom::Geom;
 use super::mesh::Meshes;
 use super::orientation::orientation;
 use super::principal::principal;
-use super::reading::View;
+use super::reading::{View, missing};
 
 /// Masses that are smaller are none.
 const SMALL: f64 = 1e-14;
@@ -68,9 +68,7 @@ pub fn inertial(
 /// `<inertial>`.
 fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Mass> {
     let element = view.element;
-    let missing = |attribute| {
-        at(element.place, MjcfFault::Missing { element: element.tag.clone(), attribute })
-    };
+    let missing = |attribute| missing(element, attribute);
     let centre = view.numbers::<3>("pos")?.ok_or_else(|| missing("pos"))?;
     let mass = view.number("mass")?.ok_or_else(|| missing("mass"))?;
     let turn = orientation(view, compiler)?;

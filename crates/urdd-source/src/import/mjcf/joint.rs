@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point3, Unit, Vector3};
 
 use super::super::features::{self, Tally};
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::element::Element;
 use super::fault::MjcfFault;

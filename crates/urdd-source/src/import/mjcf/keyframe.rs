@@ -7,7 +7,7 @@ use urdd_kinematics::rotation::to_rotation_vector;
 use super::super::features::{self, Tally};
 use super::super::model::{Configuration, JointValue};
 use super::super::names::Names;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::body::Bodies;
 use super::element::Element;
 use super::fault::MjcfFault;

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use urdd_directory::account::Account;
 
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::body::Bodies;
 use super::element::Element;
-use super::fault::MjcfFault;
+use super::reading::unknown;
 
 /// Bodies, joints and shapes by name.
 pub struct Lookup<'b> {
@@ -95,9 +95,5 @@ fn found<T: Copy>(
         "" => None,
         suffix => named.get(format!("{name}{suffix}").as_str()),
     };
-    replica.or_else(|| named.get(name)).copied().ok_or_else(|| {
-        let element_name = element.tag.clone();
-        let name = name.chars().take(60).collect();
-        at(element.place, MjcfFault::Unknown { element: element_name, what, name })
-    })
+    replica.or_else(|| named.get(name)).copied().ok_or_else(|| unknown(element, what, name))
 }

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::super::features::{self, Tally};
 use super::super::model::Material;
+use super::super::refusal::{Fallible, at};
 use super::assets::{Assets, Folder};
-use super::at::{Fallible, at};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::fault::MjcfFault;

@@ -11,9 +11,9 @@ use urdd_geometry::write::stl;
 use super::super::features::{self, Tally};
 use super::super::model::Geometry;
 use super::super::place::Place;
+use super::super::refusal::{Fallible, Refusal, at};
 use super::super::unreachable::Unreachable;
 use super::assets::{Assets, Folder};
-use super::at::{At, Fallible, at};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::fault::MjcfFault;
@@ -353,7 +353,7 @@ fn without_materials(bytes: Vec<u8>) -> Vec<u8> {
     kept
 }
 
-fn broken(name: &str, place: Place, problem: &str) -> At {
+fn broken(name: &str, place: Place, problem: &str) -> Refusal {
     let (name, problem) = (name.to_owned(), problem.to_owned());
     at(place, MjcfFault::Mesh { name, problem })
 }

@@ -2,7 +2,6 @@
 
 mod actuator;
 mod assets;
-mod at;
 mod attach;
 mod body;
 mod compiler;
@@ -40,9 +39,9 @@ use super::model::Model;
 use super::options::ImportOptions;
 use super::place::TextFile;
 use super::placed::{Placed, placed};
+use super::refusal::Fallible;
 use crate::gate::Gate;
 use assets::Assets;
-use at::Fallible;
 use compiler::Compilers;
 use contact::Contacts;
 use defaults::Defaults;

@@ -4,7 +4,7 @@ use nalgebra::{
     Isometry3, Matrix3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3,
 };
 
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::element::Element;
 use super::fault::MjcfFault;

@@ -1,10 +1,11 @@
 //! Reads attributes, with what default classes say of them.
 
 use super::super::fault::ImportFault;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, Refusal, at};
 use super::defaults::Defaults;
 use super::element::Element;
 use super::fault::MjcfFault;
+use urdd_format::short::Short;
 
 /// An element with its default class.
 #[derive(Clone, Copy)]
@@ -156,14 +157,23 @@ pub fn integer(element: &Element, name: &str) -> Fallible<Option<i64>> {
 
 /// A text that must be there.
 pub fn required<'e>(element: &'e Element, attribute: &'static str) -> Fallible<&'e str> {
-    element.text(attribute).ok_or_else(|| {
-        at(element.place, MjcfFault::Missing { element: element.tag.clone(), attribute })
-    })
+    element.text(attribute).ok_or_else(|| missing(element, attribute))
+}
+
+/// An attribute that is not there.
+pub fn missing(element: &Element, attribute: &'static str) -> Refusal {
+    at(element.place, MjcfFault::Missing { element: element.tag.clone(), attribute })
+}
+
+/// A name of what the model does not have.
+pub fn unknown(element: &Element, what: &'static str, name: &str) -> Refusal {
+    let (element_name, name) = (element.tag.clone(), name.into());
+    at(element.place, MjcfFault::Unknown { element: element_name, what, name })
 }
 
 /// A value that is wrong.
-pub fn wrong(element: &Element, attribute: &str, wanted: &'static str) -> super::at::At {
-    let value: String = element.get(attribute).unwrap_or_default().chars().take(60).collect();
+pub fn wrong(element: &Element, attribute: &str, wanted: &'static str) -> Refusal {
+    let value = Short::of(element.get(attribute).unwrap_or_default());
     let fault = ImportFault::Value {
         element: element.tag.clone(),
         attribute: attribute.to_owned(),

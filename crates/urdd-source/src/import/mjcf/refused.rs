@@ -11,6 +11,7 @@ use super::element::Element;
 use super::geom::Kind;
 use super::made::Made;
 use super::principal::principal;
+use urdd_format::short::Short;
 
 /// MuJoCo's mjMINVAL: masses and moments that are not above it are none.
 const LEAST: f64 = 1e-15;
@@ -51,8 +52,7 @@ pub fn say(
             said(plane.place, "a plane is in a body that moves".to_owned());
         }
         if !body.joints.is_empty() && made.index.contains_key(&index) && !has_mass[index] {
-            let name = body.name.as_deref().unwrap_or_default();
-            let name: String = name.chars().take(60).collect();
+            let name = Short::of(body.name.as_deref().unwrap_or_default());
             let text = format!(
                 "the body `{name}` moves without mass or without inertia; give it an `<inertial>`"
             );
@@ -93,7 +93,7 @@ fn twice<'e>(
         };
         let name = child.text("name").filter(|_| !kind.is_empty());
         if let Some(name) = name.filter(|name| !names.insert((kind, name))) {
-            let name: String = name.chars().take(60).collect();
+            let name = Short::of(name);
             said(child.place, format!("two of `<{}>` are named `{name}`", child.tag));
         }
         if section == "worldbody" {

@@ -3,6 +3,7 @@
 use super::super::features::{self, Tally};
 use super::attach::{CLASSES, KEYS};
 use super::element::Element;
+use urdd_format::short::Short;
 
 /// Attributes that are read, by whatever element, or counted with it.
 const READ: &str = "act active actuatorfrclimited actuatorfrcrange anchor angle armature assetdir autolimits \
@@ -92,8 +93,7 @@ fn inside(section: &Element, tally: &mut Tally) {
             tag => tally.unread(format!("<{tag}>")),
         }
         for plugin in element.all("plugin").filter(|_| element.tag != "body") {
-            let tag: String = element.tag.chars().take(60).collect();
-            tally.unread(format!("<{}> of <{tag}>", plugin.tag));
+            tally.unread(format!("<{}> of <{}>", plugin.tag, Short::of(&element.tag)));
         }
     }
 }
@@ -112,10 +112,7 @@ fn attributes(element: &Element, tally: &mut Tally) {
             name if has(LENS, name) => tally.unread("lenses and targets of cameras"),
             name if has(SETTINGS, name) => tally.count(features::SETTINGS),
             name if has(READ, name) => {}
-            name => {
-                let name: String = name.chars().take(60).collect();
-                tally.unread(format!("{name} of <{}>", element.tag));
-            }
+            name => tally.unread(format!("{} of <{}>", Short::of(name), element.tag)),
         }
     }
 }

@@ -9,11 +9,12 @@ use nalgebra::Isometry3;
 
 use super::super::features::Tally;
 use super::super::place::Place;
-use super::at::{Fallible, at};
+use super::super::refusal::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::Kind;
+use urdd_format::short::Short;
 
 /// The robot of a model.
 pub struct Robot {
@@ -183,5 +184,5 @@ fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, t
 
 fn title(body: &RawBody<'_>) -> String {
     let name = body.name.as_deref().unwrap_or("one without a name");
-    format!("`{}`", name.chars().take(60).collect::<String>().replace(char::is_control, " "))
+    format!("`{}`", Short::of(name).replace(char::is_control, " "))
 }

@@ -8,8 +8,8 @@ use urdd_geometry::mesh::Bounds;
 
 use super::super::fault::ImportFault;
 use super::super::model::Geometry;
+use super::super::refusal::Fallible;
 use super::assets::Assets;
-use super::at::Fallible;
 use super::body::{Bodies, WORLD};
 use super::contact::Contacts;
 use super::fit::Fitted;

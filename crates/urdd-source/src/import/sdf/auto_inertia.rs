@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use super::super::features::Tally;
 use super::super::mass::Mass;
 use super::super::model::Inertial;
+use super::super::refusal::Refusal;
 use super::super::solid::{moments, volume};
-use super::refusal::Refusal;
 use super::shape_reader::primitive;
 use super::tag::Tag;
 
@@ -58,7 +58,7 @@ pub fn auto_inertia(
 /// The mass of a shape; none of one whose density is not read.
 fn part(shape: Tag, density: f64) -> Result<Option<Mass>, Refusal> {
     if shape.name() == "cone" {
-        let (radius, length) = (shape.size("radius", 1.0)?, shape.size("length", 1.0)?);
+        let (radius, length) = (shape.size("radius")?, shape.size("length")?);
         let mass = density * PI * radius * radius * length / 3.0;
         let across = mass * (3.0 / 20.0 * radius * radius + 3.0 / 80.0 * length * length);
         let centre = Vector3::new(0.0, 0.0, -length / 4.0);

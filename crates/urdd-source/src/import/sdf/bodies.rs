@@ -8,9 +8,9 @@ use urdd_directory::account::{Account, Charged};
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Shape};
 use super::super::place::Place;
+use super::super::refusal::Refusal;
 use super::moving::{moving, needs_links, say_turned};
 use super::poses::{Frames, snapped};
-use super::refusal::Refusal;
 use super::scene::{Kind, Placeable, Scene, WORLD};
 use super::spanning::branches;
 

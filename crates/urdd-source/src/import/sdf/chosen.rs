@@ -7,13 +7,13 @@ use super::super::features::{self, Tally};
 use super::super::model::LETTER;
 use super::super::options::ImportOptions;
 use super::super::place::Place;
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, find, included};
 use super::kept::keep_plugins;
 use super::libsdformat::say_refusals;
 use super::models::model;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::tag::Tag;
 use super::world::world_joints;
 

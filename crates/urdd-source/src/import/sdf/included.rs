@@ -3,10 +3,10 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
+use super::super::refusal::Refusal;
 use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::tag::{Tag, is_true};
 use crate::gate::unreachable;
 use crate::resolve::{FoundMesh, NotFound};

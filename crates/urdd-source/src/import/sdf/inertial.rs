@@ -4,9 +4,9 @@ use nalgebra::{Isometry3, Matrix3, Point3};
 
 use super::super::features::{self, Tally};
 use super::super::model::Inertial;
+use super::super::refusal::Refusal;
 use super::auto_inertia::auto_inertia;
 use super::libsdformat::{REFUSED, takes_mass};
-use super::refusal::Refusal;
 use super::tag::Tag;
 
 /// The places of an inertia, by name.

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 
 use super::super::features;
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::kept::keep;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::{Axis, Joint, Kind, Mimic, Node, NodeKind, WORLD};
 use super::tag::{Tag, is_true};
 

@@ -8,10 +8,10 @@ use urdd_xml::writer::Element;
 use super::super::features;
 use super::super::model::{GazeboElement, LETTER};
 use super::super::place::Place;
+use super::super::refusal::Refusal;
 use super::posed::Posed;
 use super::poses::Frames;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::Scene;
 use super::tag::Tag;
 

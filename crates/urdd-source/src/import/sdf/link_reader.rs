@@ -1,11 +1,11 @@
 //! Reads links.
 
 use super::super::features;
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::inertial::inertial;
 use super::kept::keep;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::{Link, Node, NodeKind, WORLD};
 use super::shape_reader::shape;
 use super::tag::Tag;

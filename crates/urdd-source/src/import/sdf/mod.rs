@@ -19,7 +19,6 @@ mod part;
 mod posed;
 mod poses;
 mod reader;
-mod refusal;
 mod scene;
 mod shape_reader;
 mod spanning;
@@ -30,6 +29,7 @@ use super::model::Model;
 use super::options::ImportOptions;
 use super::place::TextFile;
 use super::placed::{Placed, placed};
+use super::refusal::Refusal;
 use crate::gate::Gate;
 use bodies::bodies;
 use chosen::read_chosen;
@@ -38,7 +38,6 @@ use kept::{keep_posed, keep_static};
 use libsdformat::say_refusals;
 use poses::Frames;
 use reader::Reader;
-use refusal::Refusal;
 
 /// Reads the robot of a description.
 ///

@@ -4,6 +4,7 @@ use nalgebra::Isometry3;
 
 use super::super::features;
 use super::super::model::{ENTRY, LETTER};
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
 use super::joint_reader::joint;
@@ -11,7 +12,6 @@ use super::kept::{keep, keep_plugins};
 use super::libsdformat::say_refusals;
 use super::link_reader::link;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::{Node, NodeKind, Scope};
 use super::tag::Tag;
 

@@ -5,9 +5,9 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use super::super::features::{self, Tally};
 use super::super::model::{Joint as Moving, JointKind, Mimic};
 use super::super::place::Place;
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::poses::Frames;
-use super::refusal::Refusal;
 use super::scene::{Axis, Joint, Kind, NodeKind, Scene};
 
 /// How far the other limit is from one that stands alone.

@@ -2,8 +2,8 @@
 
 use nalgebra::Isometry3;
 
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
-use super::refusal::Refusal;
 use super::scene::{NodeKind, Scene};
 
 /// The frames of a scene.

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::super::model::{Inertial, Shape};
 use super::super::place::Place;
-use super::refusal::Refusal;
+use super::super::refusal::Refusal;
 use super::tag::Tag;
 
 /// The name of the world, as the parent of a joint.

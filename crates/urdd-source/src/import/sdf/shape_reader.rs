@@ -5,10 +5,10 @@ use nalgebra::{Translation3, Vector3};
 
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
+use super::super::refusal::Refusal;
 use super::super::unreachable::Unreachable;
 use super::cone::cone;
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::Placeable;
 use super::tag::Tag;
 
@@ -83,13 +83,13 @@ pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal
 pub fn primitive(tag: Tag) -> Result<Option<Geometry>, Refusal> {
     Ok(Some(match tag.name() {
         "box" => Geometry::Box(lengths(tag, "size")?),
-        "sphere" => Geometry::Sphere(tag.size("radius", 1.0)?),
+        "sphere" => Geometry::Sphere(tag.size("radius")?),
         "cylinder" => {
-            let (radius, length) = (tag.size("radius", 1.0)?, tag.size("length", 1.0)?);
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             Geometry::Cylinder { radius, length }
         }
         "capsule" => {
-            let (radius, length) = (tag.size("radius", 0.5)?, tag.size("length", 1.0)?);
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             Geometry::Capsule { radius, length }
         }
         "ellipsoid" => Geometry::Ellipsoid(lengths(tag, "radii")?),
@@ -111,7 +111,7 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
     let sizes = SIZES.iter().find(|(shape, _)| *shape == tag.name());
     let sizes = sizes.into_iter().flat_map(|(_, sizes)| *sizes);
     for size in sizes.filter(|size| tag.child(size).is_none()) {
-        let metres = if (tag.name(), *size) == ("capsule", "radius") { 0.5 } else { 1.0 };
+        let metres = tag.default_size(size);
         let text = format!("`<{}>` has no `<{size}>`: SDF gives it {metres} m", tag.name());
         reader.tally.remark(tag.place(), text);
     }
@@ -120,7 +120,7 @@ fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> 
         (Some(ellipsoid @ Geometry::Ellipsoid(_)), _) => (features::ELLIPSOIDS, ellipsoid),
         (Some(other), _) => (features::BOXES, other),
         (None, "cone") => {
-            let (radius, length) = (tag.size("radius", 1.0)?, tag.size("length", 1.0)?);
+            let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             let Some(bytes) = cone() else { return Ok(None) };
             let asset = reader.assets.made(reader.gate, "meshes/unit_cone.stl", bytes);
             let asset = asset.or_else(|why| Refusal::at(tag.place(), why))?;

@@ -1,9 +1,9 @@
 //! The tree in the graph of links and joints.
 
 use super::super::features::{self, Tally};
+use super::super::refusal::Refusal;
 use super::libsdformat::REFUSED;
 use super::poses::Frames;
-use super::refusal::Refusal;
 use super::scene::{Kind, Scene, WORLD};
 
 /// A link in the tree, its parent first.

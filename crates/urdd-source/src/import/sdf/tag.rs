@@ -6,8 +6,8 @@ use urdd_xml::{Mended, Node, element};
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
 use super::super::place::Place;
+use super::super::refusal::Refusal;
 use super::fault::SdfFault;
-use super::refusal::Refusal;
 
 /// The last minor version in which `relative_to` may be called `frame`.
 const RENAMED: u32 = 6;
@@ -134,10 +134,15 @@ impl<'a> Tag<'a> {
         Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
     }
 
+    /// The size that SDF gives a shape without this child element, m.
+    pub fn default_size(self, child: &str) -> f64 {
+        if (self.name(), child) == ("capsule", "radius") { 0.5 } else { 1.0 }
+    }
+
     /// The number in a child element, which must not be less than 0; the size that SDF gives without it.
-    pub fn size(self, child: &'static str, default: f64) -> Result<f64, Refusal> {
+    pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
         match self.number(child)? {
-            None if self.child(child).is_none() => Ok(default),
+            None if self.child(child).is_none() => Ok(self.default_size(child)),
             Some(value) if value >= 0.0 => Ok(value),
             Some(value) => self.refuse(&value.to_string(), "at least 0"),
             None => self.lacks(child),

@@ -1,8 +1,8 @@
 //! Joints of a world that hold on to the robot.
 
+use super::super::refusal::Refusal;
 use super::joint_reader::{end, read};
 use super::reader::Reader;
-use super::refusal::Refusal;
 use super::scene::WORLD;
 use super::tag::Tag;
 
