@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex};
 
 use testkit::dice::Dice;
 use testkit::trials::trials;
+use urdd_diff::{Side, compare};
 use urdd_directory::account::{ALLOWANCE, MULTIPLE};
 use urdd_directory::cancellation::Cancellation;
 use urdd_generate::{Selection, generate_in_memory};
@@ -23,7 +24,8 @@ use urdd_lint::{LintSettings, lint_with_text};
 use urdd_source::import::import_whole;
 use urdd_source::{Files, Settings};
 
-/// How many times the allowance lint may take of a description that is imported: what the import makes is its input.
+/// How many times the allowance lint and diff may take of a description that is imported: what the import makes is their
+/// input.
 const OF_IMPORT: usize = 3;
 /// Number of descriptions by default.
 const FEW: u32 = 16;
@@ -442,6 +444,10 @@ fn whatever_multiplies_is_bounded() {
         };
         let path = Path::new(file);
         let input: usize = draw.files.values().map(Vec::len).sum();
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in &draw.files {
+            std::fs::write(folder.path().join(name), bytes).unwrap();
+        }
         let files = draw.files.into_iter().map(|(name, bytes)| (name, Arc::from(bytes)));
         let source = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
         let lints = LintSettings { source: source.clone(), ..LintSettings::default() };
@@ -461,13 +467,19 @@ fn whatever_multiplies_is_bounded() {
             }
             _ => drop(import_whole(path, &source, &Cancellation::default())),
         };
-        let runs: [(&str, &dyn Fn()); 2] = [("lint", &lint), ("make", &make)];
+        let diff = || {
+            let options = urdd_diff::Options { without_findings: true, ..Default::default() };
+            if let Ok(side) = Side::open(&folder.path().join(&file[1..]), &options) {
+                serde_json::to_string(&compare(&side, &side, 0.0).unwrap()).unwrap();
+            }
+        };
+        let runs: [(&str, &dyn Fn()); 3] = [("lint", &lint), ("make", &make), ("diff", &diff)];
         for (what, run) in runs {
             let said =
                 format!("{what} of {format:?} {trial}, {input} bytes: {}", draw.said.join(", "));
             NOW.lock().unwrap().clone_from(&said);
             let (peak, work) = counted(run);
-            let of_import = if what == "lint" && format != Format::Urdf { OF_IMPORT } else { 1 };
+            let of_import = if what == "make" || format == Format::Urdf { 1 } else { OF_IMPORT };
             let most = input * MULTIPLE as usize + ALLOWANCE as usize * of_import;
             assert!(peak <= most, "{peak} bytes at once: {said}");
             assert!(work <= input * WORK + LEAST_WORK, "{work} bytes in all: {said}");
