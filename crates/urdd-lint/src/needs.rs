@@ -24,6 +24,8 @@ pub(crate) fn examined(
     settings: &LintSettings,
 ) -> Examined {
     let name = stems(path).1;
+    // Behind it are the files that were read, by their paths on this machine.
+    let reason = reason.split("; ").next().unwrap_or_default();
     let listed: Vec<String> = needed.iter().map(ToString::to_string).collect();
     let lines = declaration(&path.to_string_lossy(), needed).replace('\n', " ");
     let message = format!(
