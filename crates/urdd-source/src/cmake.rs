@@ -1,6 +1,6 @@
 //! What a CMakeLists.txt installs, as far as it is literal.
 
-use crate::installed::Installed;
+use crate::installed::{Installed, MAX_VALUE};
 
 const FILE: &str = "CMakeLists.txt";
 /// Words in `install(...)` that end a list of names.
@@ -42,7 +42,8 @@ pub fn installed(text: &str) -> Installed {
     let (mut installed, mut project) = (Installed::default(), None);
     for Command { name, line, words } in commands(text) {
         if name.eq_ignore_ascii_case("project") {
-            project = words.first().filter(|name| !name.contains('$')).cloned();
+            let is_plain = |name: &&String| name.len() <= MAX_VALUE && !name.contains('$');
+            project = words.first().filter(is_plain).cloned();
         }
         let is_data = |word: &String| matches!(word.as_str(), "DIRECTORY" | "FILES");
         if !name.eq_ignore_ascii_case("install") || !words.first().is_some_and(is_data) {
@@ -68,12 +69,14 @@ pub fn installed(text: &str) -> Installed {
             }
             is_known &= !value.contains('$');
         }
-        if !is_known {
+        let own = format!("share/{project}");
+        let is_own = |one: &String| one.contains('$') || one.contains(&own);
+        if !is_known && destination.as_ref().is_some_and(is_own) {
             installed.unknown.get_or_insert((FILE, line));
         }
         let Some(destination) = destination.filter(|one| !one.contains('$')) else { continue };
         for name in names.iter().filter(|name| !name.contains('$')) {
-            installed.add(name, &destination, rename.as_deref(), &format!("share/{project}"));
+            installed.add(name, &destination, rename.as_deref(), &own);
         }
     }
     installed

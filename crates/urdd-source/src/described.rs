@@ -53,14 +53,17 @@ pub struct Described {
 pub struct Description {
     /// The files, in the order in which they were given.
     pub files: Vec<Described>,
-    /// The macros that nothing calls, each with its file. None where there is no robot, or a name is computed.
+    /// The macros that nothing calls, each with its file, in packages with a robot. None where a name is computed.
     pub uncalled: Vec<(PathBuf, Macro)>,
 }
 
 impl Description {
-    /// The files that others of these include.
-    pub fn included(&self) -> HashSet<&Path> {
-        self.files.iter().flat_map(|file| &file.includes).map(PathBuf::as_path).collect()
+    /// Whether a file may be a part of robots that cannot be expanded by itself: a well-formed one that another one includes.
+    pub fn may_be_part(&self, path: &Path) -> bool {
+        let Ok(place) = path.canonicalize() else { return false };
+        let is_well_formed = |file: &Described| file.path == path && file.kind == FileKind::Robot;
+        self.files.iter().any(is_well_formed)
+            && self.files.iter().any(|file| file.path != path && file.includes.contains(&place))
     }
 }
 
@@ -93,8 +96,12 @@ pub fn describe(
         Described { path: path.clone(), kind, arguments, includes }
     });
     let files: Vec<Described> = files.collect();
-    let has_robot = files.iter().any(|file| file.kind == FileKind::Robot);
-    let uncalled = if has_robot { uncalled(&texts, paths, &keys) } else { Vec::new() };
+    let mut uncalled = uncalled(&texts, paths, &keys);
+    // A package without a robot has its macros for others.
+    let package = |path: &Path| packages.values().filter(|folder| path.starts_with(folder)).max();
+    let robots = files.iter().filter(|file| file.kind == FileKind::Robot);
+    let robots: HashSet<Option<&PathBuf>> = robots.map(|file| package(&file.path)).collect();
+    uncalled.retain(|(path, _)| robots.contains(&package(path)));
     Description { files, uncalled }
 }
 

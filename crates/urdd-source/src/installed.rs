@@ -11,6 +11,9 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Maximum number of files and folders that a package installs one by one.
 const MAX_RULES: usize = 1000;
 
+/// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
+pub const MAX_VALUE: usize = 255;
+
 /// A file or folder that is installed. Paths are relative, with forward slashes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rule {

@@ -146,7 +146,10 @@ impl Linked {
         if !text.contains(&inside) {
             return text;
         }
-        let text = text.replace(&format!("file://{inside}"), &format!("package://{name}/"));
+        // Many write `file:///$(find NAME)`, with one slash too many.
+        let as_package = format!("package://{name}/");
+        let text = text.replace(&format!("file:///{inside}"), &as_package);
+        let text = text.replace(&format!("file://{inside}"), &as_package);
         let mut parts = text.split(&inside);
         let mut made = parts.next().unwrap_or_default().to_owned();
         for rest in parts {

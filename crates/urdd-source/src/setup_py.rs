@@ -1,6 +1,6 @@
 //! What the `data_files` of a setup.py install, as far as they are literal. Nothing is run.
 
-use crate::installed::Installed;
+use crate::installed::{Installed, MAX_VALUE};
 use crate::launch::{Token, tokens};
 
 const FILE: &str = "setup.py";
@@ -51,7 +51,9 @@ fn value<'v>(variables: &'v Variables, name: &str) -> Option<&'v str> {
 fn assignment(line: &str) -> Option<(String, String)> {
     let (name, value) = line.split_once('=')?;
     match &tokens(value)[..] {
-        [Token::Text(value)] => Some((name.trim().to_owned(), value.clone())),
+        [Token::Text(value)] if value.len() <= MAX_VALUE => {
+            Some((name.trim().to_owned(), value.clone()))
+        }
         _ => None,
     }
 }

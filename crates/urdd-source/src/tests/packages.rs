@@ -42,6 +42,7 @@ fn cmake_says_where_files_are_installed() {
         install(DIRECTORY other DESTINATION share/other_package)
         install(DIRECTORY ../up DESTINATION share/${PROJECT_NAME})
         install(TARGETS arm LIBRARY DESTINATION lib)
+        install(FILES ${HEADERS} DESTINATION include/${PROJECT_NAME})
         if(X)
         install(
           DIRECTORY $<TARGET_FILE_DIR:arm>/made
@@ -69,10 +70,21 @@ fn cmake_says_where_files_are_installed() {
         assert_eq!(first(&installed, path).as_deref(), source, "{path}");
     }
     assert!(!installed.is_as_source());
-    assert_eq!(installed.unknown, Some(("CMakeLists.txt", 14)));
+    assert_eq!(installed.unknown, Some(("CMakeLists.txt", 15)));
     let plain = "project(a)\ninstall(DIRECTORY urdf meshes DESTINATION share/${PROJECT_NAME})";
     let plain = self::installed("CMakeLists.txt", plain);
     assert!(plain.is_as_source() && plain.unknown.is_none() && plain.rules.len() == 2);
+}
+
+#[test]
+fn a_long_name_is_not_put_in_very_often() {
+    let name = "n".repeat(300_000);
+    let words = "${PROJECT_NAME} ".repeat(30_000);
+    let text = format!("project({name})\ninstall(FILES {words} DESTINATION share/x)");
+    assert_eq!(installed("CMakeLists.txt", &text), Installed::default());
+    let parts = "package_name + ".repeat(100);
+    let text = format!("package_name = '{name}'\nsetup(data_files=[({parts} 'x', ['y'])])");
+    assert_eq!(installed("setup.py", &text).rules, []);
 }
 
 #[test]
@@ -196,6 +208,10 @@ fn the_text_tells_robots_from_parts() {
     // The circle calls itself, and nothing calls it.
     let uncalled: Vec<&str> = found.uncalled.iter().map(|(_, one)| one.name.as_str()).collect();
     assert_eq!(uncalled, ["m", "ca", "cb"]);
+    let elsewhere = robot("<xacro:macro name=\"for_others\"/>");
+    let robot_of_p = robot("<link name=\"a\"/>");
+    let files = [("p/robot.xacro", &*robot_of_p), ("q/library.xacro", &*elsewhere)];
+    assert_eq!(described(&files).uncalled, []);
     let arm = found.files.iter().find(|file| file.path.ends_with("arm.urdf.xacro")).expect("it");
     assert_eq!(arm.includes, [Path::new("/p/arm_macro.xacro")]);
     assert_eq!((arm.arguments[0].name.as_str(), &arm.arguments[0].default), ("p", &None));
@@ -278,12 +294,12 @@ fn find_leads_to_the_tree_as_it_is_installed() {
     assert_eq!(share("third"), None);
     // What xacro writes outlives the layout.
     let text = format!(
-        "<m f=\"file://{0}/meshes/m.stl\"/> {0}/ros2_control/a.xacro, {0}/none",
+        "<m f=\"file://{0}/meshes/m.stl\"/> <m f=\"file:///{0}/meshes/m.stl\"/> {0}/ros2_control/a.xacro, {0}/none",
         at.display()
     );
     let demo = root.join("ws/src/repo/demo");
     let expected = format!(
-        "<m f=\"package://demo/meshes/m.stl\"/> {0}/d/ros2_control/a.xacro, {0}/none",
+        "<m f=\"package://demo/meshes/m.stl\"/> <m f=\"package://demo/meshes/m.stl\"/> {0}/d/ros2_control/a.xacro, {0}/none",
         demo.display()
     );
     assert_eq!(index.lasting(&text), expected);
@@ -328,8 +344,8 @@ fn folders_say_what_they_have() {
         &[
             ("a/package.xml", &manifest("p")),
             ("b/package.xml", &manifest("p")),
-            ("b/robot.xacro", &robot("<link name=\"a\"/>")),
-            ("b/robot.srdf.xacro", &robot("<group name=\"a\"/>")),
+            ("a/robot.xacro", &robot("<link name=\"a\"/>")),
+            ("a/robot.srdf.xacro", &robot("<group name=\"a\"/>")),
             ("install/COLCON_IGNORE", ""),
             ("install/robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>"),
         ],
