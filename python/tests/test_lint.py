@@ -32,7 +32,7 @@ def test_it_finds_what_the_command_finds(tmp_path: Path) -> None:
 def test_it_says_what_programs_do() -> None:
     (urdf,) = urdd.lint(REFUSED).urdds
     does = {program.program: program.does for program in urdf.programs}
-    refusing = {"urdfdom6", "urdfdom4", "urdfdom3", "sdformat", "pinocchio"}
+    refusing = {"urdfdom6", "urdfdom4", "urdfdom3", "sdformat", "sdformat14", "sdformat16", "pinocchio"}
     assert {name for name, deed in does.items() if deed == "refuses"} == refusing
     assert does["mujoco"] is None
     (finding,) = urdf.findings

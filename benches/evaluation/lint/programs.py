@@ -33,7 +33,7 @@ PROGRAMS = {
     "urdfdom6": "ROS lyrical, rolling (urdfdom)",
     "urdfdom4": "ROS jazzy, kilted (urdfdom)",
     "urdfdom3": "ROS noetic, humble, iron (urdfdom)",
-    "sdformat": "Gazebo (libsdformat)",
+    "sdformat": "Gazebo Fortress (libsdformat)",
     "mujoco": "MuJoCo 4",
     "mujoco33": "MuJoCo 3.3",
     "pinocchio": "Pinocchio",

@@ -2,7 +2,8 @@
 
 use urdd_format::report::ProgramResult;
 
-/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom.
+/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom, `gazebo` for
+/// each of its versions.
 pub const NAMES: &[&str] = &[
     "ros",
     "lyrical",
@@ -13,6 +14,9 @@ pub const NAMES: &[&str] = &[
     "noetic",
     "iron",
     "gazebo",
+    "fortress",
+    "harmonic",
+    "jetty",
     "mujoco",
     "mujoco3.3",
     "pinocchio",
@@ -61,28 +65,49 @@ const INSIDE: &[&str] = &[
     "child",
 ];
 
-/// The kind of a part of a robot: `collision` of `link/arm/collision/0`, `link` of `link/arm/tip`, whose name has a slash;
-/// `?` for something that is no part.
+/// The kind of a part of a robot: `collision` of `link/arm/collision/0`, `link` of `link/arm/tip`, whose name has a slash,
+/// `transmission` of `transmission/wrist_3`; `?` for something that is no part.
 pub fn kind(part: &str) -> &str {
-    let mut words = part.split('/').rev();
-    let last = words.next().unwrap_or_default();
-    let above = words.next().filter(|above| matches!(*above, "visual" | "collision"));
-    let first = part.split('/').next().unwrap_or_default();
-    match above {
-        _ if last == "?" || INSIDE.contains(&last) => last,
-        Some(above) => above,
-        None if matches!(first, "link" | "joint" | "material") => first,
-        None => last,
+    let words: Vec<&str> = part.split('/').collect();
+    match words[..] {
+        [.., "?"] => "?",
+        ["robot" | "", .., last] => last,
+        // A link may be called `limit`.
+        [kind, _] => kind,
+        [.., last] if INSIDE.contains(&last) => last,
+        [.., of @ ("visual" | "collision"), _] => of,
+        [first, ..] => first,
+        [] => part,
     }
 }
 
-/// The names of some of the programs, in their order: of a family once, where all of it is among them.
+/// The link, joint or material that a part is of: `arm` of `link/arm/visual/0`.
+pub fn owner(part: &str) -> &str {
+    let mut owner = part.split_once('/').map_or(part, |(_, owner)| owner);
+    while let Some((above, last)) = owner.rsplit_once('/') {
+        let is_shape = ["/visual", "/collision"].iter().any(|shape| above.ends_with(shape));
+        let is_index = is_shape && last.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_index && !INSIDE.contains(&last) {
+            break;
+        }
+        owner = above;
+    }
+    owner
+}
+
+/// The names of some of the programs, in their order: of a family once, where all of it is among them. Otherwise the
+/// versions of a family share its name: `Gazebo Harmonic` and `Jetty`.
 fn names(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
+    let mut last = "";
     for program in all.iter().filter(|program| some(program)) {
         let mut family = all.iter().filter(|other| other.family == program.family);
-        let name = if family.all(&some) { &program.family } else { &program.name };
-        if !names.contains(&name.as_str()) {
+        let name: &str = if family.all(&some) { &program.family } else { &program.name };
+        let version = name.strip_prefix(last).and_then(|rest| rest.strip_prefix(' '));
+        let name =
+            version.filter(|rest| !last.is_empty() && !rest.starts_with('(')).unwrap_or(name);
+        last = &program.family;
+        if !names.contains(&name) {
             names.push(name);
         }
     }
@@ -95,5 +120,28 @@ pub fn listed(names: &[&str]) -> String {
         [] => String::new(),
         [only] => (*only).to_owned(),
         [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::kind;
+
+    #[test]
+    fn a_part_is_of_its_kind_whatever_its_name() {
+        for (part, expected) in [
+            ("link/arm/collision/0", "collision"),
+            ("link/arm/visual/0/material", "material"),
+            ("link/arm/tip", "link"),
+            ("link/limit", "link"),
+            ("joint/elbow/limit", "limit"),
+            ("transmission/wrist_3", "transmission"),
+            ("transmission/arm/wrist_3", "transmission"),
+            ("robot/gazebo", "gazebo"),
+            ("robot/transmission/?", "?"),
+            ("robot", "robot"),
+        ] {
+            assert_eq!(kind(part), expected, "{part}");
+        }
     }
 }

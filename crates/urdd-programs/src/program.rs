@@ -14,8 +14,12 @@ pub enum Program {
     Urdfdom4,
     /// ROS noetic, humble and iron.
     Urdfdom3,
-    /// Gazebo, by libsdformat 12.
-    Gazebo,
+    /// Gazebo Fortress, by libsdformat 12.
+    Fortress,
+    /// Gazebo Harmonic, by libsdformat 14.
+    Harmonic,
+    /// Gazebo Jetty, by libsdformat 16.
+    Jetty,
     /// MuJoCo 4.
     MuJoCo,
     /// MuJoCo 3.3.
@@ -34,11 +38,13 @@ pub enum Program {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 11] = [
+    pub const ALL: [Program; 13] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
-        Program::Gazebo,
+        Program::Fortress,
+        Program::Harmonic,
+        Program::Jetty,
         Program::MuJoCo,
         Program::MuJoCo33,
         Program::Pinocchio,
@@ -53,7 +59,9 @@ impl Program {
             Program::Urdfdom6 => &urdfdom::SIX,
             Program::Urdfdom4 => &urdfdom::FOUR,
             Program::Urdfdom3 => &urdfdom::THREE,
-            Program::Gazebo => &sdformat::ABOUT,
+            Program::Fortress => &sdformat::FORTRESS,
+            Program::Harmonic => &sdformat::HARMONIC,
+            Program::Jetty => &sdformat::JETTY,
             Program::MuJoCo => &mujoco::FOUR,
             Program::MuJoCo33 => &mujoco::THREE,
             Program::Pinocchio => &pinocchio::ABOUT,
@@ -64,11 +72,11 @@ impl Program {
         }
     }
 
-    /// The program that settings name: `ros`, `humble`, `isaac`.
-    pub fn of_name(name: &str) -> Option<Program> {
-        let is_one =
-            |program: &Program| program.id() == name || program.about().settings.contains(&name);
-        Program::ALL.into_iter().find(is_one)
+    /// The programs that a name in settings stands for: `ros`, `humble`, `isaac`; of `gazebo`, each version.
+    pub fn of_name(name: &str) -> impl Iterator<Item = Program> {
+        Program::ALL
+            .into_iter()
+            .filter(move |program| program.id() == name || program.about().settings.contains(&name))
     }
 
     /// The names of settings for it, the best first.

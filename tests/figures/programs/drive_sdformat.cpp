@@ -1,4 +1,4 @@
-// Driver: libsdformat 12 (Debian 12.3.0), sdf::Root::Load of a URDF. Protocol: paths on stdin, JSON lines on stdout.
+// Driver: libsdformat 12 (Debian 12.3.0), 14 or 16, sdf::Root::Load of a URDF. Protocol: paths on stdin, JSON lines on stdout.
 // A file "loads" if Load returns no error and there is a model (what gz sim asks for before it spawns a model).
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,15 @@
 #include <sdf/sdf.hh>
 
 using std::string;
+#if SDF_MAJOR_VERSION < 13
 using ignition::math::Pose3d;
+static string parent(const sdf::Joint &j) { return j.ParentLinkName(); }
+static string child(const sdf::Joint &j) { return j.ChildLinkName(); }
+#else
+using gz::math::Pose3d;
+static string parent(const sdf::Joint &j) { return j.ParentName(); }
+static string child(const sdf::Joint &j) { return j.ChildName(); }
+#endif
 
 static std::vector<std::pair<string, string>> facts;
 
@@ -118,10 +126,10 @@ static void collect(const sdf::Model &m) {
             default: t = "type" + std::to_string(static_cast<int>(j.Type()));
         }
         put(k, t);
-        put(k + "/parent", j.ParentLinkName());
-        put(k + "/child", j.ChildLinkName());
+        put(k + "/parent", parent(j));
+        put(k + "/child", child(j));
         Pose3d p;
-        const string base = j.ParentLinkName() == "world" ? "__model__" : j.ParentLinkName();
+        const string base = parent(j) == "world" ? "__model__" : parent(j);
         if (j.SemanticPose().Resolve(p, base).empty()) put(k + "/origin", pose_text(p));
         if (const sdf::JointAxis *a = j.Axis(0)) {
             put(k + "/axis", nums({a->Xyz().X(), a->Xyz().Y(), a->Xyz().Z()}));
@@ -131,6 +139,9 @@ static void collect(const sdf::Model &m) {
             put(k + "/velocity", num(a->MaxVelocity()));
             put(k + "/damping", num(a->Damping()));
             put(k + "/friction", num(a->Friction()));
+#if SDF_MAJOR_VERSION >= 14
+            if (auto m = a->Mimic()) put(k + "/mimic", m->Joint() + " " + nums({m->Multiplier(), m->Offset()}));
+#endif
         }
     }
     for (uint64_t i = 0; i < m.FrameCount(); ++i) put("frame/" + m.FrameByIndex(i)->Name(), m.FrameByIndex(i)->AttachedTo());

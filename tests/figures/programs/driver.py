@@ -20,6 +20,7 @@ class Program:
     letter: str
     version: str
     command: tuple[str, ...]
+    by_hand: bool = False
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,13 @@ def programs(drivers: Path, peers: Path, venvs: Path) -> dict[str, Program]:
     read = tomllib.loads((HERE / "programs.toml").read_text("utf-8"))
     places = {"drivers": drivers, "peers": peers, "venvs": venvs}
     return {
-        name: Program(name, of["letter"], of["version"], tuple(part.format(**places) for part in of["command"]))
+        name: Program(
+            name,
+            of["letter"],
+            of["version"],
+            tuple(part.format(**places) for part in of["command"]),
+            of.get("by_hand", False),
+        )
         for name, of in read.items()
     }
 

@@ -17,6 +17,7 @@ import argparse
 import collections
 import hashlib
 import json
+import shutil
 import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -203,7 +204,8 @@ def main() -> None:
     parser.add_argument("--check", type=Path)
     options = parser.parse_args()
     known = programs(options.drivers, options.peers, options.venvs)
-    named = options.programs.split(",") if options.programs else [] if options.stored else list(known)
+    usual = [name for name, program in known.items() if not program.by_hand or shutil.which(program.command[0])]
+    named = options.programs.split(",") if options.programs else [] if options.stored else usual
     named = [] if named == ["none"] else named
     asked = [known[name] for name in named]
     if options.real:

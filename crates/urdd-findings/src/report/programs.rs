@@ -1,4 +1,4 @@
-//! What programs do with a URDF, as a line: `ROS refuses it (LNT060 at 28:5) · MuJoCo loads it without 1 collision · …`.
+//! What programs do with a URDF, as a line: ``ROS refuses it (LNT060 at 28:5) · MuJoCo loads it without the mimic of `tip` ``.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,13 @@ use urdd_format::report::{Deed, Does, ProgramResult, Report, Severity, Urdd};
 use super::fill;
 use super::words::plural;
 use crate::examined::Examined;
-use crate::programs::{kind, listed, subject};
+use crate::programs::{kind, listed, owner, subject};
+
+/// What MuJoCo and three.js never have.
+const SHAPES: [&str; 2] = ["visual", "collision"];
+
+/// Maximum number of names of a kind in a line; the rest are counted.
+const NAMED: usize = 3;
 
 /// What each program does with an examined URDF, as the report for people says it: those of the settings and the worst
 /// first, programs that do the same in one line.
@@ -78,8 +84,17 @@ pub(super) fn counts(report: &Report) -> Vec<(&str, [usize; 3])> {
 enum Outcome {
     /// There is no robot: how, and where it is said why.
     Refused(Deed, String),
-    /// There is one, without so much of each kind, and with so many values otherwise; and so much that the report left out.
-    Loaded(BTreeMap<String, usize>, [usize; 2]),
+    /// There is one, without parts of each kind, and with so many values otherwise; and so much that the report left out.
+    Loaded(BTreeMap<String, Lost>, [usize; 2]),
+}
+
+/// Parts of a kind that are lost.
+#[derive(PartialEq, Default)]
+struct Lost {
+    count: usize,
+    /// Their names, or those of what they are in, in the order of the file. Shapes that a program never has are not named.
+    names: Vec<String>,
+    is_inside: bool,
 }
 
 fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
@@ -100,9 +115,12 @@ fn why(urdd: &Urdd, program: &ProgramResult) -> String {
     let mut of_program = places.filter(|(_, place)| place.programs.iter().any(is_why));
     if let Some((code, place)) = of_program.next() {
         let at = place.line.zip(place.column);
+        // A file that the robot's own includes has a name.
+        let other = place.file.as_deref().filter(|file| !urdd.path.ends_with(file));
+        let file = other.map(|file| format!("{file}:")).unwrap_or_default();
         return at.map_or_else(
             || code.to_owned(),
-            |(line, column)| format!("{code} at {line}:{column}"),
+            |(line, column)| format!("{code} at {file}{line}:{column}"),
         );
     }
     let effect = program.effects.iter().find(|effect| Some(effect.does) == program.does);
@@ -113,12 +131,20 @@ fn why(urdd: &Urdd, program: &ProgramResult) -> String {
 }
 
 fn loaded(program: &ProgramResult) -> Outcome {
-    let mut lost: BTreeMap<String, usize> = BTreeMap::new();
+    let mut lost: BTreeMap<String, Lost> = BTreeMap::new();
     let mut others = 0;
     for effect in &program.effects {
-        let part = effect.part.as_deref().map(kind).filter(|kind| *kind != "?");
+        let part = effect.part.as_deref().filter(|part| kind(part) != "?");
         match (effect.does, part) {
-            (Deed::Drops, Some(kind)) => *lost.entry(kind.to_owned()).or_default() += 1,
+            (Deed::Drops, Some(part)) => {
+                let (kind, name) = (kind(part), owner(part));
+                let lost = lost.entry(kind.to_owned()).or_default();
+                lost.count += 1;
+                lost.is_inside |= !part.starts_with(kind);
+                let is_named = name != kind && !(effect.is_usual && SHAPES.contains(&kind));
+                let name = is_named.then(|| name.to_owned());
+                lost.names.extend(name.filter(|name| !lost.names.contains(name)));
+            }
             _ if effect.is_usual => {}
             _ => others += 1,
         }
@@ -137,7 +163,7 @@ impl Outcome {
             Outcome::Refused(_, why) => format!("refuse{s} it ({why})"),
             Outcome::Loaded(lost, others) => {
                 let losses = losses(lost, *others);
-                // `loads it without 1 limit, 2 values read otherwise`
+                // ``loads it without the limit of `elbow`, 2 values read otherwise``
                 let between = if lost.is_empty() { ", " } else { " " };
                 let between = if losses.is_empty() { "" } else { between };
                 format!("load{s} it{between}{}", losses.join(", "))
@@ -146,10 +172,27 @@ impl Outcome {
     }
 }
 
-/// `without 1 limit`, and `2 values read otherwise`, as far as they are so.
-fn losses(lost: &BTreeMap<String, usize>, [others, cut]: [usize; 2]) -> Vec<String> {
-    let lost = lost.iter().map(|(kind, count)| plural(*count, &kind.replace('_', " ")));
-    let lost: Vec<String> = lost.collect();
+impl Lost {
+    /// ``the joints `a`, `b`, `c` and 2 more``, ``the mimic of `a` ``, `3 visuals`.
+    fn words(&self, kind: &str) -> String {
+        let words = kind.replace('_', " ");
+        if self.names.is_empty() {
+            return plural(self.count, &words);
+        }
+        let s = if self.count > 1 && !words.ends_with('s') { "s" } else { "" };
+        let of = if self.is_inside { "of " } else { "" };
+        let mut names: Vec<String> =
+            self.names.iter().take(NAMED).map(|name| format!("`{name}`")).collect();
+        let more = self.names.len().saturating_sub(NAMED);
+        names.extend((more > 0).then(|| format!("{more} more")));
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        format!("the {words}{s} {of}{}", listed(&names))
+    }
+}
+
+/// ``without the joints `a` and `b` ``, and `2 values read otherwise`, as far as they are so.
+fn losses(lost: &BTreeMap<String, Lost>, [others, cut]: [usize; 2]) -> Vec<String> {
+    let lost: Vec<String> = lost.iter().map(|(kind, lost)| lost.words(kind)).collect();
     let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
     let without = (!lost.is_empty()).then(|| format!("without {}", listed(&lost)));
     let otherwise = (others > 0).then(|| format!("{} read otherwise", plural(others, "value")));

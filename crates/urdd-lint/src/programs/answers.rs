@@ -29,7 +29,7 @@ pub fn ask(file: Counted<'_>, folder: &Path, settings: &LintSettings) -> Vec<Ans
     let find = |name: &str| meshes.mesh(name);
     let file = File::new(file, &find);
     let mut chosen: Vec<Program> = Vec::new();
-    for program in settings.report.programs.iter().filter_map(|name| Program::of_name(name)) {
+    for program in settings.report.programs.iter().flat_map(|name| Program::of_name(name)) {
         if !chosen.contains(&program) {
             chosen.push(program);
         }

@@ -7,9 +7,9 @@ declare_lint! {
     ///
     /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
     /// - `world` on a link that a joint moves: MuJoCo and SDFormat refuse the robot. On a link that is fixed to one that
-    ///   moves, MuJoCo loads the robot, and takes the link for the world: it stands still, with all that hangs on it. On the root, or
-    ///   on a link that is fixed to the root, the name is fine.
-    /// - `world` on a joint that moves: SDFormat refuses the robot.
+    ///   moves, MuJoCo loads the robot, and takes the link for the world: it stands still, with all that hangs on it. On a
+    ///   link that is fixed to another one, Gazebo Harmonic and Jetty refuse the robot. On the root, the name is fine.
+    /// - `world` on a joint: SDFormat refuses the robot; if the joint is fixed, Gazebo Harmonic and Jetty.
     /// - A slash at the beginning: tf2 refuses it as the name of a frame.
     /// - `::`, and `__` at both ends: reserved in SDFormat.
     /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's.
@@ -35,12 +35,14 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             "SDFormat, so Gazebo, keeps `::` and `__NAME__` for itself"
         } else if is_joint && links.contains(name) {
             "a link has the same name"
-        } else if is_joint && name == WORLD && moves(*node) {
+        } else if is_joint && name == WORLD {
             "SDFormat, so Gazebo, keeps the name `world` for the world"
         } else if !is_joint && name == WORLD && world == World::Moved {
             "`world` is the world itself, and a joint moves this link"
         } else if !is_joint && name == WORLD && world == World::Carried {
             "MuJoCo takes the link for the world itself: it stands still, with all that hangs on it, while the robot moves"
+        } else if !is_joint && name == WORLD && world == World::Fixed {
+            "`world` is the world itself, and this link is fixed to another one"
         } else {
             continue;
         };
@@ -55,8 +57,10 @@ const WORLD: &str = "world";
 /// Where the link `world` is.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum World {
-    /// Nowhere, at the root, or fixed to it.
-    Still,
+    /// Nowhere, or at the root.
+    Root,
+    /// It is fixed to a link that does not move.
+    Fixed,
     /// A joint moves it.
     Moved,
     /// It is fixed to a link that moves.
@@ -74,16 +78,16 @@ fn world<'a>(urdf: &Subject<'a>) -> World {
     }
     let mut link = WORLD;
     // A circle ends with the joints.
-    for step in 0..urdf.joints.len() {
+    for step in 0..=urdf.joints.len() {
         let Some(joint) = above.get(link) else {
-            break;
+            return if step == 0 { World::Root } else { World::Fixed };
         };
         if moves(*joint) {
             return if step == 0 { World::Moved } else { World::Carried };
         }
         link = end(joint, "parent");
     }
-    World::Still
+    World::Root
 }
 
 fn moves(joint: Node) -> bool {

@@ -10,7 +10,12 @@ use urdd_programs::Program;
 
 #[test]
 fn every_program_has_its_names_in_settings() {
-    let names: Vec<&str> = Program::ALL.into_iter().flat_map(Program::settings).collect();
+    let mut names: Vec<&str> = Vec::new();
+    for name in Program::ALL.into_iter().flat_map(Program::settings) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
     assert_eq!(NAMES, names);
 }
 
@@ -38,7 +43,15 @@ fn a_finding_names_each_program_once_and_is_as_severe_as_the_chosen_ones_take_it
         let [finding] = &findings[..] else { panic!("{findings:#?}") };
         assert_eq!(finding.severity, severity, "{chosen:?}");
         let does = finding.programs.iter().map(|one| (one.program.as_str(), one.does));
-        let refusing = ["urdfdom6", "urdfdom4", "urdfdom3", "sdformat", "pinocchio"];
+        let refusing = [
+            "urdfdom6",
+            "urdfdom4",
+            "urdfdom3",
+            "sdformat",
+            "sdformat14",
+            "sdformat16",
+            "pinocchio",
+        ];
         let mut does: Vec<_> = does.collect();
         does.sort_by_key(|(program, _)| refusing.iter().position(|one| one == program));
         assert_eq!(does, refusing.map(|program| (program, Deed::Refuses)), "{chosen:?}");
@@ -120,4 +133,89 @@ fn a_mesh_that_meshdir_hides_from_mujoco_is_said() {
     let found = found_with(settings, &[shape]);
     let [finding] = &found[..] else { panic!("{found:#?}") };
     assert!(finding.message.contains("`meshdir`"), "{}", finding.message);
+}
+
+/// libsdformat 12 makes one link of those that fixed joints join, and refuses that one: what has to be mended is the link
+/// that spoils it.
+#[test]
+fn an_inertia_of_no_body_is_one_finding_whichever_link_it_is_merged_into() {
+    let link = |name: &str, izz: &str| {
+        format!(
+            r#"<link name="{name}"><inertial><mass value="1"/><inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="{izz}"/></inertial></link>"#
+        )
+    };
+    let fixed = |name: &str, parent: &str, child: &str| {
+        format!(
+            r#"<joint name="{name}" type="fixed"><parent link="{parent}"/><child link="{child}"/></joint>"#
+        )
+    };
+    let text = format!(
+        r#"<robot name="r"><link name="base_footprint"/>{}{}{}{}</robot>"#,
+        link("base_link", "0.001"),
+        fixed("f", "base_footprint", "base_link"),
+        link("plate", "0.1"),
+        fixed("g", "base_link", "plate"),
+    );
+    let (_folder, file) = written(&text);
+    let urdf = linted(&file, &LintSettings::default()).report.urdds.remove(0);
+    let found: Vec<_> = urdf.findings.iter().map(|one| (one.code.as_str(), &one.subject)).collect();
+    // Two programs refuse the robot, so that it is an error, and SRC005 is named by it.
+    assert_eq!(found, [("LNT060", &Some("link `plate`".to_owned()))]);
+    let places = urdf.findings[0].places.iter().flat_map(|place| &place.related);
+    let named: Vec<_> = places.filter_map(|one| one.message.as_deref()).collect();
+    assert!(named.iter().any(|said| said.starts_with("SRC005 ")), "{named:?}");
+    let refuses = |name| urdf.findings[0].programs.iter().any(|one| one.program == name);
+    assert!(refuses("sdformat") && refuses("mujoco"), "{:?}", urdf.findings[0].programs);
+}
+
+/// The line about programs in the report for people, for a robot of links with masses and what is given.
+fn line(inside: &str, links: &[&str], programs: &[&str]) -> String {
+    let link = |name: &&str| {
+        format!(
+            r#"<link name="{name}"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>"#
+        )
+    };
+    let links: String = links.iter().map(link).collect();
+    let (_folder, file) = written(&format!(r#"<robot name="arm">{links}{inside}</robot>"#));
+    let mut settings = LintSettings::default();
+    settings.report.programs = programs.iter().map(|name| (*name).to_owned()).collect();
+    let mut text = String::new();
+    let style = urdd_findings::report::style::Style::default();
+    urdd_findings::report::human::write(&linted(&file, &settings).report, style, &mut text)
+        .unwrap();
+    text.lines().find(|line| line.contains(" · ")).unwrap().trim().to_owned()
+}
+
+fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], inside: &str) -> String {
+    let limit = r#"<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="9" velocity="1"/>"#;
+    format!(
+        r#"<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{limit}{inside}</joint>"#
+    )
+}
+
+#[test]
+fn the_line_names_what_is_lost_and_the_versions_of_gazebo() {
+    let mimic = r#"<mimic joint="open"/>"#;
+    let joints = [
+        joint("open", "prismatic", ["base", "left"], ""),
+        joint("close", "prismatic", ["base", "right"], mimic),
+    ];
+    let said = line(&joints.concat(), &["base", "left", "right"], &["gazebo"]);
+    let expected = "Gazebo Harmonic and Jetty load it · ";
+    assert!(said.contains(expected), "{said}");
+    let expected = "Gazebo Fortress loads it without the mimic of `close` · ";
+    assert!(said.starts_with(expected), "{said}");
+    let said = line(&joints.concat(), &["base", "left", "right"], &["harmonic"]);
+    assert!(said.starts_with("Gazebo Harmonic loads it · "), "{said}");
+    // Fixed joints are merged; more than three are counted.
+    let names = ["a", "b", "c", "d", "e"];
+    let fixed = names.map(|name| joint(&format!("to_{name}"), "fixed", ["base", name], ""));
+    let said = line(&fixed.concat(), &["base", "a", "b", "c", "d", "e"], &["gazebo"]);
+    let expected = "Gazebo loads it without the joints `to_a`, `to_b`, `to_c` and 2 more · ";
+    assert!(said.starts_with(expected), "{said}");
+    // A name is escaped, and a fixed joint may not have that of its link in later ones.
+    let bad = joint("base", "fixed", ["base", "\u{9b}31m"], "");
+    let said = line(&bad, &["base", "\u{9b}31m"], &["gazebo"]);
+    assert!(said.contains("Gazebo Harmonic and Jetty refuse it (LNT015 at "), "{said}");
+    assert!(!said.contains('\u{9b}'), "{said}");
 }

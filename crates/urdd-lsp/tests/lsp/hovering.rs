@@ -103,7 +103,10 @@ fn the_robot_has_a_line_for_what_programs_do_with_it() {
     let said = shown(&hover);
     let refused = format!("- ROS, Gazebo and Pinocchio refuse it (LNT060 at {line}:5)");
     let order = |refused: &str| {
-        Some((said.find(refused)?, said.find("- Drake loads it without 1 safety controller")?))
+        Some((
+            said.find(refused)?,
+            said.find("- Drake loads it without the safety controller of ")?,
+        ))
     };
     assert!(order(&refused).is_some_and(|(first, second)| first < second), "{said}");
     // Elsewhere in the start tag, nothing is said.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::Release;
 use crate::effect::{At, Effects, Reading};
 use crate::fault::Fault;
 use crate::number::strtod;
@@ -45,7 +46,11 @@ pub(super) struct Extensions<'t> {
 }
 
 /// Reads all `<gazebo>` of a robot. A number that is none ends the program.
-pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extensions<'t>> {
+pub(super) fn read<'t>(
+    robot: Node<'t>,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<Extensions<'t>> {
     let mut found = Extensions::default();
     for gazebo in robot.named("gazebo") {
         let reference = gazebo.value("reference").unwrap_or_default();
@@ -84,6 +89,7 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
                 }
                 _ => None,
             };
+            let fault = fault.or_else(|| scoped(element, release));
             let of_collisions = number.is_some();
             let suspect =
                 fault.map(|fault| Suspect { reference, at: element.at(), fault, of_collisions });
@@ -91,6 +97,21 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
         }
     }
     Ok(found)
+}
+
+/// A name in an element that SDF keeps for itself, but not in plugins.
+fn scoped(element: Node<'_>, release: Release) -> Option<Fault> {
+    let mut open = vec![element];
+    while let Some(node) = open.pop() {
+        if node.name() == "plugin" || node.name().contains(':') {
+            continue;
+        }
+        if let Some(name) = node.value("name").filter(|name| release.keeps(name)) {
+            return Some(super::names::scoped("part of `<gazebo>`", name));
+        }
+        open.extend(node.children());
+    }
+    None
 }
 
 /// Which of the needed attributes is missing or empty.

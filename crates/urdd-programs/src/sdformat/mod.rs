@@ -1,5 +1,5 @@
-//! libsdformat 12.3.0, with which Gazebo reads URDF: urdfdom 3 reads the file, what it has is written as SDF, and that is
-//! read again. What is wrong in the end is refused only in the links and joints that are left.
+//! libsdformat, with which Gazebo reads URDF: urdfdom reads the file, what it has is written as SDF, and that is read
+//! again. What is wrong in the end is refused only in the links and joints that are left.
 
 mod gazebo;
 mod inertia;
@@ -8,6 +8,8 @@ mod tree;
 mod values;
 mod xml;
 
+use std::collections::HashSet;
+
 use self::gazebo::{Extensions, stod};
 use self::tree::{Body, Joint, Tree};
 use self::values::{number, vector};
@@ -15,66 +17,126 @@ use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
-use crate::number::pieces;
+use crate::number::{is_space, pieces};
 use crate::part::Part;
 use crate::tinyxml;
 use crate::tree::Node;
 use crate::unknown::Names;
-use crate::urdfdom::{self, Model, Release};
+use crate::urdfdom::{self, Model};
 
-/// Gazebo.
-pub(crate) const ABOUT: About = About {
+/// Gazebo Fortress.
+pub(crate) const FORTRESS: About = About {
     id: "sdformat",
-    name: "Gazebo (libsdformat 12)",
+    name: "Gazebo Fortress",
     family: "Gazebo",
     version: "12.3.0",
-    settings: &["gazebo"],
+    settings: &["gazebo", "fortress"],
     is_asked: true,
     names: Names::Exact,
-    never: &[
-        "mimic",
-        "safety_controller",
-        "calibration",
-        "acceleration",
-        "deceleration",
-        "jerk",
-        "texture",
-        "quat_xyzw",
-    ],
-    read,
+    never: NEVER,
+    read: read_twelve,
 };
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+/// Gazebo Harmonic.
+pub(crate) const HARMONIC: About = About {
+    id: "sdformat14",
+    name: "Gazebo Harmonic",
+    version: "14.9.0",
+    settings: &["gazebo", "harmonic"],
+    never: NEVER.split_at(1).1,
+    read: read_fourteen,
+    ..FORTRESS
+};
+
+/// Gazebo Jetty, whose `parser_urdf.cc` is that of Harmonic.
+pub(crate) const JETTY: About = About {
+    id: "sdformat16",
+    name: "Gazebo Jetty",
+    version: "16.1.0",
+    settings: &["gazebo", "jetty"],
+    ..HARMONIC
+};
+
+/// What 12 never reads, and 14 but for the first.
+const NEVER: &[&str] = &[
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "texture",
+    "quat_xyzw",
+];
+
+/// Which libsdformat.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Release {
+    /// 12.3.0.
+    Twelve,
+    /// 14.1 and later. It reads mimics, and what it writes is SDF 1.11, whose names have no `::`. As in 12.7, links and
+    /// joints that are merged stay as frames, which need names and a link; and a link without mass that is merged does not
+    /// take those below with it.
+    Fourteen,
+}
+
+impl Release {
+    /// A name as it is read.
+    fn read(self, text: &str) -> &str {
+        let text = text.trim_matches(is_space);
+        match text {
+            _ if self == Release::Fourteen => text,
+            _ if text.eq_ignore_ascii_case("true") => "1",
+            _ if text.eq_ignore_ascii_case("false") => "0",
+            _ => text,
+        }
+    }
+
+    /// Whether a name is one that SDF keeps for itself.
+    fn keeps(self, name: &str) -> bool {
+        self == Release::Fourteen && name.contains("::")
+    }
+}
+
+fn read_twelve(file: &File, effects: &mut Effects) -> Reading<()> {
+    read(file, Release::Twelve, effects)
+}
+
+fn read_fourteen(file: &File, effects: &mut Effects) -> Reading<()> {
+    read(file, Release::Fourteen, effects)
+}
+
+fn read(file: &File, release: Release, effects: &mut Effects) -> Reading<()> {
     let tree = effects.parsed(file.document.within(tinyxml::OLD_MAX_DEPTH))?;
     if let Some(sdf) = tree.tops().find(|top| top.name() == "sdf") {
         return effects.refuse(sdf, Fault::Other("the file has `<sdf>`, and is read as SDF alone"));
     }
     xml::check(file.bytes, tree, effects)?;
-    let model = urdfdom::model(tree, Release::Four, effects)?;
-    let extensions = gazebo::read(model.robot, effects)?;
+    let model = urdfdom::model(tree, urdfdom::Release::Four, effects)?;
+    let extensions = gazebo::read(model.robot, release, effects)?;
     origin(model.robot, effects)?;
-    never_read(&model, effects);
-    let mut links = Tree::new(&model, &extensions.kept_joints);
+    never_read(&model, release, effects);
+    let mut links = Tree::new(&model, &extensions.kept_joints, release);
     links.build(effects)?;
     names::check(model.robot, &links, &extensions.own, effects)?;
-    for body in &links.bodies {
+    for (index, body) in links.bodies.iter().enumerate() {
         match body.is_made {
             true => {
                 centre(body, links.without_mass, effects)?;
-                made(body, effects)?;
+                made(body, release, || links.spoiler(index), effects)?;
             }
-            false if links.bodies[body.owner].is_made => shapes(body, effects)?,
+            false if links.bodies[body.owner].is_made => shapes(body, release, effects)?,
             false => {}
         }
     }
+    mimics(&links, &extensions.own, effects)?;
     suspects(&links, &extensions, effects)
 }
 
 /// What goes wrong in `<gazebo>` of something that is kept.
 fn suspects(links: &Tree<'_>, extensions: &Extensions<'_>, effects: &mut Effects) -> Reading<()> {
     let made = || links.bodies.iter().filter(|body| body.is_made);
-    let joints: std::collections::HashSet<&str> =
-        made().filter_map(|body| Some(body.joint.as_ref()?.name)).collect();
+    let joints: HashSet<&str> = made().filter_map(|body| Some(body.joint.as_ref()?.name)).collect();
     for suspect in &extensions.suspects {
         let link = links.of_name.get(suspect.reference).map(|&index| &links.bodies[index]);
         let owner = link.map(|link| &links.bodies[link.owner]).filter(|owner| owner.is_made);
@@ -117,10 +179,12 @@ fn origin(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
 }
 
 /// What is read by urdfdom, and never written as SDF.
-fn never_read(model: &Model<'_>, effects: &mut Effects) {
+fn never_read(model: &Model<'_>, release: Release, effects: &mut Effects) {
     for (name, joint) in &model.joints {
+        let has_mimic = release == Release::Fourteen && joint.kind != "fixed";
         for element in ["mimic", "safety_controller", "calibration"] {
-            if let Some(node) = joint.node.child(element) {
+            let node = joint.node.child(element);
+            if let Some(node) = node.filter(|_| element != "mimic" || !has_mimic) {
                 let part = Part::of("joint", name).inside(element);
                 effects.drop(node, part, Fault::NeverRead(element.into()));
             }
@@ -143,14 +207,20 @@ fn never_read(model: &Model<'_>, effects: &mut Effects) {
     }
 }
 
-/// A link that is kept, and its joint.
-fn made(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
+/// A link that is kept, and its joint. `spoiler` is the link that has to be mended if it has an inertia of no body.
+fn made<'t>(
+    body: &Body<'t>,
+    release: Release,
+    spoiler: impl FnOnce() -> Node<'t>,
+    effects: &mut Effects,
+) -> Reading<()> {
     if let Some(joint) = &body.joint {
         made_joint(joint, effects)?;
     }
-    shapes(body, effects)?;
+    shapes(body, release, effects)?;
     if body.inertia.is_some_and(|inertia| !inertia.is_valid()) {
-        let place = body.node.child("inertial").unwrap_or(body.node);
+        let link = spoiler();
+        let place = link.child("inertial").unwrap_or(link);
         let inertia = place.child("inertia").unwrap_or(place);
         return effects.refuse(inertia, Fault::Inertia("no body can have this inertia"));
     }
@@ -208,8 +278,42 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
     Ok(())
 }
 
+/// Mimics, from 14 on. Each follows a joint that is kept, or one of SDF with an axis.
+fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<()> {
+    let release = links.release;
+    let made = links.bodies.iter().filter(|body| body.is_made);
+    let joints = made.filter_map(|body| body.joint.as_ref()).filter(|joint| !joint.has_no_type());
+    let own = own.iter().filter(|one| one.name() == "joint" && one.child("axis").is_some());
+    let own = own.filter_map(|one| one.value("name"));
+    let leaders: HashSet<&str> =
+        joints.clone().map(|joint| joint.name).chain(own).map(|name| release.read(name)).collect();
+    for joint in joints.filter(|joint| release == Release::Fourteen && joint.kind != "fixed") {
+        let mimic = joint.node.child("mimic");
+        let Some(leader) = mimic.and_then(|mimic| mimic.attribute("joint")) else { continue };
+        let name = release.read(&leader.value);
+        let fault = if name.is_empty() {
+            Fault::Empty("joint")
+        } else if name == release.read(joint.name) {
+            Fault::Other("a joint mimics itself")
+        } else if leaders.contains(name) {
+            writable(mimic, &["multiplier", "offset"], effects)?;
+            continue;
+        } else if links
+            .bodies
+            .iter()
+            .any(|body| body.joint.as_ref().is_some_and(|of| of.name == name))
+        {
+            Fault::Other("the joint that it follows is fixed, or left out")
+        } else {
+            Fault::unknown("joint", name)
+        };
+        return effects.refuse(leader, fault);
+    }
+    Ok(())
+}
+
 /// The numbers and files of a link that is kept or merged into such a link.
-fn shapes(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
+fn shapes(body: &Body<'_>, release: Release, effects: &mut Effects) -> Reading<()> {
     if let Some(inertial) = body.node.child("inertial").filter(|_| body.is_made) {
         writable(inertial.child("origin"), &["xyz"], effects)?;
         writable(inertial.child("mass"), &["value"], effects)?;
@@ -218,6 +322,9 @@ fn shapes(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
     }
     for (kind, count) in ["visual", "collision"].into_iter().zip(body.kept) {
         for shape in body.node.named(kind).take(count) {
+            if let Some(name) = shape.attribute("name").filter(|name| release.keeps(&name.value)) {
+                return effects.refuse(name, names::scoped(kind, &name.value));
+            }
             writable(shape.child("origin"), &["xyz"], effects)?;
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             if form.is_some_and(|form| matches!(form.name(), "sphere" | "cylinder")) {
@@ -225,7 +332,7 @@ fn shapes(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
             }
             let mesh = form.filter(|form| form.name() == "mesh");
             if let Some(name) = mesh.and_then(|mesh| mesh.attribute("filename"))
-                && names::trimmed(&name.value).is_empty()
+                && release.read(&name.value).is_empty()
             {
                 return effects.refuse(name, Fault::Empty("filename"));
             }

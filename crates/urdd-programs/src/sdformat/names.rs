@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
+use super::Release;
 use super::tree::Tree;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
-use crate::number::is_space;
 use crate::part::Part;
 use crate::tree::Node;
 
@@ -16,6 +16,8 @@ pub(super) fn check(
     own: &[Node<'_>],
     effects: &mut Effects,
 ) -> Reading<()> {
+    let release = links.release;
+    let one = |node, kind, name, effects: &mut Effects| one(node, kind, name, release, effects);
     one(robot, "robot", robot.value("name").unwrap_or_default(), effects)?;
     let mut names = HashSet::new();
     let bodies = || links.bodies.iter().filter(|body| body.is_made);
@@ -24,9 +26,12 @@ pub(super) fn check(
     let all = bodies().map(|body| (body.node, "link", body.name));
     for (node, kind, name) in all.chain(joints.map(|joint| (joint.node, "joint", joint.name))) {
         one(node, kind, name, effects)?;
-        let read = trimmed(name);
+        let read = release.read(name);
         if read != name {
-            let rule = "white space around it is cut off, `true` is 1 and `false` 0";
+            let rule = match release {
+                Release::Twelve => "white space around it is cut off, `true` is 1 and `false` 0",
+                Release::Fourteen => "white space around it is cut off",
+            };
             let fault = Fault::Name { kind, name: name.into(), rule };
             effects.read_as(node, Part::of(kind, name), fault, read);
         }
@@ -34,21 +39,42 @@ pub(super) fn check(
             return effects.refuse(node, Fault::not_unique("link or joint", name));
         }
     }
+    let of_name = |name| {
+        let mut all = links.bodies.iter().filter_map(|body| body.joint.as_ref());
+        all.find(|joint| joint.name == name).map(|joint| joint.node)
+    };
+    for (body, from) in links.frames() {
+        for (node, kind, name) in [(body.node, "link", body.name), (from.node, "joint", from.name)]
+        {
+            one(node, kind, name, effects)?;
+            if !names.insert(release.read(name)) {
+                // Where a joint and a link have one name, the joint is named.
+                let fault = Fault::not_unique("link or joint", name);
+                return effects.refuse(of_name(name).unwrap_or(node), fault);
+            }
+        }
+    }
     let own = || own.iter().filter_map(|&node| Some((node, node.value("name")?)));
     for (node, name) in own() {
         one(node, if node.name() == "link" { "link" } else { "joint" }, name, effects)?;
-        if !names.insert(trimmed(name)) {
+        if !names.insert(release.read(name)) {
             return effects.refuse(node, Fault::not_unique("link or joint", name));
         }
     }
     for (node, name) in own().filter(|(node, _)| node.name() == "joint") {
-        joint(node, name, &names, effects)?;
+        joint(node, name, &names, release, effects)?;
     }
     Ok(())
 }
 
 /// A joint of SDF: its type, and the links, or joints in their place, that it connects.
-fn joint(node: Node<'_>, name: &str, names: &HashSet<&str>, effects: &mut Effects) -> Reading<()> {
+fn joint(
+    node: Node<'_>,
+    name: &str,
+    names: &HashSet<&str>,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<()> {
     const KINDS: [&str; 9] = [
         "ball",
         "continuous",
@@ -67,12 +93,12 @@ fn joint(node: Node<'_>, name: &str, names: &HashSet<&str>, effects: &mut Effect
     }
     let ends = ["parent", "child"].map(|end| {
         let end = node.child(end)?;
-        Some((end, trimmed(end.text()?)))
+        Some((end, release.read(end.text()?)))
     });
     let [Some(parent), Some(child)] = ends else { return Ok(()) };
     for (end, link) in [parent, child] {
         let is_world = link == "world" && end.name() == "parent";
-        if !is_world && (link == trimmed(name) || !names.contains(link)) {
+        if !is_world && (link == release.read(name) || !names.contains(link)) {
             return effects.refuse(end, Fault::unknown("link or joint", link));
         }
     }
@@ -82,14 +108,23 @@ fn joint(node: Node<'_>, name: &str, names: &HashSet<&str>, effects: &mut Effect
     Ok(())
 }
 
-fn one(node: Node<'_>, kind: &'static str, name: &str, effects: &mut Effects) -> Reading<()> {
-    let read = trimmed(name);
+fn one(
+    node: Node<'_>,
+    kind: &'static str,
+    name: &str,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<()> {
+    let read = release.read(name);
     let is_reserved = name == "world"
         || read == "world"
         || read.len() >= 4 && read.starts_with("__") && read.ends_with("__");
     let at = node.attribute("name").map_or(node.start(), |name| name.range.start);
     if read.is_empty() {
         return effects.refuse(at, Fault::Empty("name"));
+    }
+    if release.keeps(name) {
+        return effects.refuse(at, scoped(kind, name));
     }
     if is_reserved {
         let rule = "the name is one of SDF's own";
@@ -98,12 +133,7 @@ fn one(node: Node<'_>, kind: &'static str, name: &str, effects: &mut Effects) ->
     Ok(())
 }
 
-/// A text as SDF has it.
-pub(super) fn trimmed(text: &str) -> &str {
-    let text = text.trim_matches(is_space);
-    match text {
-        _ if text.eq_ignore_ascii_case("true") => "1",
-        _ if text.eq_ignore_ascii_case("false") => "0",
-        _ => text,
-    }
+/// Why a name of a kind of thing is refused that has `::` in it.
+pub(super) fn scoped(kind: &'static str, name: &str) -> Fault {
+    Fault::Name { kind, name: name.into(), rule: "SDF has `::` between names" }
 }

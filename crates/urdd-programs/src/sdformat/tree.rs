@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use urdd_format::short::Short;
 
+use super::Release;
 use super::inertia::{Inertia, Pose};
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
@@ -53,11 +54,13 @@ pub(super) struct Tree<'t> {
     pub of_name: HashMap<&'t str, usize>,
     /// Where two links without mass become one, if any do.
     pub without_mass: Option<usize>,
+    pub release: Release,
 }
 
 impl<'t> Tree<'t> {
-    pub fn new(model: &Model<'t>, kept_joints: &HashSet<&str>) -> Tree<'t> {
-        let mut tree = Tree { bodies: Vec::new(), of_name: HashMap::new(), without_mass: None };
+    pub fn new(model: &Model<'t>, kept_joints: &HashSet<&str>, release: Release) -> Tree<'t> {
+        let mut tree =
+            Tree { bodies: Vec::new(), of_name: HashMap::new(), without_mass: None, release };
         for (&name, link) in &model.links {
             tree.of_name.insert(name, tree.bodies.len());
             tree.bodies.push(Body {
@@ -158,10 +161,38 @@ impl<'t> Tree<'t> {
         }
     }
 
+    /// The link that spoils the inertia of a link: itself, or the first of those merged into it that has one of no body.
+    pub fn spoiler(&self, owner: usize) -> Node<'t> {
+        let merged = (0..self.bodies.len()).filter(|body| self.bodies[*body].owner == owner);
+        let mut nodes = std::iter::once(owner).chain(merged).map(|body| self.bodies[body].node);
+        let spoils = |node: &Node<'t>| {
+            super::values::inertia_of(*node).is_some_and(|inertia| !inertia.is_valid())
+        };
+        nodes.find(spoils).unwrap_or(self.bodies[owner].node)
+    }
+
+    /// The links that are part of another one, with the joint of each: frames, from 12.7 on.
+    pub fn frames(&self) -> impl Iterator<Item = (&Body<'t>, &Joint<'t>)> {
+        let is_kept = self.release == Release::Fourteen;
+        let all = self.bodies.iter().enumerate().filter(move |_| is_kept);
+        let merged = all.filter(|(index, body)| body.owner != *index);
+        merged.filter_map(|(_, body)| Some((body, body.joint.as_ref()?)))
+    }
+
     fn has_mass(&self, body: usize) -> bool {
         let body = &self.bodies[body];
         let mass = body.inertia.map_or(0.0, |inertia| inertia.mass);
-        body.name == "world" || mass.is_nan() || mass.abs() > MIN_MASS
+        let is_some = match self.release {
+            Release::Twelve => mass.abs() > MIN_MASS,
+            Release::Fourteen => mass > 0.0,
+        };
+        body.name == "world" || mass.is_nan() || is_some
+    }
+
+    /// Whether a link is left out, with all below.
+    fn is_left_out(&self, body: usize) -> bool {
+        let is_merged = self.bodies[body].joint.as_ref().is_some_and(|joint| joint.is_merged);
+        !self.has_mass(body) && !(is_merged && self.release == Release::Fourteen)
     }
 
     /// Makes links from the root down. A link may be reached twice, and is then refused if it is made.
@@ -169,12 +200,12 @@ impl<'t> Tree<'t> {
         let mut times = vec![0_u8; self.bodies.len()];
         let mut open = vec![root];
         while let Some(body) = open.pop() {
-            if times[body] == 2 || !self.has_mass(body) {
+            if times[body] == 2 || self.is_left_out(body) {
                 continue;
             }
             times[body] += 1;
             let is_world = body == root && self.bodies[body].name == "world";
-            if self.merged_into(body).is_none() && !is_world {
+            if self.merged_into(body).is_none() && !is_world && self.has_mass(body) {
                 let one = &mut self.bodies[body];
                 one.is_made = true;
                 if times[body] == 2 {
@@ -196,7 +227,13 @@ impl<'t> Tree<'t> {
             let parent = &self.bodies[joint.parent];
             if parent.name != "world" && !self.bodies[parent.owner].is_made {
                 let at = joint.node.child("parent").unwrap_or(joint.node);
-                return effects.refuse(at, Fault::Way("the link above is left out"));
+                return effects.refuse(at, Fault::Tree("the link above is left out"));
+            }
+        }
+        for (body, joint) in self.frames() {
+            if !self.bodies[body.owner].is_made {
+                let why = "links without mass are left out, and others are fixed to them or below";
+                return effects.refuse(joint.node, Fault::Inertia(why));
             }
         }
         Ok(())
@@ -234,7 +271,7 @@ impl<'t> Tree<'t> {
                 continue;
             }
             let above = body.joint.as_ref().is_some_and(|joint| is_gone[joint.parent]);
-            is_gone[index] = above || !self.has_mass(index);
+            is_gone[index] = above || self.is_left_out(index);
             if self.merged_into(index).is_some() {
                 self.tell_merged(index, effects);
             } else if above {
