@@ -38,7 +38,8 @@ fn servos_are_damped_as_the_mass_that_they_move_asks() {
         let joint = joint(&model, name);
         [joint.kp.unwrap(), joint.kv.unwrap()]
     };
-    // 0.2 of the motor, 0.1 + 2 0.5² of the arm, 0.05 + 3 1² of the rod; the gear counts twice in kp.
+    // 0.2 of the motor, 0.1 + 2 0.5² of the arm, 0.05 + 3 1² of the rod, which slides along the arm and so feels no
+    // turn; the gear counts twice in kp.
     let moved: f64 = 0.2 + 0.1 + 0.5 + 0.05 + 3.0;
     for (name, expected) in [
         ("turn", [40.0, 2.0 * 1.5 * (40.0 * moved).sqrt()]),
@@ -51,6 +52,38 @@ fn servos_are_damped_as_the_mass_that_they_move_asks() {
         assert!(is_near, "{name}: {found:?}, {expected:?}");
     }
     assert_eq!(model.tally.all_unread().len(), 0, "{:?}", model.tally.all_unread());
+}
+
+/// The mass that a force at a joint feels while the others are free, of a servo with `kp` 1 and `dampratio` 0.5.
+fn felt(bodies: &str, name: &str) -> f64 {
+    let model = read(&format!(
+        r#"<mujoco><compiler angle="radian"/><worldbody>{bodies}</worldbody>
+<actuator><position joint="{name}" kp="1" dampratio="0.5"/></actuator></mujoco>"#
+    ));
+    joint(&model, name).kv.unwrap().powi(2)
+}
+
+#[test]
+fn servos_feel_what_is_coupled_as_far_as_it_gives_way() {
+    let is_near = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found}, {expected}");
+    };
+    // M = [2.0825 0.82; 0.82 0.42]: 0.2 + 0.1 + 0.25² + 0.1 + 2 0.9², 0.1 + 2 0.4 0.9 and 0.1 + 2 0.4².
+    let elbow = r#"<body><joint name="turn" armature=".2"/><inertial pos=".25 0 0" mass="1" diaginertia=".1 .1 .1"/>
+<body pos=".5 0 0"><joint name="fold"/><inertial pos=".4 0 0" mass="2" diaginertia=".1 .1 .1"/></body></body>"#;
+    is_near(felt(elbow, "turn"), 2.0825 - 0.82_f64.powi(2) / 0.42);
+    is_near(felt(elbow, "fold"), 0.42 - 0.82_f64.powi(2) / 2.0825);
+    // A slide between two bodies that float: 3 2 / (3 + 2). One that a ball holds: turned about the ball, and slid.
+    let rod = |joint: &str, at: &str| {
+        format!(
+            r#"<body pos="1 2 3" euler="0.3 0.2 0.1">{joint}<inertial pos="0 0 0" mass="3" diaginertia=".2 .2 .2"/>
+<body pos="{at}"><joint name="push" type="slide" axis="1 0 0"/><inertial pos="0 0 0" mass="2" diaginertia=".1 .1 .1"/></body></body>"#
+        )
+    };
+    is_near(felt(&rod("<freejoint/>", "0.5 0 0"), "push"), 1.2);
+    is_near(felt(&rod("", "0.5 0 0"), "push"), 2.0);
+    // 2 - (2 0.5)² / (0.2 + 0.1 + 2 0.5²): the ball turns about z, as the slide is 0.5 m beside it.
+    is_near(felt(&rod(r#"<joint type="ball"/>"#, "0 0.5 0"), "push"), 2.0 - 1.0 / 0.8);
 }
 
 #[test]

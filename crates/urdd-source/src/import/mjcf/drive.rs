@@ -1,5 +1,6 @@
 //! What actuators give to their joints: the greatest force and speed, gains, damping and armature.
 
+use std::cell::LazyCell;
 use std::collections::HashMap;
 
 use super::super::features::{self, Tally};
@@ -11,7 +12,7 @@ use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::lookup::Lookup;
 use super::made::Made;
-use super::moved::moved;
+use super::moved::Moved;
 
 /// What the actuators of one joint give together.
 #[derive(Debug, Clone)]
@@ -67,6 +68,7 @@ pub fn drive<'d>(
             joint.armature = Some(joint.armature.unwrap_or(0.0) + armature);
         }
     }
+    let moved = LazyCell::new(|| Moved::of(made));
     let mut given: HashMap<(usize, usize), Given> = HashMap::new();
     for (element, suffix, actuator, at) in &driven {
         say(actuator, tally);
@@ -79,7 +81,7 @@ pub fn drive<'d>(
         if actuator.law == Law::Servo && actuator.is_ratio() {
             lookup.charge(element, BODY * made.bodies.len())?;
         }
-        let gains = gains(actuator, || moved(made, *at));
+        let gains = gains(actuator, || moved.by(*at));
         let Some(entry) = given.get_mut(at) else {
             let name = element.text("name").map(|name| format!("{name}{suffix}"));
             let name = name.filter(|name| *name != of.name);

@@ -10,6 +10,8 @@ use super::super::model::Body;
 #[derive(Default)]
 pub struct Made {
     pub bodies: Charged<Body>,
+    /// Whether the first one moves freely.
+    pub is_floating: bool,
     /// The index of a raw body's body.
     pub index: HashMap<usize, usize>,
     /// The body and joint of each raw body's joints.

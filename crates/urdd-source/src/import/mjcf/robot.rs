@@ -56,7 +56,7 @@ impl<'d> Maker<'_, 'd> {
                 }
             }
         }
-        let mut made = Made::default();
+        let mut made = Made { is_floating: robot.is_floating, ..Made::default() };
         for (raw_index, name) in robot.bodies.iter().zip(names.0) {
             let raw = &bodies.all[*raw_index];
             let index = made.bodies.len();
