@@ -266,6 +266,20 @@ pub mod xacro {
         assert!(junit.contains("at parts/finger.xacro:6:9 (joint"), "{junit}");
     }
 
+    #[test]
+    fn a_file_outside_of_the_folder_has_no_line_in_annotations() {
+        let folder = hand("hand");
+        let urdf = folder.path().join("hand/urdf");
+        write(&urdf, "hand.urdf.xacro", &MAIN.replace("parts/", "../parts/"));
+        std::os::unix::fs::symlink(folder.path().join("bin"), urdf.join("bin")).expect("a link");
+        let github = lint(&urdf, &["hand.urdf.xacro", "--format", "github"]);
+        let axis = github.lines().find(|line| line.contains("title=LNT012")).expect("it");
+        assert!(axis.starts_with("::warning file=./,title=LNT012"), "{axis}");
+        assert!(axis.contains("; at: ../parts/finger.xacro:6:9 (joint `left_slide`)"), "{axis}");
+        let sarif = lint(&urdf, &["hand.urdf.xacro", "--format", "sarif"]);
+        assert!(!sarif.contains("startLine\": 6"), "{sarif}");
+    }
+
     /// As by a xacro of another language: then no line is named, rather than one of the expansion.
     #[test]
     fn a_program_that_cannot_be_watched_leaves_the_file() {
