@@ -100,8 +100,9 @@ impl MacroFile {
     /// A text without anything of xacro, which need not be parsed.
     pub fn plain(text: &str) -> Self {
         let root = urdd_xml::root_name(text).unwrap_or("robot").to_owned();
+        let mut elements = text.split('<').filter(|rest| rest.starts_with(char::is_alphabetic));
         let content = Content {
-            is_some: true,
+            is_some: elements.nth(1).is_some(),
             has_link: text.contains("<link"),
             has_srdf: text.contains("<group"),
             ..Content::default()
