@@ -9,6 +9,7 @@ use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
+use super::srdf_text::Srdfs;
 use super::subject::Subject;
 use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
@@ -97,7 +98,7 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
-    for srdf in subject.read_srdfs() {
+    for srdf in subject.srdfs.known() {
         if let Some(trail) = &srdf.trail {
             let expansion = (srdf.text.as_str(), trail, srdf.path.as_path(), srdf.shown.as_str());
             say_where_expanded(expansion, &mut examined.checks, &mut []);
@@ -132,7 +133,9 @@ impl<'a> Job<'a> {
     {
         let files = &self.settings.source.files;
         let subject = Subject::new(self.name, self.folder, files, document, source.as_ref());
-        subject.without_meshes(self.settings.without_meshes).with_xacro(self.settings)
+        let mut subject = subject.without_meshes(self.settings.without_meshes);
+        subject.srdfs = Srdfs::new(self.settings);
+        subject
     }
 
     /// Asks the programs; not about files beyond the limits of XML.

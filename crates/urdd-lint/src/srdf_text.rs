@@ -1,7 +1,9 @@
-//! An SRDF of a robot.
+//! The SRDFs of a robot.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
+use crate::settings::LintSettings;
 use urdd_source::Trail;
 use urdd_xml::{Document, XmlError};
 
@@ -19,5 +21,35 @@ impl Srdf {
     /// Its XML, or why it is none.
     pub fn parse(&self) -> Result<Document<'_>, XmlError> {
         urdd_xml::parse(&self.text, urdd_xml::Kind::Robot)
+    }
+}
+
+/// The SRDFs of a robot, read on first use.
+#[derive(Default)]
+pub struct Srdfs<'a> {
+    xacro: Option<&'a LintSettings>,
+    all: OnceLock<Vec<Srdf>>,
+}
+
+impl<'a> Srdfs<'a> {
+    /// Those that are xacro are expanded where the settings allow that.
+    pub fn new(settings: &'a LintSettings) -> Self {
+        let xacro = Some(settings).filter(|settings| settings.source.xacro.expand_urdf);
+        Srdfs { xacro, all: OnceLock::new() }
+    }
+
+    /// The settings by which those that are xacro are expanded, if they may be.
+    pub fn xacro(&self) -> Option<&'a LintSettings> {
+        self.xacro
+    }
+
+    /// All, as `read` finds them.
+    pub fn all(&self, read: impl FnOnce() -> Vec<Srdf>) -> &[Srdf] {
+        self.all.get_or_init(read)
+    }
+
+    /// All, if a rule had them read.
+    pub fn known(&self) -> &[Srdf] {
+        self.all.get().map_or(&[], Vec::as_slice)
     }
 }

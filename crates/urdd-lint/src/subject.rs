@@ -13,9 +13,8 @@ use super::elements::{child, kind, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::programs::Left;
-use super::settings::LintSettings;
 use super::skip::{WITHOUT_MESHES, refused};
-use super::srdf_text::Srdf;
+use super::srdf_text::Srdfs;
 use super::unknown::{Unknown, unknown};
 use super::vocabulary::Names;
 use urdd_directory::position::{LineIndex, Position};
@@ -47,14 +46,14 @@ pub struct Subject<'a> {
     pub links: Vec<Node<'a, 'a>>,
     /// Each `<joint>` of the robot, in order.
     pub joints: Vec<Node<'a, 'a>>,
+    /// Its SRDFs.
+    pub srdfs: Srdfs<'a>,
     lines: LineIndex<'a>,
     source: Result<&'a SourceMeshes, SkipReason>,
     robot: OnceLock<(Robot, Option<Bodies>)>,
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
     without_meshes: bool,
-    xacro: Option<&'a LintSettings>,
-    srdfs: OnceLock<Vec<Srdf>>,
     elements: OnceLock<Vec<Node<'a, 'a>>>,
     shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
     joint_names: OnceLock<Names<'a>>,
@@ -92,8 +91,7 @@ impl<'a> Subject<'a> {
             lines: LineIndex::new(document.input_text()),
             source,
             without_meshes: false,
-            xacro: None,
-            srdfs: OnceLock::new(),
+            srdfs: Srdfs::default(),
             links,
             joints,
             robot: OnceLock::new(),
@@ -110,27 +108,6 @@ impl<'a> Subject<'a> {
     pub fn without_meshes(mut self, without: bool) -> Self {
         self.without_meshes = without;
         self
-    }
-
-    /// Expands SRDFs that are xacro, where the settings allow that.
-    pub fn with_xacro(mut self, settings: &'a LintSettings) -> Self {
-        self.xacro = Some(settings).filter(|settings| settings.source.xacro.expand_urdf);
-        self
-    }
-
-    /// The settings by which SRDFs that are xacro are expanded, if they may be.
-    pub fn xacro(&self) -> Option<&'a LintSettings> {
-        self.xacro
-    }
-
-    /// The SRDFs of the robot, read on first use.
-    pub fn srdfs(&self, read: impl FnOnce() -> Vec<Srdf>) -> &[Srdf] {
-        self.srdfs.get_or_init(read)
-    }
-
-    /// The SRDFs of the robot, if a rule had them read.
-    pub fn read_srdfs(&self) -> &[Srdf] {
-        self.srdfs.get().map_or(&[], Vec::as_slice)
     }
 
     /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
