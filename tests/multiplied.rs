@@ -6,7 +6,7 @@
 //! multiplied -- --nocapture` tries 10,000 and prints the largest.
 
 // A test may stop anywhere; an allocator is unsafe.
-#![allow(clippy::restriction, unsafe_code)]
+#![allow(clippy::restriction, clippy::disallowed_methods, unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::collections::BTreeMap;

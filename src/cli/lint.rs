@@ -57,7 +57,7 @@ pub struct LintArguments {
     write_baseline: Option<PathBuf>,
 
     /// Writes the robots that need arguments into urdd.toml (or the file of --config), with the values for which their
-    /// packages have files, and lints nothing. What is there stays. With --xacro, those values that make a robot.
+    /// packages have files, and lints nothing; where xacro may run, those values that make a robot. What is there stays.
     #[arg(long, conflicts_with_all = ["fix", "diff", "write_baseline"])]
     write_robots: bool,
 

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
-use super::ros::Ros;
+use super::ros::{Ros, limit_of};
 use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
@@ -128,16 +128,6 @@ fn binary(ending: &str) -> &'static str {
         r#"UsdUtils.CreateNewUsdzPackage("x.usda", "x.usdz")"#
     } else {
         r#"Usd.Stage.Open("x.usda").Export("x.usdc")"#
-    }
-}
-
-/// Where a limit that MoveIt needs can be written.
-fn limit_of(what: &str) -> &'static str {
-    match what {
-        "velocity" => "`velocity` into the URDF, or limits into config/joint_limits.yaml",
-        _ => {
-            "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
-        }
     }
 }
 

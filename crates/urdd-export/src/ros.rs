@@ -35,3 +35,13 @@ impl Ros {
         }
     }
 }
+
+/// Where a limit that MoveIt needs can be written.
+pub(super) fn limit_of(what: &str) -> &'static str {
+    match what {
+        "velocity" => "`velocity` into the URDF, or limits into config/joint_limits.yaml",
+        _ => {
+            "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
+        }
+    }
+}

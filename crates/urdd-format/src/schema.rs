@@ -173,7 +173,7 @@ impl Subject {
             Subject::DiffReport => schemars::schema_for!(DiffReport),
             Subject::FirstReport => without(
                 schemars::schema_for!(Report),
-                &["programs", "imported"],
+                &["programs", "imported", "xacro_arguments"],
                 &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
             ),
             Subject::FirstDiffReport => {

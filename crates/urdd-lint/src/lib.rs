@@ -29,6 +29,7 @@ mod rule;
 pub mod rules;
 mod settings;
 pub mod skip;
+mod sources;
 mod srdf;
 mod srdf_text;
 mod subject;
@@ -42,38 +43,24 @@ pub use fix::{ChangedError, Mended, mend};
 pub use needs::{Undeclared, undeclared};
 pub use rule::LintRule;
 pub use settings::{LintSettings, declared};
+pub use sources::{LintError, seen_from};
 pub use target::LeftAlone;
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use thiserror::Error;
 
 use examine::examined;
+use sources::{Sources, sources, stems};
 use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_source::import::import;
 use urdd_source::macros::has_no_link;
-use urdd_source::robots::{Batch, BatchError, Job, find};
+use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
 use written::say_where_expanded;
-
-/// Why a run has no result.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum LintError {
-    /// One of the paths has nothing to examine.
-    #[error(transparent)]
-    Batch(#[from] BatchError),
-    /// Folders with nothing but xacro files.
-    #[error("there are only xacro files, which are programs: --xacro expands those in folders")]
-    OnlyXacro,
-    /// Cancelled through the settings.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
 
 /// Lints URDFs, xacro files, and all of them below folders, in parallel.
 ///
@@ -132,54 +119,6 @@ fn run_of(files: &[PathBuf], linted: Vec<Linted>, excluded: usize, settings: &Li
     let mut run = Run::of(examined, folders, excluded, &settings.report);
     run.report.stale_ignores.extend(stale.into_iter().flatten());
     run
-}
-
-/// What there is to lint.
-struct Sources {
-    jobs: Vec<Job>,
-    /// The number of those that the settings exclude.
-    excluded: usize,
-    /// What else was found.
-    batch: Batch,
-}
-
-fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<Sources, LintError> {
-    let mut batch = find(paths, &settings.source)?;
-    let mut jobs = std::mem::take(&mut batch.jobs);
-    // A xacro file is a program: it runs where somebody names it, or asks for xacro.
-    let found = jobs.len();
-    let is_named = |job: &Job| paths.contains(&job.source) || settings.source.xacro.expand_urdf;
-    jobs.retain(|job| is_named(job) || job.source.extension().is_none_or(|end| end != "xacro"));
-    if jobs.is_empty() && found > 0 {
-        return Err(LintError::OnlyXacro);
-    }
-    let all = jobs.len();
-    jobs.retain(|job| {
-        let seen = seen_from(&job.source, paths);
-        !settings.report.excludes.iter().any(|exclude| exclude.matches(&seen))
-    });
-    let excluded = all - jobs.len();
-    Ok(Sources { jobs, excluded, batch })
-}
-
-/// The folder and the name of a file.
-fn stems(path: &Path) -> (PathBuf, String) {
-    let name = path.file_name().unwrap_or_default();
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    (folder.to_owned(), name.to_string_lossy().into_owned())
-}
-
-/// The path that patterns of settings match: that of a file from the folder that was given, with forward slashes; its own
-/// name where the file itself was given, or is in no such folder.
-pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
-    let inside = given.iter().find_map(|given| path.strip_prefix(given).ok());
-    match inside.filter(|inside| !inside.as_os_str().is_empty()) {
-        Some(inside) => inside.to_string_lossy().replace('\\', "/"),
-        None => stems(path).1,
-    }
 }
 
 /// How a file came to be examined.

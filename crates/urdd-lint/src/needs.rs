@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use crate::examine::rules_to_run;
+use crate::settings::LintSettings;
 use crate::skip::NEEDS_ARGUMENTS;
-use crate::{LintError, LintSettings, sources, stems};
+use crate::sources::{LintError, sources, stems};
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::examined::{Examined, blank};

@@ -2,7 +2,7 @@
 //! nothing is expanded.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::{self, Write};
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -13,6 +13,7 @@ use crate::launch::choices;
 use crate::resolve::FoundMesh;
 use crate::roots::Place;
 use crate::settings::Settings;
+pub use crate::xacro_argument::XacroArgument;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::read_error::ReadError;
@@ -26,35 +27,6 @@ const MAX_LAUNCHES: usize = 100;
 const MAX_LAUNCH_BYTES: u64 = 1 << 20;
 /// Charged for a path that is looked for.
 const LOOK_UP: usize = 1 << 10;
-/// Maximum number of values in a message.
-const SHOWN: usize = 6;
-
-/// An argument.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct XacroArgument {
-    /// Its name.
-    pub name: String,
-    /// Its default as it is written.
-    pub default: Option<String>,
-    /// Values for which the package has files, else those that a launch file lists.
-    pub values: Vec<String>,
-    /// Whether a value has to be given: there is no default, the package has no files for it, or xacro does not know it yet.
-    pub is_needed: bool,
-    /// Where the file itself declares or uses it first.
-    pub at: Option<Position>,
-}
-
-impl fmt::Display for XacroArgument {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}`", self.name)?;
-        if !self.values.is_empty() {
-            let more = if self.values.len() > SHOWN { ", …" } else { "" };
-            let shown = self.values.iter().take(SHOWN).map(String::as_str);
-            write!(f, " ({}{more})", shown.collect::<Vec<_>>().join(", "))?;
-        }
-        Ok(())
-    }
-}
 
 /// Why the arguments of a file are not known.
 #[derive(Debug, Error)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::files::MAX_SOURCE_BYTES;
 use crate::installed::Installed;
+use crate::installs;
 use crate::macros::{self, Argument, Content, Macro, MacroFile};
 use crate::settings::Settings;
 use urdd_directory::account::Account;
@@ -169,7 +170,7 @@ impl Texts<'_> {
                 let (package, path) = (package.trim(), rest.trim_start_matches('/'));
                 let folder = self.package(package, folder)?;
                 let files = &self.settings.files;
-                let of = || Installed::of(&folder, files);
+                let of = || installs::installed(&folder, files);
                 let installed = self.installed.entry(folder.clone()).or_insert_with(of);
                 let is_there = |path: &String| files.is_file(&folder.join(path));
                 let source = installed.sources(path).find(is_there);

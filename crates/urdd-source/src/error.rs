@@ -4,9 +4,9 @@ use std::fmt;
 
 use thiserror::Error;
 
-use super::arguments::XacroArgument;
 use super::fault::PlacedFault;
 use super::import::fault::ImportFault;
+use super::xacro_argument::XacroArgument;
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::escape;
 

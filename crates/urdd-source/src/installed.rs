@@ -1,16 +1,6 @@
 //! Where the files of a package are when it is installed: what its CMakeLists.txt or setup.py installs below `share/NAME`, as
 //! far as it says so literally. `$(find NAME)` and `package://NAME` mean that tree.
 
-use std::path::Path;
-
-use crate::files::Files;
-use crate::{cmake, setup_py};
-
-/// Maximum size of a CMakeLists.txt or setup.py, in bytes.
-const MAX_BYTES: u64 = 1 << 20;
-/// Maximum number of files and folders that a package installs one by one.
-const MAX_RULES: usize = 1000;
-
 /// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
 pub const MAX_VALUE: usize = 255;
 
@@ -33,21 +23,6 @@ pub struct Installed {
 }
 
 impl Installed {
-    /// Reads what the package in a folder says.
-    pub fn of(folder: &Path, files: &Files) -> Self {
-        let read = |name: &str| {
-            let bytes = files.read(&folder.join(name), MAX_BYTES).ok()?;
-            Some(String::from_utf8_lossy(&bytes).into_owned())
-        };
-        let mut installed = match (read("CMakeLists.txt"), read("setup.py")) {
-            (Some(text), _) => cmake::installed(&text),
-            (None, Some(text)) => setup_py::installed(&text),
-            (None, None) => Installed::default(),
-        };
-        installed.rules.truncate(MAX_RULES);
-        installed
-    }
-
     /// Adds what is installed in a folder below the prefix of the installation; `own` is the package's, as `share/NAME`.
     /// Nothing for another package, or for programs and libraries.
     pub(super) fn add(&mut self, source: &str, destination: &str, name: Option<&str>, own: &str) {

@@ -23,6 +23,7 @@ pub mod import;
 mod includes;
 mod inspect;
 mod installed;
+mod installs;
 mod launch;
 mod load;
 pub mod macros;
@@ -47,6 +48,7 @@ pub mod urdf;
 mod watch;
 pub mod written;
 mod xacro;
+mod xacro_argument;
 
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;

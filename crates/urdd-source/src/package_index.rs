@@ -8,6 +8,7 @@ use std::process::Command;
 use crate::around::around;
 use crate::files::Files;
 use crate::installed::Installed;
+use crate::installs;
 use crate::packages::Packages;
 use crate::tree::{self, link};
 use urdd_directory::outputs;
@@ -81,7 +82,7 @@ impl PackageIndex {
             return Ok(());
         }
         outputs::fresh(&index.join(name), b"")?;
-        let installed = Installed::of(folder, &Files::Disk);
+        let installed = installs::installed(folder, &Files::Disk);
         match installed.is_as_source() {
             true => link(folder, &at)?,
             false => tree::lay(&at, folder, &installed)?,

@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::around::{Around, around, is_broad};
 use super::files::Files;
 use super::installed::Installed;
+use super::installs;
 use super::packages::{Packages, package_name};
 use super::settings::Settings;
 
@@ -85,7 +86,7 @@ impl Roots {
     /// What the package in a folder installs.
     pub fn installed(&self, folder: &Path) -> Arc<Installed> {
         let mut known = self.installed.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = || Arc::new(Installed::of(folder, &self.files));
+        let of = || Arc::new(installs::installed(folder, &self.files));
         Arc::clone(known.entry(folder.to_owned()).or_insert_with(of))
     }
 

@@ -163,6 +163,7 @@ mod tests {
     const EXPANDED: &str = "<robot name='r'><link name='la'/><link name='b'/><new/></robot>";
 
     #[test]
+    #[expect(clippy::disallowed_methods, reason = "a test writes as it likes")]
     fn places_are_those_of_elements_and_attributes_in_their_files() {
         let folder = tempfile::tempdir().expect("a folder");
         let root = folder.path().canonicalize().expect("a folder");

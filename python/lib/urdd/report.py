@@ -168,6 +168,10 @@ class Urdd:
     name: str | None
     """Name of the robot; null where no module says it."""
 
+    xacro_arguments: list[str]
+    """The arguments, each as `name:=value`, with which xacro expanded it, where settings declare robots of the
+    file."""
+
     verdict: Verdict
     """What came of it."""
 
@@ -895,6 +899,7 @@ def _urdd(v: Any) -> Urdd:
         kind=v["kind"],
         path=v["path"],
         name=v["name"],
+        xacro_arguments=v["xacro_arguments"],
         verdict=v["verdict"],
         reason=v["reason"],
         size=_size(v["size"]),

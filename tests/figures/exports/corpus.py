@@ -3,7 +3,7 @@
     pip install mujoco==4.0.0 pin==4.1.0 drake==1.51.1 yourdfpy==0.0.60 example-robot-data==6.0.0 pybullet==3.2.7 \\
         newton==1.8.0 newton-usd-schemas==0.6.0 usd-core==26.8 xacro==2.1.1 rtb-data==2.0.0 pyyaml numpy trimesh
     g++ -O1 sdf.cpp -o sdf_load $(pkg-config --cflags --libs sdformat12)      # Debian's libsdformat-dev
-    SDF_LOAD=$PWD/sdf_load python3 tests/figures/exports/corpus.py target/release/urdd FOLDER [--only REGEX] [--write]
+    SDF_LOAD=$PWD/sdf_load python3 tests/figures/exports/corpus.py target/release/urdd FOLDER [--only REGEX] [--shapes] [--write]
 
 The robots: all of example-robot-data, those of rtb-data, those of pybullet_data, and every EVERY-th of its thousand random
 objects. FOLDER gets `results.jsonl`, a line for each robot in the order of their names, and keeps the files of each failure.
@@ -69,21 +69,33 @@ EXPORTS = {
     "foam": ("foam", "r.json", *FEW),
     "moveit": ("moveit", "r_moveit_config"),
 }
+# With `--shapes`: the same of other collision geometry. What has less than a format takes is counted in MJCF.
+SHAPES = {
+    "mjcf-source": ("mjcf", "source/r.xml", "--shapes", "source"),
+    "drake-source": ("drake", "source_drake/r.urdf", "--shapes", "source"),
+    "sdf-source": ("sdf", "source_sdf/r.sdf", "--shapes", "source"),
+    "mjcf-fit": ("mjcf", "fit/r.xml", "--fit"),
+}
+# Whose collision geometry is counted, by type.
+COUNTED = {"mjcf-source": "the source", "mjcf-fit": "fitted"}
+KINDS = ["box", "cylinder", "capsule", "sphere", "mesh"]
 TITLES = {
     "urdd": "(URDD)", "srdf": "SRDF", "urdf": "URDF", "drake": "Drake", "drake-directive": "Drake, model directive", "mjcf": "MJCF",
     "mjcf-simulated": "MJCF, position actuators and scene", "sdf": "SDF", "usd": "USD", "spherized": "URDF with spheres", "curobo": "cuRobo's YAML",
     "foam": "Foam's JSON", "moveit": "MoveIt's package",
+    "mjcf-source": "MJCF, shapes of the source", "drake-source": "Drake, shapes of the source", "sdf-source": "SDF, shapes of the source",
+    "mjcf-fit": "MJCF, fitted primitives",
 }  # fmt: skip
 # Which program loads what: the export, the file where it is another one, the greatest difference of poses.
 LOADS = {
-    "MuJoCo": [("mjcf", None), ("mjcf-simulated", "used/r_scene.xml")],
+    "MuJoCo": [("mjcf", None), ("mjcf-simulated", "used/r_scene.xml"), ("mjcf-source", None), ("mjcf-fit", None)],
     "Newton": [("mjcf", None), ("urdf", None), ("usd", None)],
     "usd-core": [("usd", None)],
     "Pinocchio": [("urdf", None), ("spherized", None), ("srdf", None), ("moveit", None)],
     "yourdfpy": [("urdf", None), ("spherized", None)],
     "PyBullet": [("urdf", None), ("spherized", None)],
-    "Drake": [("drake", None), ("drake", "drake/r.dmd.yaml"), ("sdf", None)],
-    "libsdformat": [("sdf", None)],
+    "Drake": [("drake", None), ("drake", "drake/r.dmd.yaml"), ("sdf", None), ("drake-source", None), ("sdf-source", None)],
+    "libsdformat": [("sdf", None), ("sdf-source", None)],
     "xacro, YAML": [("moveit", None)],
     "YAML": [("curobo", None)],
     "JSON": [("foam", None)],
@@ -229,6 +241,12 @@ LOADERS = {
 }  # fmt: skip
 
 
+def counted(file):
+    """How many shapes of which type an MJCF collides with."""
+    geoms = [geom for geom in ET.parse(file).getroot().iter("geom") if geom.get("class") == "collision"]
+    return collections.Counter(geom.get("type", "sphere") for geom in geoms)
+
+
 def bound():
     resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
 
@@ -329,11 +347,13 @@ class Lane:
                 options = [folder / option if option == "guessed.toml" else option for option in options]
                 if refused := self.run("export", form, folder / "urdd", "-o", folder / target, *options):
                     said["refused"][export] = plain(refused)
+                elif export in COUNTED:
+                    said.setdefault("shapes", {})[export] = counted(folder / target)
             for program, files in LOADS.items():
                 for export, other in files:
                     if export not in self.exports or export in said["refused"]:
                         continue
-                    job = {"urdd": str(folder / "urdd"), "file": str(folder / (other or EXPORTS[export][1]))}
+                    job = {"urdd": str(folder / "urdd"), "file": str(folder / (other or self.exports[export][1]))}
                     answer = self.workers[program].ask(job)
                     for key in answer.keys() & {"refused", "printed"}:
                         answer[key] = plain(answer[key])
@@ -430,7 +450,7 @@ def judge(results, exports, is_whole):
         wrong.append(f"{loaded} of {written} loads, fewer than {GOAL}")
     table = {"columns": ["format", "program", "written", "loaded", "poses"], "rows": []}
     for (export, program), row in sorted(
-        rows.items(), key=lambda item: [*EXPORTS].index(item[0][0].removesuffix("-directive"))
+        rows.items(), key=lambda item: [*exports].index(item[0][0].removesuffix("-directive"))
     ):
         poses = f"{row['poses']:.0e}" if "poses" in row else "\u2013"
         if row["not compared"]:
@@ -448,7 +468,14 @@ def judge(results, exports, is_whole):
         if at in named
     ]
     columns = ["format", "robots", "reason"]
+    kept = {"columns": ["collision geometry", *KINDS], "rows": []}
+    for export in [export for export in COUNTED if export in exports]:
+        of = [said["shapes"][export] for said in results if export in said.get("shapes", {})]
+        numbers = [(sum(kind in one for one in of), sum(one.get(kind, 0) for one in of)) for kind in KINDS]
+        row = [f"{many:,} in {having:,}" if many else "0" for having, many in numbers]
+        kept["rows"].append([f"{COUNTED[export]}, {len(of):,} robots", *row])
     return {
+        **({"shapes": kept} if kept["rows"] else {}),
         "robots": f"{len(results):,}",
         "loads": f"{loaded:,} of {written:,}",
         "corpus": table,
@@ -479,11 +506,12 @@ def write(items, exports):
     import results as pages
 
     how = f"poses: the greatest difference in {CONFIGURATIONS} configurations"
+    of_shapes = {*exports} == {*SHAPES}
     loading = [name for name, files in LOADS.items() if {export for export, _ in files} & {*exports}]
     versions = [f"{PACKAGES[name]} {importlib.metadata.version(PACKAGES[name])}" for name in loading if name in PACKAGES]
     if "libsdformat" in loading:
         versions.append("libsdformat 12.3")
-    if {*exports} != {*EXPORTS}:
+    if not of_shapes and {*exports} != {*EXPORTS}:
         earlier = json.loads((pages.FOLDER / "exports.json").read_text("utf-8"))
         made, these = earlier["made"], f"this run: {LIST.join(TITLES[name] for name in exports)}; all else: "
         origin = f"{made['date']}, commit {made['commit']}"
@@ -495,7 +523,7 @@ def write(items, exports):
         items = merged(items, earlier["items"], exports)
         before = made["programs"].split(", ")
         versions = before + [version for version in versions if version not in before]
-    pages.write("exports", items, *versions, how=how)
+    pages.write("exports_of_shapes" if of_shapes else "exports", items, *versions, how=how)
 
 
 def main():
@@ -503,17 +531,14 @@ def main():
     parser.add_argument("urdd", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--only", default="", metavar="REGEX", help="robots whose names match")
-    parser.add_argument("--exports", default=",".join(EXPORTS), help="of these, separated by commas: %(default)s")
+    parser.add_argument("--exports", help=f"of these, separated by commas: {','.join(EXPORTS)}")
+    parser.add_argument("--shapes", action="store_true", help="exports with other shapes instead")
     parser.add_argument("--write", action="store_true", help="write the tables")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    found = measure(
-        arguments.urdd.resolve(),
-        arguments.folder.resolve(),
-        arguments.only,
-        {name: EXPORTS[name] for name in arguments.exports.split(",")},
-    )
-    exports = arguments.exports.split(",")
+    every = SHAPES if arguments.shapes else EXPORTS
+    exports = {name: every[name] for name in (arguments.exports or ",".join(every)).split(",")}
+    found = measure(arguments.urdd.resolve(), arguments.folder.resolve(), arguments.only, exports)
     items, wrong = judge(found, exports, not arguments.only)
     sys.path.insert(0, str(HERE.parents[2] / "benches"))
     import results as pages

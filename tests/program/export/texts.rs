@@ -39,6 +39,8 @@ name = "PlaceEnd"
 group = "PlaceHand"
 parent_group = "PlaceGroup"
 parent_link = "PlaceTip"
+[base]
+poses."PlacePose" = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]
 [frames]
 tools = ["PlaceTip"]
 imus = ["PlaceMiddle"]
@@ -513,9 +515,8 @@ fn the_table_has_every_place() {
         fields.filter(|(_, of)| of.contains("Name")).map(|(name, _)| name).collect();
     assert!(names.len() > 12, "{names:?}");
     for name in names {
-        let is_there = [format!("{name} = "), format!("[actuators.{name}.\"Place")]
-            .iter()
-            .any(|key| SETUP.contains(key));
+        let is_there =
+            [format!("{name} = "), format!("{name}.\"Place")].iter().any(|key| SETUP.contains(key));
         assert!(is_there, "`{name}` of an export.toml is in no place of the table");
     }
 }

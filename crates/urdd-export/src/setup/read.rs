@@ -138,8 +138,14 @@ impl Reader<'_> {
         let links = |names: &[Name]| -> Placed<Vec<usize>> {
             names.iter().map(|name| self.link(name)).collect()
         };
+        // `urdd import` writes poses here, and the configurations into an SRDF, which not every URDD has taken in.
+        let has_any = !self.configurations.is_empty();
+        let known = |name: &Name| match has_any {
+            true => self.configuration(name),
+            false => Ok(name.get_ref().clone()),
+        };
         let poses = file.base.poses.iter();
-        let poses = poses.map(|(name, pose)| Ok((self.configuration(name)?, base_pose(pose)?)));
+        let poses = poses.map(|(name, pose)| Ok((known(name)?, base_pose(pose)?)));
         Ok(Setup {
             of: self.structure.identity(),
             floating: Guess::read(file.base.floating),
@@ -242,14 +248,8 @@ impl Reader<'_> {
     }
 
     fn configuration(&self, name: &Name) -> Placed<String> {
-        let found =
-            find(name, "named configuration", self.configurations.iter().map(String::as_str));
-        // `urdd import` writes them into an SRDF.
-        let advice = match self.configurations.is_empty() {
-            true => "; `urdd configurations import` takes those of an SRDF into a URDD",
-            false => "",
-        };
-        found.map_err(|(at, reason)| (at, reason + advice))?;
+        let known = self.configurations.iter().map(String::as_str);
+        find(name, "named configuration", known)?;
         Ok(name.get_ref().clone())
     }
 

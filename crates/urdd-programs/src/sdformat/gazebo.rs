@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::Release;
+use super::release::Release;
 use crate::effect::{At, Effects, Reading};
 use crate::fault::Fault;
 use crate::number::strtod;

@@ -4,6 +4,7 @@
 mod gazebo;
 mod inertia;
 mod names;
+mod release;
 mod tree;
 mod values;
 mod xml;
@@ -11,13 +12,14 @@ mod xml;
 use std::collections::HashSet;
 
 use self::gazebo::{Extensions, stod};
+use self::release::Release;
 use self::tree::{Body, Joint, Tree};
 use self::values::{number, vector};
 use crate::about::About;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
-use crate::number::{is_space, pieces};
+use crate::number::pieces;
 use crate::part::Part;
 use crate::tinyxml;
 use crate::tree::Node;
@@ -68,35 +70,6 @@ const NEVER: &[&str] = &[
     "texture",
     "quat_xyzw",
 ];
-
-/// Which libsdformat.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Release {
-    /// 12.3.0.
-    Twelve,
-    /// 14.1 and later. It reads mimics, and what it writes is SDF 1.11, whose names have no `::`. As in 12.7, links and
-    /// joints that are merged stay as frames, which need names and a link; and a link without mass that is merged does not
-    /// take those below with it.
-    Fourteen,
-}
-
-impl Release {
-    /// A name as it is read.
-    fn read(self, text: &str) -> &str {
-        let text = text.trim_matches(is_space);
-        match text {
-            _ if self == Release::Fourteen => text,
-            _ if text.eq_ignore_ascii_case("true") => "1",
-            _ if text.eq_ignore_ascii_case("false") => "0",
-            _ => text,
-        }
-    }
-
-    /// Whether a name is one that SDF keeps for itself.
-    fn keeps(self, name: &str) -> bool {
-        self == Release::Fourteen && name.contains("::")
-    }
-}
 
 fn read_twelve(file: &File, effects: &mut Effects) -> Reading<()> {
     read(file, Release::Twelve, effects)

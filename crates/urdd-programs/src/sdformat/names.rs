@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::Release;
+use super::release::Release;
 use super::tree::Tree;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;

@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 
 use urdd_format::short::Short;
 
-use super::Release;
 use super::inertia::{Inertia, Pose};
+use super::release::Release;
 use crate::effect::{Effects, Reading};
 use crate::fault::Fault;
 use crate::part::Part;
@@ -192,7 +192,7 @@ impl<'t> Tree<'t> {
     /// Whether a link is left out, with all below.
     fn is_left_out(&self, body: usize) -> bool {
         let is_merged = self.bodies[body].joint.as_ref().is_some_and(|joint| joint.is_merged);
-        !self.has_mass(body) && !(is_merged && self.release == Release::Fourteen)
+        !(self.has_mass(body) || is_merged && self.release == Release::Fourteen)
     }
 
     /// Makes links from the root down. A link may be reached twice, and is then refused if it is made.

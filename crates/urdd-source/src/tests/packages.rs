@@ -21,7 +21,7 @@ fn memory(files: &[(&str, &str)]) -> Files {
 }
 
 fn installed(name: &str, text: &str) -> Installed {
-    Installed::of(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
+    crate::installs::installed(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
 }
 
 fn first(installed: &Installed, path: &str) -> Option<String> {

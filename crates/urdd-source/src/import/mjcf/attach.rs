@@ -7,12 +7,11 @@ use urdd_xml::MAX_LEVELS;
 
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
+use super::defaults::CLASSES;
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::{missing, required, unknown};
 
-/// The tag of the default classes of a model that is attached. No element of XML has it.
-pub const CLASSES: &str = "default classes of a model";
 /// The tag of the keys of such a model, which have the positions of all of it, and are not read.
 pub const KEYS: &str = "keys of a model";
 /// What holds names that are those of an element itself.

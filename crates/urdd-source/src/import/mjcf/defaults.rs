@@ -6,9 +6,11 @@ use urdd_directory::account::Account;
 
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
-use super::attach::CLASSES;
 use super::element::Element;
 use super::fault::MjcfFault;
+
+/// The tag of the default classes of a model that is attached. No element of XML has it.
+pub const CLASSES: &str = "default classes of a model";
 
 /// The class that all others are in.
 pub const MAIN: usize = 0;

@@ -1,7 +1,8 @@
 //! What a model says that is not for the robot, or is not read: all of it is counted.
 
 use super::super::features::{self, Tally};
-use super::attach::{CLASSES, KEYS};
+use super::attach::KEYS;
+use super::defaults::CLASSES;
 use super::element::Element;
 use urdd_format::short::Short;
 
