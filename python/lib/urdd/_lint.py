@@ -63,8 +63,8 @@ def lint(
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
-        config: a settings file such as ``urdd.toml``, also for the robots of xacro files (``[[robot]]``). No such file is
-            read by default.
+        config: a settings file such as ``urdd.toml``, also for the robots of xacro files (``[[robot]]``). None is read
+            by default.
         select: codes or families of the only rules to report.
         ignore: codes or families of rules not to report.
         exclude: patterns of files and folders to exclude.
