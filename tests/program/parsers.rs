@@ -66,6 +66,7 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-format/src/schema.rs", "the program's own"),
     ("crates/urdd-generate/src/donor/mod.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-geometry/src/read/gltf/mod.rs", "a mesh within MAX_DOCUMENT_BYTES"),
+    ("crates/urdd-source/src/watch.rs", "what the module beside xacro notes; 64 MiB"),
     ("crates/urdd-view/src/drops.rs", "MAX_BODY"),
     ("crates/urdd-view/src/one_file.rs", "MAX_DOCUMENT_BYTES, MAX_ROBOT_BYTES, the program's own"),
     ("crates/urdd-view/src/reply.rs", "the limit of a request's body"),
@@ -195,11 +196,14 @@ fn only_urdd_xml_names_the_parser_of_xml() {
 /// Who reads files around descriptions, beside what they name.
 const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
+    ("crates/urdd-lint/src/lib.rs", "the xacro file that a person names, to show it; 64 MiB"),
     ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),
+    ("crates/urdd-source/src/described.rs", "descriptions in a folder that a person names; 64 MiB"),
     ("crates/urdd-source/src/fragments.rs", "descriptions in a folder that a person names; 64 MiB"),
     ("crates/urdd-source/src/gate.rs", "the gate"),
     ("crates/urdd-source/src/import/imported.rs", "the description itself; 64 MiB"),
     ("crates/urdd-source/src/inspect.rs", "meshes and their side files, for the gate alone"),
+    ("crates/urdd-source/src/installs.rs", "`CMakeLists.txt` and `setup.py`; 1 MiB"),
     ("crates/urdd-source/src/load.rs", "the description itself; 64 MiB"),
     ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),

@@ -501,12 +501,14 @@ def merged(items, before, exports):
     return {"robots": items["robots"], "loads": f"{loaded:,} of {written:,}", **all_of}
 
 
-def write(items, exports):
+def write(items, exports, only):
     sys.path.insert(0, str(HERE.parents[2] / "benches"))
     import results as pages
 
     how = f"poses: the greatest difference in {CONFIGURATIONS} configurations"
     of_shapes = {*exports} == {*SHAPES}
+    if only:
+        how = f"{how}; robots whose names match `{only}`"
     loading = [name for name, files in LOADS.items() if {export for export, _ in files} & {*exports}]
     versions = [f"{PACKAGES[name]} {importlib.metadata.version(PACKAGES[name])}" for name in loading if name in PACKAGES]
     if "libsdformat" in loading:
@@ -546,8 +548,8 @@ def main():
     for name, item in items.items():
         print(f"\n{name}: {item}" if isinstance(item, str) else f"\n{name}:\n{pages.markdown(item)}")
     print(*(f"\nwrong: {one}" for one in wrong), sep="", flush=True)
-    if arguments.write and not arguments.only:
-        write(items, exports)
+    if arguments.write and (arguments.shapes or not arguments.only):
+        write(items, exports, arguments.only)
     sys.exit(bool(wrong))
 
 
