@@ -278,7 +278,8 @@ impl<'t> Links<'t> {
         let maker = Maker::File(path);
         // What is wrong with one that is empty, or a URDF, is what its reader says.
         let is_urdf = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
-        if !file.content.is_some || (is_urdf && !file.has_xacro) {
+        let is_empty = file.root == "robot" && !file.content.is_some;
+        if is_empty || (is_urdf && !file.has_xacro) {
             return FileKind::Robot;
         }
         match (file.root.as_str(), self.makers.contains(&maker), self.srdf.contains(&maker)) {

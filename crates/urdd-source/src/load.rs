@@ -150,7 +150,9 @@ fn read(
             let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
             (text, Some(trail))
         }
-        (true, Files::Memory(_)) => return Err(SourceError::NoXacro { file: shown }),
+        (true, Files::Memory(_)) => {
+            return Err(explained(SourceError::NoXacro { file: shown }, path, settings));
+        }
         (false, _) => (text, None),
     };
     let (stem, is_verbatim) = (stem(&canonical), is_verbatim && !is_expanded);

@@ -77,7 +77,10 @@ fn every_point_is_inside() {
     }
 }
 
-/// Closed forms: how far each kind stands off a cube, and off a rod.
+/// What the smallest box may be too large, m: [`OrientedBox::around`] ends its search at 1e-6 of the volume.
+const BOX: f64 = 2e-6;
+
+/// Closed forms: how far each kind stands off a cube.
 #[test]
 fn standoff_is_that_of_the_farthest_point() {
     let (cube, _) = turned(cuboid([2.0, 2.0, 2.0]));
@@ -85,15 +88,16 @@ fn standoff_is_that_of_the_farthest_point() {
     for of in Enclosing::around(&cube) {
         let found = of.standoff(&cube).unwrap();
         let (kind, low, high) = match of.primitive {
-            Primitive::Box(_) => (0, 0.0, 1e-9),
+            Primitive::Box(_) => (0, 0.0, BOX),
             // The pole of a sphere is above the middle of a face.
-            Primitive::Sphere { radius } => (1, radius - 1.0 - 1e-9, radius - 1.0 + 1e-9),
+            Primitive::Sphere { radius } => (1, radius - 1.0 - BOX, radius - 1.0 + BOX),
             // A rim is above the middle of a side.
-            Primitive::Cylinder { .. } => (2, root - 1.0, (root - 1.0) * 1.01),
+            Primitive::Cylinder { .. } => (2, root - 1.0 - BOX, (root - 1.0) * 1.01),
             // The corners are at the ends of the axis: a half ball of the corners' circle stands on each face.
             Primitive::Capsule { half, .. } => {
-                assert!((half - 1.0).abs() < 1e-9);
-                (3, root - 1e-9, root + 1e-9)
+                // As far along the axis as a corner is inside the radius, at the square root.
+                assert!((half - 1.0).abs() < BOX.sqrt());
+                (3, root - BOX.sqrt(), root + BOX)
             }
         };
         kinds[kind] += 1;

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use urdd_findings::code::Code;
 use urdd_format::report::Urdd;
 use urdd_lint::{LintSettings, lint_with_text, rules};
 use urdd_source::Files;
@@ -32,7 +33,8 @@ fn report(file: &Path, files: Files) -> Vec<Urdd> {
 #[test]
 fn each_case_is_linted_alike_in_memory_and_on_a_disk() {
     let mut compared = 0;
-    for rule in rules::all() {
+    // Of LNT065 a disk has xacro, where it is installed, and memory never.
+    for rule in rules::all().into_iter().filter(|rule| rule.description.code != Code::LNT065) {
         for prefix in ["invalid", "near_miss"] {
             for case in cases(rule.description.code, prefix) {
                 let (folder, file) = copied(&case);

@@ -113,13 +113,15 @@ fn every_kind_of_text_takes_time_in_proportion() {
         for (index, (name, text)) in small.iter().enumerate() {
             let first = took(text, kind);
             assert!(first < Duration::from_secs(10), "{name}: {kind:?}: {first:?}");
-            if is_measured {
+            // Again, where other work made it look worse: what grows with a square does so each time.
+            let in_proportion = || {
+                let first = took(text, kind);
                 let others = [2 << 20, 4 << 20].map(|bytes| took(&kinds(bytes)[index].1, kind));
                 let exponent = (others[1].as_secs_f64() / first.as_secs_f64()).log2() / 2.0;
                 println!("{kind:?}: {name}: {first:.1?} {others:.1?}: {exponent:.2}");
-                let is_short = others[1] < Duration::from_millis(100);
-                assert!(exponent <= 1.5 || is_short, "{name}: {kind:?}: {exponent}");
-            }
+                exponent <= 1.5 || others[1] < Duration::from_millis(100)
+            };
+            assert!(!is_measured || (0..4).any(|_| in_proportion()), "{name}: {kind:?}");
         }
     }
 }
