@@ -110,7 +110,9 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
     if let Some(word) = &question.ros {
         let ros = Ros::named(word);
         choices.ros = Some(ros.ok_or_else(|| {
-            format!("there is no distribution `{}`; there are: humble, jazzy", word.escape_debug())
+            let all: Vec<&str> = Ros::ALL.iter().map(|ros| ros.word()).collect();
+            let (word, all) = (word.escape_debug(), all.join(", "));
+            format!("there is no distribution `{word}`; there are: {all}")
         })?);
     }
     choices.samples = count(SAMPLES, question.samples)?.unwrap_or(choices.samples);

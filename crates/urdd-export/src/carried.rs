@@ -76,7 +76,7 @@ impl Feature {
     }
 }
 
-const TABLE: [Feature; 22] = [
+const TABLE: [Feature; 23] = [
     Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 5]),
     Feature::new(
         "colours of visual geometry",
@@ -149,15 +149,20 @@ const TABLE: [Feature; 22] = [
     ),
     Feature::new(
         "`<gazebo>` elements",
-        |of| of.urdf.unknown_elements.iter().filter(|text| is_gazebo(text)).count(),
+        |of| of_robot(of, |text| is_a(text, GAZEBO_TAG)),
         [Yes, Yes, No, GAZEBO, CUSTOM],
     ),
+    Feature::new(
+        "hardware of ros2_control",
+        |of| of_robot(of, |text| is_a(text, HARDWARE_TAG)),
+        [Yes, Yes, No, No, CUSTOM],
+    )
+    .with_moveit(MOCK),
     Feature::new(
         "other elements that URDF does not define, such as transmissions",
         other_elements,
         [Yes, Yes, No, No, CUSTOM],
-    )
-    .with_moveit(MOCK),
+    ),
     // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",
@@ -173,12 +178,15 @@ const TABLE: [Feature; 22] = [
     },
 ];
 
-fn is_gazebo(text: &str) -> bool {
+const GAZEBO_TAG: &str = "gazebo";
+const HARDWARE_TAG: &str = "ros2_control";
+
+fn is_a(text: &str, tag: &str) -> bool {
     let text = urdd_xml::element::wrapped(text);
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other);
     document.is_ok_and(|document| {
         let first = document.root_element().first_element_child();
-        first.is_some_and(|first| first.has_tag_name("gazebo"))
+        first.is_some_and(|first| first.has_tag_name(tag))
     })
 }
 
@@ -222,8 +230,13 @@ fn others(subject: &Subject, is_wanted: impl Fn(&OtherPart) -> bool) -> usize {
 fn other_elements(subject: &Subject) -> usize {
     let of_links = subject.urdf.links.iter().map(|link| link.unknown_elements.len());
     let of_joints = subject.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
-    let of_robot = subject.urdf.unknown_elements.iter().filter(|text| !is_gazebo(text));
-    of_links.chain(of_joints).sum::<usize>() + of_robot.count()
+    let is_other = |text: &str| !is_a(text, GAZEBO_TAG) && !is_a(text, HARDWARE_TAG);
+    of_links.chain(of_joints).sum::<usize>() + of_robot(subject, is_other)
+}
+
+/// How many elements of the robot itself that URDF does not define are of a kind.
+fn of_robot(subject: &Subject, is_of: impl Fn(&str) -> bool) -> usize {
+    subject.urdf.unknown_elements.iter().filter(|text| is_of(text)).count()
 }
 
 fn has_texture(link: &Link) -> bool {

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::counts::ShapeCounts;
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
-use super::ros::{Ros, limit_of};
+use super::ros::{Limited, Ros};
 use super::shapes::Shapes;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
@@ -64,9 +64,9 @@ pub enum ExportError {
     /// Spheres cannot be fitted to shapes of this kind.
     #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
     SpheresOf(Shapes),
-    /// So many shapes of the source that judging their pairs would take too long.
+    /// So many shapes that the URDD does not judge that judging their pairs would take too long.
     #[error(
-        "the source has {count} collision shapes or convex pieces of them, or more, and pairs of at most {most} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`"
+        "there are {count} collision shapes or convex pieces of them, or more, and pairs of at most {most} are judged: export `urdf`, which has no pairs, or choose the shapes `pieces`, without `fit`"
     )]
     TooManyShapes {
         /// Number of shapes.
@@ -74,9 +74,9 @@ pub enum ExportError {
         /// Maximum number.
         most: usize,
     },
-    /// Distances between shapes of the source cannot be computed.
+    /// Distances between shapes that the URDD does not judge cannot be computed.
     #[error(
-        "distances between the collision shapes of the source cannot be computed: {0}; choose the shapes `pieces`"
+        "distances between these collision shapes cannot be computed: {0}; choose the shapes `pieces`, without `fit`"
     )]
     Unmeasurable(String),
     /// A binary file, and the format is a text.
@@ -128,6 +128,13 @@ fn binary(ending: &str) -> &'static str {
         r#"UsdUtils.CreateNewUsdzPackage("x.usda", "x.usdz")"#
     } else {
         r#"Usd.Stage.Open("x.usda").Export("x.usdc")"#
+    }
+}
+
+fn judged(fitted: ShapeCounts) -> &'static str {
+    match fitted.total() {
+        0 => "",
+        _ => "; pairs, where the format has them, are judged by these",
     }
 }
 
@@ -208,10 +215,10 @@ pub enum Note {
         what: &'static str,
     },
     /// Joints that MoveIt moves, without a limit.
-    #[error("joints without a limit of {what}: {}; {}. Write {}", few(.joints), .ros.without_limit(), limit_of(.what))]
+    #[error("joints without a limit of {}: {}; {}. Write {}", .what.word(), few(.joints), .ros.without_limit(), .what.place())]
     Unlimited {
-        /// What has no limit: `velocity` or `acceleration`.
-        what: &'static str,
+        /// What has no limit.
+        what: Limited,
         /// The joints; at least one.
         joints: Vec<String>,
         /// Whose MoveIt moves them.
@@ -303,7 +310,7 @@ pub enum Note {
     )]
     SourceShapes(ShapeCounts),
     /// Primitives are in the place of convex meshes.
-    #[error("{} of {of} convex meshes are primitives that enclose them ({counts}), each with {costs}; pairs, where the format has them, are judged by these", .counts.total())]
+    #[error("{} of {of} convex meshes are primitives that enclose them ({counts}), each with {costs}{}", .counts.total(), judged(*.counts))]
     Fitted {
         /// How many primitives of which kinds.
         counts: ShapeCounts,
@@ -313,7 +320,7 @@ pub enum Note {
         costs: String,
     },
     /// The collision geometry of the source is not in the file, or in another form.
-    #[error("the source's collision geometry ({elements}) is not taken as it is, but {shapes}{}: choose the shapes `source` to keep it", of_visual(*.is_visual))]
+    #[error("the source's collision geometry ({elements}) is not taken as it is, but {shapes}{}: choose the shapes `source` to keep it", if *.is_visual { " of visual geometry" } else { "" })]
     NotOfSource {
         /// How many shapes of which kinds.
         elements: ShapeCounts,
@@ -353,10 +360,6 @@ impl Note {
             contacts: mixed.contacts,
         })
     }
-}
-
-fn of_visual(is_visual: bool) -> &'static str {
-    if is_visual { " of visual geometry" } else { "" }
 }
 
 /// Number of names in a note.

@@ -84,8 +84,8 @@ impl fmt::Display for Fit {
     }
 }
 
-/// Puts primitives in the place of convex meshes, and says how many.
-pub(super) fn fit(by_link: &mut [Vec<Shape>], fit: Fit, has_capsules: bool) -> Note {
+/// Puts primitives in the place of convex meshes: how many, and a note.
+pub(super) fn fit(by_link: &mut [Vec<Shape>], fit: Fit, has_capsules: bool) -> (usize, Note) {
     let is_mesh = |shape: &&mut Shape| matches!(shape.solid, Solid::Convex(_));
     let meshes: Vec<&mut Shape> = by_link.iter_mut().flatten().filter(is_mesh).collect();
     let of = meshes.len();
@@ -94,5 +94,6 @@ pub(super) fn fit(by_link: &mut [Vec<Shape>], fit: Fit, has_capsules: bool) -> N
         Some(shape.solid.clone())
     });
     let fitted: Vec<Solid> = fitted.collect();
-    Note::Fitted { counts: ShapeCounts::of(fitted.iter()), of, costs: fit.to_string() }
+    let counts = ShapeCounts::of(fitted.iter());
+    (fitted.len(), Note::Fitted { counts, of, costs: fit.to_string() })
 }

@@ -116,7 +116,7 @@ pub use order::{JointOrder, joint_orders};
 pub use output::Export;
 pub use pairs::Contacts;
 pub use ranges::{BANDWIDTH, SAMPLES, SPHERES, TOTAL_SPHERES};
-pub use ros::Ros;
+pub use ros::{Limited, Ros};
 pub use setup::{Setup, SetupError};
 pub use shapes::Shapes;
 pub use spheres::SphereRates;

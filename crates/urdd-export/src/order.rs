@@ -111,7 +111,8 @@ pub fn joint_orders(robot: &Robot) -> Result<Vec<JointOrder>, ExportError> {
     let urdf = robot.description()?;
     let structure = Structure::of(&urdf)?;
     let order = |&(program, format, walk): &(&'static str, Format, Walk)| {
-        Joints::new(format, &structure).order(program, walk, &urdf)
+        let joints = Joints::new(format, &structure);
+        joints.order(program, walk, joints.actuators(&urdf))
     };
     Ok(PROGRAMS.iter().map(order).collect())
 }
@@ -135,7 +136,17 @@ impl<'a> Joints<'a> {
         Joints { of, format, names, own }
     }
 
-    fn order(&self, program: &'static str, walk: Walk, urdf: &UrdfModule) -> JointOrder {
+    /// The actuators, where no `export.toml` names others.
+    fn actuators(&self, urdf: &UrdfModule) -> Vec<String> {
+        let actuated = (0..self.own.len()).filter(|joint| self.of.is_actuated(*joint));
+        match self.format {
+            Format::Mjcf => actuated.map(|joint| self.own[joint].clone()).collect(),
+            Format::Drake => drake::actuators(urdf, self.of),
+            _ => Vec::new(),
+        }
+    }
+
+    fn order(&self, program: &'static str, walk: Walk, actuators: Vec<String>) -> JointOrder {
         // PyBullet holds a floating joint fixed.
         let is_fixed = |joint: usize| {
             program == PYBULLET && self.of.view.joints[joint].joint_type == JointType::Floating
@@ -146,12 +157,6 @@ impl<'a> Joints<'a> {
             let parts: Vec<String> = parts.filter(|_| self.is_chain(joint)).collect();
             if parts.is_empty() { vec![self.own[joint].clone()] } else { parts }
         });
-        let actuated = (0..self.own.len()).filter(|joint| self.of.is_actuated(*joint));
-        let actuators = match self.format {
-            Format::Mjcf => actuated.map(|joint| self.own[joint].clone()).collect(),
-            Format::Drake => drake::actuators(urdf, self.of),
-            _ => Vec::new(),
-        };
         let joints = joints.collect();
         JointOrder { program, format: self.format, rule: walk.rule(), joints, actuators }
     }
@@ -192,12 +197,13 @@ pub(super) fn report(subject: &Subject) -> Result<Value, ExportError> {
         format => format,
     };
     let joints = Joints::new(format, &subject.structure);
+    let actuators: Vec<String> = match format {
+        Format::Mjcf => actuators::names(subject)?.into_values().collect(),
+        _ => joints.actuators(&subject.urdf),
+    };
     let mut all = Map::new();
     for &(program, _, walk) in PROGRAMS.iter().filter(|(_, of, _)| *of == format) {
-        let mut order = joints.order(program, walk, &subject.urdf);
-        if format == Format::Mjcf {
-            order.actuators = actuators::names(subject)?.into_values().collect();
-        }
+        let order = joints.order(program, walk, actuators.clone());
         let mut said = json!({"rule": order.rule, "joints": order.joints});
         if !order.actuators.is_empty() {
             said["actuators"] = order.actuators.into();

@@ -14,15 +14,11 @@ use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
 use urdd_geometry::decompose::{self, decompose};
 use urdd_geometry::hull::ConvexHull;
-use urdd_geometry::oriented_box::corners;
-use urdd_geometry::primitives::Primitive;
+use urdd_geometry::primitives::Prism;
 use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// The most shapes, or pieces of them, of which pairs are judged: time grows with their square.
 const MOST_SHAPES: usize = 1_000;
-
-/// Sides of the prism that stands for a cylinder.
-const SIDES: u32 = 64;
 
 /// A robot's shapes with their reasons.
 pub(super) struct Judged {
@@ -138,27 +134,10 @@ fn cores(shape: &Shape, as_hulls: bool) -> Vec<(usize, Vec<[f64; 3]>, f64)> {
             (hull.map_or_else(|_| mesh.vertices.clone(), |hull| hull.into_mesh().vertices), 0.0)
         }
         Solid::Primitive(pose, primitive) => {
-            let (own, radius) = core(primitive);
+            let (own, radius) = primitive.core(Prism::Inside);
             let placed = own.into_iter().map(|point| (pose * nalgebra::Point3::from(point)).into());
             (placed.collect(), radius)
         }
     };
     vec![(shape.number, points, radius)]
-}
-
-/// The points of a primitive, and how far around them it reaches.
-fn core(primitive: &Primitive) -> (Vec<[f64; 3]>, f64) {
-    match *primitive {
-        Primitive::Box(half) => (corners(half).to_vec(), 0.0),
-        Primitive::Sphere { radius } => (vec![[0.0; 3]], radius),
-        Primitive::Capsule { radius, half } => (vec![[0.0, 0.0, -half], [0.0, 0.0, half]], radius),
-        Primitive::Cylinder { radius, half } => {
-            let corner = |side: u32| {
-                let (sine, cosine) =
-                    (std::f64::consts::TAU * f64::from(side) / f64::from(SIDES)).sin_cos();
-                [[radius * cosine, radius * sine, -half], [radius * cosine, radius * sine, half]]
-            };
-            ((0..SIDES).flat_map(corner).collect(), 0.0)
-        }
-    }
 }

@@ -36,12 +36,44 @@ impl Ros {
     }
 }
 
-/// Where a limit that MoveIt needs can be written.
-pub(super) fn limit_of(what: &str) -> &'static str {
-    match what {
-        "velocity" => "`velocity` into the URDF, or limits into config/joint_limits.yaml",
-        _ => {
-            "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
+/// A limit that MoveIt needs of each joint that it moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Limited {
+    /// Of velocity.
+    Velocity,
+    /// Of acceleration.
+    Acceleration,
+}
+
+impl Limited {
+    /// All of them, in the order of their notes.
+    pub(super) const ALL: [Limited; 2] = [Limited::Velocity, Limited::Acceleration];
+
+    /// Its word for users.
+    pub fn word(self) -> &'static str {
+        match self {
+            Limited::Velocity => "velocity",
+            Limited::Acceleration => "acceleration",
+        }
+    }
+
+    /// Where it can be written.
+    pub(super) fn place(self) -> &'static str {
+        match self {
+            Limited::Velocity => {
+                "`velocity` into the URDF, or limits into config/joint_limits.yaml"
+            }
+            Limited::Acceleration => {
+                "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
+            }
+        }
+    }
+
+    /// Its index among the limits of a joint: velocity, acceleration and jerk.
+    pub(super) fn index(self) -> usize {
+        match self {
+            Limited::Velocity => 0,
+            Limited::Acceleration => 1,
         }
     }
 }

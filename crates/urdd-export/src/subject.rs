@@ -108,12 +108,15 @@ impl<'a> Subject<'a> {
             Shapes::Kind(_) => (None, source_shapes::notes(robot, &described, shapes, format)?),
         };
         if let Some(costs) = options.links().and_then(|links| links.fit) {
-            let mut by_link = match (own_shapes, shapes) {
+            let mut by_link = match (own_shapes.take(), shapes) {
                 (None, Shapes::Kind(kind)) => by_link(&described, robot.shapes(kind)?),
                 (own, _) => own.unwrap_or_default(),
             };
-            shape_notes.push(fit(&mut by_link, costs, has_capsules(format)));
-            own_shapes = Some(by_link);
+            let (fitted, note) = fit(&mut by_link, costs, has_capsules(format));
+            shape_notes.push(note);
+            if fitted > 0 || shapes == Shapes::Source {
+                own_shapes = Some(by_link);
+            }
         }
         // URDF cannot express pairs; the sphere formats compute their own.
         let basis = match (wanted, &own_shapes, shapes) {
@@ -126,12 +129,12 @@ impl<'a> Subject<'a> {
             _ => None,
         };
         if !layout.is_empty() {
-            let mut places = match (&basis, shapes) {
-                (Some(basis), _) => basis.skips().places().to_vec(),
-                (None, Shapes::Kind(kind)) => {
+            let mut places = match (&basis, &own_shapes, shapes) {
+                (Some(basis), ..) => basis.skips().places().to_vec(),
+                (None, None, Shapes::Kind(kind)) => {
                     robot.shapes(kind)?.iter().map(|shape| (shape.link, shape.piece)).collect()
                 }
-                (None, Shapes::Source) => Vec::new(),
+                _ => Vec::new(),
             };
             let by_link = own_shapes.iter().flatten().enumerate();
             places.extend(

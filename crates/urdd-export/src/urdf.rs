@@ -47,7 +47,12 @@ pub(super) fn robot(
         lost += push_unknown(&mut element, &unknown(subject, &joint.unknown_elements), IN_JOINT);
         robot.push(element);
     }
-    lost += push_unknown(&mut robot, &unknown(subject, &urdf.unknown_elements), IN_ROBOT);
+    let mut own = Cow::Borrowed(urdf.unknown_elements.as_slice());
+    if subject.format == Format::Moveit {
+        // The package has hardware of its own.
+        own.to_mut().retain(|text| ros2_control(text).is_none());
+    }
+    lost += push_unknown(&mut robot, &unknown(subject, &own), IN_ROBOT);
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
@@ -57,10 +62,8 @@ pub(super) fn robot(
 /// Elements that URDF does not define, as the format needs them; empty where it cannot have one.
 fn unknown<'a>(subject: &Subject, texts: &'a [String]) -> Cow<'a, [String]> {
     match subject.format {
-        // The package has hardware of its own.
         Format::Moveit => {
-            let texts = texts.iter().filter(|text| ros2_control(text).is_none());
-            texts.map(|text| xacro::element(text).unwrap_or_default()).collect()
+            texts.iter().map(|text| xacro::element(text).unwrap_or_default()).collect()
         }
         _ => Cow::Borrowed(texts),
     }

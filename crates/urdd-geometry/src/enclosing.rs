@@ -1,18 +1,13 @@
 //! Primitives that enclose a convex body.
 
-use std::f64::consts::PI;
-
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::bounding_sphere::BoundingSphere;
 use super::convex::{ConvexShape, distance};
 use super::hull::ConvexHull;
-use super::oriented_box::{OrientedBox, corners};
-use super::primitives::Primitive;
+use super::oriented_box::OrientedBox;
+use super::primitives::{Primitive, Prism};
 use super::vector::{cross, dot, norm, sub};
-
-/// Corners of the prism around a cylinder by which its distance is measured.
-const SIDES: u32 = 64;
 
 /// A primitive around a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,26 +41,12 @@ impl Enclosing {
         [cuboid, sphere, x[0], y[0], z[0], x[1], y[1], z[1]]
     }
 
-    /// The greatest distance of a point of the primitive from the body, m. For a cylinder it is up to 0.12 % of the radius
+    /// The greatest distance of a point of the primitive from the body, m. For a cylinder it is up to 0.13 % of the radius
     /// too large. `None` if the hull is too large or too thin to measure it.
     pub fn standoff(&self, hull: &ConvexHull) -> Option<f64> {
         let body = ConvexShape::new(hull.mesh()).ok()?;
         // The body is convex, so the farthest points are corners, or a radius beyond the ends of an axis.
-        let (points, radius) = match self.primitive {
-            Primitive::Box(half) => (corners(half).to_vec(), 0.0),
-            Primitive::Sphere { radius } => (vec![[0.0; 3]], radius),
-            Primitive::Capsule { radius, half } => {
-                (vec![[0.0, 0.0, -half], [0.0, 0.0, half]], radius)
-            }
-            Primitive::Cylinder { radius, half } => {
-                let outer = radius / (PI / f64::from(SIDES)).cos();
-                let corner = |side: u32| {
-                    let (sine, cosine) = (2.0 * PI * f64::from(side) / f64::from(SIDES)).sin_cos();
-                    [-half, half].map(|z| [outer * cosine, outer * sine, z])
-                };
-                ((0..SIDES).flat_map(corner).collect(), 0.0)
-            }
-        };
+        let (points, radius) = self.primitive.core(Prism::Around);
         let mut most = 0.0_f64;
         for point in points {
             let point = (self.pose * Point3::from(point)).into();

@@ -19,6 +19,7 @@ use std::f64::consts::PI;
 use nalgebra::Matrix3;
 
 use super::mesh::Mesh;
+use super::oriented_box::corners;
 use super::vector::{cross, dot, norm};
 
 /// A shape of URDF, centred at the origin, its axis along z. Lengths in metres.
@@ -47,7 +48,43 @@ pub enum Primitive {
     },
 }
 
+/// Where the prism of 64 sides is that stands for a cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Prism {
+    /// Its corners are on the cylinder.
+    Inside,
+    /// The middles of its sides are; the corners are up to 0.13 % of the radius outside.
+    Around,
+}
+
+/// Its sides.
+const SIDES: u32 = 64;
+
 impl Primitive {
+    /// The corners of a convex body, and how far around it the primitive reaches, m.
+    #[must_use]
+    pub fn core(&self, prism: Prism) -> (Vec<[f64; 3]>, f64) {
+        match *self {
+            Primitive::Box(half) => (corners(half).to_vec(), 0.0),
+            Primitive::Sphere { radius } => (vec![[0.0; 3]], radius),
+            Primitive::Capsule { radius, half } => {
+                (vec![[0.0, 0.0, -half], [0.0, 0.0, half]], radius)
+            }
+            Primitive::Cylinder { radius, half } => {
+                let outer = match prism {
+                    Prism::Inside => radius,
+                    Prism::Around => radius / (PI / f64::from(SIDES)).cos(),
+                };
+                let corner = |k: u32| {
+                    let angle = 2.0 * PI * f64::from(k % SIDES) / f64::from(SIDES);
+                    let z = if k < SIDES { -half } else { half };
+                    [outer * angle.cos(), outer * angle.sin(), z]
+                };
+                ((0..2 * SIDES).map(corner).collect(), 0.0)
+            }
+        }
+    }
+
     /// Cubic metres.
     #[must_use]
     pub fn volume(&self) -> f64 {

@@ -10,10 +10,8 @@ use urdd_geometry::bounding_sphere::{BoundingSphere, about};
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::decompose::{self, decompose};
 use urdd_geometry::oriented_box::corners;
+use urdd_geometry::primitives::{Primitive, Prism};
 use urdd_geometry::vector::norm;
-
-/// Sides of the prism that approximates a cylinder.
-const SIDES: u32 = 64;
 
 /// A body that a robot must not touch, or that a link carries: [`Proximity::attach`](crate::Proximity::attach). Clones
 /// share its shapes.
@@ -152,14 +150,8 @@ impl Obstacle {
     ) -> Result<Self, RobotError> {
         check_size(name, radius)?;
         check_size(name, half_length)?;
-        let outer = radius / (std::f64::consts::PI / f64::from(SIDES)).cos();
-        let corner = |k: u32| {
-            let angle = std::f64::consts::TAU * f64::from(k % SIDES) / f64::from(SIDES);
-            let z = if k < SIDES { -half_length } else { half_length };
-            [outer * angle.cos(), outer * angle.sin(), z]
-        };
-        let corners: Vec<[f64; 3]> = (0..2 * SIDES).map(corner).collect();
-        Self::swept(name, pose, &corners, 0.0)
+        let cylinder = Primitive::Cylinder { radius, half: half_length };
+        Self::swept(name, pose, &cylinder.core(Prism::Around).0, 0.0)
     }
 
     /// The convex hull of points, in metres.

@@ -2,7 +2,7 @@
 
 use super::super::error::{ExportError, Note};
 use super::super::parts::Taken;
-use super::super::ros::Ros;
+use super::super::ros::{Limited, Ros};
 use super::super::yaml::{Yaml, head, quoted};
 use super::config::Config;
 use super::hardware::Command;
@@ -28,8 +28,10 @@ enum Kind {
     Trajectory,
     /// It is told a single position and the greatest effort, as grippers of one joint are.
     Gripper,
-    /// It passes on velocities or efforts, which MoveIt does not send.
-    Forward(Command),
+    /// It passes on velocities, which MoveIt does not send.
+    Velocities,
+    /// It passes on efforts, which MoveIt does not send.
+    Efforts,
 }
 
 pub(super) fn controllers(config: &Config) -> Vec<Controller> {
@@ -44,12 +46,14 @@ pub(super) fn controllers(config: &Config) -> Vec<Controller> {
             if told.is_empty() {
                 continue;
             }
+            let suffix = || format!("_{}", command.word());
             let (kind, what) = match command {
                 Command::Position if ends.contains(&group) && joints.len() == 1 => {
                     (Kind::Gripper, String::new())
                 }
                 Command::Position => (Kind::Trajectory, String::new()),
-                other => (Kind::Forward(other), format!("_{}", other.word())),
+                Command::Velocity => (Kind::Velocities, suffix()),
+                Command::Effort => (Kind::Efforts, suffix()),
             };
             let name = &config.setup.groups[group].value.name;
             let name = taken.free(format!("{name}{what}_controller"));
@@ -66,7 +70,7 @@ impl Controller {
             (Kind::Trajectory, _) => Some(["follow_joint_trajectory", "FollowJointTrajectory"]),
             (Kind::Gripper, Ros::Humble) => Some(["gripper_cmd", "GripperCommand"]),
             (Kind::Gripper, Ros::Jazzy) => Some(["gripper_cmd", "ParallelGripperCommand"]),
-            (Kind::Forward(_), _) => None,
+            (Kind::Velocities | Kind::Efforts, _) => None,
         }
     }
 
@@ -80,13 +84,13 @@ impl Controller {
                 "parallel_gripper_controller",
                 "parallel_gripper_action_controller/GripperActionController",
             ],
-            (Kind::Forward(Command::Velocity), _) => {
+            (Kind::Velocities, _) => {
                 ["velocity_controllers", "velocity_controllers/JointGroupVelocityController"]
             }
-            (Kind::Forward(Command::Effort), _) => {
+            (Kind::Efforts, _) => {
                 ["effort_controllers", "effort_controllers/JointGroupEffortController"]
             }
-            (Kind::Trajectory | Kind::Forward(Command::Position), _) => [
+            (Kind::Trajectory, _) => [
                 "joint_trajectory_controller",
                 "joint_trajectory_controller/JointTrajectoryController",
             ],
@@ -99,7 +103,7 @@ impl Controller {
             Kind::Gripper => {
                 Yaml::Map(joints().map(|joint| ("joint".to_owned(), Yaml::text(joint))).collect())
             }
-            Kind::Forward(_) => Yaml::map([("joints", Yaml::texts(joints()))]),
+            Kind::Velocities | Kind::Efforts => Yaml::map([("joints", Yaml::texts(joints()))]),
             Kind::Trajectory => {
                 let mut states = vec![Yaml::plain("position")];
                 if self.joints.iter().all(|joint| config.hardware.tells_velocity(*joint)) {
@@ -116,12 +120,14 @@ impl Controller {
     }
 }
 
-pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportError> {
-    let controllers = controllers(config);
+pub(super) fn files(
+    config: &Config,
+    controllers: &[Controller],
+) -> Result<Vec<(String, String)>, ExportError> {
     let moveit = config.comments("The controllers that MoveIt sends trajectories to.")?;
     let ros2 = config.comments("The controllers of ros2_control.")?;
-    let moveit = head(&moveit) + EXECUTION + &manager(config, &controllers);
-    let ros2 = self::ros2(config, &controllers).document(&ros2);
+    let moveit = head(&moveit) + EXECUTION + &manager(config, controllers);
+    let ros2 = self::ros2(config, controllers).document(&ros2);
     Ok(vec![
         ("config/moveit_controllers.yaml".to_owned(), moveit),
         ("config/ros2_controllers.yaml".to_owned(), ros2),
@@ -129,18 +135,17 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
 }
 
 /// The names of the controllers that are started.
-pub(super) fn names(config: &Config) -> Vec<String> {
-    controllers(config).into_iter().map(|controller| controller.name).collect()
+pub(super) fn names(controllers: &[Controller]) -> impl Iterator<Item = &str> {
+    controllers.iter().map(|controller| controller.name.as_str())
 }
 
 /// The packages of the controllers.
-pub(super) fn packages(config: &Config) -> Vec<&'static str> {
-    let controllers = controllers(config);
-    controllers.iter().map(|controller| controller.plugin(config.options.ros)[0]).collect()
+pub(super) fn packages(controllers: &[Controller], ros: Ros) -> impl Iterator<Item = &'static str> {
+    controllers.iter().map(move |controller| controller.plugin(ros)[0])
 }
 
 /// What a person has to know of controllers and limits.
-pub(super) fn notes(config: &Config) -> Vec<Note> {
+pub(super) fn notes(config: &Config, controllers: &[Controller]) -> Vec<Note> {
     let ros = config.options.ros;
     let groups = config.controlled().into_iter().filter(|(_, joints)| {
         joints.iter().any(|joint| config.hardware.told(*joint) != Some(Command::Position))
@@ -149,16 +154,14 @@ pub(super) fn notes(config: &Config) -> Vec<Note> {
         group: config.setup.groups[group].value.name.clone(),
         what: NO_TRAJECTORIES,
     });
-    let controllers = controllers(config);
     let moved = controllers.iter().filter(|controller| controller.action(ros).is_some());
     let moved: Vec<usize> = moved.flat_map(|controller| controller.joints.clone()).collect();
-    let unlimited =
-        ["velocity", "acceleration"].into_iter().zip(0..).filter_map(|(what, which)| {
-            let is_without = |joint: &&usize| config.limits(**joint)[which].is_none();
-            let joints = moved.iter().filter(is_without);
-            let joints: Vec<String> = joints.map(|joint| config.joint(*joint).to_owned()).collect();
-            (!joints.is_empty()).then_some(Note::Unlimited { what, joints, ros })
-        });
+    let unlimited = Limited::ALL.into_iter().filter_map(|what| {
+        let is_without = |joint: &&usize| config.limits(**joint)[what.index()].is_none();
+        let joints = moved.iter().filter(is_without);
+        let joints: Vec<String> = joints.map(|joint| config.joint(*joint).to_owned()).collect();
+        (!joints.is_empty()).then_some(Note::Unlimited { what, joints, ros })
+    });
     groups.chain(unlimited).collect()
 }
 

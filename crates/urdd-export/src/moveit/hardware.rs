@@ -7,6 +7,7 @@ use super::super::subject::Subject;
 use super::super::urdf_elements::ros2_control;
 use urdd_format::urdf::JointType;
 use urdd_xml::Node;
+use urdd_xml::element::children;
 
 /// What a joint is told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +66,8 @@ impl Hardware {
         for text in &subject.urdf.unknown_elements {
             let Some(document) = ros2_control(text) else { continue };
             is_of_source = true;
-            for joint in elements(document.root_element(), "joint") {
+            let in_it = children(document.root_element());
+            for (_, joint) in in_it.filter(|(name, _)| *name == "joint") {
                 let index = joint.attribute("name").and_then(|name| by_name.get(name));
                 let Some(index) = index else { continue };
                 let known = of_source
@@ -98,10 +100,7 @@ impl Hardware {
     }
 }
 
-fn elements<'a, 't>(node: Node<'a, 't>, name: &'static str) -> impl Iterator<Item = Node<'a, 't>> {
-    node.children().filter(move |child| child.has_tag_name(name))
-}
-
-fn has_interface(joint: Node, kind: &'static str, command: Command) -> bool {
-    elements(joint, kind).any(|interface| interface.attribute("name") == Some(command.word()))
+fn has_interface(joint: Node, kind: &str, command: Command) -> bool {
+    let mut interfaces = children(joint).filter(|(name, _)| *name == kind);
+    interfaces.any(|(_, interface)| interface.attribute("name") == Some(command.word()))
 }

@@ -32,15 +32,16 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     if config.hardware.is_of_source {
         notes.push(Note::Robot(REPLACED));
     }
-    notes.extend(controllers::notes(&config));
+    let controllers = controllers::controllers(&config);
+    notes.extend(controllers::notes(&config, &controllers));
     let text = semantic::srdf(&config, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.shapes);
     let name = &config.name;
     let robot = robot.document_with(&subject.comments(what, &notes)?, xacro::text);
     let mut files = vec![(format!("config/{name}.urdf"), robot)];
     files.extend(planning::files(&config)?);
-    files.extend(controllers::files(&config)?);
-    files.extend(package::files(&config));
+    files.extend(controllers::files(&config, &controllers)?);
+    files.extend(package::files(&config, &controllers));
     let mut files: Vec<(String, Vec<u8>)> =
         files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
     // Meshes are named by package: the folder of the package is where the export is.

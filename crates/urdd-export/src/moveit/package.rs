@@ -4,7 +4,7 @@ use super::super::ros::Ros;
 use super::super::template::fill;
 use super::super::yaml::quoted;
 use super::config::Config;
-use super::controllers;
+use super::controllers::{self, Controller};
 use urdd_xml::writer::escaped;
 
 const PACKAGE: &str = include_str!("package.xml.in");
@@ -40,15 +40,14 @@ fn manager(ros: Ros) -> &'static str {
     }
 }
 
-pub(super) fn files(config: &Config) -> Vec<(String, String)> {
+pub(super) fn files(config: &Config, controllers: &[Controller]) -> Vec<(String, String)> {
     let robot = &config.subject.urdf.name;
     let root = quoted(&config.subject.links[config.subject.tree.root]);
     let group = config.setup.groups.first().map_or("", |group| group.value.name.as_str());
     let package = &config.options.package;
-    let controllers: Vec<String> =
-        controllers::names(config).iter().map(|name| quoted(name)).collect();
+    let started: Vec<String> = controllers::names(controllers).map(quoted).collect();
     let mut needed = NEEDED.to_vec();
-    needed.extend(controllers::packages(config));
+    needed.extend(controllers::packages(controllers, config.options.ros));
     needed.sort_unstable();
     needed.dedup();
     let needed = needed.iter().map(|name| format!("  <exec_depend>{name}</exec_depend>\n"));
@@ -60,7 +59,7 @@ pub(super) fn files(config: &Config) -> Vec<(String, String)> {
         ("URDF", quoted(&format!("config/{}.urdf", config.name))),
         ("SRDF", quoted(&format!("config/{}.srdf", config.name))),
         ("ROOT", root.clone()),
-        ("CONTROLLERS", format!("[{}]", controllers.join(", "))),
+        ("CONTROLLERS", format!("[{}]", started.join(", "))),
         ("MANAGER", manager(config.options.ros).to_owned()),
     ];
     let rviz = [("GROUP", quoted(group)), ("ROOT", root)];

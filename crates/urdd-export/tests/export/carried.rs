@@ -28,10 +28,10 @@ const URDF: &str = r#"<robot name="r"><link name="base"><inertial><mass value="2
 <joint name="p" type="planar"><parent link="tip"/><child link="plane"/><axis xyz="0 0 1"/></joint>
 <joint name="s" type="spherical"><parent link="plane"/><child link="ball"/></joint>
 <joint name="f" type="floating"><parent link="ball"/><child link="free"/></joint>
-<gazebo reference="base"><gravity>false</gravity></gazebo><gear_train/></robot>"#;
+<gazebo reference="base"><gravity>false</gravity></gazebo><ros2_control name="c" type="system"/><gear_train/></robot>"#;
 
 /// What a format writes of each thing; nothing where it does not carry it.
-const PROBES: [(&str, &[&str; 10]); 9] = [
+const PROBES: [(&str, &[&str; 10]); 10] = [
     // SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt's URDF, SDF, USD.
     (
         "masses and inertias",
@@ -111,6 +111,21 @@ const PROBES: [(&str, &[&str; 10]); 9] = [
         &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false", "<gazebo"],
     ),
     (
+        "hardware of ros2_control",
+        &[
+            "",
+            "<ros2_control name=\"c",
+            "<ros2_control name=\"c",
+            "",
+            "",
+            "",
+            "<ros2_control name=\"c",
+            "<ros2_control name=\"mock_hardware",
+            "",
+            "<ros2_control",
+        ],
+    ),
+    (
         "other elements that URDF does not define, such as transmissions",
         &["", "<gear", "<gear", "", "", "", "<gear", "<gear", "", "<gear"],
     ),
@@ -169,6 +184,27 @@ fn what_the_table_says_is_so() {
         let said =
             made.notes.iter().any(|note| note.to_string().contains("left out, since the format"));
         assert_eq!(said, !lost.is_empty(), "{format:?}");
+    }
+}
+
+/// MoveIt's package has other hardware, and all else that URDF does not define.
+#[test]
+fn moveit_replaces_hardware_alone() {
+    let without = URDF.replace("<ros2_control name=\"c\" type=\"system\"/>", "");
+    assert_ne!(without, URDF);
+    for (urdf, replaced) in [(URDF, 1), (without.as_str(), 0)] {
+        let (_folder, path) = made_of(urdf);
+        let robot = Robot::open(&path).expect("a robot");
+        let made = export(&robot, Format::Moveit, &Choices::default()).expect("an export");
+        let report: serde_json::Value = serde_json::from_str(&made.report).expect("JSON");
+        let count = |key: &str, name: &str| {
+            let mut entries = report[key].as_array().expect("a list").iter();
+            let entry = entries.find(|entry| entry["what"] == name);
+            entry.map_or(0, |entry| entry["count"].as_u64().expect("a number"))
+        };
+        assert_eq!(count("otherwise", "hardware of ros2_control"), replaced, "{report}");
+        let others = "other elements that URDF does not define, such as transmissions";
+        assert_eq!(count("carried", others), 1, "{report}");
     }
 }
 

@@ -100,6 +100,9 @@ fn a_primitive_that_costs_too_much_is_not_taken() {
             _ => None,
         });
         assert_eq!(count, Some((usize::from(kind == "cylinder"), 1)));
+        // Where nothing is fitted, the pairs are those of the URDD.
+        let said = made.notes.iter().any(|note| note.to_string().contains("judged by these"));
+        assert_eq!(said, kind == "cylinder");
     }
 }
 

@@ -134,6 +134,24 @@ fn controllers_follow_the_interfaces_of_the_source() {
     }
 }
 
+/// Programs read the hardware of the robot itself: in a link, an element of this name is one like others.
+#[test]
+fn hardware_in_a_link_is_not_replaced() {
+    let inside = "<ros2_control name=\"inside\" type=\"system\"/>";
+    let urdf = mobile()
+        .replace("<link name=\"chassis\"/>", &format!("<link name=\"chassis\">{inside}</link>"));
+    let (files, notes) = package(&urdf, None, "");
+    let text = &files["config/m.urdf"];
+    let urdf = urdd_xml::parse(text, urdd_xml::Kind::Other).expect("well-formed");
+    let hardware = urdf.descendants().filter(|node| node.has_tag_name("ros2_control"));
+    let hardware = hardware.map(|node| {
+        let parent = node.parent_element().expect("a parent");
+        (parent.tag_name().name(), node.attribute("name").expect("a name"))
+    });
+    assert_eq!(hardware.collect::<Vec<_>>(), [("link", "inside"), ("robot", "mock_hardware")]);
+    assert!(!notes.iter().any(|note| note.contains("is in its place")), "{notes:?}");
+}
+
 #[test]
 fn joints_that_take_no_position_get_no_trajectories() {
     let all: &[&str] = &["position"];
