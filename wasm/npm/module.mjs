@@ -226,9 +226,10 @@ export class Urdd {
 
 /** A question as JSON, which has no infinite numbers and would drop them. */
 function asked(question) {
-  return JSON.stringify(question, (key, value) => {
+  return JSON.stringify(question, function (key, value) {
     if (typeof value === "number" && !Number.isFinite(value)) {
-      throw new RangeError(`${key} must be a finite number, not ${value}`);
+      const place = Array.isArray(this) ? `element ${key} of a list` : key;
+      throw new RangeError(`${place} must be a finite number, not ${value}`);
     }
     return value;
   });

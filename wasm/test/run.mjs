@@ -87,7 +87,7 @@ try {
         compared += nearest.length;
       }
     }
-    assert.throws(() => urdd.ask(handle, { ask: "link_poses", q: [NaN] }), /expected f64/);
+    assert.throws(() => urdd.ask(handle, { ask: "link_poses", q: [0, NaN] }), /element 1 of a list must be a finite number, not NaN/);
     assert.throws(() => urdd.ask(handle, { ask: "sing" }), /unknown variant `sing`/);
     compareAbout(urdd.ask(handle, { ask: "about" }), target);
     compareSkips(urdd.ask(handle, { ask: "skips", kind: "hulls" }), target);

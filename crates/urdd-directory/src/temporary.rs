@@ -36,6 +36,7 @@ impl Temporary {
             LockError::Io(error) => error,
             LockError::Cancelled => io::ErrorKind::Interrupted.into(),
         })?;
+        #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix has modes"))]
         let mut builder = fs::DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
