@@ -452,7 +452,7 @@ fn whatever_multiplies_is_bounded() {
         let source = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
         let lints = LintSettings { source: source.clone(), ..LintSettings::default() };
         let lint = || {
-            let (run, _) = lint_with_text(path, None, &lints).unwrap();
+            let (run, _) = lint_with_text(path, &[], None, &lints).unwrap();
             serde_json::to_string(&run.report).unwrap();
         };
         let make = || match format {

@@ -1,6 +1,7 @@
 //! Linting.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -26,7 +27,7 @@ pub struct Options {
 impl Options {
     /// The settings, without the baseline.
     fn settings(self) -> Result<LintSettings, String> {
-        let robots = self.reporting.robots()?;
+        let robots = self.reporting.robots()?.into();
         let mut report = self.reporting.settings()?;
         if let Some(words) = self.for_ {
             let each = words.iter().map(|word| parse_program(word));
@@ -42,7 +43,7 @@ impl Options {
 #[pyfunction]
 pub fn lint(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResult<String> {
     let baseline = options.baseline.as_deref().map(Baseline::read).transpose();
-    let baseline = baseline.map_err(|error| raise(py, "OpenError", error, &[]))?;
+    let baseline = baseline.map_err(|error| raise(py, "OpenError", error, &[]))?.map(Arc::new);
     let settings = options.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| {
         let report = Settings { cancellation: cancellation.clone(), ..settings.report };

@@ -12,6 +12,7 @@ use super::robots::RobotArguments;
 use super::signals::{self, Signals};
 use super::xacro::{self, XacroArguments};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
+use urdd_source::Settings;
 use urdd_validate::report;
 
 /// Exit status: the robots differ.
@@ -69,30 +70,42 @@ enum Format {
     Markdown,
 }
 
+impl DiffArguments {
+    /// The arguments for xacro of A and B: those on the command line; without any, those that are declared of each. Where
+    /// nobody declares A, as a temporary file of git, it is another version of B.
+    fn of_xacro(&self) -> Result<[Vec<String>; 2], Failure> {
+        let given = xacro::only_arguments(&self.more)?;
+        if !given.is_empty() {
+            return Ok([given.clone(), given]);
+        }
+        let after = self.declared.arguments_of(&self.after)?.unwrap_or_default();
+        let before = self.declared.arguments_of(&self.before)?;
+        Ok([before.unwrap_or_else(|| after.clone()), after])
+    }
+}
+
 /// Runs `urdd diff`.
 pub fn run(arguments: &DiffArguments) -> ExitCode {
     signals::run(None, |signals| diff(arguments, signals))
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
-    let mut urdf = arguments.packages.settings()?;
-    urdf.xacro = arguments.xacro.settings(xacro::only_arguments(&arguments.more)?);
-    if urdf.xacro.arguments.is_empty() {
-        urdf.xacro.arguments = arguments.declared.arguments_of(&arguments.after)?;
-    }
-    let options = Options {
-        urdf,
-        cancellation: signals.cancellation(),
-        without_findings: arguments.no_findings,
-    };
-    let open = |path: &PathBuf| {
+    let settings = arguments.packages.settings()?;
+    let [of_before, of_after] = arguments.of_xacro()?;
+    let open = |path: &PathBuf, of_xacro: Vec<String>| {
+        let options = Options {
+            urdf: Settings { xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
+            cancellation: signals.cancellation(),
+            without_findings: arguments.no_findings,
+        };
         Side::open(path, &options).map_err(|error| match error {
             DiffError::Discover(error) => foreign::advice(&error),
             error => error.to_string(),
         })
     };
-    let sides =
-        output::without_panic_messages(|| (open(&arguments.before), open(&arguments.after)));
+    let sides = output::without_panic_messages(|| {
+        (open(&arguments.before, of_before), open(&arguments.after, of_after))
+    });
     if let Some(status) = signals.status() {
         return Ok(status);
     }

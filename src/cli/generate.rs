@@ -67,7 +67,7 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
 fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Failure> {
     let (robots, xacro_arguments) = xacro::split(&arguments.robots);
     let mut settings = arguments.making.settings(xacro_arguments, signals)?;
-    settings.source.robots = arguments.declared.declared()?;
+    settings.source.robots = arguments.declared.declared()?.into();
     let pool = arguments.making.pool()?;
     let are_several = robots::is_batch(&robots);
     if are_several && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use super::foreign;
 use super::output::{self, Failure, about, one_line, shown};
+use super::packages::around;
 use super::signals;
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
@@ -14,7 +15,7 @@ use urdd_directory::regular;
 use urdd_directory::source::is_archive;
 use urdd_format::escape;
 use urdd_robot::Robot;
-use urdd_source::{Packages, Settings, XacroSettings, read_source};
+use urdd_source::{Settings, XacroSettings, read_source};
 
 /// Opens the robot of a URDD.
 ///
@@ -65,11 +66,8 @@ fn srdf_or_xacro(
             ))?,
         };
     }
-    let settings = Settings {
-        packages: Packages::from_environment(|name| std::env::var_os(name)),
-        xacro: XacroSettings { arguments, ..XacroSettings::default() },
-        ..Settings::default()
-    };
+    let settings =
+        Settings { xacro: XacroSettings { arguments, ..XacroSettings::default() }, ..around() };
     Ok(read_source(file, &settings, &cancellation).map_err(one_line)?.text)
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use similar::TextDiff;
@@ -83,14 +84,14 @@ pub fn run(arguments: &LintArguments, color: Color) -> ExitCode {
 
 fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8, Failure> {
     let file = arguments.report.settings_file()?;
-    let robots = declared(&file);
+    let robots = declared(&file).into();
     // A new one has all that is found.
     let usual = file.baseline.filter(|_| arguments.write_baseline.is_none());
     let baseline = arguments.baseline.as_deref().or(usual.as_deref());
     let mut settings = LintSettings {
         report: file.settings,
         source: urdd_source::Settings { robots, ..arguments.packages.settings()? },
-        baseline: baseline.map(Baseline::read).transpose()?,
+        baseline: baseline.map(Baseline::read).transpose()?.map(Arc::new),
         without_meshes: false,
     };
     if !arguments.programs.is_empty() {

@@ -57,19 +57,24 @@ enum Ball {
     Revolute,
 }
 
+/// Settings with the packages that the environment names; the others are the defaults.
+pub(super) fn around() -> Settings {
+    let packages = Packages::from_environment(|name| std::env::var_os(name));
+    Settings { packages, ..Settings::default() }
+}
+
 impl PackageArguments {
     /// Settings that use them; the others are the defaults.
     pub(super) fn settings(&self) -> Result<Settings, Failure> {
-        let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+        let mut settings = around();
         for argument in &self.packages {
-            let added = packages.add(argument);
+            let added = settings.packages.add(argument);
             added.map_err(|error| format!("--package: {}", one_line(error)))?;
         }
         if let Some(folder) = self.allowed_folders.iter().find(|it| !it.is_dir()) {
             Err(format!("--allow-folder: {} is not a folder", shown(folder)))?;
         }
         Ok(Settings {
-            packages,
             allowed_folders: self.allowed_folders.clone(),
             import: ImportOptions {
                 body: self.body.clone(),
@@ -77,7 +82,7 @@ impl PackageArguments {
                 has_revolute_balls: self.ball == Ball::Revolute,
                 has_tiny_masses: self.massless == Massless::Tiny,
             },
-            ..Settings::default()
+            ..settings
         })
     }
 }

@@ -7,7 +7,8 @@ use clap::Args;
 use super::output::{Failure, one_line, shown};
 use super::reporting::settings_file;
 use urdd_lint::declared;
-use urdd_source::{Declared, robots_of};
+use urdd_source::{Declared, declared_of};
+use urdd_validate::settings_file::SETTINGS_FILE;
 
 /// Where robots are declared.
 #[derive(Args)]
@@ -24,16 +25,19 @@ impl RobotArguments {
         Ok(declared(&settings_file(self.config.as_deref())?))
     }
 
-    /// The arguments of the only robot that it declares of a file; none where it declares none.
-    pub(super) fn arguments_of(&self, file: &Path) -> Result<Vec<String>, Failure> {
-        match robots_of(file.to_owned(), &self.declared()?).as_slice() {
-            [one] => Ok(one.arguments.clone()),
-            several => {
-                let first = several.first().map(|one| one.arguments.join(" ")).unwrap_or_default();
-                let (file, count) = (shown(file), several.len());
+    /// The arguments of the only robot that it declares of a file; `None` where it declares none.
+    pub(super) fn arguments_of(&self, file: &Path) -> Result<Option<Vec<String>>, Failure> {
+        match declared_of(file, &self.declared()?).as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some(one.arguments.clone())),
+            several @ [first, ..] => {
+                let settings = self.config.as_deref().unwrap_or(Path::new(SETTINGS_FILE));
                 let words = format!(
-                    "{file}: urdd.toml declares {count} robots of it; give the arguments of one, such as `{}`",
-                    one_line(first)
+                    "{}: {} declares {} robots of it; give the arguments of one, such as `{}`",
+                    shown(file),
+                    shown(settings),
+                    several.len(),
+                    one_line(first.arguments.join(" "))
                 );
                 Err(words.into())
             }

@@ -107,7 +107,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
     let settings = Settings {
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(xacro_arguments),
-            robots: arguments.declared.declared().map_err(usage)?,
+            robots: arguments.declared.declared().map_err(usage)?.into(),
             ..arguments.packages.settings().map_err(usage)?
         },
         cancellation: signals.cancellation(),

@@ -216,17 +216,40 @@ mod xacro {
         let found = saved(folder.path(), file);
         let needs = |one: &&Value| {
             let message = one["message"].as_str().expect("a message");
-            message.contains("values are missing for `type` (broken, long, short)")
+            message.contains("the robot needs `type` (broken, long, short)")
         };
         let severities: Vec<&Value> =
             found.iter().filter(needs).map(|one| &one["severity"]).collect();
         assert_eq!(severities, [&json!(3)], "{found:#?}");
+        let at = found.iter().find(needs).map(|one| &one["range"]["start"]["line"]);
+        assert_eq!(at, Some(&json!(1)), "{found:#?}");
         let toml =
             "[[robot]]\npath = \"urdf/arm.urdf.xacro\"\nargs = { type = [\"long\", \"broken\"] }\n";
         std::fs::write(folder.path().join("arms/urdd.toml"), toml).expect("a file");
         let found = saved(folder.path(), file);
         assert_eq!(found.iter().filter(needs).count(), 0, "{found:#?}");
         assert!(found.iter().all(|one| one["severity"] != json!(1)), "{found:#?}");
+    }
+
+    #[test]
+    fn a_baseline_is_that_of_the_declared_robot() {
+        let folder = crate::robots::package();
+        let root = folder.path();
+        let script = "#!/bin/sh\necho \"<robot name='arm'><link name='a'/><link name='b'/>\
+            <joint name='j' type='prismatic'><parent link='a'/><child link='b'/><axis xyz='0 0 2'/>\
+            <limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>\"\n";
+        std::fs::write(root.join("bin/xacro"), script).expect("written");
+        let toml = "baseline = \"known.json\"\n[[robot]]\npath = \"urdf/arm.urdf.xacro\"\n\
+            args = { type = [\"long\", \"short\"] }\n";
+        std::fs::write(root.join("arms/urdd.toml"), toml).expect("written");
+        for (kind, count) in [("short", 1), ("long", 0)] {
+            let robot = format!("urdf/arm.urdf.xacro type:={kind}");
+            let known = json!({"urdd_baseline": 1, "files": {robot: {"LNT012 joint `j`": 1}}});
+            std::fs::write(root.join("arms/known.json"), known.to_string()).expect("written");
+            let found = saved(root, "arms/urdf/arm.urdf.xacro");
+            let axes = found.iter().filter(|one| one["code"] == "LNT012");
+            assert_eq!(axes.count(), count, "{kind}: {found:#?}");
+        }
     }
 
     #[test]

@@ -198,7 +198,10 @@ const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
     ("crates/urdd-lint/src/lib.rs", "the xacro file that a person names, to show it; 64 MiB"),
     ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),
-    ("crates/urdd-source/src/described.rs", "descriptions in a folder that a person names; 64 MiB"),
+    (
+        "crates/urdd-source/src/described.rs",
+        "xacro files of a folder that a person names, and what the gate opens of those that they include; 64 MiB",
+    ),
     ("crates/urdd-source/src/fragments.rs", "descriptions in a folder that a person names; 64 MiB"),
     ("crates/urdd-source/src/gate.rs", "the gate"),
     ("crates/urdd-source/src/import/imported.rs", "the description itself; 64 MiB"),

@@ -72,6 +72,27 @@ fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
 }
 
 #[test]
+fn where_a_package_is_missing_it_is_said_and_no_argument() {
+    let folder = package();
+    let root = folder.path();
+    let said_of = |name: &str| {
+        let script = format!(
+            "#!/bin/sh\necho \"error: package '{name}' not found, searching: []\" >&2\nexit 2\n"
+        );
+        fs::write(root.join("bin/xacro"), script).unwrap();
+        run(root, &["lint", "arms", "--xacro"])
+    };
+    let (status, said) = said_of("hands");
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("the package `hands` is not around the file"), "{said}");
+    assert!(!said.contains("LNT065"), "{said}");
+    // Another value of the argument would name another package.
+    let (status, said) = said_of("other_description");
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("LNT065"), "{said}");
+}
+
+#[test]
 fn declared_robots_are_linted_and_named_in_every_form() {
     let folder = package();
     let root = folder.path();
@@ -118,6 +139,40 @@ fn declared_robots_are_generated_each_by_its_name() {
     let (status, said) = run(root, &["generate", "arms", "-o", "none"]);
     assert_eq!(status, Some(1), "{said}");
     assert!(said.contains("values are missing for `type` (broken, long, short)"), "{said}");
+}
+
+#[test]
+fn each_side_of_a_diff_has_its_own_arguments() {
+    let folder = package();
+    let root = folder.path();
+    let [arm, other] = ["arms/urdf/arm.urdf.xacro", "arms/urdf/other.urdf.xacro"];
+    fs::copy(root.join(arm), root.join(other)).unwrap();
+    // As git has one, for the time of a difftool.
+    fs::copy(root.join(arm), root.join("before.urdf.xacro")).unwrap();
+    fs::write(root.join("plain.urdf"), "<robot name='arm_long'><link name='base'/></robot>\n")
+        .unwrap();
+    let declare = |kinds: &str| {
+        let toml = format!(
+            "[[robot]]\npath = \"{arm}\"\nargs = {{ type = {kinds} }}\n\
+            [[robot]]\npath = \"{other}\"\nargs = {{ type = \"short\" }}\n"
+        );
+        fs::write(root.join("robots.toml"), toml).unwrap();
+    };
+    let diff = |before: &str, after: &str| {
+        run(root, &["diff", before, after, "--no-findings", "--config", "robots.toml"])
+    };
+    declare("\"long\"");
+    let (status, said) = diff(arm, other);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("arm_long") && said.contains("arm_short"), "{said}");
+    for (before, after) in [(arm, "plain.urdf"), ("before.urdf.xacro", other)] {
+        let (status, said) = diff(before, after);
+        assert_eq!(status, Some(0), "{before}: {said}");
+    }
+    declare("[\"long\", \"short\"]");
+    let (status, said) = diff(arm, "plain.urdf");
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("robots.toml declares 2 robots of it"), "{said}");
 }
 
 #[test]

@@ -91,6 +91,38 @@ fn parts_of_robots_are_counted_and_fail_nothing() {
 }
 
 #[test]
+fn files_that_are_declared_or_named_are_no_parts() {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    package(root);
+    // Xacro fails for a file that another one includes.
+    put(root, "ws/src/p/urdf/half.xacro", &robot("<link name='h'/>"));
+    let uses = robot("<xacro:include filename='half.xacro'/><link name='c'/>");
+    put(root, "ws/src/p/urdf/robot_two.xacro", &uses);
+    let run = |words: &[&str]| {
+        let _ = fs::remove_dir_all(root.join("out"));
+        let (status, said, asides) = urdd(root, words);
+        (status, said + &asides)
+    };
+    let lint = ["lint", "--xacro", "ws"];
+    let generate = ["generate", "-o", "out", "--modules", "core", "ws"];
+    for command in [&lint[..], &generate[..]] {
+        let (status, said) = run(command);
+        assert!(status == Some(0) && said.contains("4 files define macros"), "{said}");
+        for name in ["thin", "half"] {
+            let file = format!("ws/src/p/urdf/{name}.xacro");
+            let other = format!("./{file}");
+            put(root, "robots.toml", &format!("[[robot]]\npath = \"{file}\"\n"));
+            for more in [&["--config", "robots.toml"][..], &[&*file][..], &[&*other][..]] {
+                let (status, said) = run(&[command, more].concat());
+                assert_eq!(status, Some(1), "{more:?}: {said}");
+                assert!(said.contains("3 files define macros"), "{more:?}: {said}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_package_of_macros_alone_has_no_finding_and_nothing_to_make() {
     let folder = testkit::temporary::folder();
     put(folder.path(), "p/a.xacro", &robot("<xacro:macro name='a'><link name='a'/></xacro:macro>"));

@@ -52,7 +52,7 @@ fn lint(files: &Files, question: &[u8]) -> Result<String, String> {
         let known = parse_program(name).map_err(|error| error.to_string())?;
         settings.report.programs.push(known);
     }
-    let linted = lint_with_text(&given.place(&path), None, &settings);
+    let linted = lint_with_text(&given.place(&path), &[], None, &settings);
     let (run, text) = linted.map_err(|error| error.to_string())?;
     let report = report::json(&run.report).map_err(|error| error.to_string())?;
     if !question.with_text {

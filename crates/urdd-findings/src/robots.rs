@@ -71,7 +71,7 @@ impl Value {
             Value::Text(text) => text.clone(),
             Value::Truth(truth) => truth.to_string(),
             Value::Whole(number) => number.to_string(),
-            Value::Real(number) => number.to_string(),
+            Value::Real(number) => format!("{number:?}"),
         }
     }
 }

@@ -40,7 +40,7 @@ pub mod vocabulary;
 mod written;
 
 pub use fix::{ChangedError, Mended, mend};
-pub use needs::{Undeclared, undeclared};
+pub use needs::{Undeclared, lint_undeclared, undeclared};
 pub use rule::LintRule;
 pub use settings::{LintSettings, declared};
 pub use sources::{LintError, seen_from};
@@ -68,7 +68,7 @@ use written::say_where_expanded;
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
     let Sources { jobs, excluded, batch } = sources(paths, settings)?;
-    let is_found = |job: &Job| match !paths.contains(&job.source) && job.arguments.is_empty() {
+    let is_found = |job: &Job| match batch.may_drop(&job.source) {
         true if batch.description.may_be_part(&job.source) => Found::Included,
         true => Found::InFolder,
         false => Found::Named,
@@ -84,22 +84,25 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
     Ok(run)
 }
 
-/// Lints a URDF or xacro file. Patterns of the settings match its path from the folder `seen_from`, or its name. Returns
-/// also the file's text; `None` if it cannot be read.
+/// Lints a URDF or xacro file, with the arguments for xacro that are declared of it. Patterns of the settings match its path
+/// from the folder `seen_from`, or its name. Returns also the file's text; `None` if it cannot be read.
 ///
 /// # Errors
 /// If the run is cancelled.
 pub fn lint_with_text(
     path: &Path,
+    declared: &[String],
     seen_from: Option<&Path>,
     settings: &LintSettings,
 ) -> Result<(Run, Option<String>), Cancelled> {
     let paths = [path.to_owned()];
     let from = seen_from.map_or_else(|| paths.to_vec(), |folder| vec![folder.to_owned()]);
-    let job = Job::new(path.to_owned(), String::new());
+    let arguments = declared.to_vec();
+    let job = Job { arguments, ..Job::new(path.to_owned(), String::new()) };
     let mut linted = lint_file(&job, Found::Named, &from, settings);
     settings.report.cancellation.check()?;
     let text = linted.as_mut().and_then(|linted| linted.text.take());
+    let text = text.or_else(|| as_written(path, &settings.source.files));
     Ok((run_of(&paths, Vec::from_iter(linted), 0, settings), text))
 }
 
@@ -108,7 +111,7 @@ struct Linted {
     examined: Examined,
     /// Ignores and comments that matched nothing.
     stale: Vec<StaleIgnore>,
-    /// What was examined.
+    /// The text of the file, where that is what was examined.
     text: Option<String>,
 }
 
@@ -160,8 +163,8 @@ fn lint_file(
                 examined
             }
             None => match read_source(path, &settings.source, &settings.report.cancellation) {
-                Err(SourceError::NeedsArguments { needed, reason, .. }) => {
-                    (needs::examined(path, &needed, &reason, settings), Vec::new())
+                Err(SourceError::NeedsArguments { needed, fault, .. }) => {
+                    (lint_undeclared(path, &needed, &fault, settings), Vec::new())
                 }
                 read => {
                     let fails = matches!(read, Err(SourceError::Xacro { .. }));
@@ -170,10 +173,7 @@ fn lint_file(
                     is_part =
                         found != Found::Named && read.trail.is_some() && has_no_link(&read.text);
                     let examined = of_source(path, &read, settings);
-                    text = match read.trail {
-                        None => Some(read.text),
-                        Some(_) => as_written(path, &settings.source.files),
-                    };
+                    text = read.trail.is_none().then_some(read.text);
                     examined
                 }
             },
@@ -190,7 +190,7 @@ fn lint_file(
     (!is_part).then_some(Linted { examined, stale, text })
 }
 
-/// The text of a xacro file.
+/// The text of a file.
 fn as_written(path: &Path, files: &Files) -> Option<String> {
     let bytes = files.read(path, MAX_SOURCE_BYTES).ok();
     bytes.and_then(|bytes| String::from_utf8(bytes).ok())

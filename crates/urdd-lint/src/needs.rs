@@ -14,25 +14,25 @@ use urdd_findings::examined::{Examined, blank};
 use urdd_findings::finding::Finding;
 use urdd_format::report::Kind;
 use urdd_source::arguments::{XacroArgument, declaration};
+use urdd_source::macros::has_no_link;
 use urdd_source::robots::Job;
-use urdd_source::{SourceError, read_source};
+use urdd_source::{SourceError, XacroFault, read_source};
 
-/// What is found in a file that needs these arguments; `reason` is why it was not expanded.
-pub(crate) fn examined(
+/// What is found in a file that needs these arguments, and why it was not expanded.
+pub fn lint_undeclared(
     path: &Path,
     needed: &[XacroArgument],
-    reason: &str,
+    fault: &XacroFault,
     settings: &LintSettings,
 ) -> Examined {
     let name = stems(path).1;
-    // Behind it are the files that were read, by their paths on this machine.
-    let reason = reason.split("; ").next().unwrap_or_default();
     let listed: Vec<String> = needed.iter().map(ToString::to_string).collect();
     let lines = declaration(&path.to_string_lossy(), needed).replace('\n', " ");
     let message = format!(
-        "the robot needs {}; `urdd lint --write-robots` writes into urdd.toml: {}; {reason}",
+        "the robot needs {}; `urdd lint --write-robots` writes into urdd.toml: {}; {}",
         listed.join(", "),
         lines.trim(),
+        fault.reason,
     );
     let finding = |first: &XacroArgument| {
         let mut finding = Finding::in_file(name.as_str(), message.clone()).position(first.at);
@@ -117,7 +117,7 @@ fn tried(
         // Without the program nothing is known of them.
         let is_unknown =
             matches!(&read, Err(SourceError::NeedsArguments { .. } | SourceError::NoXacro { .. }));
-        is_unknown || read.is_ok_and(|read| read.text.contains("<link"))
+        is_unknown || read.is_ok_and(|read| !has_no_link(&read.text))
     };
     let first =
         |argument: &XacroArgument| Some((argument.name.clone(), argument.values.first()?.clone()));

@@ -1,6 +1,7 @@
 //! How URDFs are linted.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use urdd_findings::baseline::Baseline;
 use urdd_findings::examined::Examined;
@@ -16,7 +17,7 @@ pub struct LintSettings {
     /// Where packages and meshes are, and how xacro files are expanded.
     pub source: urdd_source::Settings,
     /// What was found before, and is not reported.
-    pub baseline: Option<Baseline>,
+    pub baseline: Option<Arc<Baseline>>,
     /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
     pub without_meshes: bool,
 }

@@ -77,9 +77,8 @@ pub fn say_where_expanded(
 
 /// A place as reports have it; `name` is that of the file that was expanded, maybe in a folder.
 fn as_reported(written: &Written, name: &str) -> WrittenAt {
-    let beside = |file: &str| Path::new(name).with_file_name(file).to_string_lossy().into_owned();
     WrittenAt {
-        file: if written.is_main { name.to_owned() } else { beside(&written.file) },
+        file: written.named(name),
         line: Some(Count(written.at.line)),
         column: Some(Count(written.at.column)),
         macro_name: written.macro_name.clone(),

@@ -1,6 +1,7 @@
 //! The settings that count for a document: those of the editor, of the nearest `urdd.toml`, and a baseline.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use lsp_types::DiagnosticSeverity;
 
@@ -47,7 +48,7 @@ impl Project {
         // The user's own comes first.
         let baseline = snapshot.options.baseline.clone().or(file.baseline);
         match baseline.as_deref().map(Baseline::read).transpose() {
-            Ok(baseline) => settings.baseline = baseline,
+            Ok(baseline) => settings.baseline = baseline.map(Arc::new),
             Err(error) => {
                 let message = format!("{error}; all findings are shown");
                 faults.push(at_the_top(snapshot, DiagnosticSeverity::WARNING, &message));
@@ -66,8 +67,10 @@ impl Project {
     }
 
     /// The result of the rules without what the settings leave out.
-    pub fn apply(&self, snapshot: &Snapshot, examined: Examined) -> Examined {
+    pub fn apply(&self, snapshot: &Snapshot, mut examined: Examined) -> Examined {
         let path = snapshot.path.as_deref();
+        // Those that are declared of it, by which a baseline tells robots of one file apart.
+        examined.report.xacro_arguments.clone_from(&self.settings.source.xacro.arguments);
         self.settings.apply(path, self.seen.clone(), examined)
     }
 }

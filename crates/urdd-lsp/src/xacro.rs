@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use lsp_types::{Diagnostic, DiagnosticSeverity, Location};
 
-use crate::diagnostics::{Found, at_the_top, further, line_of, message, of_offset};
+use crate::diagnostics::{Found, at_the_top, further, line_of, message, of_check, of_offset};
 use crate::document::Snapshot;
 use crate::failures::{failures, not_well_formed};
 use crate::includes::{included, missing};
@@ -14,7 +14,8 @@ use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
-use urdd_lint::lint_source;
+use urdd_lint::{lint_source, lint_undeclared};
+use urdd_source::macros::has_no_link;
 use urdd_source::{SourceError, read_source};
 
 /// What is wrong with the text as it is.
@@ -35,24 +36,25 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let Some(path) = path.filter(|_| !is_part(snapshot)) else {
         return found;
     };
-    let read =
-        match read_source(path, &project.settings.source, &project.settings.report.cancellation) {
-            Ok(read) => read,
-            Err(error) => {
-                let severity = match error {
-                    SourceError::NeedsArguments { .. } => DiagnosticSeverity::INFORMATION,
-                    _ => DiagnosticSeverity::ERROR,
-                };
-                found.push(at_the_top(snapshot, severity, &error.to_string()));
-                return found;
-            }
-        };
-    // Macros alone make no robot.
-    if !read.text.contains("<link") {
+    let settings = &project.settings;
+    let read = match read_source(path, &settings.source, &settings.report.cancellation) {
+        Ok(read) => read,
+        Err(SourceError::NeedsArguments { needed, fault, .. }) => {
+            let examined = lint_undeclared(path, &needed, &fault, settings);
+            let examined = project.apply(snapshot, examined);
+            found.extend(failures(snapshot, &examined));
+            found.extend(examined.checks.iter().flat_map(|check| of_check(snapshot, check)));
+            return found;
+        }
+        Err(error) => {
+            found.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &error.to_string()));
+            return found;
+        }
+    };
+    if has_no_link(&read.text) {
         return found;
     }
-    let examined = lint_source(path, &read, &project.settings);
-    let examined = project.apply(snapshot, examined);
+    let examined = project.apply(snapshot, lint_source(path, &read, settings));
     found.extend(failures(snapshot, &examined));
     let files = Files { own: fs::canonicalize(path).ok(), included: included(snapshot) };
     for check in &examined.checks {

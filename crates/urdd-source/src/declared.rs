@@ -22,10 +22,15 @@ impl From<PathBuf> for Declared {
 
 /// The robots that are declared of a file, with its path as it is given; else the file itself.
 pub fn robots_of(file: PathBuf, declared: &[Declared]) -> Vec<Declared> {
-    let is_it = |one: &&Declared| is_same(&one.source, &file);
-    let with_path = |one: &Declared| Declared { source: file.clone(), ..one.clone() };
-    let found: Vec<Declared> = declared.iter().filter(is_it).map(with_path).collect();
+    let found = declared_of(&file, declared);
     if found.is_empty() { vec![file.into()] } else { found }
+}
+
+/// The robots that are declared of a file, with its path as it is given; none if none is.
+pub fn declared_of(file: &Path, declared: &[Declared]) -> Vec<Declared> {
+    let is_it = |one: &&Declared| is_same(&one.source, file);
+    let with_path = |one: &Declared| Declared { source: file.to_owned(), ..one.clone() };
+    declared.iter().filter(is_it).map(with_path).collect()
 }
 
 /// The files that are declared below a folder, by paths that begin with it as it is given.

@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use crate::files::MAX_SOURCE_BYTES;
+use crate::gate::Gate;
 use crate::installed::Installed;
 use crate::installs;
-use crate::macros::{self, Argument, Content, Macro, MacroFile};
+use crate::macros::{self, Content, Macro, MacroFile};
 use crate::settings::Settings;
 use urdd_directory::account::Account;
 use urdd_format::short::Short;
@@ -43,10 +44,6 @@ pub struct Described {
     pub path: PathBuf,
     /// What it is.
     pub kind: FileKind,
-    /// The arguments that it declares itself.
-    pub arguments: Vec<Argument>,
-    /// The files that it includes directly, as far as that is known; symbolic links resolved.
-    pub includes: Vec<PathBuf>,
 }
 
 /// The files of a folder, and their macros.
@@ -54,6 +51,8 @@ pub struct Described {
 pub struct Description {
     /// The files, in the order in which they were given.
     pub files: Vec<Described>,
+    /// Those that may be robots, and that another file includes.
+    included: HashSet<PathBuf>,
     /// The macros that nothing calls, each with its file, in packages with a robot. None where a name is computed.
     pub uncalled: Vec<(PathBuf, Macro)>,
 }
@@ -61,10 +60,7 @@ pub struct Description {
 impl Description {
     /// Whether a file may be a part of robots that cannot be expanded by itself: a well-formed one that another one includes.
     pub fn may_be_part(&self, path: &Path) -> bool {
-        let Ok(place) = path.canonicalize() else { return false };
-        let is_well_formed = |file: &Described| file.path == path && file.kind == FileKind::Robot;
-        self.files.iter().any(is_well_formed)
-            && self.files.iter().any(|file| file.path != path && file.includes.contains(&place))
+        self.included.contains(path)
     }
 }
 
@@ -79,6 +75,7 @@ pub fn describe(
         packages,
         account: Account::default(),
         looked_up: HashMap::new(),
+        gates: HashMap::new(),
         installed: HashMap::new(),
         known: BTreeMap::new(),
     };
@@ -86,24 +83,27 @@ pub fn describe(
     texts.read_all(&keys);
     let links = Links::of(&texts);
     let files = paths.iter().zip(&keys).map(|(path, key)| {
-        let (kind, arguments, includes) = match &texts.known[key] {
-            Ok(text) => (
-                links.kind(key, &text.file),
-                text.file.arguments.clone(),
-                text.includes.values().flatten().cloned().collect(),
-            ),
-            Err(reason) => (FileKind::Neither(reason.clone()), Vec::new(), Vec::new()),
+        let kind = match &texts.known[key] {
+            Ok(text) => links.kind(key, &text.file),
+            Err(reason) => FileKind::Neither(reason.clone()),
         };
-        Described { path: path.clone(), kind, arguments, includes }
+        Described { path: path.clone(), kind }
     });
     let files: Vec<Described> = files.collect();
+    let given = keys.iter().filter_map(|key| Some((key, texts.known[key].as_ref().ok()?)));
+    let all = given
+        .flat_map(|(key, text)| text.includes.values().flatten().filter(move |file| *file != key));
+    let all: HashSet<&PathBuf> = all.collect();
+    let included = files.iter().zip(&keys);
+    let included = included.filter(|(file, key)| file.kind == FileKind::Robot && all.contains(key));
+    let included = included.map(|(file, _)| file.path.clone()).collect();
     let mut uncalled = uncalled(&texts, paths, &keys);
     // A package without a robot has its macros for others.
     let package = |path: &Path| packages.values().filter(|folder| path.starts_with(folder)).max();
     let robots = files.iter().filter(|file| file.kind == FileKind::Robot);
     let robots: HashSet<Option<&PathBuf>> = robots.map(|file| package(&file.path)).collect();
     uncalled.retain(|(path, _)| robots.contains(&package(path)));
-    Description { files, uncalled }
+    Description { files, included, uncalled }
 }
 
 /// A file that was read.
@@ -119,6 +119,8 @@ struct Texts<'a> {
     packages: &'a BTreeMap<String, PathBuf>,
     account: Account,
     looked_up: HashMap<(String, PathBuf), Option<PathBuf>>,
+    /// By the folder of the file that includes others.
+    gates: HashMap<PathBuf, Gate>,
     installed: HashMap<PathBuf, Installed>,
     known: BTreeMap<PathBuf, Result<Text, Reason>>,
 }
@@ -165,25 +167,31 @@ impl Texts<'_> {
     /// The file that a file includes, if its name is not computed and it is there.
     fn included(&mut self, name: &str, from: &Path) -> Option<PathBuf> {
         let folder = from.parent()?;
-        let path = match name.strip_prefix("$(find ").and_then(|rest| rest.split_once(')')) {
-            Some((package, rest)) if !rest.contains('$') => {
-                let (package, path) = (package.trim(), rest.trim_start_matches('/'));
-                let folder = self.package(package, folder)?;
-                let files = &self.settings.files;
-                let of = || installs::installed(&folder, files);
-                let installed = self.installed.entry(folder.clone()).or_insert_with(of);
-                let is_there = |path: &String| files.is_file(&folder.join(path));
-                let source = installed.sources(path).find(is_there);
-                folder.join(source.as_deref().unwrap_or(path))
-            }
-            None if !name.contains('$') => folder.join(name),
-            _ => return None,
-        };
-        self.settings
-            .files
-            .canonicalize(&path)
-            .ok()
-            .filter(|path| self.settings.files.is_file(path))
+        let (package, path) =
+            match name.strip_prefix("$(find ").and_then(|rest| rest.split_once(')')) {
+                Some((package, rest)) if !rest.contains('$') => {
+                    let (package, path) = (package.trim(), rest.trim_start_matches('/'));
+                    let folder = self.package(package, folder)?;
+                    let files = &self.settings.files;
+                    let of = || installs::installed(&folder, files);
+                    let installed = self.installed.entry(folder.clone()).or_insert_with(of);
+                    let is_there = |path: &String| files.is_file(&folder.join(path));
+                    let source = installed.sources(path).find(is_there);
+                    let path = folder.join(source.as_deref().unwrap_or(path));
+                    (Some(folder), path)
+                }
+                None if !name.contains('$') => (None, folder.join(name)),
+                _ => return None,
+            };
+        let files = &self.settings.files;
+        let path = files.canonicalize(&path).ok().filter(|path| files.is_file(path))?;
+        // A file of the package, or of what the gate opens.
+        let of =
+            |package: PathBuf| files.canonicalize(&package).is_ok_and(|it| path.starts_with(it));
+        let gate = || Gate::of_project(folder, self.settings);
+        let is_open = package.is_some_and(of)
+            || self.gates.entry(folder.to_owned()).or_insert_with(gate).at(&path).is_ok();
+        is_open.then_some(path)
     }
 
     fn package(&mut self, name: &str, folder: &Path) -> Option<PathBuf> {

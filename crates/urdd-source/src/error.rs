@@ -26,19 +26,15 @@ pub enum SourceError {
         "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
     NoXacro { file: String },
-    #[error("{file}: `xacro` could not expand it: {reason}")]
-    Xacro {
-        file: String,
-        /// The last lines of the program's output.
-        reason: String,
-    },
+    #[error("{file}: `xacro` could not expand it: {fault}")]
+    Xacro { file: String, fault: XacroFault },
     /// It was not expanded, for want of arguments.
     #[error(
-        "{}: values are missing for {}; give them as `name:=value`, or declare the robots in urdd.toml (`urdd lint --write-robots`); {reason}",
+        "{}: values are missing for {}; give them as `name:=value`, or declare the robots in urdd.toml (`urdd lint --write-robots`); {fault}",
         escape::line(file),
         Listed(needed)
     )]
-    NeedsArguments { file: String, needed: Vec<XacroArgument>, reason: String },
+    NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: XacroFault },
     /// A description of another format than URDF.
     #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
     Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
@@ -73,6 +69,30 @@ impl SourceError {
             SourceError::Cancelled => "cancelled",
             SourceError::Internal { .. } => "internal",
         }
+    }
+}
+
+/// Why xacro did not expand a file.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct XacroFault {
+    /// What is wrong, on one line.
+    pub reason: String,
+    /// The files that were read and the macros that were called, each on one line; then what to do, if that is known.
+    pub further: Vec<String>,
+    /// The package that was not found.
+    pub package: Option<String>,
+}
+
+impl From<String> for XacroFault {
+    fn from(reason: String) -> Self {
+        XacroFault { reason, ..XacroFault::default() }
+    }
+}
+
+impl fmt::Display for XacroFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)?;
+        self.further.iter().try_for_each(|line| write!(f, "; {line}"))
     }
 }
 

@@ -52,8 +52,8 @@ mod xacro_argument;
 
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
-pub use declared::{Declared, robots_of};
-pub use error::SourceError;
+pub use declared::{Declared, declared_of, robots_of};
+pub use error::{SourceError, XacroFault};
 pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile};

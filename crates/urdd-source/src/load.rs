@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::needed;
 use super::decode;
-use super::error::SourceError;
+use super::error::{SourceError, XacroFault};
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::note::{Note, Remark, SourcePlace};
@@ -161,14 +161,23 @@ fn read(
 
 /// An error of xacro, which says what is missing where arguments are.
 fn explained(error: SourceError, path: &Path, settings: &Settings) -> SourceError {
-    let (file, reason) = match &error {
-        SourceError::Xacro { file, reason } => (file.clone(), format!("xacro says: {reason}")),
-        SourceError::NoXacro { file } => (file.clone(), error.to_string()),
+    let (file, fault) = match &error {
+        SourceError::Xacro { file, fault } => {
+            let reason = format!("xacro says: {}", fault.reason);
+            (file.clone(), XacroFault { reason, ..fault.clone() })
+        }
+        SourceError::NoXacro { file } => (file.clone(), error.to_string().into()),
         _ => return error,
     };
-    match needed(path, settings) {
-        needed if needed.is_empty() => error,
-        needed => SourceError::NeedsArguments { file, needed, reason },
+    let needed = needed(path, settings);
+    // With other values another package could be looked for.
+    let names = |package: &String| {
+        let is_of = |default: &String| !default.is_empty() && package.contains(default);
+        needed.iter().any(|argument| argument.default.as_ref().is_none_or(is_of))
+    };
+    match fault.package.as_ref().is_some_and(|package| !names(package)) {
+        false if !needed.is_empty() => SourceError::NeedsArguments { file, needed, fault },
+        _ => error,
     }
 }
 
@@ -247,7 +256,8 @@ fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
     let (mut text, remarks, first_line) = repair::mend_xml(text);
     is_verbatim &= remarks.is_empty();
     let origin = Origin { shown: &shown, first_line, trail: trail.as_ref(), path: &path };
-    note(&remarks, &text, &origin, &mut notes);
+    let places = origin.offsets(&text, remarks.iter().map(|remark| remark.offset));
+    notes.extend(noted(&remarks, places));
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
@@ -258,8 +268,12 @@ fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
         let mut reading = urdf::read(&text, &stem).map_err(refused)?;
         // Later texts are repaired; positions in them mean nothing to the user.
         let places = mesh_places.get_or_insert_with(|| {
-            note(&reading.remarks, &text, &origin, &mut notes);
-            origin.offsets(&text, reading.mesh_offsets.iter().copied())
+            let remarks = reading.remarks.iter().map(|remark| remark.offset);
+            let all = remarks.chain(reading.mesh_offsets.iter().copied());
+            let mut places = origin.offsets(&text, all);
+            let meshes = places.split_off(reading.remarks.len());
+            notes.extend(noted(&reading.remarks, places));
+            meshes
         });
         if !reading.edits.is_empty() {
             is_verbatim = false;
@@ -281,12 +295,11 @@ fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
     Err(SourceError::Internal { file: shown, reason })
 }
 
-fn note(remarks: &[Remark], text: &str, origin: &Origin, notes: &mut Vec<Note>) {
-    let places = origin.offsets(text, remarks.iter().map(|remark| remark.offset));
-    notes.extend(remarks.iter().zip(places).map(|(remark, SourcePlace { file, line, column })| {
+fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = Note> {
+    remarks.iter().zip(places).map(|(remark, SourcePlace { file, line, column })| {
         let (problem, assumed) = (remark.problem.clone(), remark.assumed.clone());
         Note { kind: remark.kind, file, line, column, problem, assumed }
-    }));
+    })
 }
 
 /// What a text was made from.
@@ -317,10 +330,9 @@ impl Origin<'_> {
             return places.into_iter().map(place).collect();
         };
         let found = WrittenMap::new(text, trail, self.path).find(places.iter().copied());
-        let beside = |file: &str| Path::new(self.shown).with_file_name(file).display().to_string();
         let place = |at: Position| match found.get(&at) {
             Some(written) => SourcePlace {
-                file: if written.is_main { self.shown.to_owned() } else { beside(&written.file) },
+                file: written.named(self.shown),
                 line: written.at.line,
                 column: written.at.column,
             },
@@ -337,9 +349,9 @@ impl Origin<'_> {
             (placed.line, placed.column) = (line, column);
             if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } =
                 &mut placed.fault
-                && self.trail.is_some()
+                && *first > 0
             {
-                *first = 0;
+                *first = if self.trail.is_some() { 0 } else { *first + self.first_line };
             }
         }
         faults

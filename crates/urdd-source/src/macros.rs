@@ -23,8 +23,6 @@ pub struct MacroFile {
     pub has_properties: bool,
     /// The macros that it defines.
     pub macros: Vec<Macro>,
-    /// The arguments that it declares.
-    pub arguments: Vec<Argument>,
 }
 
 /// What is expanded in place: in a file outside of its macros, or in a macro.
@@ -60,17 +58,6 @@ pub struct Macro {
     pub line: u32,
     /// What a call makes.
     pub content: Content,
-}
-
-/// An argument: `<xacro:arg>`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Argument {
-    /// Its name.
-    pub name: String,
-    /// Its default as it is written; without one, a value has to be given.
-    pub default: Option<String>,
-    /// The line that it is declared on.
-    pub line: u32,
 }
 
 /// Reads a text.
@@ -125,24 +112,19 @@ impl MacroFile {
                 };
                 self.has_xacro = true;
                 let attribute = |key| child.attribute(key).map(str::to_owned);
-                let line = lines.position(child.range().start).line;
                 match of_xacro {
                     "macro" => {
                         let name = attribute("name").unwrap_or_default();
                         let name = name.strip_prefix(PREFIX).unwrap_or(&name).to_owned();
+                        let line = lines.position(child.range().start).line;
                         // One level of the document is one of the calls of this function.
                         let made = self.content_of(child, lines);
                         self.macros.push(Macro { name, line, content: made });
                         continue;
                     }
-                    "arg" => self.arguments.push(Argument {
-                        name: attribute("name").unwrap_or_default(),
-                        default: attribute("default"),
-                        line,
-                    }),
                     "include" => content.includes.extend(attribute("filename")),
                     "property" => self.has_properties = true,
-                    "if" | "unless" | "insert_block" | "element" | "attribute" => {}
+                    "arg" | "if" | "unless" | "insert_block" | "element" | "attribute" => {}
                     called => {
                         let named = attribute("macro").filter(|_| called == "call");
                         let name = Some(named.unwrap_or_else(|| called.to_owned()));

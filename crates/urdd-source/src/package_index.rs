@@ -91,8 +91,8 @@ impl PackageIndex {
         Ok(())
     }
 
-    /// Puts them around those of the environment.
-    pub(super) fn tell(&self, command: &mut Command) {
+    /// Puts them around those of the environment; of Python, some before.
+    pub(super) fn tell(&self, command: &mut Command, of_python: &[PathBuf]) {
         let inside = |name: &str| self.prefix.path().join(name);
         let share = |name: &str| inside(name).join("share");
         let around = |name, first: &[PathBuf], last: &[PathBuf]| {
@@ -109,7 +109,7 @@ impl PackageIndex {
             &[inside(FOUND), inside(NAMED)],
         ));
         command.envs(around("ROS_PACKAGE_PATH", &[share(GIVEN)], &[share(FOUND)]));
-        command.envs(around("PYTHONPATH", &[], &[inside(PYTHON)]));
+        command.envs(around("PYTHONPATH", of_python, &[inside(PYTHON)]));
     }
 
     /// A text whose paths outlive the layouts. `file://$(find NAME)` becomes `package://NAME`, which no machine's folders are in.

@@ -38,12 +38,9 @@ impl Job {
         Job { source, name, arguments: Vec::new() }
     }
 
-    /// The settings to read it with. Of two values of an argument, xacro takes the last.
+    /// The settings to read it with.
     pub fn settings(&self, all: &Settings) -> Settings {
-        let mut settings = all.clone();
-        let declared = self.arguments.iter().cloned();
-        settings.xacro.arguments = declared.chain(all.xacro.arguments.iter().cloned()).collect();
-        settings
+        all.with_declared(&self.arguments)
     }
 }
 
@@ -85,18 +82,24 @@ pub struct Batch {
     pub description: Description,
     /// The packages in the folders, by name. Of two with one name, the first counts.
     pub packages: BTreeMap<String, Vec<PathBuf>>,
+    /// The files that a person names or declares, with symbolic links resolved: each is to be a robot.
+    pub wanted: BTreeSet<PathBuf>,
 }
 
 /// Maximum number of macros that are named one by one.
 const MAX_NAMED: usize = 5;
 
 impl Batch {
+    /// Whether a file may turn out to be a part of robots: nobody names it, and nobody declares it.
+    pub fn may_drop(&self, source: &Path) -> bool {
+        !self.wanted.contains(&resolved(source))
+    }
+
     /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link, or it has
     /// none by itself, and another file includes it.
     pub fn is_part(&self, source: &Path, error: &SourceError) -> bool {
-        let is_listed = self.description.files.iter().any(|file| file.path == source);
         let is_xacro = source.extension().is_some_and(|end| end == "xacro");
-        is_listed
+        self.may_drop(source)
             && is_xacro
             && match error {
                 SourceError::Refused { faults, .. } => faults.iter().any(|one| {
@@ -161,20 +164,19 @@ impl Batch {
 /// If a path does not exist, or a folder cannot be searched or has no description. There may be parts of robots alone.
 pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError> {
     let (mut sources, mut listed, mut batch) = (Vec::new(), Vec::new(), Batch::default());
-    let mut declared: BTreeSet<PathBuf> = BTreeSet::new();
+    batch.wanted.extend(settings.robots.iter().map(|robot| resolved(&robot.source)));
     for path in paths {
         let shown = path.display().to_string();
         let metadata =
             fs::metadata(path).map_err(|_| BatchError::Missing { path: shown.clone() })?;
         if !metadata.is_dir() {
             sources.push(path.clone());
+            batch.wanted.insert(resolved(path));
             continue;
         }
         let mut found = Found::default();
         search(path, 0, &mut found)?;
-        let below = files_below(path, &settings.robots);
-        found.urdfs.extend(below.iter().cloned());
-        declared.extend(below);
+        found.urdfs.extend(files_below(path, &settings.robots));
         if found.urdfs.is_empty() {
             let others = others(found.others);
             if others.is_empty() {
@@ -202,8 +204,9 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
     let passed: BTreeSet<&PathBuf> = passed.map(|file| &file.path).collect();
     let mut seen = BTreeSet::new();
     sources.retain(|path| {
-        let is_new = seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone()));
-        is_new && (!passed.contains(path) || paths.contains(path) || declared.contains(path))
+        let place = resolved(path);
+        let is_robot = !passed.contains(path) || batch.wanted.contains(&place);
+        seen.insert(place) && is_robot
     });
     let robots = sources.into_iter().flat_map(|source| {
         // Arguments on the command line make a robot of their own.
@@ -212,6 +215,11 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
     });
     batch.jobs = named(robots.collect());
     Ok(batch)
+}
+
+/// A path with symbolic links resolved.
+fn resolved(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// As [`find`], where there is a robot.

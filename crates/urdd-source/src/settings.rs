@@ -1,6 +1,7 @@
 //! How a description is found and read.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::declared::Declared;
 use super::files::Files;
@@ -20,7 +21,16 @@ pub struct Settings {
     /// What is chosen of a description that is no URDF.
     pub import: ImportOptions,
     /// The robots that are declared of files: of one in a folder, and of one that is named without arguments.
-    pub robots: Vec<Declared>,
+    pub robots: Arc<[Declared]>,
     /// Where files are.
     pub files: Files,
+}
+
+impl Settings {
+    /// The settings with arguments for xacro that are declared of a file. Of two values of an argument, xacro takes the last.
+    pub fn with_declared(&self, arguments: &[String]) -> Settings {
+        let mut settings = self.clone();
+        settings.xacro.arguments = arguments.iter().chain(&self.xacro.arguments).cloned().collect();
+        settings
+    }
 }

@@ -2,7 +2,7 @@
 //! and that loads it, notes them. Where Python loads none of ours, nothing is known, and xacro runs all the same.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use serde::Deserialize;
@@ -15,7 +15,6 @@ use urdd_directory::temporary::Temporary;
 const MODULE: &str = include_str!("watch.py");
 /// Where the module writes.
 const PLACES: &str = "URDD_XACRO_PLACES";
-const PYTHON: &str = "PYTHONPATH";
 
 /// Where xacro has the elements of its output from, in the order of the output.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
@@ -40,16 +39,14 @@ impl Watch {
         self.0.path().join("places.json")
     }
 
-    /// Has the command's Python load the module.
+    /// The folder of the module: the first of those that Python looks in.
+    pub(super) fn folder(&self) -> PathBuf {
+        self.0.path().join("python")
+    }
+
+    /// Says where the module writes.
     pub(super) fn tell(&self, command: &mut Command) {
-        let set = command.get_envs().find(|(name, _)| *name == PYTHON);
-        let set = set.and_then(|(_, paths)| paths.map(ToOwned::to_owned));
-        let paths = set.or_else(|| std::env::var_os(PYTHON)).unwrap_or_default();
-        let own = self.0.path().join("python");
-        let all = std::env::split_paths(&paths).filter(|path| path != Path::new(""));
-        if let Ok(paths) = std::env::join_paths(std::iter::once(own).chain(all)) {
-            command.env(PYTHON, paths).env(PLACES, self.notes());
-        }
+        command.env(PLACES, self.notes());
     }
 
     /// What it noted; nothing if it could not.

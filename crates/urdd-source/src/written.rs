@@ -25,6 +25,16 @@ pub struct Written {
     pub macro_name: Option<String>,
 }
 
+impl Written {
+    /// The name of its file, where the one that was expanded is called `main`.
+    pub fn named(&self, main: &str) -> String {
+        match self.is_main {
+            true => main.to_owned(),
+            false => Path::new(main).with_file_name(&self.file).to_string_lossy().into_owned(),
+        }
+    }
+}
+
 /// A map of places.
 pub struct WrittenMap<'a> {
     trail: &'a Trail,
@@ -97,22 +107,33 @@ struct Marked<'a> {
     marks: Vec<(usize, usize, &'a str)>,
     /// Number of elements.
     count: usize,
-    macros: Vec<(Range<usize>, String)>,
+    macros: Vec<String>,
+    /// The innermost macro around each element.
+    around: Vec<Option<usize>>,
 }
 
 impl<'a> Marked<'a> {
     fn new(text: &'a str) -> Self {
-        let mut marked = Marked { text, marks: Vec::new(), count: 0, macros: Vec::new() };
+        let mut marked =
+            Marked { text, marks: Vec::new(), count: 0, macros: Vec::new(), around: Vec::new() };
         let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Robot) else { return marked };
+        // The macros around an element, each with its end.
+        let mut open: Vec<(usize, usize)> = Vec::new();
         for node in document.descendants().filter(Node::is_element) {
-            marked.marks.push((node.range().start, marked.count, ""));
+            let Range { start, end } = node.range();
+            while open.last().is_some_and(|(end, _)| *end <= start) {
+                open.pop();
+            }
+            marked.marks.push((start, marked.count, ""));
             marked.marks.extend(node.attributes().map(|one| {
                 let name = one.range_qname();
                 (name.start, marked.count, &text[name])
             }));
             if let ("xacro:macro", Some(name)) = (name(node), node.attribute("name")) {
-                marked.macros.push((node.range(), name.to_owned()));
+                open.push((end, marked.macros.len()));
+                marked.macros.push(name.to_owned());
             }
+            marked.around.push(open.last().map(|(_, name)| *name));
             marked.count += 1;
         }
         marked
@@ -133,8 +154,8 @@ impl<'a> Marked<'a> {
     }
 
     fn macro_around(&self, offset: usize) -> Option<&str> {
-        let mut around = self.macros.iter().rev();
-        around.find(|(range, _)| range.contains(&offset)).map(|(_, name)| name.as_str())
+        let (element, _) = self.at(offset)?;
+        self.around.get(element).copied()?.map(|name| self.macros[name].as_str())
     }
 }
 

@@ -10,7 +10,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-use crate::error::SourceError;
+use crate::error::{SourceError, XacroFault};
 use crate::files::MAX_SOURCE_BYTES;
 use crate::package_index::PackageIndex;
 use crate::packages::Packages;
@@ -76,14 +76,15 @@ pub(super) fn expand(
     packages: &Packages,
     cancellation: &Cancellation,
 ) -> Result<(String, Trail), SourceError> {
-    let failed = |error: io::Error| {
-        let (file, reason) = (shown.to_owned(), error.to_string());
-        SourceError::Xacro { file, reason }
+    let failed = |error: io::Error| SourceError::Xacro {
+        file: shown.to_owned(),
+        fault: error.to_string().into(),
     };
     let given = PackageIndex::new(packages, path).map_err(failed)?;
-    let watch = Watch::begin().map_err(failed)?;
-    let text = run(&[], path, shown, settings, &given, Some(&watch), cancellation)?;
-    Ok((text, watch.trail()))
+    // Without it nothing is known of places, and xacro runs all the same.
+    let watch = Watch::begin().ok();
+    let text = run(&[], path, shown, settings, &given, watch.as_ref(), cancellation)?;
+    Ok((text, watch.map(|watch| watch.trail()).unwrap_or_default()))
 }
 
 /// Runs xacro with these options on a file, and returns its output.
@@ -99,12 +100,13 @@ pub(super) fn run(
     watch: Option<&Watch>,
     cancellation: &Cancellation,
 ) -> Result<String, SourceError> {
-    let failed = |reason: String| SourceError::Xacro { file: shown.to_owned(), reason };
+    let fails = |fault: XacroFault| SourceError::Xacro { file: shown.to_owned(), fault };
+    let failed = |reason: String| fails(reason.into());
     // An absolute path cannot be mistaken for an option.
     let path = path.canonicalize().map_err(|error| failed(error.to_string()))?;
     let mut command = Command::new("xacro");
     command.args(options).arg(&path).args(&settings.arguments);
-    given.tell(&mut command);
+    given.tell(&mut command, watch.map(Watch::folder).as_slice());
     if let Some(watch) = watch {
         watch.tell(&mut command);
     }
@@ -138,31 +140,12 @@ pub(super) fn run(
     let written = written.map_err(|why| failed(format!("its output: {why}")))?;
     if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
         let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
-        let words = last_lines(&words.unwrap_or_default());
-        let said = |words: String| {
-            let advice = given.advice(&words).map(|advice| format!("; {advice}"));
-            with_advice(given.lasting(&words)) + &advice.unwrap_or_default()
-        };
-        return Err(failed(words.map_or_else(|| status.to_string(), said)));
+        let words = words.unwrap_or_default();
+        return Err(fails(fault(&words, given).unwrap_or_else(|| status.to_string().into())));
     }
     let text = String::from_utf8(written);
     let text = text.map_err(|_| failed("its output is not UTF-8".to_owned()))?;
     Ok(given.lasting(&text))
-}
-
-/// What xacro says; of a package that ament does not find, what to do.
-fn with_advice(words: String) -> String {
-    let name = words.split_once("package '").and_then(|(_, rest)| rest.split_once('\''));
-    match name.filter(|(_, rest)| rest.trim_start().starts_with("not found")) {
-        Some((name, _)) => {
-            let place = words.split_once("; ").map_or("", |(_, place)| place);
-            format!(
-                "the package `{name}` is not around the file, nor on AMENT_PREFIX_PATH; say where it is: --package {}=FOLDER; {place}",
-                escape::shell(name)
-            )
-        }
-        None => words,
-    }
 }
 
 /// Reads a stream in a separate thread, so that the program never blocks on a full pipe.
@@ -175,18 +158,40 @@ fn read_beside(
     receiver
 }
 
-/// The lines that state the error: xacro's own, with the macros and files around it, or the last ones below a Python
-/// traceback.
-fn last_lines(words: &[u8]) -> Option<String> {
+/// What the program says of what is wrong: its own line, with the macros and files around it, or the last lines below a
+/// Python traceback.
+fn fault(words: &[u8], given: &PackageIndex) -> Option<XacroFault> {
     let words = String::from_utf8_lossy(words);
     let lines: Vec<&str> = words.lines().filter(|line| !line.trim().is_empty()).collect();
-    if let Some(own) = lines.iter().rposition(|line| line.starts_with("error: ")) {
-        let own = lines[own..].iter().take(MOST_LINES + 1).map(|line| line.trim());
-        let own = own.collect::<Vec<_>>().join("; ");
-        return Some(own.chars().take(MOST_CHARACTERS).collect());
-    }
-    let last = lines[lines.len().saturating_sub(MOST_LINES)..].join("; ");
-    let start = last.chars().count().saturating_sub(MOST_CHARACTERS);
-    let last: String = last.chars().skip(start).collect();
-    (!last.is_empty()).then_some(last)
+    let own = lines.iter().rposition(|line| line.starts_with("error: "));
+    let stated: Vec<&&str> = match own {
+        Some(own) => lines[own..].iter().take(MOST_LINES + 1).collect(),
+        None => lines.iter().rev().take(MOST_LINES).collect(),
+    };
+    let mut left = MOST_CHARACTERS;
+    let mut lines = stated.into_iter().map(|line| {
+        let line: String = line.trim().chars().take(left).collect();
+        left -= line.chars().count();
+        line
+    });
+    let reason = lines.next()?;
+    let mut further: Vec<String> = lines.filter(|line| !line.is_empty()).collect();
+    let advice = further.iter().chain([&reason]).find_map(|line| given.advice(line));
+    further = further.iter().map(|line| given.lasting(line)).collect();
+    further.extend(advice);
+    let package = missing_package(&reason);
+    let reason = match &package {
+        Some(name) => format!(
+            "the package `{name}` is not around the file, nor on AMENT_PREFIX_PATH; say where it is: --package {}=FOLDER",
+            escape::shell(name)
+        ),
+        None => given.lasting(&reason),
+    };
+    Some(XacroFault { reason, further, package })
+}
+
+/// The name in ament's "package 'NAME' not found".
+fn missing_package(line: &str) -> Option<String> {
+    let (name, rest) = line.split_once("package '")?.1.split_once('\'')?;
+    rest.trim_start().starts_with("not found").then(|| name.to_owned())
 }

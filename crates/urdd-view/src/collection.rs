@@ -17,6 +17,7 @@ use urdd_directory::replacement::Files;
 use urdd_directory::root::{ReadError, Root};
 use urdd_generate::Settings;
 use urdd_robot::Robot;
+use urdd_source::Settings as SourceSettings;
 
 /// A displayed robot.
 #[derive(Debug)]
@@ -58,12 +59,16 @@ pub struct Source {
 impl Source {
     /// The settings to read it with: with its own packages and arguments.
     pub fn settings(&self, all: &Settings) -> Settings {
+        let source = self.with_packages(&all.source).with_declared(&self.arguments);
+        Settings { source, ..all.clone() }
+    }
+
+    /// These settings with its own packages.
+    pub(super) fn with_packages(&self, all: &SourceSettings) -> SourceSettings {
         let mut settings = all.clone();
-        let given = std::mem::take(&mut settings.source.xacro.arguments);
-        settings.source.xacro.arguments = self.arguments.iter().cloned().chain(given).collect();
         for package in &self.packages {
             // A folder that is gone: its meshes are not found, and the page says so.
-            let _ = settings.source.packages.add(package);
+            let _ = settings.packages.add(package);
         }
         settings
     }

@@ -1,6 +1,7 @@
 //! The reports that the page shows.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
@@ -101,12 +102,12 @@ fn report_on_source(collection: &Collection, source: &Source) -> Result<String, 
     });
     let settings = LintSettings {
         report: Settings { cancellation: all.cancellation.clone(), ..project.report },
-        source: source.settings(all).source,
-        baseline,
+        source: source.with_packages(&all.source),
+        baseline: baseline.map(Arc::new),
         ..LintSettings::default()
     };
     let folder = project.file.as_deref().and_then(Path::parent);
-    let linted = urdd_lint::lint_with_text(&source.file, folder, &settings);
+    let linted = urdd_lint::lint_with_text(&source.file, &source.arguments, folder, &settings);
     let (run, text) = linted.map_err(|error| error.to_string())?;
     let report: Result<Value, _> = serde_json::from_str(&as_json(&run)?);
     let mut report = report.map_err(|error| error.to_string())?;

@@ -1,16 +1,15 @@
 //! The robots of a package: their xacro files, and the arguments of these.
 
-use std::env;
 use std::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use super::super::output::{self, about, shown};
+use super::super::packages::around;
 use urdd_format::escape;
 use urdd_source::arguments::{XacroArgument, arguments};
 use urdd_source::robots::{BatchError, jobs};
-use urdd_source::{Packages, Settings};
 
 /// A file of robots.
 #[derive(Serialize)]
@@ -40,8 +39,7 @@ impl From<XacroArgument> for ArgumentInfo {
 /// # Errors
 /// If there are none.
 pub fn robot_files(path: &Path) -> Result<Vec<RobotFile>, BatchError> {
-    let packages = Packages::from_environment(|name| env::var_os(name));
-    let settings = Settings { packages, ..Settings::default() };
+    let settings = around();
     let of = |source: PathBuf| {
         let found = arguments(&source, &settings);
         let found = found.inspect_err(|error| output::error(&about(&source)(error)));

@@ -135,7 +135,7 @@ fn it_finds_the_packages_around_the_file() {
     }
     let find = "find() {
   IFS=:; for p in $AMENT_PREFIX_PATH; do [ -f $p/share/ament_index/resource_index/packages/$1 ] && echo $p/share/$1 && return; done
-  echo \"error: package '$1' not found, searching: [$AMENT_PREFIX_PATH]; when processing file: x\" >&2; exit 2
+  echo \"error: package '$1' not found, searching: [$AMENT_PREFIX_PATH]\" >&2; echo \"when processing file: x\" >&2; exit 2
 }";
     // ROS 1 would search folders without a package.xml to their ends.
     let script = format!(

@@ -116,7 +116,8 @@ fn why(urdd: &Urdd, program: &ProgramResult) -> String {
     if let Some((code, place)) = of_program.next() {
         let at = place.line.zip(place.column);
         // A file that the robot's own includes has a name.
-        let other = place.file.as_deref().filter(|file| !urdd.path.ends_with(file));
+        let own = urdd.path.rsplit('/').next();
+        let other = place.file.as_deref().filter(|file| own != Some(*file));
         let file = other.map(|file| format!("{file}:")).unwrap_or_default();
         return at.map_or_else(
             || code.to_owned(),

@@ -14,7 +14,7 @@ fn what_was_there_is_left_out_wherever_it_moves_and_what_is_new_is_not() {
     assert_eq!(baseline.count(), 1);
     let again = Baseline::from_json(&baseline.to_json(), folder.path());
     assert_eq!(again.as_ref(), Ok(&baseline));
-    let settings = LintSettings { baseline: Some(baseline), ..LintSettings::default() };
+    let settings = LintSettings { baseline: Some(baseline.into()), ..LintSettings::default() };
     let found = |text: &str| {
         fs::write(&file, text).expect("written");
         let run = linted(&file, &settings);

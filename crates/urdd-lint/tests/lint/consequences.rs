@@ -136,7 +136,7 @@ fn a_baseline_with_the_cause_leaves_out_what_follows() {
     let (folder, file) = written(&with(&[MISSPELT]));
     let run = linted(&file, &LintSettings::default());
     let baseline = Baseline::of(&run, folder.path());
-    let settings = LintSettings { baseline: Some(baseline), ..LintSettings::default() };
+    let settings = LintSettings { baseline: Some(baseline.into()), ..LintSettings::default() };
     let run = linted(&file, &settings);
     assert_eq!((codes(&run), run.report.stale_ignores), (vec![], vec![]));
     fs::write(&file, ARM.replacen(" ixz=\"0\"", "", 1)).expect("written");

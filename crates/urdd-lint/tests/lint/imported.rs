@@ -61,7 +61,7 @@ fn places_are_those_of_the_original() {
     fs::create_dir(folder.path().join("parts")).expect("a folder");
     fs::write(&arm, ARM).expect("written");
     fs::write(folder.path().join("parts/hand.xml"), HAND).expect("written");
-    let (run, text) = lint_with_text(&arm, None, &LintSettings::default()).expect("a report");
+    let (run, text) = lint_with_text(&arm, &[], None, &LintSettings::default()).expect("a report");
     assert_eq!(text.as_deref(), Some(ARM));
     let mut with_line = Vec::new();
     for finding in &run.report.urdds[0].findings {

@@ -26,7 +26,7 @@ fn below(folder: &Path, at: &str, found: &mut Vec<(String, Arc<[u8]>)>) {
 fn report(file: &Path, files: Files) -> Vec<Urdd> {
     let mut settings = LintSettings::default();
     settings.source.files = files;
-    let (run, _) = lint_with_text(file, None, &settings).expect("a report");
+    let (run, _) = lint_with_text(file, &[], None, &settings).expect("a report");
     run.report.urdds
 }
 

@@ -254,13 +254,16 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
 /// Mimics, from 14 on. Each follows a joint that is kept, or one of SDF with an axis.
 fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<()> {
     let release = links.release;
+    if release == Release::Twelve {
+        return Ok(());
+    }
     let made = links.bodies.iter().filter(|body| body.is_made);
     let joints = made.filter_map(|body| body.joint.as_ref()).filter(|joint| !joint.has_no_type());
     let own = own.iter().filter(|one| one.name() == "joint" && one.child("axis").is_some());
     let own = own.filter_map(|one| one.value("name"));
     let leaders: HashSet<&str> =
         joints.clone().map(|joint| joint.name).chain(own).map(|name| release.read(name)).collect();
-    for joint in joints.filter(|joint| release == Release::Fourteen && joint.kind != "fixed") {
+    for joint in joints.filter(|joint| joint.kind != "fixed") {
         let mimic = joint.node.child("mimic");
         let Some(leader) = mimic.and_then(|mimic| mimic.attribute("joint")) else { continue };
         let name = release.read(&leader.value);
@@ -274,7 +277,7 @@ fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<
         } else if links
             .bodies
             .iter()
-            .any(|body| body.joint.as_ref().is_some_and(|of| of.name == name))
+            .any(|body| body.joint.as_ref().is_some_and(|of| release.read(of.name) == name))
         {
             Fault::Other("the joint that it follows is fixed, or left out")
         } else {

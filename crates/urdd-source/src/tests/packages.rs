@@ -212,9 +212,38 @@ fn the_text_tells_robots_from_parts() {
     let robot_of_p = robot("<link name=\"a\"/>");
     let files = [("p/robot.xacro", &*robot_of_p), ("q/library.xacro", &*elsewhere)];
     assert_eq!(described(&files).uncalled, []);
-    let arm = found.files.iter().find(|file| file.path.ends_with("arm.urdf.xacro")).expect("it");
-    assert_eq!(arm.includes, [Path::new("/p/arm_macro.xacro")]);
-    assert_eq!((arm.arguments[0].name.as_str(), &arm.arguments[0].default), ("p", &None));
+    // `again.xacro` includes `whole.xacro`; `arm_macro.xacro` is a part by its text.
+    let parts = found.files.iter().map(|file| file.path.as_path());
+    let parts: Vec<&Path> = parts.filter(|path| found.may_be_part(path)).collect();
+    assert_eq!(parts, [Path::new("/p/whole.xacro")]);
+}
+
+/// A file that another one names is read in its package alone: not beside it, and not through a link that leads out of it.
+#[cfg(unix)]
+#[test]
+fn files_outside_of_the_package_are_not_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |path: &str, text: &str| {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let links = robot("<link name=\"a\"/>");
+    write("p/package.xml", "<package><name>p</name></package>");
+    write("p/parts/links.xacro", &links);
+    let secret = write("secret/links.xacro", &links);
+    std::os::unix::fs::symlink(&secret, folder.path().join("p/parts/out.xacro")).expect("a link");
+    // A file with macros of its own is a part, unless it is known to make a link.
+    let including = |name: &str| {
+        let text = format!("<xacro:include filename=\"{name}\"/><xacro:macro name=\"m\"/>");
+        let path = write("p/urdf/it.xacro", &robot(&text));
+        describe(&[path], &BTreeMap::new(), &Settings::default()).files[0].kind.clone()
+    };
+    assert_eq!(including("../parts/links.xacro"), FileKind::Robot);
+    assert_eq!(including("../../secret/links.xacro"), FileKind::Fragment);
+    assert_eq!(including("../parts/out.xacro"), FileKind::Fragment);
+    assert_eq!(including(&secret.display().to_string()), FileKind::Fragment);
 }
 
 #[test]
@@ -249,7 +278,7 @@ fn manifest(name: &str) -> String {
 /// What `$(find NAME)` is: the first prefix that has it, as ament does.
 fn share(index: &PackageIndex, name: &str) -> Option<PathBuf> {
     let mut command = Command::new("xacro");
-    index.tell(&mut command);
+    index.tell(&mut command, &[]);
     let variable = command.get_envs().find(|(name, _)| *name == "AMENT_PREFIX_PATH");
     let prefixes = variable.and_then(|(_, value)| value).expect("it is set").to_owned();
     let found = std::env::split_paths(&prefixes).find(|prefix| {

@@ -199,6 +199,23 @@ fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
     });
 }
 
+/// By them, a baseline tells robots of one file apart.
+#[test]
+fn the_report_has_the_arguments_that_are_declared() {
+    let folder = testkit::temporary::folder();
+    let file = folder.path().join("arm.urdf");
+    fs::write(&file, arm(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
+    let collection = Collection::default();
+    let arguments = vec!["type:=long".to_owned()];
+    collection.add_source("arm".to_owned(), Source { file, packages: Vec::new(), arguments });
+    living(collection, |server| {
+        server.until("arm", |answer| answer["entry"]["ready"] == true);
+        let report = server.json("/robots/arm/report.json");
+        let found = &report["urdds"][0]["xacro_arguments"];
+        assert_eq!(found, &serde_json::json!(["type:=long"]));
+    });
+}
+
 #[test]
 fn meshes_are_followed_and_those_that_are_missing_too() {
     let folder = testkit::temporary::folder();
