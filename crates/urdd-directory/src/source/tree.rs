@@ -92,8 +92,8 @@ impl<T> Tree<T> {
                     utf8: item.utf8,
                 });
             }
-            if listing.entries.len() >= MAX_FILES {
-                listing.cut |= listing.entries.len() > MAX_FILES;
+            if listing.entries.len() > MAX_FILES {
+                listing.cut = true;
                 listing.entries.truncate(MAX_FILES);
                 break;
             }

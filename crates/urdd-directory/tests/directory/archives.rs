@@ -5,7 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use urdd_directory::archive_fault::{ArchiveFault, EntryFault};
+use urdd_directory::limits::MAX_ARCHIVE_BYTES;
 use urdd_directory::listing::EntryKind;
+use urdd_directory::read_error::ReadError;
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 
@@ -46,4 +48,66 @@ fn what_is_no_urdd_is_none_however_it_is_packed() {
         assert_eq!(is_refused, is_odd, "{name}: {error}");
         assert!(is_refused || error == ArchiveFault::NoUrdd, "{name}: {error}");
     }
+}
+
+/// An archive of entries that are not compressed: names, modes and content.
+fn stored(entries: &[(&str, u32, &[u8])]) -> Vec<u8> {
+    let (mut bytes, mut list) = (Vec::new(), Vec::new());
+    let word = |number: usize| u32::try_from(number).unwrap().to_le_bytes();
+    let short = |number: usize| u16::try_from(number).unwrap().to_le_bytes();
+    for (name, mode, content) in entries {
+        let mut crc = flate2::Crc::new();
+        crc.update(content);
+        let size = word(content.len());
+        let common =
+            [&[0; 8][..], &crc.sum().to_le_bytes(), &size, &size, &short(name.len())].concat();
+        let start = word(bytes.len());
+        let head = [&b"PK\x03\x04\x14\0"[..], &common, &[0; 2], name.as_bytes(), content].concat();
+        bytes.extend(head);
+        // Version 3: made by Unix, whose modes are in the upper half of the attributes.
+        let listed =
+            [&b"PK\x01\x02\x14\x03\x14\0"[..], &common, &[0; 8], &(mode << 16).to_le_bytes()];
+        list.extend([&listed.concat()[..], &start, name.as_bytes()].concat());
+    }
+    let (count, size, start) = (short(entries.len()), word(list.len()), word(bytes.len()));
+    let end = [&b"PK\x05\x06\0\0\0\0"[..], &count, &count, &size, &start, &[0; 2]].concat();
+    [bytes, list, end].concat()
+}
+
+const FILE: u32 = 0o100_644;
+
+#[test]
+fn what_an_archive_states_is_not_believed() {
+    let metadata = ("urdd.json", FILE, &b"{}"[..]);
+    let open = |bytes: Vec<u8>| Archive::new("robot", bytes).map(|_| ());
+    assert_eq!(open(stored(&[metadata])), Ok(()));
+    // A link may be as long as a path.
+    for (length, is_read) in [(4096, true), (4097, false)] {
+        let found = open(stored(&[metadata, ("link", 0o120_777, &vec![b'a'; length])]));
+        let is_too_large = matches!(
+            found,
+            Err(ArchiveFault::Entry { fault: EntryFault::TooLarge { limit: 4096, .. }, .. })
+        );
+        assert_eq!((found.is_ok(), is_too_large), (is_read, !is_read), "{length}");
+    }
+    // Another number of entries than there are.
+    let mut bytes = stored(&[metadata]);
+    let end = bytes.len() - 22;
+    (bytes[end + 8], bytes[end + 10]) = (2, 2);
+    assert_eq!(open(bytes), Err(ArchiveFault::Count { stated: 2, listed: 1 }));
+    // The content of a file is the end of an archive without entries that begins there.
+    let end = |start: u8| [&b"PK\x05\x06"[..], &[0; 12], &[start, 0, 0, 0, 0, 0]].concat();
+    assert_eq!(open(stored(&[("a", FILE, &end(32)), metadata])), Ok(()));
+    let other = open(stored(&[("a", FILE, &end(31)), metadata]));
+    assert_eq!(other, Err(ArchiveFault::OtherBytes));
+}
+
+#[test]
+fn an_archive_beyond_the_limit_is_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.zip");
+    // Without its bytes, which are a hole.
+    fs::File::create(&path).unwrap().set_len(MAX_ARCHIVE_BYTES + 1).unwrap();
+    let (size, limit) = (MAX_ARCHIVE_BYTES + 1, MAX_ARCHIVE_BYTES);
+    assert_eq!(Archive::open(&path).err(), Some(ReadError::TooLarge { size, limit }));
 }

@@ -17,6 +17,8 @@ mod outputs;
 mod path;
 mod position;
 mod range;
+mod regular;
+mod root;
 mod source_tree;
 mod string_text;
 mod temporary;

@@ -5,9 +5,13 @@ use std::collections::BTreeMap;
 use std::fs::{self, Permissions};
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use sha2::{Digest, Sha256};
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, OutputError, Target, stage, write};
+use urdd_directory::staging::{Staging, StagingError};
+use urdd_directory::writer::Writer;
 
 /// The three files of a robot.
 fn robot(text: &'static str, replaces: bool) -> Vec<Output<'static>> {
@@ -47,9 +51,14 @@ fn old() -> (tempfile::TempDir, PathBuf) {
 
 /// The hidden folder in a folder.
 fn hidden(out: &Path) -> PathBuf {
-    let hash = Sha256::digest("output");
+    hidden_of(&out.join("output"))
+}
+
+/// The hidden folder beside what is written.
+fn hidden_of(target: &Path) -> PathBuf {
+    let hash = Sha256::digest(target.file_name().unwrap().as_encoded_bytes());
     let hash: String = hash.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-    out.join(format!(".urdd-{hash}"))
+    target.with_file_name(format!(".urdd-{hash}"))
 }
 
 /// What a run leaves that is killed when the first `moved` of its files are in place.
@@ -124,12 +133,20 @@ fn what_is_left_is_not_followed_out_of_the_folder() {
     }
     // Nor through links in the folder.
     let (_folder, out) = old();
-    killed(&out, 0);
+    let workplace = killed(&out, 0);
+    fs::write(workplace.join("ready/meshes/new"), "new").unwrap();
     fs::remove_dir_all(out.join("meshes")).unwrap();
     symlink(secret.path().join("meshes"), out.join("meshes")).unwrap();
     let error = write(Target::Folder(&out), robot("new", true)).unwrap_err();
     assert!(error.to_string().contains("out/meshes: a link is in the way"), "{error}");
     assert_eq!(texts(secret.path()), before);
+    // A link is no old folder, where the folder is gone.
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    fs::create_dir(hidden_of(&out)).unwrap();
+    symlink(secret.path(), hidden_of(&out).join("old")).unwrap();
+    write(Target::Folder(&out), robot("new", true)).unwrap();
+    assert!(!out.is_symlink() && texts(secret.path()) == before);
     // A lock that is a link makes no file elsewhere.
     let (_folder, out) = old();
     let lock = killed(&out, 3).with_extension("lock");
@@ -137,6 +154,64 @@ fn what_is_left_is_not_followed_out_of_the_folder() {
     symlink(secret.path().join("lock"), &lock).unwrap();
     assert!(write(Target::Folder(&out), robot("newer", true)).is_err());
     assert_eq!(texts(secret.path()), before);
+}
+
+#[test]
+fn paths_that_lead_out_pipes_and_metadata_are_refused_and_leave_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let new = folder.path().join("new");
+    let refused = |out: &Path, path: &str| {
+        let files = vec![Output { path: path.into(), bytes: b"", replaces: true }];
+        write(Target::Folder(out), files).unwrap_err()
+    };
+    for path in ["../x", "a/../../x", "/x", "./x"] {
+        let error = refused(&new.join("out"), path);
+        assert!(matches!(error, OutputError::Outside(_)), "{path}: {error}");
+    }
+    for path in ["urdd.json", "a/URDD.JSON"] {
+        let error = refused(&new.join("out"), path);
+        assert!(matches!(error, OutputError::MakesUrdd(_)), "{path}: {error}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    fs::create_dir(&new).unwrap();
+    let made = Command::new("mkfifo").arg(new.join("pipe")).status().unwrap();
+    assert!(made.success());
+    for path in ["pipe", "pipe/x"] {
+        let error = refused(&new, path);
+        assert!(matches!(error, OutputError::InTheWay { .. }), "{path}: {error}");
+    }
+}
+
+#[test]
+fn the_current_folder_and_the_root_are_not_replaced() {
+    let never = Cancellation::default();
+    let current = std::env::current_dir().unwrap();
+    for folder in [&*current, current.parent().unwrap(), Path::new("/")] {
+        let refused = Staging::begin(folder, &never);
+        assert!(matches!(refused, Err(StagingError::Place { .. })), "{folder:?}");
+    }
+    let refused = Staging::begin_inside(Path::new("/"), &never);
+    assert!(matches!(refused, Err(StagingError::Place { .. })));
+}
+
+#[test]
+fn a_urdd_is_not_written_through_links() {
+    let folder = tempfile::tempdir().unwrap();
+    let (root, other) = (folder.path().join("urdd"), folder.path().join("other"));
+    [&root, &other].map(|folder| fs::create_dir(folder).unwrap());
+    fs::write(other.join("mine"), "mine").unwrap();
+    fs::hard_link(other.join("mine"), root.join("hard")).unwrap();
+    symlink(other.join("mine"), root.join("soft")).unwrap();
+    symlink(&other, root.join("folder")).unwrap();
+    let writer = Writer::new(&root);
+    for name in ["hard", "soft"] {
+        writer.file(name, b"new").unwrap();
+        assert_eq!(fs::read_to_string(root.join(name)).unwrap(), "new");
+    }
+    for name in ["folder/mine", "folder/new", "folder/a/b"] {
+        assert!(matches!(writer.file(name, b"new"), Err(StagingError::Link { .. })), "{name}");
+    }
+    assert_eq!(texts(&other), of(&[("mine", "mine")]));
 }
 
 /// The last file cannot be moved: it vanishes after the files were prepared.

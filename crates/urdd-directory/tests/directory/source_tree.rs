@@ -1,6 +1,6 @@
 //! A virtual tree of folders, files and links.
 
-use urdd_directory::limits::MAX_FOLDER_DEPTH;
+use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::source::tree::*;
 
@@ -58,4 +58,24 @@ fn levels_beyond_the_limit_are_not_listed() {
     let folders = listing.entries.iter().filter(|e| e.path.ends_with('d'));
     assert_eq!(folders.count(), MAX_FOLDER_DEPTH);
     assert!(tree(&[&deep]).expect("a tree").file(&deep).is_ok());
+}
+
+#[test]
+fn files_beyond_the_limit_are_not_listed() {
+    let paths: Vec<String> = (0..=MAX_FILES).map(|at| at.to_string()).collect();
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    assert_eq!(tree(&paths).expect("a tree").listing().entries.len(), MAX_FILES);
+}
+
+/// Each link is followed by a link to the one before.
+#[test]
+fn links_that_lead_to_links_are_followed_so_often() {
+    let node = |at: usize| match at {
+        0 => Node::File { size: 1, data: () },
+        _ => Node::Link((at - 1).to_string()),
+    };
+    let items = (0..50).map(|at| Item { path: at.to_string(), utf8: true, node: node(at) });
+    let tree = Tree::new(items.collect()).expect("a tree");
+    assert!(tree.file("40").is_ok());
+    assert!(matches!(tree.file("41"), Err(ReadError::Io(_))));
 }

@@ -13,7 +13,10 @@ fn what_is_left_goes_with_the_next_and_what_is_used_stays() {
     let left = place.path().join("urdd-shown-0123456789abcdef");
     fs::create_dir(&left).unwrap();
     fs::write(left.join("x"), "1").unwrap();
-    let lock = TargetLock::at_once(&left).unwrap().unwrap();
+    // Not ours, though it has a lock file: a shorter number.
+    let short = place.path().join("urdd-shown-0123");
+    fs::create_dir(&short).unwrap();
+    let lock = [&left, &short].map(|folder| TargetLock::at_once(folder).unwrap().unwrap());
     let file = fs::read_dir(place.path()).unwrap().flatten().map(|entry| entry.path());
     let file = file.filter(|file| file.extension().is_some_and(|ending| ending == "lock"));
     let files: Vec<PathBuf> = file.collect();
@@ -26,7 +29,7 @@ fn what_is_left_goes_with_the_next_and_what_is_used_stays() {
     let mine = place.path().join("urdd-mine-0123456789abcdef");
     fs::create_dir(&mine).unwrap();
     let second = Temporary::begin(place.path(), "shown").unwrap();
-    assert!(!left.exists() && others.iter().all(|other| other.exists()));
+    assert!(!left.exists() && short.exists() && others.iter().all(|other| other.exists()));
     drop(second);
     assert!(living.path().join("x").exists() && mine.exists());
     let path = living.path().to_owned();

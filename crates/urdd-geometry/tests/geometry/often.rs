@@ -53,6 +53,25 @@ fn materials_beyond_the_limit_keep_their_triangles() {
     assert!(scene.notes.iter().any(|note| note.code == NoteCode::Assumed));
 }
 
+#[test]
+fn libraries_beyond_the_limit_are_not_asked_for() {
+    let names: Vec<String> = (0..1500).map(|n| format!("{n}.mtl")).collect();
+    let lines: String = names.iter().map(|name| format!("mtllib {name}\n")).collect();
+    for libraries in [lines, format!("mtllib {}\n", names.join(" "))] {
+        let text = format!("{libraries}v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+        let mut asked = 0;
+        let mut fetch = |_: &str| {
+            asked += 1;
+            None
+        };
+        let scene = read(text.as_bytes(), "a.obj", &mut fetch).expect("an OBJ");
+        assert_eq!((scene.triangle_count(), scene.side_files.len()), (1, 1000));
+        // Twice for each line, which may be one name with spaces.
+        assert!(asked <= 2000, "{asked}");
+        assert_eq!(scene.notes.len(), 50);
+    }
+}
+
 /// Each polygon gives as many triangles as it has corners, less two, by ear clipping or as a fan.
 #[test]
 fn many_tangled_polygons_are_cut_within_bounds() {

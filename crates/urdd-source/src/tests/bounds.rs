@@ -275,3 +275,115 @@ fn pairs_of_bodies_with_long_names() {
     assert!(read(&bodies(20)).is_ok());
     refused("r.xml", &in_memory(&[("r.xml", bodies(200).as_bytes())]));
 }
+
+/// An STL of 10,000 triangles.
+fn stl() -> Vec<u8> {
+    let mut bytes = vec![0; 80];
+    bytes.extend(10_000_u32.to_le_bytes());
+    for corner in corners() {
+        if corner.0 % 3 == 0 {
+            bytes.extend([0; 12]);
+        }
+        corner.1.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        if corner.0 % 3 == 2 {
+            bytes.extend([0; 2]);
+        }
+    }
+    bytes
+}
+
+/// The numbers and places of 30,000 corners.
+fn corners() -> impl Iterator<Item = (u32, [f32; 3])> {
+    (0..30_000).map(|at: u32| (at, [at % 97, at % 89, at % 83].map(|x| x as f32)))
+}
+
+/// What is made of one mesh: its points again for each content type, its measures for each scale, a copy for each
+/// primitive that is fitted to it. Of a few it is read.
+#[test]
+fn meshes_that_are_read_measured_and_fitted_very_often() {
+    let mut msh: Vec<u8> =
+        [30_000_u32, 0, 0, 10_000].iter().flat_map(|x| x.to_le_bytes()).collect();
+    msh.extend(corners().flat_map(|(_, corner)| corner).flat_map(f32::to_le_bytes));
+    msh.extend((0..30_000_u32).flat_map(u32::to_le_bytes));
+    let obj =
+        corners().fold(String::new(), |text, (_, [x, y, z])| text + &format!("v {x} {y} {z}\n"));
+    let files = [("a.stl", stl()), ("a.msh", msh), ("a.obj", obj.into_bytes())];
+    let robot = |count: usize, asset: &dyn Fn(usize) -> String, geom: &dyn Fn(usize) -> String| {
+        let [assets, geoms]: [String; 2] = [asset, geom].map(|of| (0..count).map(of).collect());
+        let before = format!("<compiler fitaabb=\"true\"/><asset>{assets}</asset>");
+        mjcf(&before, &format!("<body><geom size=\"1\"/>{geoms}</body>"), "")
+    };
+    let seen = |at: usize| {
+        format!("<geom type=\"mesh\" mesh=\"m{at}\" contype=\"0\" conaffinity=\"0\" mass=\"0\"/>")
+    };
+    let of_type = |kind: &'static str| {
+        move |at: usize| {
+            format!("<mesh name=\"m{at}\" file=\"a.{kind}\" content_type=\"{at}/{kind}\"/>")
+        }
+    };
+    let scaled = |at: usize| format!("<mesh name=\"m{at}\" file=\"a.stl\" scale=\"1 1 {at}.5\"/>");
+    let weighed = |at: usize| format!("<geom type=\"mesh\" mesh=\"m{at}\" mass=\"1\"/>");
+    let first = |at: usize| if at == 0 { scaled(0) } else { String::new() };
+    let fitted = |_: usize| "<geom type=\"box\" mesh=\"m0\" mass=\"1\"/>".to_owned();
+    type Of<'a> = &'a dyn Fn(usize) -> String;
+    let cases: [(&str, usize, Of, Of); 4] = [
+        ("read as MSH", 100, &of_type("msh"), &seen),
+        ("read as OBJ", 100, &of_type("obj"), &seen),
+        ("measured", 100, &scaled, &weighed),
+        ("fitted", 500, &first, &fitted),
+    ];
+    for (what, count, asset, geom) in cases {
+        for (count, is_read) in [(5, true), (count, false)] {
+            let text = robot(count, asset, geom);
+            let own = [("r.xml", text.as_bytes())].into_iter();
+            let all: Vec<_> = own.chain(files.iter().map(|(path, of)| (*path, &**of))).collect();
+            match is_read {
+                true => assert!(import(Path::new("/r.xml"), &in_memory(&all)).is_ok(), "{what}"),
+                false => _ = refused("r.xml", &in_memory(&all)),
+            }
+        }
+    }
+}
+
+#[test]
+fn work_that_grows_with_a_square() {
+    let robot = |count: usize, after: &dyn Fn(usize) -> String, tag: &str| {
+        let bodies: String = (0..count)
+            .map(|at| format!("<body><joint name=\"{at}\"/><geom size=\"1\" contype=\"0\" conaffinity=\"0\"/></body>"))
+            .collect();
+        let after: String = (1..count).map(after).collect();
+        mjcf("", &format!("<body name=\"b\">{bodies}</body>"), &format!("<{tag}>{after}</{tag}>"))
+    };
+    // Each joint follows the one before: whether it leads itself is looked for along all of them.
+    let follows = |at: usize| format!("<joint joint1=\"{at}\" joint2=\"{}\"/>", at - 1);
+    // The mass that each servo moves.
+    let servo = |at: usize| format!("<position joint=\"{at}\" kp=\"1\" dampratio=\"1\"/>");
+    for text in [robot(10_000, &follows, "equality"), robot(5000, &servo, "actuator")] {
+        refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+    }
+    // Which shapes of each pair of bodies collide, by their bits.
+    let geoms: String = (1..=32)
+        .map(|at| format!("<geom size=\"1\" contype=\"{at}\" conaffinity=\"1\"/>"))
+        .collect();
+    let bodies = format!("<body><joint/>{geoms}</body>").repeat(900);
+    let text = mjcf("", &format!("<body name=\"b\"><geom size=\"1\"/>{bodies}</body>"), "");
+    refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+    // What each class around an actuator says of it.
+    let classes: String = (0..30).map(|at| format!("<default class=\"c{at}\">")).collect();
+    let classes = format!("<default>{classes}{}", "</default>".repeat(31));
+    let motors = "<motor joint=\"j\" class=\"c29\"/>".repeat(10_000);
+    let body = "<body><geom size=\"1\"/><body><joint name=\"j\"/><geom size=\"1\"/></body></body>";
+    let text = mjcf(&classes, body, &format!("<actuator>{motors}</actuator>"));
+    refused("r.xml", &in_memory(&[("r.xml", text.as_bytes())]));
+    // Names of files behind a long folder.
+    let folder = long(300_000);
+    let meshes: String =
+        (0..100).map(|at| format!("<mesh name=\"m{at}\" file=\"a.obj\"/>")).collect();
+    let geoms: String =
+        (0..100).map(|at| format!("<geom type=\"mesh\" mesh=\"m{at}\"/>")).collect();
+    let before = format!("<compiler meshdir=\"{folder}\"/><asset>{meshes}</asset>");
+    let text = mjcf(&before, &format!("<body><geom size=\"1\"/>{geoms}</body>"), "");
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    let files = [("r.xml", text.as_bytes()), (&*format!("{folder}/a.obj"), mesh.as_bytes())];
+    refused("r.xml", &in_memory(&files));
+}

@@ -57,6 +57,8 @@ fn what_is_wrong_is_said() {
             "<replicate count=\"1000000000\"><geom size=\"1\"/></replicate>",
             "more would be made of the description",
         ),
+        // Nothing is in it.
+        ("<replicate count=\"1000000000\"/>", "more would be made of the description"),
         ("<attach model=\"x\" prefix=\"y\"/>", "`<attach>` names the model `x`"),
         ("<attach model=\"x\"/>", "`<attach>` needs the attribute `prefix`"),
         ("<include file=\"x.xml\"/>", "`x.xml` was not found"),
@@ -148,6 +150,27 @@ fn models_that_are_attached_are_bounded() {
     let start = Instant::now();
     assert!(refused(attach("0.xml", 10)).contains("more would be made of the description"));
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+    // Each has one of the next one.
+    for level in 0..12 {
+        let next = format!("{}.xml", level + 1);
+        std::fs::write(folder.path().join(format!("{level}.xml")), attach(&next, 1)).unwrap();
+    }
+    std::fs::write(folder.path().join("12.xml"), world("<joint/><geom size=\"1\"/>")).unwrap();
+    assert!(refused(attach("0.xml", 1)).contains("attached in each other, or one to itself"));
+    assert!(of_text(&path, attach("4.xml", 1), None).is_ok());
+    // As deep as one file may be.
+    let deep =
+        |inside: &str| format!("{}{inside}{}", "<frame>".repeat(150), "</frame>".repeat(150));
+    std::fs::write(folder.path().join("deep.xml"), world(&deep("<joint/><geom size=\"1\"/>")))
+        .unwrap();
+    let text = attach("deep.xml", 1)
+        .replace("<attach", "<frame><attach")
+        .replace("</worldbody>", "</frame></worldbody>");
+    assert!(of_text(&path, text, None).is_ok());
+    let text = attach("deep.xml", 1);
+    let text = text.replace("<attach", &format!("{}<attach", "<frame>".repeat(150)));
+    let text = text.replace("</worldbody>", &("</frame>".repeat(150) + "</worldbody>"));
+    assert!(refused(text).contains("nested more than 256 deep"));
     // A body that the model does not have.
     let text = attach("6.xml", 1).replace("<attach ", "<attach body=\"no\" ");
     assert!(refused(text).contains("names the body `no`"));
@@ -167,6 +190,8 @@ fn large_models_take_no_longer_than_they_are_long() {
     let text = world(&wide).replace("<worldbody>", &format!("{defaults}<worldbody>"));
     let model = read(&text).unwrap();
     assert_eq!(model.bodies.len(), 10_021);
+    let is_said = |text: &str| text.contains("bodies have shapes that collide");
+    assert!(model.tally.remarks.iter().any(|remark| is_said(&remark.text)));
     let deep = "<frame>".repeat(300) + &"</frame>".repeat(300);
     assert!(fault(&world(&deep)).contains("levels of nested elements"));
     let many =

@@ -1,6 +1,7 @@
 //! What tinyxml2 reads, as MuJoCo and libsdformat do, is read.
 
-use urdd_xml::{Document, Kind, Mended, parse, parse_leniently};
+use urdd_xml::tinyxml2::{Event, Parser};
+use urdd_xml::{Counted, Document, Kind, MAX_ATTRIBUTES, Mended, parse, parse_leniently};
 
 /// Reads a text, and gives each element with its attributes and text, and where it is in the text.
 fn read(text: &str) -> Result<Vec<String>, String> {
@@ -124,6 +125,30 @@ fn documents_that_are_xml_are_not_touched() {
     let document = parse_leniently(text, "sdf", &mended).expect("a document");
     assert_eq!((document.input_text(), mended.original(7)), (text, 7));
     assert_eq!(mended.size(), 0);
+}
+
+/// What begins like an entity is searched for its end in a few bytes.
+#[test]
+fn entities_that_do_not_end_take_a_moment() {
+    // The last semicolon is too far away.
+    reads("<sdf a='& &#65; &#0000000000065;'/>", &["sdf a=& A &#0000000000065;|"]);
+    let text = format!("<sdf>{}</sdf>", "&".repeat(1 << 18));
+    let start = std::time::Instant::now();
+    assert_eq!(read(&text).expect("a document").len(), 1);
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+}
+
+/// The parser itself counts them: nobody counts again what is read of a text that was counted.
+#[test]
+fn attributes_that_a_document_type_hides_are_bounded() {
+    let attributes = |count: usize| -> String { (0..count).map(|k| format!(" a{k}=''")).collect() };
+    for (count, is_read) in [(MAX_ATTRIBUTES, true), (MAX_ATTRIBUTES + 1, false)] {
+        let text = format!("<!DOCTYPE '><sdf{}/><b a=''/>", attributes(count));
+        let counted = Counted::new(text.as_bytes(), Kind::Other).expect("within the limits");
+        let mut parser = Parser::new(counted.bytes()).expect("a text");
+        assert!(matches!(parser.event(), Ok(Some(Event::Unknown))));
+        assert_eq!(parser.event().is_ok(), is_read, "{count}");
+    }
 }
 
 #[test]

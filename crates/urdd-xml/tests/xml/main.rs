@@ -100,6 +100,14 @@ fn elements_of_a_robot_are_bounded() {
     assert!(parse(&many(MAX_ROBOT_ELEMENTS + 1), Kind::Other).is_ok());
 }
 
+/// Comments and texts are no elements; the parser counts them.
+#[test]
+fn nodes_are_bounded() {
+    let text = format!("<r>{}</r>", "<!---->".repeat(MAX_NODES));
+    let error = result(&text).unwrap_err();
+    assert!(error.ends_with("more than 4000000 elements, texts and comments"), "{error}");
+}
+
 #[test]
 fn entities_are_refused_where_they_are_declared() {
     let error = result("<!DOCTYPE r [\n <!ENTITY a '0'>]><r/>").unwrap_err();

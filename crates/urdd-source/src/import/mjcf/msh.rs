@@ -56,4 +56,16 @@ mod tests {
             assert!(read(&file(counts, words)).is_err(), "{counts:?}");
         }
     }
+
+    #[test]
+    fn faces_are_of_vertices_that_are_there_and_finite() {
+        let with = |place: usize, word: u32| {
+            let mut words = [4, 0, 0, 1].into_iter().chain([0; 15]).collect::<Vec<u32>>();
+            words[4 + place] = word;
+            read(&words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>())
+        };
+        assert!(with(14, 3).is_ok() && with(11, 1.0_f32.to_bits()).is_ok());
+        assert!(with(14, 4).is_err() && with(14, u32::MAX).is_err());
+        assert!(with(11, f32::NAN.to_bits()).is_err() && with(0, f32::INFINITY.to_bits()).is_err());
+    }
 }
