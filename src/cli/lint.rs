@@ -177,7 +177,10 @@ fn write_robots(
                 count += 1;
                 told += &format!("{needs}\n");
             }
-            None => told += &format!("{needs}; no value is known, so write the entry yourself\n"),
+            None => {
+                let words = "no value is known that makes a robot, so write the entry yourself";
+                told += &format!("{needs}; {words}\n");
+            }
         }
     }
     if count > 0 {

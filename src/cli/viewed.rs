@@ -94,7 +94,7 @@ fn add_folder(path: &Path, settings: &Settings, collection: &Collection) -> Resu
     Ok(())
 }
 
-fn add_source(Job { source, name, arguments }: Job, collection: &Collection) {
+fn add_source(Job { source, name, arguments, .. }: Job, collection: &Collection) {
     // The working directory may change later.
     let file = std::path::absolute(&source).unwrap_or(source);
     collection.add_source(name, Source { file, packages: Vec::new(), arguments });

@@ -17,16 +17,20 @@ pub use crate::xacro_argument::XacroArgument;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::read_error::ReadError;
+use urdd_xml::Node;
 use urdd_xml::element::{attribute, name};
 
 /// Maximum number of names of a folder that are looked at, and of values that are suggested.
 const MAX_NAMES: usize = 1000;
-const MAX_VALUES: usize = 100;
+pub(crate) const MAX_VALUES: usize = 100;
 /// Maximum number of launch files, and of bytes of one.
 const MAX_LAUNCHES: usize = 100;
 const MAX_LAUNCH_BYTES: u64 = 1 << 20;
 /// Charged for a path that is looked for.
 const LOOK_UP: usize = 1 << 10;
+/// The elements of xacro itself: all others call macros.
+const OWN: [&str; 9] =
+    ["arg", "attribute", "element", "if", "include", "insert_block", "macro", "property", "unless"];
 
 /// Why the arguments of a file are not known.
 #[derive(Debug, Error)]
@@ -50,7 +54,7 @@ pub fn arguments(file: &Path, settings: &Settings) -> Result<Vec<XacroArgument>,
     let path = settings.files.canonicalize(file).map_err(ReadError::from)?;
     let folder = path.parent().unwrap_or(&path);
     let gate = Gate::of_project(folder, settings);
-    let mut texts = Texts { gate: &gate, found: BTreeMap::new(), named: Vec::new() };
+    let mut texts = Texts::new(&gate);
     let own = FoundMesh { file: path.clone(), place: Place::Own, assumed: None };
     let mut waiting = texts.read(&own, true)?;
     let mut read = BTreeSet::from([path.clone()]);
@@ -64,18 +68,21 @@ pub fn arguments(file: &Path, settings: &Settings) -> Result<Vec<XacroArgument>,
             }
         }
     }
+    texts.resolve()?;
     texts.arguments(&path)
 }
 
 /// The arguments that a file needs, without those that are given as `name:=value`; none if they are not known.
 pub fn needed(file: &Path, settings: &Settings) -> Vec<XacroArgument> {
-    let given = |name: &str| {
-        let mut given = settings.xacro.arguments.iter().filter_map(|one| one.split_once(":="));
-        given.any(|(given, _)| given == name)
-    };
     let mut all = arguments(file, settings).unwrap_or_default();
-    all.retain(|argument| argument.is_needed && !given(&argument.name));
+    all.retain(|argument| argument.is_needed && !is_given(&argument.name, settings));
     all
+}
+
+/// Whether an argument is given as `name:=value`.
+pub(crate) fn is_given(name: &str, settings: &Settings) -> bool {
+    let mut given = settings.xacro.arguments.iter().filter_map(|one| one.split_once(":="));
+    given.any(|(given, _)| given == name)
 }
 
 /// The lines of a settings file that declare the robots of a file, with each value of these arguments.
@@ -111,9 +118,50 @@ struct Texts<'a> {
     found: BTreeMap<String, Found>,
     /// Texts of attributes with arguments, each with the folder of its file.
     named: Vec<(String, PathBuf)>,
+    /// The argument that a property or a parameter of a macro is given; `None` where there are several.
+    aliases: BTreeMap<String, Option<String>>,
+    /// Names of included files with properties or parameters, outside of conditions, each with the folder of its file.
+    computed: Vec<(String, PathBuf)>,
 }
 
-impl Texts<'_> {
+impl<'a> Texts<'a> {
+    fn new(gate: &'a Gate) -> Self {
+        Texts {
+            gate,
+            found: BTreeMap::new(),
+            named: Vec::new(),
+            aliases: BTreeMap::new(),
+            computed: Vec::new(),
+        }
+    }
+
+    /// A property or a parameter, and what it is given.
+    fn alias(&mut self, name: &str, text: &str) -> Result<(), ArgumentsError> {
+        let whole = text.trim().strip_prefix("$(arg ").and_then(|rest| rest.strip_suffix(')'));
+        let Some(argument) = whole.map(str::trim).filter(|one| !one.contains(['$', ')'])) else {
+            return Ok(());
+        };
+        self.gate.account().charge(name.len() + argument.len() + size_of::<Found>())?;
+        let known = self.aliases.entry(name.to_owned());
+        let known = known.or_insert_with(|| Some(argument.to_owned()));
+        known.take_if(|known| *known != argument);
+        Ok(())
+    }
+
+    /// Takes names of included files whose properties and parameters are arguments for texts with these arguments.
+    fn resolve(&mut self) -> Result<(), ArgumentsError> {
+        for (text, folder) in std::mem::take(&mut self.computed) {
+            let Some(whole) = with_arguments(&text, &self.aliases) else { continue };
+            self.gate.account().charge(whole.len() + folder.as_os_str().len())?;
+            for name in used(&whole) {
+                let found = self.found.entry(name.to_owned()).or_default();
+                found.texts.push(self.named.len());
+            }
+            self.named.push((whole, folder));
+        }
+        Ok(())
+    }
+
     /// Reads a file. Returns those that it includes, as far as the text says which.
     fn read(&mut self, file: &FoundMesh, is_own: bool) -> Result<Vec<FoundMesh>, ArgumentsError> {
         let text = self.gate.bytes(file, MAX_SOURCE_BYTES)?;
@@ -135,8 +183,19 @@ impl Texts<'_> {
                     found.default = found.default.take().or(value("default").map(str::to_owned));
                 }
                 ("xacro:include", _, Some(file)) if !file.contains("$(arg") => {
-                    self.gate.account().charge(LOOK_UP)?;
+                    self.gate.account().charge(LOOK_UP + file.len())?;
                     included.extend(self.gate.find_from(file, folder));
+                    if file.contains("${") && !is_conditional(node) {
+                        self.computed.push((file.to_owned(), folder.to_owned()));
+                    }
+                }
+                ("xacro:property", Some(name), _) => {
+                    self.alias(name, value("value").unwrap_or_default())?;
+                }
+                (called, ..) if is_call(called) => {
+                    for given in node.attributes() {
+                        self.alias(given.name(), given.value())?;
+                    }
                 }
                 _ => {}
             }
@@ -295,6 +354,28 @@ impl Texts<'_> {
         }
         all
     }
+}
+
+/// Whether an element of this name calls a macro.
+fn is_call(name: &str) -> bool {
+    name.strip_prefix("xacro:").is_some_and(|own| !OWN.contains(&own))
+}
+
+/// Whether a condition of xacro is around an element.
+fn is_conditional(node: Node) -> bool {
+    node.ancestors().any(|one| matches!(name(one), "xacro:if" | "xacro:unless"))
+}
+
+/// A text with the arguments that its properties and parameters are given; `None` if one is given something else.
+fn with_arguments(text: &str, aliases: &BTreeMap<String, Option<String>>) -> Option<String> {
+    let mut parts = text.split("${");
+    let mut whole = parts.next()?.to_owned();
+    for part in parts {
+        let (alias, rest) = part.split_once('}')?;
+        let argument = aliases.get(alias.trim())?.as_ref()?;
+        whole += &format!("$(arg {argument}){rest}");
+    }
+    Some(whole)
 }
 
 /// The arguments that a text uses.

@@ -27,14 +27,14 @@ pub enum SourceError {
     )]
     NoXacro { file: String },
     #[error("{file}: `xacro` could not expand it: {fault}")]
-    Xacro { file: String, fault: XacroFault },
+    Xacro { file: String, fault: Box<XacroFault> },
     /// It was not expanded, for want of arguments.
     #[error(
         "{}: values are missing for {}; give them as `name:=value`, or declare the robots in urdd.toml (`urdd lint --write-robots`); {fault}",
         escape::line(file),
         Listed(needed)
     )]
-    NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: XacroFault },
+    NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
     /// A description of another format than URDF.
     #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
     Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
@@ -83,9 +83,17 @@ pub struct XacroFault {
     pub package: Option<String>,
 }
 
-impl From<String> for XacroFault {
+impl XacroFault {
+    /// The property that is not defined, where that is what is wrong.
+    pub(crate) fn undefined(&self) -> Option<&str> {
+        let (name, rest) = self.reason.split_once("name '")?.1.split_once('\'')?;
+        rest.starts_with(" is not defined").then_some(name)
+    }
+}
+
+impl From<String> for Box<XacroFault> {
     fn from(reason: String) -> Self {
-        XacroFault { reason, ..XacroFault::default() }
+        Box::new(XacroFault { reason, ..XacroFault::default() })
     }
 }
 

@@ -9,6 +9,7 @@ mod around;
 pub mod beside;
 mod cmake;
 mod cycles;
+mod deciding;
 mod declared;
 mod decode;
 pub mod described;

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::arguments::needed;
+use super::deciding::deciding;
 use super::decode;
-use super::error::{SourceError, XacroFault};
+use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::note::{Note, Remark, SourcePlace};
@@ -163,17 +164,26 @@ fn read(
 fn explained(error: SourceError, path: &Path, settings: &Settings) -> SourceError {
     let (file, fault) = match &error {
         SourceError::Xacro { file, fault } => {
-            let reason = format!("xacro says: {}", fault.reason);
-            (file.clone(), XacroFault { reason, ..fault.clone() })
+            let mut said = fault.clone();
+            said.reason = format!("xacro says: {}", fault.reason);
+            (file.clone(), said)
         }
         SourceError::NoXacro { file } => (file.clone(), error.to_string().into()),
         _ => return error,
     };
-    let needed = needed(path, settings);
-    // With other values another package could be looked for.
+    let text = settings.files.read(path, MAX_SOURCE_BYTES).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let mut needed = needed(path, settings);
+    if needed.is_empty()
+        && let Some(property) = fault.undefined()
+    {
+        needed = deciding(&text, property, settings);
+    }
+    // With other values another package could be looked for, but not where the file names this one.
     let names = |package: &String| {
         let is_of = |default: &String| !default.is_empty() && package.contains(default);
-        needed.iter().any(|argument| argument.default.as_ref().is_none_or(is_of))
+        let is_named = || text.contains(&format!("$(find {package})"));
+        needed.iter().any(|argument| argument.default.as_ref().is_none_or(is_of)) && !is_named()
     };
     match fault.package.as_ref().is_some_and(|package| !names(package)) {
         false if !needed.is_empty() => SourceError::NeedsArguments { file, needed, fault },

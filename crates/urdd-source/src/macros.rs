@@ -83,6 +83,12 @@ pub fn has_no_link(expansion: &str) -> bool {
     read(expansion).is_ok_and(|file| !file.content.has_link)
 }
 
+/// Whether the expansion of a file has no name for the robot, as that of a part for robots.
+pub fn has_no_name(expansion: &str) -> bool {
+    let document = urdd_xml::parse(expansion, urdd_xml::Kind::Robot);
+    document.is_ok_and(|document| !document.root_element().has_attribute("name"))
+}
+
 impl MacroFile {
     /// A text without anything of xacro, which need not be parsed.
     pub fn plain(text: &str) -> Self {

@@ -61,7 +61,8 @@ impl PackageIndex {
                 found.entry(one.name).or_insert((layout, one.folder));
             }
         }
-        for (name, folder) in packages.crawl(&Files::Disk) {
+        let known = packages.known().iter().map(|(name, folder)| (name.clone(), folder.clone()));
+        for (name, folder) in known.chain(packages.crawl(&Files::Disk)) {
             found.entry(name).or_insert((FOUND, folder));
         }
         for (name, (layout, folder)) in found {

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::around::is_broad;
 use super::files::Files;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
@@ -40,6 +42,8 @@ pub enum PackagePathError {
 #[derive(Debug, Clone, Default)]
 pub struct Packages {
     given: BTreeMap<String, PathBuf>,
+    /// Those beside what was given, and those in the folders of a run: they count where none nearer has the name.
+    known: Arc<BTreeMap<String, PathBuf>>,
     ros_package_path: Vec<PathBuf>,
     ament_prefix_path: Vec<PathBuf>,
     model_path: Vec<PathBuf>,
@@ -61,13 +65,14 @@ impl Packages {
         };
         Self {
             given: BTreeMap::new(),
+            known: Arc::default(),
             ros_package_path: paths("ROS_PACKAGE_PATH"),
             ament_prefix_path: paths("AMENT_PREFIX_PATH"),
             model_path: MODEL_PATHS.iter().flat_map(|name| paths(name)).collect(),
         }
     }
 
-    /// Adds `NAME=PATH`. A later entry replaces an earlier one with the same name.
+    /// Adds `NAME=PATH`, and knows the packages beside it. A later entry replaces an earlier one with the same name.
     ///
     /// # Errors
     /// If the argument does not have this form, or the path is not a folder.
@@ -82,8 +87,25 @@ impl Packages {
             let name = name.to_owned();
             return Err(PackagePathError::NoFolder { name, path });
         }
+        let parent = path.canonicalize().ok().and_then(|path| Some(path.parent()?.to_owned()));
+        if let Some(parent) = parent.filter(|parent| !is_broad(parent)) {
+            self.know(beside(&parent));
+        }
         self.put(name, path);
         Ok(())
+    }
+
+    /// Adds packages that count where none nearer has their name.
+    pub fn know(&mut self, packages: impl IntoIterator<Item = (String, PathBuf)>) {
+        let known = Arc::make_mut(&mut self.known);
+        for (name, folder) in packages {
+            known.entry(name).or_insert(folder);
+        }
+    }
+
+    /// Those packages, by name.
+    pub(super) fn known(&self) -> &BTreeMap<String, PathBuf> {
+        &self.known
     }
 
     /// Adds the folder of a package, which is not looked at.
@@ -116,6 +138,7 @@ impl Packages {
             }
             folders.push(folder.join(name));
         }
+        folders.extend(self.known.get(name).cloned());
         for prefix in &self.ament_prefix_path {
             folders.push(prefix.join("share").join(name));
         }
@@ -162,6 +185,15 @@ pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
     let mut elements = document.root_element().children();
     let name = elements.find(|element| element.has_tag_name("name"))?;
     Some(name.text()?.trim().to_owned())
+}
+
+/// The packages right in a folder, by name.
+fn beside(folder: &Path) -> Vec<(String, PathBuf)> {
+    let mut names = Files::Disk.names(folder);
+    names.sort();
+    names.truncate(MOST_NAMES);
+    let folders = names.into_iter().map(|name| folder.join(name));
+    folders.filter_map(|folder| Some((package_name(&folder, &Files::Disk)?, folder))).collect()
 }
 
 /// The packages below the sources of a workspace.

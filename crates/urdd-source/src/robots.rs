@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -30,17 +31,22 @@ pub struct Job {
     pub name: String,
     /// Arguments for xacro that are declared of it, each as `name:=value`.
     pub arguments: Vec<String>,
+    /// The packages in the folders that were searched, by name.
+    pub packages: Arc<BTreeMap<String, PathBuf>>,
 }
 
 impl Job {
     /// A robot that nobody declares.
     pub fn new(source: PathBuf, name: String) -> Self {
-        Job { source, name, arguments: Vec::new() }
+        Job { source, name, arguments: Vec::new(), packages: Arc::default() }
     }
 
     /// The settings to read it with.
     pub fn settings(&self, all: &Settings) -> Settings {
-        all.with_declared(&self.arguments)
+        let mut settings = all.with_declared(&self.arguments);
+        let packages = self.packages.iter().map(|(name, folder)| (name.clone(), folder.clone()));
+        settings.packages.know(packages);
+        settings
     }
 }
 
@@ -214,6 +220,9 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         if is_own { vec![source.into()] } else { robots_of(source, &settings.robots) }
     });
     batch.jobs = named(robots.collect());
+    let packages = packages.into_iter().map(|(name, folder)| (name, resolved(&folder)));
+    let packages: Arc<BTreeMap<String, PathBuf>> = Arc::new(packages.collect());
+    batch.jobs.iter_mut().for_each(|job| job.packages = Arc::clone(&packages));
     Ok(batch)
 }
 
@@ -249,9 +258,8 @@ pub fn jobs(paths: &[PathBuf], settings: &Settings) -> Result<Vec<Job>, BatchErr
 pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
     let names = names(&robots);
     let job = |(robot, name): (Declared, String)| Job {
-        source: robot.source,
-        name,
         arguments: robot.arguments,
+        ..Job::new(robot.source, name)
     };
     robots.into_iter().zip(names).map(job).collect()
 }

@@ -27,6 +27,8 @@ const MAX_WORDS: u64 = 1 << 20;
 /// Maximum number of last lines to report, and of characters in them.
 const MOST_LINES: usize = 3;
 const MOST_CHARACTERS: usize = 1000;
+/// How it begins to say that a file is not well-formed; behind that is advice for all such files.
+const NOT_XML: &str = "XML parsing error: ";
 /// How long to wait for its last output if another process keeps the pipe open.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
@@ -100,7 +102,7 @@ pub(super) fn run(
     watch: Option<&Watch>,
     cancellation: &Cancellation,
 ) -> Result<String, SourceError> {
-    let fails = |fault: XacroFault| SourceError::Xacro { file: shown.to_owned(), fault };
+    let fails = |fault: Box<XacroFault>| SourceError::Xacro { file: shown.to_owned(), fault };
     let failed = |reason: String| fails(reason.into());
     // An absolute path cannot be mistaken for an option.
     let path = path.canonicalize().map_err(|error| failed(error.to_string()))?;
@@ -160,12 +162,13 @@ fn read_beside(
 
 /// What the program says of what is wrong: its own line, with the macros and files around it, or the last lines below a
 /// Python traceback.
-fn fault(words: &[u8], given: &PackageIndex) -> Option<XacroFault> {
+fn fault(words: &[u8], given: &PackageIndex) -> Option<Box<XacroFault>> {
     let words = String::from_utf8_lossy(words);
     let lines: Vec<&str> = words.lines().filter(|line| !line.trim().is_empty()).collect();
-    let own = lines.iter().rposition(|line| line.starts_with("error: "));
-    let stated: Vec<&&str> = match own {
-        Some(own) => lines[own..].iter().take(MOST_LINES + 1).collect(),
+    let states = |line: &&str| line.starts_with("error: ") || line.starts_with(NOT_XML);
+    let is_of_it = |line: &&&str| **line != "Check that:";
+    let stated: Vec<&&str> = match lines.iter().rposition(states) {
+        Some(own) => lines[own..].iter().take_while(is_of_it).take(MOST_LINES + 1).collect(),
         None => lines.iter().rev().take(MOST_LINES).collect(),
     };
     let mut left = MOST_CHARACTERS;
@@ -187,7 +190,7 @@ fn fault(words: &[u8], given: &PackageIndex) -> Option<XacroFault> {
         ),
         None => given.lasting(&reason),
     };
-    Some(XacroFault { reason, further, package })
+    Some(Box::new(XacroFault { reason, further, package }))
 }
 
 /// The name in ament's "package 'NAME' not found".

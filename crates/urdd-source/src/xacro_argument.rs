@@ -14,9 +14,11 @@ pub struct XacroArgument {
     pub name: String,
     /// Its default as it is written.
     pub default: Option<String>,
-    /// Values for which the package has files, else those that a launch file lists.
+    /// Values for which the package has files, else those that a launch file lists; or those for which the file defines a
+    /// property that is missing.
     pub values: Vec<String>,
-    /// Whether a value has to be given: there is no default, the package has no files for it, or xacro does not know it yet.
+    /// Whether a value has to be given: there is no default, the package has no files for it, a property is missing with it,
+    /// or xacro does not know it yet.
     pub is_needed: bool,
     /// Where the file itself declares or uses it first.
     pub at: Option<Position>,

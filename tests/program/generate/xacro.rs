@@ -73,6 +73,12 @@ fn what_the_program_says_is_passed_on() {
         run(folder.path(), "arm.xacro", Some("echo 'no such package: arm' >&2; exit 2"));
     assert_eq!(status, Some(1));
     assert!(said.contains("no such package: arm"), "{said}");
+    // Of a file that is not well-formed, it has advice below that.
+    let not_xml = "echo 'XML parsing error: mismatched tag: line 4, column 2' >&2; echo 'when processing file: p/arm.xacro' >&2
+echo >&2; echo 'Check that:' >&2; echo ' - Your XML is well-formed' >&2; exit 2";
+    let (_, said) = run(folder.path(), "arm.xacro", Some(not_xml));
+    let stated = "could not expand it: XML parsing error: mismatched tag: line 4, column 2; when processing file: p/arm.xacro";
+    assert!(said.contains(stated) && !said.contains("Check that"), "{said}");
 }
 
 /// A URDF that contains the word runs nothing, unless the user asks for it.

@@ -2,8 +2,10 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::arguments::{XacroArgument, arguments};
+use crate::Files;
+use crate::arguments::{ArgumentsError, XacroArgument, arguments};
 use crate::launch::choices;
 use crate::settings::Settings;
 
@@ -79,6 +81,47 @@ fn values_are_those_with_all_files_and_an_argument_without_one_is_needed() {
 }
 
 #[test]
+fn parameters_and_properties_that_are_arguments_name_files_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let main = robot(
+        "<xacro:include filename=\"load.xacro\"/><xacro:arg name=\"title\" default=\"arm\"/>\
+         <xacro:arg name=\"type\" default=\"NONE\"/><xacro:arg name=\"dof\" default=\"7\"/>\
+         <xacro:arg name=\"hand\" default=\"\"/><xacro:property name=\"joints\" value=\"$(arg dof)\"/>\
+         <xacro:load kind=\"$(arg type)\" hand=\"$(arg hand)\" colour=\"$(arg type)\"/>\
+         <xacro:paint colour=\"$(arg hand)\"/>",
+    );
+    let load = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\
+        <xacro:macro name=\"load\" params=\"kind hand colour\">\
+        <xacro:include filename=\"$(find arms)/kinds/${kind}/${joints}dof/${kind}.xacro\"/>\
+        <xacro:if value=\"${hand}\"><xacro:include filename=\"$(find arms)/hands/${hand}.xacro\"/></xacro:if>\
+        <xacro:include filename=\"$(find arms)/hands/${colour}.xacro\"/></xacro:macro></robot>";
+    write(
+        folder.path(),
+        &[
+            ("arms/package.xml", MANIFEST),
+            ("arms/urdf/arm.urdf.xacro", &main),
+            ("arms/urdf/load.xacro", load),
+            ("arms/kinds/long/7dof/long.xacro", ""),
+            ("arms/kinds/short/6dof/short.xacro", ""),
+            ("arms/hands/two.xacro", ""),
+        ],
+    );
+    let row = |name: &str, default: &str, values: &str, is_needed| {
+        (name.to_owned(), Some(default.to_owned()), values.to_owned(), is_needed)
+    };
+    assert_eq!(
+        found(folder.path()),
+        [
+            row("dof", "7", "", false),
+            // What only a condition asks for, and what is given two arguments, is not known.
+            row("hand", "", "", false),
+            row("title", "arm", "arm", true),
+            row("type", "NONE", "long", true),
+        ]
+    );
+}
+
+#[test]
 fn a_file_that_is_no_xml_is_said() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &[("a.xacro", "<robot"), ("b.xacro", "")]);
@@ -106,7 +149,94 @@ fn choices_are_literal_lists_alone() {
         "DeclareLaunchArgument('a', choices=['x' 'y'])",
         "DeclareLaunchArgument('a'), Other(choices=['x'])",
         "DeclareLaunchArgument('a",
+        &format!("DeclareLaunchArgument('a', description='{}', choices=['x'])", "d".repeat(4096)),
     ] {
         assert_eq!(found(text), [], "{text}");
+    }
+}
+
+/// The arguments of a file in memory.
+fn in_memory(file: &str, files: &[(&str, &str)]) -> Result<Vec<XacroArgument>, ArgumentsError> {
+    let files = files.iter().map(|(path, text)| ((*path).to_owned(), Arc::from(text.as_bytes())));
+    let settings = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
+    arguments(&Path::new("/").join(file), &settings)
+}
+
+/// The values that are found for the argument `v` of a file with this content.
+fn values(content: &str, more: &[(&str, &str)]) -> Vec<String> {
+    let main = format!("<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">{content}</robot>");
+    let own = [("arms/package.xml", MANIFEST), ("arms/urdf/a.xacro", &*main)];
+    let found = in_memory("arms/urdf/a.xacro", &[&own, more].concat()).unwrap();
+    found.into_iter().find(|one| one.name == "v").unwrap().values
+}
+
+#[test]
+fn what_is_looked_at_is_bounded() {
+    let use_of = |path: &str| format!("<a b=\"$(find arms)/config/{path}\"/>");
+    let config = |names: &[String]| -> Vec<String> {
+        names.iter().map(|name| format!("arms/config/{name}")).collect()
+    };
+    let files = |paths: &[String]| {
+        values(
+            &use_of("$(arg v).yaml"),
+            &paths.iter().map(|path| (&**path, "")).collect::<Vec<_>>(),
+        )
+    };
+    // At most 100 values, of the first 1000 names.
+    let many: Vec<String> = (0..150).map(|at| format!("{at:03}.yaml")).collect();
+    assert_eq!(files(&config(&many)).len(), 100);
+    let mut many: Vec<String> = (0..1000).map(|at| format!("a{at:03}")).collect();
+    many[999] = "z.yaml".to_owned();
+    assert_eq!(files(&config(&many)), ["z"]);
+    many.push("a999".to_owned());
+    assert!(files(&config(&many)).is_empty());
+    // Long defaults of other arguments are not put in.
+    for (length, count) in [(99, 1), (100, 0)] {
+        let folder = "d".repeat(length);
+        let default = format!("<xacro:arg name=\"d\" default=\"{folder}\"/>");
+        let path = format!("arms/config/{folder}/x.yaml");
+        let found = values(&(default + &use_of("$(arg d)/$(arg v).yaml")), &[(&path, "")]);
+        assert_eq!(found.len(), count, "{length}");
+    }
+    // Launch files: the first 100, and of each at most 1 MiB.
+    let choices = "DeclareLaunchArgument('v', choices=['x'])";
+    let launch = |number: usize, text: &str| {
+        let names: Vec<String> = (0..number).map(|at| format!("arms/launch/{at:03}.py")).collect();
+        let text_of = |at: usize| if at + 1 == number { text } else { "" };
+        let files: Vec<_> =
+            names.iter().enumerate().map(|(at, name)| (&**name, text_of(at))).collect();
+        values("<a b=\"$(arg v)\"/>", &files).len()
+    };
+    assert_eq!([launch(100, choices), launch(101, choices)], [1, 0]);
+    let padded = |length: usize| format!("{choices}{}", " ".repeat(length - choices.len()));
+    assert_eq!([launch(1, &padded(1 << 20)), launch(1, &padded((1 << 20) + 1))], [1, 0]);
+}
+
+/// What is looked for, and made, for arguments is charged. Each of these is within the size of a file.
+#[test]
+fn what_grows_with_a_square_is_charged() {
+    let file = |content: &str| {
+        format!("<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">{content}</robot>")
+    };
+    // A copy of the folder for each text.
+    let folder = "f".repeat(4000);
+    let texts = file(&"<a b=\"$(arg c)\"/>".repeat(70_000));
+    // Each path of a text for each use in it.
+    let paths = file(&format!("<a b=\"{}\"/>", "'$(arg c)'".repeat(1500)));
+    // A copy of a text for each default that is put in.
+    let defaults: String = (0..3000)
+        .map(|at| format!("<xacro:arg name=\"x{at}\" default=\"{}\"/>", "d".repeat(99)))
+        .collect();
+    let others: String = (0..3000).map(|at| format!("$(arg x{at})")).collect();
+    let defaults = file(&format!("{defaults}<a b=\"x/$(arg c){others}\"/>"));
+    // A long path for each name of a folder.
+    let long = file(&format!("<a b=\"names/$(arg c)/{}\"/>", "l".repeat(300_000)));
+    let names: Vec<String> = (0..1000).map(|at| format!("{folder}/names/{at}")).collect();
+    for text in [texts, paths, defaults, long] {
+        let path = format!("{folder}/a.xacro");
+        let names = names.iter().map(|name| (&**name, ""));
+        let files: Vec<_> = [(&*path, &*text)].into_iter().chain(names).collect();
+        let found = in_memory(&path, &files);
+        assert!(matches!(found, Err(ArgumentsError::Overdrawn(_))), "{text:.100}: {found:?}");
     }
 }
