@@ -56,6 +56,7 @@ fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
         "`type` (broken, long, short)",
         "[[robot]] path = \"arms/urdf/arm.urdf.xacro\" args = { type = [\"broken\", \"long\", \"short\"] }",
         "xacro says: error: no file",
+        "1 URDF: 1 not checked.",
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }
@@ -90,6 +91,58 @@ fn where_a_package_is_missing_it_is_said_and_no_argument() {
     let (status, said) = said_of("other_description");
     assert_eq!(status, Some(0), "{said}");
     assert!(said.contains("LNT065"), "{said}");
+    // That of an argument without default could, unless the file names the package.
+    let main = MAIN.replace(" default=\"other\"", "");
+    let file = root.join("arms/urdf/arm.urdf.xacro");
+    fs::write(&file, &main).unwrap();
+    assert_eq!(said_of("hands").0, Some(0));
+    let include = "<xacro:include filename=\"$(find hands)/hand.xacro\"/><link";
+    fs::write(&file, main.replace("<link", include)).unwrap();
+    let (status, said) = said_of("hands");
+    assert_eq!(status, Some(2), "{said}");
+    assert!(!said.contains("LNT065"), "{said}");
+}
+
+#[test]
+fn an_argument_that_decides_whether_a_property_is_there_is_needed() {
+    let folder = package();
+    let root = folder.path();
+    let write = |undefined: &str, default: &str| {
+        let side = |value: &str, property: &str| {
+            format!(
+                "<xacro:if value=\"${{own == '{value}'}}\"><xacro:property name=\"{property}\" value=\"1\"/></xacro:if>"
+            )
+        };
+        let sides = [side("left", "corner"), side("right", "corner"), side("top", "lid")].concat();
+        let main = format!(
+            "<robot name=\"arm\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:arg name=\"side\" default=\"{default}\"/>\n\
+            <xacro:arg name=\"hand\" default=\"no\"/><xacro:property name=\"own\" value=\"$(arg side)\"/>\n{sides}\n\
+            <link name=\"base_${{corner}}\"/></robot>\n"
+        );
+        fs::write(root.join("arms/urdf/arm.urdf.xacro"), main).unwrap();
+        let script = format!(
+            "#!/bin/sh\nfor word; do case \"$word\" in side:=left | side:=right)\n\
+            echo \"<robot name='arm'><link name='base'/></robot>\"; exit 0;; esac; done\n\
+            echo \"error: name '{undefined}' is not defined\" >&2\nexit 2\n"
+        );
+        fs::write(root.join("bin/xacro"), script).unwrap();
+    };
+    write("corner", "");
+    let (status, said) = run(root, &["lint", "arms", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("arm.urdf.xacro:2:1 (argument `side`)"), "{said}");
+    assert!(said.contains("the robot needs `side` (left, right); "), "{said}");
+    run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    let lines = "\n[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { side = [\"left\", \"right\"] }\n";
+    assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap().trim(), lines.trim());
+    fs::remove_file(root.join("urdd.toml")).unwrap();
+    // No argument decides about this one, and the default of this argument defines it.
+    for (undefined, default) in [("edge", ""), ("corner", "left")] {
+        write(undefined, default);
+        let (status, said) = run(root, &["lint", "arms", "--xacro"]);
+        assert_eq!(status, Some(2), "{said}");
+        assert!(!said.contains("LNT065") && said.contains("is not defined"), "{said}");
+    }
 }
 
 #[test]

@@ -23,11 +23,11 @@ fn robot(content: &str) -> String {
     format!("<robot name='r' {XACRO}>{content}</robot>")
 }
 
-/// Runs the program with a xacro that makes a robot of `robot*.xacro`, a robot without links of `thin.xacro`, and fails for
-/// anything else.
+/// Runs the program with a xacro that makes a robot of `robot*.xacro`, a robot without links of `thin.xacro`, one without a
+/// name of `add_on.xacro`, one of `asks.xacro` where the package `far` is found, and fails for anything else.
 fn urdd(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let script = format!(
-        "#!/bin/sh\nfor it in \"$@\"; do case \"$it\" in */robot*.xacro) echo \"{ROBOT}\"; exit 0;; */thin.xacro) echo \"<robot name='t'><gazebo/></robot>\"; exit 0;; esac; done\necho 'error: it failed' >&2; exit 3\n"
+        "#!/bin/sh\nfor it in \"$@\"; do case \"$it\" in */robot*.xacro) echo \"{ROBOT}\"; exit 0;; */thin.xacro) echo \"<robot name='t'><gazebo/></robot>\"; exit 0;; */add_on.xacro) echo \"<robot><link name='a'/></robot>\"; exit 0;; */asks.xacro) IFS=:; for p in $AMENT_PREFIX_PATH; do [ ! -f \"$p/share/far/package.xml\" ] || {{ echo \"{ROBOT}\"; exit 0; }}; done;; esac; done\necho 'error: it failed' >&2; exit 3\n"
     );
     put(folder, "bin/xacro", &script);
     fs::set_permissions(folder.join("bin/xacro"), fs::Permissions::from_mode(0o755)).unwrap();
@@ -123,6 +123,22 @@ fn files_that_are_declared_or_named_are_no_parts() {
 }
 
 #[test]
+fn a_nameless_file_that_another_includes_is_a_part() {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    package(root);
+    put(root, "ws/src/p/urdf/add_on.xacro", &robot("<link name='h'/>"));
+    let lint = ["lint", "--xacro", "ws"];
+    // By itself, its name may have been forgotten.
+    let (status, said, asides) = urdd(root, &lint);
+    assert_eq!(status, Some(1), "{said}{asides}");
+    let uses = robot("<xacro:include filename='add_on.xacro'/><link name='c'/>");
+    put(root, "ws/src/p/urdf/robot_two.xacro", &uses);
+    let (status, said, asides) = urdd(root, &lint);
+    assert!(status == Some(0) && asides.contains("4 files define macros"), "{said}{asides}");
+}
+
+#[test]
 fn a_package_of_macros_alone_has_no_finding_and_nothing_to_make() {
     let folder = testkit::temporary::folder();
     put(folder.path(), "p/a.xacro", &robot("<xacro:macro name='a'><link name='a'/></xacro:macro>"));
@@ -178,4 +194,42 @@ fn a_site_shows_the_robots_that_could_be_made() {
     let names: Vec<&str> =
         robots.as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["robot"]);
+}
+
+#[test]
+fn packages_of_all_folders_that_are_named_are_found_and_those_beside_a_given_one() {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    put(root, "one/package.xml", "<package><name>one</name></package>");
+    put(root, "one/urdf/asks.xacro", &robot("<link name='a'/>"));
+    let mesh =
+        "<collision><geometry><mesh filename='package://far/part.obj'/></geometry></collision>";
+    let text = format!("<robot name='m'><link name='a'>{mesh}</link></robot>");
+    put(root, "one/urdf/meshes.urdf", &text);
+    for name in ["far", "near"] {
+        let text = format!("<package><name>{name}</name></package>");
+        put(root, &format!("two/deep/sources/{name}_of_us/package.xml"), &text);
+    }
+    put(
+        root,
+        "two/deep/sources/far_of_us/part.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n",
+    );
+    put(root, "two/other.urdf", ROBOT);
+    let lint = |paths: &[&str]| {
+        let arguments = [&["lint", "--xacro", "--format", "json"], paths].concat();
+        let (_, said, asides) = urdd(root, &arguments);
+        let report: Value =
+            serde_json::from_str(&said).unwrap_or_else(|_| panic!("{said}{asides}"));
+        let urdds = report["urdds"].as_array().unwrap().clone();
+        let of = |end: &str| {
+            let is_it = |one: &&Value| one["path"].as_str().unwrap().ends_with(end);
+            urdds.iter().find(is_it).unwrap_or_else(|| panic!("{said}")).clone()
+        };
+        let unseen = of("meshes.urdf")["geometry_not_verified"].as_array().map_or(0, Vec::len);
+        (of("asks.xacro")["verdict"] == "unreadable", unseen > 0)
+    };
+    assert_eq!(lint(&["one"]), (true, true));
+    assert_eq!(lint(&["one", "two"]), (false, false));
+    assert_eq!(lint(&["one", "--package", "near=two/deep/sources/near_of_us"]), (false, false));
 }

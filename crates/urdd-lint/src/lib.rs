@@ -57,7 +57,7 @@ use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_source::import::import;
-use urdd_source::macros::has_no_link;
+use urdd_source::macros::{has_no_link, has_no_name};
 use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
 use written::say_where_expanded;
@@ -135,23 +135,15 @@ enum Found {
     Included,
 }
 
-/// Lints a file; `None` for one that turns out to be a part of robots: its expansion has no link, or it has none by itself,
-/// and another file includes it.
+/// Lints a file; `None` for one that turns out to be a part of robots: its expansion has no link; or another file includes it,
+/// and it has no expansion by itself, or one without a name for the robot.
 fn lint_file(
     job: &Job,
     found: Found,
     given: &[PathBuf],
     settings: &LintSettings,
 ) -> Option<Linted> {
-    let with_arguments;
-    let settings = match job.arguments.is_empty() {
-        true => settings,
-        false => {
-            with_arguments =
-                LintSettings { source: job.settings(&settings.source), ..settings.clone() };
-            &with_arguments
-        }
-    };
+    let settings = &LintSettings { source: job.settings(&settings.source), ..settings.clone() };
     let path = job.source.as_path();
     let seen = seen_from(path, given);
     let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
@@ -170,8 +162,12 @@ fn lint_file(
                     let fails = matches!(read, Err(SourceError::Xacro { .. }));
                     is_part = fails && found == Found::Included;
                     let read = read?;
-                    is_part =
-                        found != Found::Named && read.trail.is_some() && has_no_link(&read.text);
+                    let has_no_robot = match found {
+                        Found::Named => false,
+                        Found::InFolder => has_no_link(&read.text),
+                        Found::Included => has_no_link(&read.text) || has_no_name(&read.text),
+                    };
+                    is_part = read.trail.is_some() && has_no_robot;
                     let examined = of_source(path, &read, settings);
                     text = read.trail.is_none().then_some(read.text);
                     examined

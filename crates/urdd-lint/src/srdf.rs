@@ -32,9 +32,9 @@ struct Candidate {
     has_stem: bool,
 }
 
-/// The SRDFs of the robot: each whose file has the URDF's name; or else the only one whose robot has the robot's name, or the
-/// only one there is, beside the only URDF, if most of the names in it are the URDF's. No other URDF beside this one has its
-/// file's name.
+/// The SRDFs of the robot: each whose file has the URDF's name, unless its robot has another URDF's beside it; or else the only
+/// one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
+/// URDF's. No other URDF beside this one has its file's name.
 pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
     urdf.srdfs.all(|| read(urdf))
 }
@@ -46,7 +46,7 @@ fn read(urdf: &Subject) -> Vec<Srdf> {
     let is_only = all.len() == 1 && is_only_urdf;
     let mut found = all;
     found.retain(|one| match has_stem {
-        true => one.has_stem && is_of(urdf, one, true),
+        true => one.has_stem && !names_another(urdf, one) && is_of(urdf, one, true),
         false => !is_of_another_urdf(urdf, &one.path) && is_of(urdf, one, is_only && one.is_own),
     });
     if !has_stem && found.len() > 1 {
@@ -92,6 +92,17 @@ fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
     let named: BTreeSet<&str> = named.map(str::trim).collect();
     let fits = 2 * named.intersection(&known).count() >= named.len();
     fits && (has_name || is_near)
+}
+
+/// Whether the robot of an SRDF, by its name, is that of another URDF beside this one.
+fn names_another(urdf: &Subject, one: &Candidate) -> bool {
+    let Ok(document) = one.srdf.parse() else { return false };
+    let name = document.root_element().attribute("name").unwrap_or_default().trim();
+    let is_own = |name: &str| urdf.root.attribute("name") == Some(name);
+    let wanted = name.to_lowercase();
+    !is_own(name)
+        && wanted != stem(Path::new(urdf.file))
+        && urdfs(urdf).any(|file| stem(Path::new(&file)) == wanted)
 }
 
 /// Whether a URDF beside this one has an SRDF's name.

@@ -69,6 +69,25 @@ pub enum Fault {
 pub(crate) const FORMAT: Fault =
     Fault::ForOthers("the mesh is in a format that the program cannot read");
 
+/// A COLLADA file that only lenient readers of XML read.
+pub(crate) const BEGINS_LATE: Fault =
+    Fault::Mesh("white space is before `<?xml` in the file of the mesh, where XML has none");
+
+/// A link without mass, which Gazebo leaves out.
+pub const MASSLESS: Fault = Fault::Inertia("a link without mass is left out, with all below");
+
+/// The same, and others go with it.
+pub const MASSLESS_WITH_OTHERS: Fault =
+    Fault::Inertia("links without mass are left out, and others are fixed to them or below");
+
+/// A link without a shape is merged into the one above, and has joints below.
+pub(crate) const MERGED: Fault =
+    Fault::Inertia("its inertia goes to the link above, and all below it is lost");
+
+/// A joint mimics one that the program does not have as a joint.
+pub(crate) const FOLLOWS_NONE: Fault =
+    Fault::Other("the joint that it follows is fixed, or left out");
+
 impl Fault {
     pub(crate) fn not_a_number(attribute: &str, text: &str) -> Fault {
         Fault::NotANumber { attribute: attribute.into(), text: text.into() }
@@ -145,6 +164,7 @@ impl Fault {
             Fault::Count { .. } => "write them with single spaces between them",
             Fault::Range { .. } => "write another number",
             Fault::Repeated(_) => "keep one",
+            Fault::NotUnique { name, .. } if name.is_empty() => "give each a name of its own",
             Fault::NotUnique { .. } => "rename one of them, or remove it",
             Fault::Unknown { .. } => "mend the name, or add what it names",
             Fault::Value { .. } => "write one of those that URDF defines",
@@ -158,6 +178,7 @@ impl Fault {
                 "correct the name, or move it to its place"
             }
             Fault::Tree(_) => "give each link but one a joint of which it is the child",
+            fault if *fault == MERGED => "write its inertia in the link above",
             Fault::Inertia(_) => {
                 "write the mass and the inertia of the body, about its centre of mass"
             }
@@ -167,7 +188,14 @@ impl Fault {
                 "export the mesh in another format, or mend its file"
             }
             Fault::Version(_) => "write `1.0`, or remove it",
+            // Another program may need its name.
+            Fault::Name { kind, .. } if kind.starts_with("attribute") => {
+                "rename it, or give these programs a file without it"
+            }
             Fault::Name { .. } => "rename it",
+            fault if *fault == FOLLOWS_NONE => {
+                "let it follow a joint that moves, with a mass in the link below"
+            }
             Fault::Other(_) => "mend it",
         }
     }
@@ -200,6 +228,9 @@ impl fmt::Display for Fault {
                 write!(f, "`{attribute}` is `{text}`, and {rule}")
             }
             Fault::Repeated(element) => write!(f, "another `<{element}>` is there before"),
+            Fault::NotUnique { kind, name } if name.is_empty() => {
+                write!(f, "another {kind} has no name either")
+            }
             Fault::NotUnique { kind, name } => write!(f, "another {kind} is called `{name}`"),
             Fault::Unknown { kind, name } => write!(f, "no {kind} is called `{name}`"),
             Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
@@ -223,7 +254,8 @@ impl fmt::Display for Fault {
             }
             Fault::Version(version) => write!(f, "URDF has no version `{version}`"),
             Fault::Name { kind, name, rule } => {
-                write!(f, "a {kind} is called `{name}`, and {rule}")
+                let a = if kind.starts_with('a') { "an" } else { "a" };
+                write!(f, "{a} {kind} is called `{name}`, and {rule}")
             }
         }
     }

@@ -29,7 +29,7 @@ mod urdfdom;
 mod usd;
 
 pub use effect::{Deed, Effect, Effects};
-pub use fault::Fault;
+pub use fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 pub use file::File;
 pub use mesh::{ColladaFacts, Format, Measures, Mesh, MeshFacts, ObjFacts, StlFacts};
 pub use part::Part;

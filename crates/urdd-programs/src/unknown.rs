@@ -55,6 +55,9 @@ const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newt
 /// Names of attributes that say little of where they belong.
 const COMMON: &[&str] = &["name", "type", "value", "link", "joint", "size", "length", "scale"];
 
+/// The versions of URDF. `<version>` with another text is that of the file.
+const VERSIONS: [&str; 3] = ["1.0", "1.1", "1.2"];
+
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Names {
@@ -194,7 +197,9 @@ impl Finder {
                 self.add(node, &part, name, other.name);
             }
         } else if let Some(like) = meant_attribute(parent, name, known) {
-            self.add(node, &place.part, name, like);
+            if like != "version" || VERSIONS.contains(&node.text().unwrap_or_default().trim()) {
+                self.add(node, &place.part, name, like);
+            }
         } else if without_prefix(name) == name {
             self.wrapped(inside, node, known, place);
         }

@@ -14,6 +14,7 @@ use super::fill::by_reason;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural, unit};
 use super::{programs, summary, unverified};
+use crate::code::Code;
 use crate::skip::SkipReason;
 use urdd_format::report::{
     CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, Place, Report, Skipped, Status,
@@ -51,9 +52,19 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
     write_totals(report, style, out)
 }
 
+/// What is said of a robot that needs arguments.
+const NOT_CHECKED: &str = "not checked";
+
+/// Whether it is a robot that nobody could make: it needs arguments.
+fn needs_arguments(urdd: &Urdd) -> bool {
+    let code = Code::LNT065.as_str();
+    urdd.verdict == Verdict::Pass && urdd.findings.iter().any(|finding| finding.code == code)
+}
+
 /// Writes one URDD; if `brief`, only why it was not fully examined.
 fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
     let verdict = match urdd.verdict {
+        Verdict::Pass if needs_arguments(urdd) => style.paint(YELLOW, NOT_CHECKED),
         Verdict::Pass => style.paint(GREEN, "pass"),
         Verdict::Fail => style.paint(RED, "FAIL"),
         Verdict::Unreadable => style.paint(RED, "UNREADABLE"),
@@ -305,11 +316,13 @@ fn write_programs(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
 
 fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let totals = &report.totals;
+    let not_checked = report.urdds.iter().filter(|urdd| needs_arguments(urdd)).count();
     let verdicts = [
-        (report.count(Verdict::Pass), "passed"),
+        (report.count(Verdict::Pass).saturating_sub(not_checked), "passed"),
         (report.count(Verdict::Fail), "failed"),
         (report.count(Verdict::Unreadable), "unreadable"),
         (report.count(Verdict::Incomplete), "incomplete"),
+        (not_checked, NOT_CHECKED),
     ];
     let some = verdicts.into_iter().filter(|(count, _)| *count > 0);
     let verdicts: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();

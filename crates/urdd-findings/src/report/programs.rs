@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use urdd_format::report::{Deed, Does, ProgramResult, Report, Severity, Urdd};
+use urdd_format::report::{Deed, Does, Place, ProgramResult, Report, Severity, Urdd};
 
 use super::fill;
 use super::words::plural;
@@ -79,6 +79,21 @@ pub(super) fn counts(report: &Report) -> Vec<(&str, [usize; 3])> {
     counts
 }
 
+/// Why a program refuses most of those URDFs that it refuses although no finding says so, and how many.
+pub(super) fn unsaid<'r>(report: &'r Report, name: &str) -> Option<(&'r str, usize)> {
+    let mut reasons: BTreeMap<&str, usize> = BTreeMap::new();
+    for urdd in &report.urdds {
+        let program = urdd.programs.iter().find(|program| program.name == name);
+        let refusing = program.filter(|one| one.does >= Some(Deed::Refuses));
+        let Some(program) = refusing.filter(|one| finding(urdd, one).is_none()) else { continue };
+        let mut effects = program.effects.iter();
+        if let Some(effect) = effects.find(|effect| Some(effect.does) == program.does) {
+            *reasons.entry(&effect.reason).or_default() += 1;
+        }
+    }
+    reasons.into_iter().max_by_key(|(_, count)| *count)
+}
+
 /// What becomes of a file in a program.
 #[derive(PartialEq)]
 enum Outcome {
@@ -104,16 +119,20 @@ fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
     }
 }
 
-/// The finding of it; where there is none, what the program says.
-fn why(urdd: &Urdd, program: &ProgramResult) -> String {
+/// The finding that says why a program does what it does, and its place.
+fn finding<'u>(urdd: &'u Urdd, program: &ProgramResult) -> Option<(&'u str, &'u Place)> {
     // What follows from a finding is among its related places.
-    let places = urdd.findings.iter().flat_map(|finding| {
+    let mut places = urdd.findings.iter().flat_map(|finding| {
         let all = finding.places.iter().flat_map(|place| [place].into_iter().chain(&place.related));
         all.map(move |place| (finding.code.as_str(), place))
     });
     let is_why = |does: &Does| does.program == program.program && Some(does.does) == program.does;
-    let mut of_program = places.filter(|(_, place)| place.programs.iter().any(is_why));
-    if let Some((code, place)) = of_program.next() {
+    places.find(|(_, place)| place.programs.iter().any(is_why))
+}
+
+/// The finding of it; where there is none, what the program says.
+fn why(urdd: &Urdd, program: &ProgramResult) -> String {
+    if let Some((code, place)) = finding(urdd, program) {
         let at = place.line.zip(place.column);
         // A file that the robot's own includes has a name.
         let own = urdd.path.rsplit('/').next();
@@ -176,7 +195,12 @@ impl Outcome {
 impl Lost {
     /// ``the joints `a`, `b`, `c` and 2 more``, ``the mimic of `a` ``, `3 visuals`.
     fn words(&self, kind: &str) -> String {
-        let words = kind.replace('_', " ");
+        let words = match kind {
+            // One of the limits of a joint, while the others are read.
+            "lower" | "upper" | "effort" | "velocity" | "acceleration" | "deceleration"
+            | "jerk" => format!("{kind} limit"),
+            _ => kind.replace('_', " "),
+        };
         if self.names.is_empty() {
             return plural(self.count, &words);
         }

@@ -36,8 +36,9 @@ pub fn columns() -> Vec<&'static str> {
 const ROWS: usize = 60;
 const CAUSES: usize = 10;
 const LESSER: usize = 5;
-/// Maximum length of a URDD's name in the table, in characters.
+/// Maximum length of a URDD's name, in characters; in the table, it may fill a row of this length.
 const NAME: usize = 28;
+const ROW: usize = 80;
 
 /// Writes the table and the causes.
 pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
@@ -83,7 +84,10 @@ fn write_programs(report: &Report, style: Style, out: &mut impl Write) -> fmt::R
     for (name, counts) in counts {
         let some = counts.into_iter().zip(words).filter(|(count, _)| *count > 0);
         let some: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();
-        writeln!(out, "  {name:widest$}  {}", some.join(", "))?;
+        let why = programs::unsaid(report, name);
+        let why = why.map(|(why, count)| format!("; {count}: {}", safe(why))).unwrap_or_default();
+        let line = format!("  {name:widest$}  {}{why}", some.join(", "));
+        writeln!(out, "{}", shorten(&line, style.width))?;
     }
     writeln!(out)
 }
@@ -141,7 +145,7 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
         text += &format!(", {} only by the parts that it names", text_of(cause.borrowed));
     }
     writeln!(out, "    {word} {code} {}: {text}", cause.first.name)?;
-    let urdd = cause.urdds.first().map(|path| shorten(&safe(path), NAME)).unwrap_or_default();
+    let urdd = cause.urdds.first().map(|path| ending(&safe(path), NAME)).unwrap_or_default();
     let example = format!("      {urdd}: {}", safe(&cause.first.message));
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
@@ -193,15 +197,14 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     })
 }
 
-/// The name of a row. What tells robots of one file apart is at the end.
-fn name(urdd: &&Urdd) -> String {
-    let label = urdd.label();
-    let label = safe(&label);
-    let from = label.chars().count().saturating_sub(NAME - 1);
-    match urdd.xacro_arguments.is_empty() || from <= 1 {
-        true => shorten(&label, NAME),
-        false => std::iter::once('…').chain(label.chars().skip(from)).collect(),
+/// A path, or its end: what tells robots of one folder or file apart is there.
+pub fn ending(text: &str, longest: usize) -> String {
+    let length = text.chars().count();
+    if length <= longest {
+        return text.to_owned();
     }
+    let last = text.chars().skip(length - longest.saturating_sub(1));
+    std::iter::once('…').chain(last).collect()
 }
 
 fn shorten(text: &str, longest: usize) -> String {
@@ -223,7 +226,8 @@ fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Resu
     columns.retain(|column| rows.iter().any(|urdd| cell(urdd, column).0 != Cell::Absent));
     if !rows.is_empty() {
         let shown = rows.iter().take(most);
-        let names: Vec<String> = shown.map(name).collect();
+        let longest = NAME.max(ROW.saturating_sub(5 * columns.len()));
+        let names: Vec<String> = shown.map(|urdd| ending(&safe(&urdd.label()), longest)).collect();
         let lengths = names.iter().map(|name| name.chars().count());
         let width = lengths.max().unwrap_or(0).max(4);
         let titles: String = columns.iter().map(|title| format!(" {title:>4}")).collect();

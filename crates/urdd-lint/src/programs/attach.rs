@@ -137,6 +137,8 @@ struct Index {
     by_position: HashMap<Position, Vec<usize>>,
     /// The first of each rule in a link or joint.
     by_subject: HashMap<String, Vec<usize>>,
+    /// Those about a file, by the link and the file's name: rules report a name once in each link.
+    by_file: HashMap<(String, String), Vec<usize>>,
     /// The first of each rule.
     firsts: Vec<usize>,
     /// What `around` gave, by element.
@@ -153,6 +155,11 @@ impl Index {
                     let Some(at) = at(place) else { continue };
                     let here = index.all.len();
                     index.by_position.entry(at).or_default().push(here);
+                    let is_of_file = sees(check.rule.code, &Fault::NotFound("mesh")).is_some();
+                    let file = place.subject.clone().zip(place.actual.clone());
+                    if let Some(file) = file.filter(|_| is_of_file) {
+                        index.by_file.entry(file).or_default().push(here);
+                    }
                     let own = place.subject.as_ref();
                     let part = own.map(|part| index.by_subject.entry(part.clone()).or_default());
                     for firsts in part.into_iter().chain([&mut index.firsts]) {
@@ -204,12 +211,18 @@ impl Index {
             all.extend(inside.flat_map(starts).flat_map(here));
             best(all, Reach::Beside)
         };
+        let of_file = || {
+            let file = node.attribute("filename")?.to_owned();
+            let part = crate::subject::subject(node)?;
+            best(self.by_file.get(&(part, file))?.clone(), Reach::Element)
+        };
         let in_part = || {
             let part = crate::subject::subject(node)?;
             best(self.by_subject.get(&part)?.clone(), Reach::Part)
         };
         best(here(offset).collect(), Reach::Element)
             .or_else(|| best(element.into_iter().flat_map(here).collect(), Reach::Element))
+            .or_else(of_file)
             .or_else(beside)
             .or_else(in_part)
             .or_else(|| best(self.firsts.clone(), Reach::File))

@@ -1,7 +1,7 @@
 //! Which rules see which faults that programs name.
 
 use urdd_findings::code::Code;
-use urdd_programs::Fault;
+use urdd_programs::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 
 /// How far from the fault the finding of a rule may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,6 +27,10 @@ pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
         Fault::Inertia(_) if code == Code::URD011 => Some(Beside),
         // No link has a mass.
         Fault::Inertia(_) if code == Code::LNT006 => Some(File),
+        // A mass that is next to nothing makes no density.
+        Fault::Inertia(_) if code == Code::LNT003 => {
+            [MASSLESS, MASSLESS_WITH_OTHERS].contains(fault).then_some(Part)
+        }
         Fault::Inertia(_) => of_inertia(code).then_some(Part),
         Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
             of_missing(code, name)

@@ -4,8 +4,10 @@ use std::fs;
 
 use super::{linted, written};
 use urdd_findings::programs::NAMES;
+use urdd_findings::report::human;
+use urdd_findings::report::style::Style;
 use urdd_format::report::{Consequence, Deed, Finding, Severity};
-use urdd_lint::LintSettings;
+use urdd_lint::{LintSettings, lint};
 use urdd_programs::Program;
 
 #[test]
@@ -96,6 +98,74 @@ fn found_with(robot: &str, links: &[&str]) -> Vec<Finding> {
 }
 
 #[test]
+fn of_many_urdfs_a_refusal_that_no_finding_says_has_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = "<geometry><mesh filename=\"package://none/a.stl\"/></geometry>";
+    for name in ["a", "b", "c", "d"] {
+        let link = format!("<link name=\"l\"><collision>{mesh}</collision></link>");
+        let text = format!("<robot name=\"{name}\">{link}</robot>");
+        fs::write(folder.path().join(format!("{name}.urdf")), text).unwrap();
+    }
+    let run = lint(&[folder.path().to_owned()], &LintSettings::default()).unwrap();
+    let mut text = String::new();
+    human::write(&run.report, Style { width: 500, ..Style::default() }, &mut text).unwrap();
+    let line = text.lines().find(|line| line.trim().starts_with("MuJoCo 4")).unwrap();
+    assert!(line.contains("4 refused; 4: MuJoCo takes `scheme://` as a folder"), "{text}");
+}
+
+#[test]
+fn a_mass_that_is_next_to_nothing_is_one_finding() {
+    let link = |name: &str, mass: &str| {
+        let inertia =
+            "<inertia ixx=\"1e-9\" ixy=\"0\" ixz=\"0\" iyy=\"1e-9\" iyz=\"0\" izz=\"1e-9\"/>";
+        let inertial = format!("<inertial><mass value=\"{mass}\"/>{inertia}</inertial>");
+        let shape = "<geometry><box size=\"0.1 0.1 0.1\"/></geometry>";
+        format!("<link name=\"{name}\">{inertial}<collision>{shape}</collision></link>")
+    };
+    let ends =
+        "<parent link=\"base\"/><child link=\"arm\"/><origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>";
+    let limit = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"1\"/>";
+    let joint = format!("<joint name=\"turn\" type=\"revolute\">{ends}{limit}</joint>");
+    let parts = link("base", "1") + &link("arm", "1e-6") + &joint;
+    let (_folder, file) = written(&format!("<robot name=\"arm\">{parts}</robot>"));
+    let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+    let density = findings.iter().find(|one| one.code == "LNT003").expect("a density");
+    assert!(density.programs.iter().any(|one| one.program == "sdformat"), "{findings:#?}");
+    assert!(
+        findings.iter().all(|one| !["LNT060", "LNT061"].contains(&&*one.code)),
+        "{findings:#?}"
+    );
+}
+
+#[test]
+fn a_missing_file_that_a_link_names_twice_is_one_finding() {
+    let shape = |kind, file| {
+        format!("<{kind}><geometry><mesh filename=\"file:///{file}\"/></geometry></{kind}>")
+    };
+    let arm = |collision| {
+        let shapes = shape("visual", "no/such.dae") + &shape("collision", collision);
+        let inertia = "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>";
+        let inertial = format!("<inertial><mass value=\"1\"/>{inertia}</inertial>");
+        written(&format!("<robot name=\"arm\"><link name=\"a\">{inertial}{shapes}</link></robot>"))
+    };
+    let found = |collision| {
+        let (_folder, file) = arm(collision);
+        let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+        findings.iter().flat_map(|one| vec![one.code.clone(); one.count.get()]).collect::<Vec<_>>()
+    };
+    assert_eq!(found("no/such.dae"), ["LNT026"]);
+    assert_eq!(found("no/other.dae"), ["LNT026", "LNT026"]);
+}
+
+#[test]
+fn the_version_of_a_file_is_not_that_of_urdf() {
+    assert_eq!(found_with("<version>2025-09-17_13-38-40</version>", &[""]), []);
+    let found = found_with("<version>1.1</version>", &[""]);
+    let [finding] = &found[..] else { panic!("{found:#?}") };
+    assert!(finding.message.contains("`<version>` is where URDF does not have it"));
+}
+
+#[test]
 fn colours_of_one_name_are_about_looks() {
     let material = |color| format!("<material name=\"m\"><color rgba=\"{color}\"/></material>");
     let visual = |color| {
@@ -114,6 +184,8 @@ fn colours_of_one_name_are_about_looks() {
     let nameless = |color| visual(color).replace("name=\"m\"", "name=\"\"");
     let only = &found_with("", &[&nameless("1 0 0 1"), &nameless("0 0 1 1")])[..];
     assert!(only.iter().all(|one| !one.message.contains("ROS")), "{only:#?}");
+    let says = "another material has no name either: PyBullet";
+    assert!(only.iter().any(|one| one.message.starts_with(says)), "{only:#?}");
 }
 
 #[test]
@@ -213,6 +285,11 @@ fn the_line_names_what_is_lost_and_the_versions_of_gazebo() {
     let said = line(&fixed.concat(), &["base", "a", "b", "c", "d", "e"], &["gazebo"]);
     let expected = "Gazebo loads it without the joints `to_a`, `to_b`, `to_c` and 2 more · ";
     assert!(said.starts_with(expected), "{said}");
+    // MuJoCo reads the range of a joint, and no limit of its velocity.
+    let turns = joint("turn", "revolute", ["base", "left"], "");
+    let said = line(&turns, &["base", "left"], &["mujoco"]);
+    assert!(said.starts_with("MuJoCo loads it without "), "{said}");
+    assert!(said.contains("the velocity limit of `turn` · "), "{said}");
     // A name is escaped, and a fixed joint may not have that of its link in later ones.
     let bad = joint("base", "fixed", ["base", "\u{9b}31m"], "");
     let said = line(&bad, &["base", "\u{9b}31m"], &["gazebo"]);

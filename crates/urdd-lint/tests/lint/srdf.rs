@@ -77,6 +77,9 @@ fn srdfs_of_other_robots_are_left_alone() {
     // Several, none of this name: whose they are is not known.
     let several = [("config/a.srdf", &*srdf("arm")), ("config/b.srdf", &*srdf("arm"))];
     assert_eq!(found("urdf/arm.urdf", &several), [""; 0]);
+    // One of the URDF's name, for the robot that another URDF beside it is named after.
+    let variant = [("urdf/arm.srdf", &*srdf("arm_gripper")), ("urdf/arm_gripper.urdf.xacro", ARM)];
+    assert_eq!(found("urdf/arm.urdf", &variant), [""; 0]);
     // One of the URDF's name, whose links are another robot's.
     assert_eq!(found("urdf/arm.urdf", &[("config/arm.srdf", OTHER)]), [""; 0]);
 }

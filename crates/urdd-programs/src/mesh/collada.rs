@@ -19,11 +19,15 @@ pub struct ColladaFacts {
     pub up: String,
     /// The most `<node>` elements around a geometry.
     pub depth: usize,
+    /// Whether white space stands before `<?xml`: assimp and tinyxml2 skip it, strict readers refuse the file.
+    pub begins_late: bool,
 }
 
 pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    let document = urdd_xml::parse(text.trim_start_matches('\u{feff}'), Kind::Lenient).ok()?;
+    let text = std::str::from_utf8(bytes).ok()?.trim_start_matches('\u{feff}');
+    let begins_late = text.trim_start().starts_with("<?xml ") && !text.starts_with('<');
+    let text = if begins_late { text.trim_start() } else { text };
+    let document = urdd_xml::parse(text, Kind::Lenient).ok()?;
     let root = document.root_element();
     let child = |name| root.children().find(|node| node.has_tag_name(name_of(root, name)));
     let asset = child("asset");
@@ -34,6 +38,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
         is_complete: asset.is_some() && child("library_geometries").is_some(),
         meters: unit.unwrap_or(1.0),
         up: up.unwrap_or_default(),
+        begins_late,
         ..ColladaFacts::default()
     };
     let mut open = vec![(root, 0)];

@@ -105,6 +105,11 @@ impl MeshFacts {
         }
     }
 
+    /// Whether it is a COLLADA file that lenient readers of XML alone take, for the white space that it begins with.
+    pub fn begins_late(&self) -> bool {
+        self.collada.as_ref().is_some_and(|collada| collada.begins_late)
+    }
+
     /// Whether neither its ending nor its content is that of STL, OBJ or COLLADA.
     pub fn is_of_no_format(&self) -> bool {
         self.stl.is_none() && self.obj.is_none() && self.collada.is_none()

@@ -135,7 +135,8 @@ impl Reader<'_> {
         self.effort(joint, limit, &part)?;
         for unread in ["velocity", "acceleration", "deceleration", "jerk"] {
             if let Some(found) = limit.attribute(unread) {
-                self.effects.drop(found, &part, Fault::NeverRead(unread.into()));
+                let part = part.inside(unread);
+                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
             }
         }
         Ok(())
@@ -145,7 +146,7 @@ impl Reader<'_> {
         let Some(effort) = self.number(limit, "effort", part)? else { return Ok(()) };
         let Some(value) = limit.attribute("effort") else { return Ok(()) };
         if matches!(joint.kind, "floating" | "spherical") {
-            self.effects.drop(value, part, Fault::NeverRead("effort".into()));
+            self.effects.drop(value, part.inside("effort"), Fault::NeverRead("effort".into()));
         } else if effort == 0.0 || effort.is_nan() {
             let fault = Fault::Way("an `effort` of 0 limits nothing");
             self.effects.read_as(value, part, fault, "no limit");

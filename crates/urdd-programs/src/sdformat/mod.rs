@@ -17,7 +17,7 @@ use self::tree::{Body, Joint, Tree};
 use self::values::{number, vector};
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
+use crate::fault::{FOLLOWS_NONE, Fault};
 use crate::file::File;
 use crate::number::pieces;
 use crate::part::Part;
@@ -279,7 +279,7 @@ fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<
             .iter()
             .any(|body| body.joint.as_ref().is_some_and(|of| release.read(of.name) == name))
         {
-            Fault::Other("the joint that it follows is fixed, or left out")
+            FOLLOWS_NONE
         } else {
             Fault::unknown("joint", name)
         };

@@ -8,7 +8,7 @@ use urdd_format::short::Short;
 use super::inertia::{Inertia, Pose};
 use super::release::Release;
 use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
+use crate::fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 use crate::part::Part;
 use crate::tree::Node;
 use crate::urdfdom::Model;
@@ -232,8 +232,7 @@ impl<'t> Tree<'t> {
         }
         for (body, joint) in self.frames() {
             if !self.bodies[body.owner].is_made {
-                let why = "links without mass are left out, and others are fixed to them or below";
-                return effects.refuse(joint.node, Fault::Inertia(why));
+                return effects.refuse(joint.node, MASSLESS_WITH_OTHERS);
             }
         }
         Ok(())
@@ -267,7 +266,11 @@ impl<'t> Tree<'t> {
             is_reached[index] = true;
             if index == root && body.name == "world" {
                 let fault = Fault::Way("the link `world` is the world, and not part of a robot");
-                effects.drop(body.node, "link/world", fault);
+                // Without anything in it, nothing is lost.
+                match body.node.children().next() {
+                    None => effects.read_as(body.node, "link/world", fault, "the world"),
+                    Some(_) => effects.drop(body.node, "link/world", fault),
+                }
                 continue;
             }
             let above = body.joint.as_ref().is_some_and(|joint| is_gone[joint.parent]);
@@ -311,6 +314,6 @@ impl<'t> Tree<'t> {
 fn without_mass(link: Node<'_>) -> Fault {
     match link.child("inertial") {
         None => Fault::MissingElement("inertial"),
-        Some(_) => Fault::Inertia("a link without mass is left out, with all below"),
+        Some(_) => MASSLESS,
     }
 }

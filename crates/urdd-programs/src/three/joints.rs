@@ -77,7 +77,7 @@ impl<'t> Reader<'_, 't> {
             for unread in ["acceleration", "deceleration", "jerk"] {
                 if let Some(unread) = limit.attribute(unread) {
                     let fault = Fault::NeverRead((&*unread.name).into());
-                    self.effects.drop(unread, &part, fault);
+                    self.effects.drop(unread, part.inside(&*unread.name), fault);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The meshes that it shows.
 
 use super::Reader;
-use crate::fault::{FORMAT, Fault};
+use crate::fault::{BEGINS_LATE, FORMAT, Fault};
 use crate::mesh::{ColladaFacts, Mesh, MeshFacts};
 use crate::part::Part;
 use crate::tree::Node;
@@ -23,6 +23,7 @@ impl<'t> Reader<'_, 't> {
                 Fault::ForOthers("only `package://` names a file that is not beside the URDF")
             }
             Mesh::Missing => Fault::NotFound("mesh"),
+            Mesh::Found(facts) if facts.begins_late() => BEGINS_LATE,
             Mesh::Found(facts) if !is_mesh(&facts, &ending) => {
                 Fault::Mesh("the program cannot read the mesh")
             }
@@ -35,9 +36,13 @@ impl<'t> Reader<'_, 't> {
     pub(super) fn own_colours(&mut self, visual: Node<'t>, form: Node<'t>, part: &Part) {
         let name = form.value("filename").unwrap_or_default().to_ascii_lowercase();
         if form.name().eq_ignore_ascii_case("mesh") && name.ends_with(".dae") {
+            let part = part.inside("material");
             let fault = Fault::Way("a COLLADA mesh keeps its own colours");
-            let material = visual.child("material").unwrap_or(form);
-            self.effects.drop(material, part.inside("material"), fault);
+            match visual.child("material") {
+                Some(material) => self.effects.drop(material, part, fault),
+                // There is none to lose: other meshes would be white.
+                None => self.effects.read_as(form, part, fault, "the colours of the mesh"),
+            }
         }
     }
 }

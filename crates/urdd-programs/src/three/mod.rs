@@ -77,17 +77,24 @@ struct Joint<'t> {
 
 impl<'t> Reader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
+        let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
+        let of_visuals = visuals.flat_map(|visual| named(visual, "material"));
+        let of_visuals: Vec<Node<'t>> = of_visuals.collect();
+        let used: HashSet<&str> = of_visuals.iter().copied().map(name_of).collect();
         for material in named(robot, "material") {
+            let known = self.effects.0.len();
             self.material(material, &Part::of("material", name_of(material)))?;
+            if !used.contains(name_of(material)) {
+                // Nothing shows it.
+                self.effects.0.truncate(known);
+            }
             self.materials.insert(name_of(material), Look::of(material));
         }
-        let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
         let is_white = |material: &Node<'t>| {
             let rgba = material.child("color").and_then(|color| color.value("rgba"));
             rgba.is_some_and(|rgba| rgba.split_whitespace().all(|one| one.parse() == Ok(1.0)))
         };
-        let defined = visuals.flat_map(|visual| named(visual, "material")).filter(is_white);
-        self.whites = defined.map(name_of).collect();
+        self.whites = of_visuals.into_iter().filter(is_white).map(name_of).collect();
         let children = named_as_children(robot);
         let mut links = HashMap::new();
         let mut root: Option<Node<'t>> = None;
@@ -155,17 +162,25 @@ impl<'t> Reader<'_, 't> {
         count: usize,
         part: &Part,
     ) {
-        let (mut found, mut is_whole) = (0, true);
+        let (mut found, mut is_whole, mut are_numbers) = (0, true, true);
+        let mut read = vec![f64::NAN; count];
         for piece in pieces {
+            if let Some(read) = read.get_mut(found) {
+                *read = parse_float(piece);
+            }
             found += 1;
-            is_whole &= piece.parse().is_ok_and(f64::is_finite);
+            let is_number = piece.parse().is_ok_and(f64::is_finite);
+            is_whole &= is_number;
+            are_numbers &= is_number || piece.is_empty();
         }
         if found != count || !is_whole {
-            let fault = match is_whole {
+            // Between two white spaces is an empty piece.
+            let fault = match are_numbers {
                 true => Fault::count(&value.name, count, &value.value),
                 false => Fault::not_a_number(&value.name, &value.value),
             };
-            self.effects.read_as(value, part, fault, "what each begins with, or NaN");
+            let read: Vec<String> = read.iter().map(f64::to_string).collect();
+            self.effects.read_as(value, part, fault, read.join(" "));
         }
     }
 

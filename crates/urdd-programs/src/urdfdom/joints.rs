@@ -82,6 +82,7 @@ impl Reader<'_> {
                 number(needed(limit, name)?)?;
             }
             for unread in FURTHER.iter().filter_map(|name| limit.attribute(name)) {
+                let part = part.inside(&*unread.name);
                 self.effects.drop(unread, part, Fault::NeverRead((&*unread.name).into()));
             }
             return Ok(());

@@ -11,7 +11,7 @@ use joint::{Joint, last};
 
 use crate::about::About;
 use crate::effect::{Effects, Reading};
-use crate::fault::{FORMAT, Fault};
+use crate::fault::{BEGINS_LATE, FORMAT, Fault};
 use crate::file::File;
 use crate::look::Look;
 use crate::mesh::{Mesh, MeshFacts};
@@ -191,7 +191,7 @@ impl<'t> Reader<'_, 't> {
                 for name in ["acceleration", "deceleration", "jerk"] {
                     if let Some(unread) = limit.attribute(name) {
                         let fault = Fault::NeverRead(name.into());
-                        self.effects.drop(unread, &part, fault);
+                        self.effects.drop(unread, part.inside(name), fault);
                     }
                 }
             }
@@ -351,6 +351,7 @@ impl<'t> Reader<'_, 't> {
                 Some(Fault::ForOthers("the name of the mesh is not that of a file"))
             }
             _ if !matches!(&*ending, "stl" | "obj" | "dae") => Some(FORMAT),
+            Mesh::Found(facts) if facts.begins_late() => Some(BEGINS_LATE),
             Mesh::Found(facts) => {
                 let has_faces = match &*ending {
                     "stl" => is_stl(&facts),

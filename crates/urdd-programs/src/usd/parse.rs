@@ -183,8 +183,12 @@ fn names_of_attributes(node: Node<'_>, effects: &mut Effects) -> Reading<()> {
     for attribute in node.attributes() {
         if attribute.name.contains(['-', '.', '{']) {
             let name = attribute.name.rsplit('}').next().unwrap_or_default().into();
+            let kind = match attribute.name.contains('{') {
+                true => "attribute with a prefix",
+                false => "attribute",
+            };
             let rule = "in USD no attribute has a `-`, a `.` or a prefix in its name";
-            return effects.refuse(attribute, Fault::Name { kind: "attribute", name, rule });
+            return effects.refuse(attribute, Fault::Name { kind, name, rule });
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::joint::{Joint, last};
 use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
+use crate::fault::{Fault, MERGED};
 use crate::number::python;
 use crate::part::Part;
 use crate::tree::Node;
@@ -132,8 +132,11 @@ impl<'t> Tree<'t, '_> {
         };
         if let Some(joint) = fixed.find(is_inertia) {
             self.merged.insert(joint.child);
-            let fault =
-                Fault::Inertia("its inertia goes to the link above, and all below it is lost");
+            // The inertia is the same there.
+            let fault = match self.below.contains_key(joint.child) {
+                false => Fault::Way("its inertia goes to the link above, to which it is fixed"),
+                true => MERGED,
+            };
             let at = self.links.get(joint.child).copied().unwrap_or(joint.node);
             effects.drop(at, Part::of("link", joint.child), fault.clone());
             effects.read_as(at, part.inside("inertial"), fault, "that of the link below");

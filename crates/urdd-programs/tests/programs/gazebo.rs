@@ -56,6 +56,12 @@ fn mimics_are_read_from_fourteen_on() {
     let mimic = r#"<mimic joint="j"/>"#;
     let joints = [("j", "fixed", ["base", "a"], ""), ("k", "revolute", ["a", "b"], mimic)];
     assert_eq!(done(&robot(&links, &joints)).map(|(loads, _)| loads), [true, false]);
+    let text = robot(&links, &joints);
+    let counted = Counted::new(text.as_bytes(), Kind::Robot).unwrap();
+    let effects = Program::Jetty.read(&File::new(counted, &|_| Mesh::Missing));
+    let why = effects.0.iter().find(|effect| effect.deed == Deed::Refuses).unwrap();
+    assert_eq!(why.fault.to_string(), "the joint that it follows is fixed, or left out");
+    assert!(why.fault.advice().starts_with("let it follow a joint that moves"));
     let kept =
         r#"<gazebo reference="j"><preserveFixedJoint>1</preserveFixedJoint></gazebo></robot>"#;
     let text = robot(&links, &joints).replace("</robot>", kept);
@@ -110,6 +116,14 @@ fn a_small_mass_is_one_from_fourteen_on() {
     assert_eq!(of("1e-7"), [gone(), parts(true, [])]);
     assert_eq!(of("0"), [gone(), gone()]);
     assert_eq!(of("-1"), [parts(false, []), gone()]);
+}
+
+#[test]
+fn a_link_world_is_lost_only_with_what_is_in_it() {
+    let joints = [("j", "fixed", ["world", "base"], "")];
+    let of = |mass| done(&robot(&[("world", mass), ("base", "1")], &joints));
+    assert_eq!(of(""), [parts(true, []), parts(true, [])]);
+    assert_eq!(of("1").map(|(_, parts)| parts), [["link/world"], ["link/world"]]);
 }
 
 #[test]

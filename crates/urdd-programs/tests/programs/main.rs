@@ -5,6 +5,8 @@ mod gazebo;
 mod meshes;
 mod parts;
 mod table;
+mod three;
+mod usd;
 
 use std::collections::{BTreeMap, BTreeSet};
 

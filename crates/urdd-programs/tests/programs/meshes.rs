@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex};
 
-use urdd_programs::{Mesh, MeshFacts, Program};
+use urdd_programs::{Fault, File, Mesh, MeshFacts, Program};
+use urdd_xml::{Counted, Kind};
 
 use crate::table::folder;
 
@@ -48,4 +49,31 @@ pub fn find(program: Program, file: &str, name: &str) -> Mesh {
         Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
     });
     mesh.clone()
+}
+
+/// Tried in Pinocchio 4.1.0, PyBullet 3.2.7 and pycollada 0.9.3 (of urdf-usd-converter) with a mesh of Doosan's H2017.
+#[test]
+fn white_space_before_the_declaration_loses_a_collada_mesh_to_strict_readers() {
+    let dae = "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\">\
+        <asset/><library_geometries><geometry id=\"g\"><mesh>\
+        <triangles count=\"1\"><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\
+        <library_visual_scenes><visual_scene id=\"s\"><node><instance_geometry url=\"#g\"/></node>\
+        </visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+    let robot = r#"<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0"
+        iyy="1" iyz="0" izz="1"/></inertial><visual><geometry><mesh filename="a.dae"/></geometry></visual></link></robot>"#;
+    let losing = |mesh: &str| {
+        let mesh = Mesh::Found(Arc::new(MeshFacts::of("a.dae", mesh.as_bytes())));
+        let find = |_: &str| mesh.clone();
+        let loses = |program: &Program| {
+            let counted = Counted::new(robot.as_bytes(), Kind::Robot).unwrap();
+            let effects = program.read(&File::new(counted, &find));
+            effects.0.iter().any(|effect| matches!(effect.fault, Fault::Mesh(_)))
+        };
+        let mut all: Vec<&str> =
+            Program::ALL.iter().filter(|one| loses(one)).map(|one| one.id()).collect();
+        all.sort_unstable();
+        all
+    };
+    assert_eq!(losing(dae), [""; 0]);
+    assert_eq!(losing(&format!("\n  {dae}")), ["urdf_loader", "usd"]);
 }

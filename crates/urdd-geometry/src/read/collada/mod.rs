@@ -16,9 +16,10 @@ use document::{Document, child};
 /// Reads a document: adds every geometry of its visual scene where the nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let text = decode(bytes, assembly)?;
-    let xml = urdd_xml::parse(&text, urdd_xml::Kind::Other).map_err(|error| {
-        let line = error.pos().row as usize;
-        let words = error.words(&text);
+    let (above, text) = begun(&text, assembly);
+    let xml = urdd_xml::parse(text, urdd_xml::Kind::Other).map_err(|error| {
+        let line = above + error.pos().row as usize;
+        let words = error.words(text);
         Fault::malformed(format!("not well-formed XML: {words}")).at(|| Place::Line(line))
     })?;
     let root = xml.root_element();
@@ -54,6 +55,19 @@ fn decode<'a>(
         assembly.notes.add(NoteCode::Assumed, "the text is not UTF-8; invalid bytes were replaced");
     }
     Ok(text)
+}
+
+/// The number of lines above the text, and the text. Assimp and PyBullet skip white space before `<?xml`, which XML does not
+/// allow there.
+fn begun<'t>(text: &'t str, assembly: &mut Assembly) -> (usize, &'t str) {
+    let inside = text.trim_start();
+    if inside.len() == text.len() || !inside.starts_with("<?xml ") {
+        return (0, text);
+    }
+    let note = "there is white space before the declaration `<?xml …?>`; it was skipped";
+    assembly.notes.add(NoteCode::Assumed, note);
+    let above = &text[..text.len() - inside.len()];
+    (above.matches('\n').count(), inside)
 }
 
 /// Length of one unit of the document, metres.

@@ -55,6 +55,22 @@ impl File<'_> {
 }
 
 #[test]
+fn white_space_before_the_declaration_is_skipped_and_noted() {
+    let text = PLAIN.text();
+    let scene = load(&format!("  \n{text}")).unwrap();
+    assert_eq!(
+        (bounds(&scene), codes(&scene)),
+        (([0.0; 3], [1.0, 2.0, 3.0]), vec![NoteCode::Assumed])
+    );
+    // Lines are those of the file, and anything else before it is refused.
+    let wrong = text.replace("</scene></COLLADA>", "</scene></WRONG>");
+    let why = load(&format!("\n\n{wrong}")).unwrap_err().to_string();
+    let line = 2 + text.lines().count();
+    assert!(why.contains(&format!("line {line}")), "{why}");
+    assert!(load(&format!("<!-- a -->\n{text}")).is_err());
+}
+
+#[test]
 fn a_tetrahedron_is_read() {
     let scene = PLAIN.load().unwrap();
     assert_eq!(scene.format, Format::Collada);

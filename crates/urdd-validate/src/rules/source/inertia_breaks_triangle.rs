@@ -6,7 +6,7 @@ declare_rule! {
     /// A principal moment of inertia is larger than the sum of the other two.
     ///
     /// No body has such moments. For a flat plate the largest is the sum of the others; for every other
-    /// body it is less. Some simulators refuse the link (MuJoCo, Drake), others simulate an impossible
+    /// body it is less. Some simulators refuse the robot (MuJoCo, Gazebo), others simulate an impossible
     /// body. Most often the numbers were made up, the axes mixed, or the units wrong in some of them
     /// (g mm² for kg m²).
     ///
@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "link `{}`: no body has this inertia; its largest principal moment is larger than the sum of the others by {:.2} %",
             link.name,
-            100.0 * excess(moments)
+            100.0 * beyond(moments)
         );
         Finding::at(&file, pointer, message)
             .expected(format!("at most {least} kg m²"))
@@ -41,6 +41,11 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             .report(findings);
     }
     Some(())
+}
+
+/// By what fraction of the sum of the others the largest of three ascending moments exceeds it.
+pub fn beyond(moments: [f64; 3]) -> f64 {
+    moments[2] / (moments[0] + moments[1]) - 1.0
 }
 
 /// By what fraction of itself the largest of three ascending moments exceeds the sum of the others.

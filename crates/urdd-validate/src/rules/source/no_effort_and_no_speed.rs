@@ -8,8 +8,9 @@ declare_rule! {
     /// move. A joint that follows another is not reported, nor one whose `lower` equals its `upper`,
     /// nor one that leaves the numbers out.
     ///
-    /// Write the joint's real limits into the URDF, or leave both attributes out. Then write the URDD
-    /// again.
+    /// Write the joint's real limits into the URDF; of a joint that no motor drives, such as a
+    /// suspension, what it bears and how fast it moves. ROS refuses a `<limit>` without them. Then write
+    /// the URDD again.
     SRC009 "no-effort-and-no-speed", Warning, clause "6.1.7", since "0.2.0",
     phase References, needs [SourceRobot, Version1],
 }
@@ -32,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "joint `{name}` ({kind}) has effort 0 and velocity 0: by its limits it cannot move"
             );
             Finding::at(&file, format!("/joints/{index}/limit"), message)
-                .expected("the joint's limits, or neither attribute")
+                .expected("the joint's limits, above 0")
                 .actual(format!("joint `{name}`: effort 0, velocity 0"))
                 .report(findings);
         }
