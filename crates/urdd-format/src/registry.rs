@@ -11,7 +11,7 @@ use super::*;
 pub const SPEC_VERSION: &str = "1.0.0";
 
 /// Version of the program and the packages `urdd`, as they state it in what they write. Crates have another.
-pub const PROGRAM_VERSION: &str = "1.2.0";
+pub const PROGRAM_VERSION: &str = "1.3.0";
 
 /// Format family of a (module, version).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
