@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
 
-use super::files::Files;
+use super::files::{Files, is_broad};
 use super::packages::{MOST_NAMES, of_workspace, package_name};
 use urdd_format::escape;
 use urdd_format::nearest::nearest;
@@ -94,14 +94,6 @@ fn workspace(urdf_folder: &Path) -> Option<&Path> {
     let home = std::env::home_dir();
     let above = urdf_folder.ancestors().take_while(|folder| home.as_deref() != Some(*folder));
     above.filter(is_root).last()
-}
-
-/// Whether a folder contains more than robots: the file system root or a folder directly in it, the user's home folder
-/// or a folder that contains it.
-pub(crate) fn is_broad(folder: &Path) -> bool {
-    let depth = folder.components().count();
-    let home = std::env::home_dir().and_then(|home| home.canonicalize().ok());
-    depth <= 2 || home.is_some_and(|home| home.starts_with(folder))
 }
 
 /// The package whose name differs from `name` in case, `-`, `_`, `.` and spaces alone; or one around the URDF that has the file

@@ -286,3 +286,11 @@ fn plain(path: &Path) -> Option<PathBuf> {
     }
     Some(plain)
 }
+
+/// Whether a folder contains more than robots: the file system root or a folder directly in it, the user's home folder
+/// or a folder that contains it.
+pub(crate) fn is_broad(folder: &Path) -> bool {
+    let depth = folder.components().count();
+    let home = std::env::home_dir().and_then(|home| home.canonicalize().ok());
+    depth <= 2 || home.is_some_and(|home| home.starts_with(folder))
+}

@@ -8,8 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::around::is_broad;
-use super::files::Files;
+use super::files::{Files, is_broad};
 use super::import::fault::ImportFault;
 use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};

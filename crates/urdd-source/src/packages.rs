@@ -7,8 +7,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use super::around::is_broad;
-use super::files::Files;
+use super::files::{Files, is_broad};
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;

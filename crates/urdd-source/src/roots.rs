@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::around::{Around, around, is_broad};
-use super::files::Files;
+use super::around::{Around, around};
+use super::files::{Files, is_broad};
 use super::installed::Installed;
 use super::installs;
 use super::packages::{Packages, package_name};

@@ -198,7 +198,7 @@ fn the_current_folder_and_the_root_are_not_replaced() {
 fn a_urdd_is_not_written_through_links() {
     let folder = tempfile::tempdir().unwrap();
     let (root, other) = (folder.path().join("urdd"), folder.path().join("other"));
-    [&root, &other].map(|folder| fs::create_dir(folder).unwrap());
+    [&root, &other].into_iter().for_each(|folder| fs::create_dir(folder).unwrap());
     fs::write(other.join("mine"), "mine").unwrap();
     fs::hard_link(other.join("mine"), root.join("hard")).unwrap();
     symlink(other.join("mine"), root.join("soft")).unwrap();
