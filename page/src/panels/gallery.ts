@@ -194,7 +194,8 @@ class Asker {
   }
 
   watch(card: Card): void {
-    if (this.app.site.mode !== "live") return;
+    // The server has nothing of a robot that was made in the page.
+    if (this.app.site.mode !== "live" || card.entry.here) return;
     this.cards.set(card.element, card);
     this.seen.observe(card.element);
   }
