@@ -14,7 +14,7 @@ use crate::resolve::FoundMesh;
 use crate::roots::Place;
 use crate::settings::Settings;
 pub use crate::xacro_argument::XacroArgument;
-use urdd_directory::account::Overdrawn;
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::read_error::ReadError;
 use urdd_xml::Node;
@@ -137,10 +137,7 @@ impl<'a> Texts<'a> {
 
     /// A property or a parameter, and what it is given.
     fn alias(&mut self, name: &str, text: &str) -> Result<(), ArgumentsError> {
-        let whole = text.trim().strip_prefix("$(arg ").and_then(|rest| rest.strip_suffix(')'));
-        let Some(argument) = whole.map(str::trim).filter(|one| !one.contains(['$', ')'])) else {
-            return Ok(());
-        };
+        let Some(argument) = whole_argument(text) else { return Ok(()) };
         self.gate.account().charge(name.len() + argument.len() + size_of::<Found>())?;
         let known = self.aliases.entry(name.to_owned());
         let known = known.or_insert_with(|| Some(argument.to_owned()));
@@ -151,8 +148,9 @@ impl<'a> Texts<'a> {
     /// Takes names of included files whose properties and parameters are arguments for texts with these arguments.
     fn resolve(&mut self) -> Result<(), ArgumentsError> {
         for (text, folder) in std::mem::take(&mut self.computed) {
-            let Some(whole) = with_arguments(&text, &self.aliases) else { continue };
-            self.gate.account().charge(whole.len() + folder.as_os_str().len())?;
+            let account = self.gate.account();
+            account.charge(folder.as_os_str().len())?;
+            let Some(whole) = with_arguments(&text, &self.aliases, account)? else { continue };
             for name in used(&whole) {
                 let found = self.found.entry(name.to_owned()).or_default();
                 found.texts.push(self.named.len());
@@ -356,6 +354,12 @@ impl<'a> Texts<'a> {
     }
 }
 
+/// The argument that a text is, and nothing else: `$(arg kind)`.
+pub(crate) fn whole_argument(text: &str) -> Option<&str> {
+    let inside = text.trim().strip_prefix("$(arg ")?.strip_suffix(')')?.trim();
+    Some(inside).filter(|name| !name.is_empty() && !name.contains(['$', ')']))
+}
+
 /// Whether an element of this name calls a macro.
 fn is_call(name: &str) -> bool {
     name.strip_prefix("xacro:").is_some_and(|own| !OWN.contains(&own))
@@ -367,15 +371,24 @@ fn is_conditional(node: Node) -> bool {
 }
 
 /// A text with the arguments that its properties and parameters are given; `None` if one is given something else.
-fn with_arguments(text: &str, aliases: &BTreeMap<String, Option<String>>) -> Option<String> {
+fn with_arguments(
+    text: &str,
+    aliases: &BTreeMap<String, Option<String>>,
+    account: &Account,
+) -> Result<Option<String>, Overdrawn> {
     let mut parts = text.split("${");
-    let mut whole = parts.next()?.to_owned();
+    let mut whole = parts.next().unwrap_or_default().to_owned();
     for part in parts {
-        let (alias, rest) = part.split_once('}')?;
-        let argument = aliases.get(alias.trim())?.as_ref()?;
+        let argument =
+            |(alias, rest): (&str, _)| Some((aliases.get(alias.trim())?.as_ref()?, rest));
+        let Some((argument, rest)) = part.split_once('}').and_then(argument) else {
+            return Ok(None);
+        };
+        // A long name may be used often.
+        account.charge(argument.len() + part.len())?;
         whole += &format!("$(arg {argument}){rest}");
     }
-    Some(whole)
+    Ok(Some(whole))
 }
 
 /// The arguments that a text uses.

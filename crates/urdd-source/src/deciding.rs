@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::arguments::{MAX_VALUES, is_given};
+use crate::arguments::{MAX_VALUES, is_given, whole_argument};
 use crate::settings::Settings;
 use crate::xacro_argument::XacroArgument;
 use urdd_directory::position::LineIndex;
@@ -14,17 +14,22 @@ pub(crate) fn deciding(text: &str, property: &str, settings: &Settings) -> Vec<X
     let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Robot) else { return Vec::new() };
     let lines = LineIndex::new(text);
     let mut all: Vec<XacroArgument> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
     let (mut aliases, mut conditions) = (HashMap::new(), Vec::new());
     for node in document.descendants().filter(|node| node.is_element()) {
         let value = |key| attribute(node, key).map(|one| one.value());
         match (name(node), value("name")) {
-            ("xacro:arg", Some(own)) => all.push(XacroArgument {
-                name: own.to_owned(),
-                default: value("default").map(str::to_owned),
-                values: Vec::new(),
-                is_needed: true,
-                at: Some(lines.position(node.range().start)),
-            }),
+            // The first of a name counts, as in xacro.
+            ("xacro:arg", Some(own)) if !places.contains_key(own) => {
+                places.insert(own, all.len());
+                all.push(XacroArgument {
+                    name: own.to_owned(),
+                    default: value("default").map(str::to_owned),
+                    values: Vec::new(),
+                    is_needed: true,
+                    at: Some(lines.position(node.range().start)),
+                });
+            }
             ("xacro:property", Some(own)) => {
                 if let Some(argument) = value("value").and_then(whole_argument) {
                     aliases.insert(own, argument);
@@ -41,10 +46,8 @@ pub(crate) fn deciding(text: &str, property: &str, settings: &Settings) -> Vec<X
             Side::Argument(argument) => Some(argument),
             Side::Property(name) => aliases.get(name).copied(),
         };
-        // The first of a name counts, as in xacro.
-        let Some(argument) = all.iter_mut().find(|one| Some(one.name.as_str()) == argument) else {
-            continue;
-        };
+        let place = argument.and_then(|name| places.get(name));
+        let Some(argument) = place.and_then(|place| all.get_mut(*place)) else { continue };
         let is_new = !argument.values.iter().any(|value| value == literal);
         if is_new && argument.values.len() < MAX_VALUES {
             argument.values.push(literal.to_owned());
@@ -63,12 +66,6 @@ pub(crate) fn deciding(text: &str, property: &str, settings: &Settings) -> Vec<X
 enum Side<'t> {
     Argument(&'t str),
     Property(&'t str),
-}
-
-/// The argument that a text is, and nothing else: `$(arg kind)`.
-fn whole_argument(text: &str) -> Option<&str> {
-    let inside = text.trim().strip_prefix("$(arg ")?.strip_suffix(')')?.trim();
-    inside.chars().all(is_of_name).then_some(inside).filter(|name| !name.is_empty())
 }
 
 fn is_of_name(c: char) -> bool {

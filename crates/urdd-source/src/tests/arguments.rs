@@ -232,7 +232,11 @@ fn what_grows_with_a_square_is_charged() {
     // A long path for each name of a folder.
     let long = file(&format!("<a b=\"names/$(arg c)/{}\"/>", "l".repeat(300_000)));
     let names: Vec<String> = (0..1000).map(|at| format!("{folder}/names/{at}")).collect();
-    for text in [texts, paths, defaults, long] {
+    // A long name for each use of a property in the name of a file.
+    let property = format!("<xacro:property name=\"p\" value=\"$(arg {})\"/>", "n".repeat(200_000));
+    let uses = "${p}".repeat(100_000);
+    let aliases = file(&format!("{property}<xacro:include filename=\"{uses}\"/>"));
+    for text in [texts, paths, defaults, long, aliases] {
         let path = format!("{folder}/a.xacro");
         let names = names.iter().map(|name| (&**name, ""));
         let files: Vec<_> = [(&*path, &*text)].into_iter().chain(names).collect();
