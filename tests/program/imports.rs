@@ -14,7 +14,7 @@ const MARKS: [&str; 2] =
     ["<!-- table: what is carried of each format -->\n", "<!-- end of table -->"];
 
 #[test]
-fn the_page_has_the_table() {
+fn the_page_of_imports_has_the_table() {
     let how = "cargo test --test program imports";
     assert_between("docs/import.md", MARKS, &imported_table(), how);
 }

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::{new_lint_rule, new_rule};
+
 /// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
     ("spec_agrees::the_tables_of_fields", UPDATE),
@@ -41,6 +43,7 @@ const TESTS: &[(&str, &str)] = &[
         "look which is right, the rule or crates/urdd-lint/tests/cases/CODE/invalid.urdf: its rule alone finds something there",
     ),
     ("cases::a_near_miss", "nothing is found in crates/urdd-lint/tests/cases/CODE/near_miss.urdf"),
+    ("cases::near_misses_are_near", "change a few lines of invalid.urdf in near_miss.urdf"),
     (
         "cases::every_code_of_the_family",
         "see the message; list the rule in crates/urdd-lint/src/rules/mod.rs",
@@ -67,17 +70,25 @@ const TESTS: &[(&str, &str)] = &[
     ),
     ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
+    ("carried::the_page", UPDATE),
+    ("imports::the_page", UPDATE),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];
 
 /// The programs that have these tests.
-const PROGRAMS: [&str; 5] = ["conformance", "format", "lint", "program", "rules"];
+const PROGRAMS: [&str; 6] = ["conformance", "export", "format", "lint", "program", "rules"];
 
 const UPDATE: &str = "cargo xtask update, and read what it wrote";
 
 /// Folders and files in which a scaffold leaves a TODO.
-const SCAFFOLDED: &[&str] =
-    &["SPEC.md", "crates/urdd-format/src", "crates/urdd-validate/src/rules", "conformance/cases"];
+const SCAFFOLDED: &[&str] = &[
+    "SPEC.md",
+    "crates/urdd-format/src",
+    new_rule::RULES,
+    new_rule::CASES,
+    new_lint_rule::RULES,
+    new_lint_rule::CASES,
+];
 
 /// Runs every check; returns whether all passed.
 ///

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::new_rule::{CODES, add_code, check_name, next_version, register, severity};
 use crate::source::Edits;
 
-const RULES: &str = "crates/urdd-lint/src/rules";
-const CASES: &str = "crates/urdd-lint/tests/cases";
+pub const RULES: &str = "crates/urdd-lint/src/rules";
+pub const CASES: &str = "crates/urdd-lint/tests/cases";
 /// It also has candidates that were given up, whose codes are not used.
 const EVIDENCE: &str = "benches/evaluation/lint/evidence.md";
 
@@ -37,7 +37,7 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
     Ok(format!(
         "1. Write the rule: {RULES}/{module}.rs.\n\
          2. Write its two cases: {CASES}/{code}/invalid.urdf, in which only it finds something, and near_miss.urdf.\n\
-         3. cargo test --workspace --test lint cases      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)\n\
+         3. cargo test --workspace --test lint cases\n\
          4. cargo xtask update       (writes again what is generated)\n\
          5. cargo xtask check        (says what is left; before you send, .ci/quick runs it)\n"
     ))

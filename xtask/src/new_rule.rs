@@ -6,11 +6,11 @@ use std::path::Path;
 use crate::source::{Edits, camel, with_module};
 
 pub const CODES: &str = "crates/urdd-findings/src/code.rs";
-const RULES: &str = "crates/urdd-validate/src/rules";
+pub const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";
 const CHANGES: &str = "CHANGELOG.md";
-const CASES: &str = "conformance/cases";
+pub const CASES: &str = "conformance/cases";
 const BASES: &str = "tests/rules/bases.rs";
 
 /// Families whose cases need no meshes; they use the small base.

@@ -24,8 +24,9 @@ const GENERATED: &[&str] = &[
 const WRITERS: &[(&str, &[&str])] = &[
     ("rules", &["computed::the_suite_has"]),
     ("conformance", &["cases::the_pages_say"]),
+    ("export", &["carried::the_page"]),
     ("format", &["typescript::", "cpp_types::"]),
-    ("program", &["snapshots::", "spec_agrees::the_tables_of_fields"]),
+    ("program", &["imports::the_page", "snapshots::", "spec_agrees::the_tables_of_fields"]),
 ];
 
 /// Regenerates everything; returns whether that succeeded.

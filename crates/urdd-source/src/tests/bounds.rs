@@ -11,7 +11,7 @@ use crate::import::fault::ImportFault;
 use crate::import::import;
 use crate::settings::Settings;
 
-fn in_memory(files: &[(&str, &[u8])]) -> Settings {
+pub fn in_memory(files: &[(&str, &[u8])]) -> Settings {
     let files = files.iter().map(|(path, bytes)| ((*path).to_owned(), Arc::from(*bytes)));
     let mut settings = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };
     settings.import.body = None;
@@ -19,7 +19,7 @@ fn in_memory(files: &[(&str, &[u8])]) -> Settings {
 }
 
 /// The place at which a description is refused because too much would be made of it.
-fn refused(name: &str, settings: &Settings) -> (u32, u32) {
+pub fn refused(name: &str, settings: &Settings) -> (u32, u32) {
     match import(&Path::new("/").join(name), settings) {
         Err(SourceError::Import { line, column, fault, .. }) => {
             assert!(matches!(*fault, ImportFault::TooMuch(_)), "{fault}");

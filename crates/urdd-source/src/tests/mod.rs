@@ -5,6 +5,7 @@
 
 mod arguments;
 mod bounds;
+mod bounds_of_places;
 mod files;
 mod gate;
 mod mjcf;
