@@ -32,8 +32,53 @@ pub fn collada_rows() -> Vec<Row> {
         assert!(whole.contains(from), "{from}");
         whole.replace(from, to)
     };
+    let deep = |levels: usize| {
+        let (begin, end) = ("<node>".repeat(levels - 1), "</node>".repeat(levels - 1));
+        let inside = r##"<node><instance_geometry url="#g"/></node>"##;
+        collada(&format!("{}{scene}", nodes(&format!("{begin}{inside}{end}"))))
+    };
+    let placed = |transform: &str| {
+        let inside = format!(r##"<node>{transform}<instance_geometry url="#g"/></node>"##);
+        collada(&format!("{}{scene}", nodes(&inside)))
+    };
+    let utf16 = |mark: &str| -> Vec<u8> {
+        format!("{mark}{whole}").encode_utf16().flat_map(u16::to_le_bytes).collect()
+    };
     vec![
         row("collada", "part.dae", whole.clone(), true),
+        row("collada-of-utf-16", "part.dae", utf16("\u{feff}"), true),
+        row("collada-of-utf-16-without-a-mark", "part.dae", utf16(""), false),
+        row("collada-of-200-nodes-in-one-another", "part.dae", deep(200), true),
+        row("collada-of-201-nodes-in-one-another", "part.dae", deep(201), false),
+        row("collada-moved", "part.dae", placed("<translate>1 2 3</translate>"), true),
+        row(
+            "collada-moved-by-two-numbers",
+            "part.dae",
+            placed("<translate>1 2</translate>"),
+            false,
+        ),
+        row("collada-made-flat", "part.dae", placed("<scale>0 0 0</scale>"), false),
+        row(
+            "collada-with-an-offset-of-1024",
+            "part.dae",
+            changed(r#"offset="0""#, r#"offset="1024""#),
+            false,
+        ),
+        row(
+            "collada-without-indices-of-vertices",
+            "part.dae",
+            changed(r#"semantic="VERTEX""#, r#"semantic="NORMAL""#),
+            false,
+        ),
+        row(
+            "collada-of-a-unit-of-0",
+            "part.dae",
+            changed(
+                "<library_geometries>",
+                r#"<asset><unit meter="0"/></asset><library_geometries>"#,
+            ),
+            true,
+        ),
         row("collada-named-stl", "part.stl", whole.clone(), true),
         row("collada-that-names-no-scene", "part.dae", collada(&shown), true),
         row("collada-without-scenes", "part.dae", collada(""), true),
@@ -108,7 +153,55 @@ pub fn gltf_rows() -> Vec<Row> {
         }
         gltf.to_string()
     };
+    let sparse = |accessor: Value| {
+        let mut gltf = gltf();
+        gltf["accessors"] = json!([accessor]);
+        let list = gltf["bufferViews"].as_array_mut().expect("a list");
+        list.push(json!({"buffer": 1, "byteLength": 3}));
+        let list = gltf["buffers"].as_array_mut().expect("a list");
+        // 0, 1, 2, a byte each.
+        let uri = "data:application/octet-stream;base64,AAEC";
+        list.push(json!({"uri": uri, "byteLength": 3}));
+        gltf.to_string()
+    };
+    let indices = json!({"bufferView": 1, "componentType": 5121});
+    let replaced = json!({"count": 3, "indices": indices, "values": {"bufferView": 0}});
     vec![
+        row(
+            "gltf-of-sparse-positions",
+            "part.gltf",
+            sparse(json!({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": replaced})),
+            true,
+        ),
+        row(
+            "gltf-of-positions-without-a-view",
+            "part.gltf",
+            sparse(json!({"componentType": 5126, "count": 3, "type": "VEC3"})),
+            false,
+        ),
+        row(
+            "gltf-that-requires-meshopt",
+            "part.gltf",
+            with("/extensionsRequired", json!(["EXT_meshopt_compression"])),
+            false,
+        ),
+        row(
+            "gltf-that-uses-meshopt",
+            "part.gltf",
+            with("/extensionsUsed", json!(["EXT_meshopt_compression"])),
+            true,
+        ),
+        row(
+            "gltf-of-a-primitive-of-draco",
+            "part.gltf",
+            with(
+                "/meshes/0/primitives/0/extensions",
+                json!({"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}),
+            ),
+            false,
+        ),
+        row("gltf-of-a-fan", "part.gltf", with("/meshes/0/primitives/0/mode", json!(6)), true),
+        row("gltf-of-points", "part.gltf", with("/meshes/0/primitives/0/mode", json!(0)), false),
         row("gltf", "part.gltf", gltf().to_string(), true),
         row("gltf-of-version-1", "part.gltf", with("/asset/version", json!("1.0")), false),
         row("gltf-of-an-empty-scene", "part.gltf", with("/scenes/0", json!({})), false),

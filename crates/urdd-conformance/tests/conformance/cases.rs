@@ -64,16 +64,18 @@ fn cases_are_judged_as_they_say() {
 /// In hundreds, so that a new case does not change them. `URDD_UPDATE=1` writes the number of cases.
 #[test]
 fn the_pages_say_how_much_there_is() {
-    let cases = format!("more than {} cases", suite().cases.len() / 100 * 100);
-    let before = format!("more than {} cases", suite().cases.len() / 100 * 100 - 100);
+    let said = |hundreds: usize| format!("more than {hundreds}00 cases");
+    let hundreds = suite().cases.len() / 100;
+    let cases = said(hundreds);
     let robots = match valid::robots(&suite().data).len() {
         9 => "nine robots",
         others => panic!("{others} robots; the pages say nine"),
     };
     for page in ["README.md", "conformance/README.md"] {
         let mut text = std::fs::read_to_string(repository().join(page)).expect(page);
-        if std::env::var_os("URDD_UPDATE").is_some() && text.contains(&before) {
-            text = text.replace(&before, &cases);
+        if std::env::var_os("URDD_UPDATE").is_some() {
+            let before = (0..hundreds).map(said);
+            text = before.fold(text, |text, before| text.replace(&before, &cases));
             std::fs::write(repository().join(page), &text).expect(page);
         }
         for words in [cases.as_str(), robots] {
