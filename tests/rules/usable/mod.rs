@@ -124,6 +124,12 @@ fn stl_rows() -> Vec<Row> {
         row("stl-as-text", "part.stl", text(&facet("0 1 0")), true),
         row("stl-as-text-in-capitals", "part.stl", text(&facet("0 1 0")).to_uppercase(), true),
         row(
+            "stl-as-text-in-mixed-case",
+            "part.stl",
+            text(&facet("0 1 0")).replace("vertex", "Vertex").replace("endloop", "EndLoop"),
+            true,
+        ),
+        row(
             "stl-as-text-cut-off",
             "part.stl",
             format!("solid part\n{}facet normal 0 0 1\nouter", facet("0 1 0")),
@@ -156,6 +162,18 @@ fn obj_rows() -> Vec<Row> {
         row("obj-of-a-face-before-a-comment", "part.obj", obj("f 1 2 #3"), false),
         row("obj-of-a-face-with-textures", "part.obj", obj("f 1/9/9 2//9 3/9"), true),
         row("obj-of-a-face-in-capitals", "part.obj", obj("F 1 2 3"), false),
+        row(
+            "obj-of-a-vertex-of-two-numbers",
+            "part.obj",
+            "v 0 0 0\nv 1 0\nv 0 1 0\nv 1 1 0\nf 1 3 4\n",
+            true,
+        ),
+        row(
+            "obj-of-a-face-with-a-vertex-of-two-numbers",
+            "part.obj",
+            "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n",
+            false,
+        ),
         row("obj-of-no-number", "part.obj", "v 0 0 0\nv x 0 0\nv 0 1 0\nf 1 2 3\n", false),
         row("obj-without-faces", "part.obj", obj(""), false),
         row("obj-named-so-of-other-words", "part.obj", "a shopping list\n", false),

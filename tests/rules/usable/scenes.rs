@@ -46,6 +46,35 @@ pub fn collada_rows() -> Vec<Row> {
     };
     vec![
         row("collada", "part.dae", whole.clone(), true),
+        row(
+            "collada-with-a-prefix",
+            "part.dae",
+            whole.replace('<', "<c:").replace("<c:/", "</c:").replace("xmlns=", "xmlns:c="),
+            true,
+        ),
+        row(
+            "collada-with-a-fault-that-no-scene-reaches",
+            "part.dae",
+            changed(
+                "</library_geometries>",
+                r##"<geometry id="h"><mesh><triangles count="1"><input semantic="VERTEX" source="#q" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"##,
+            ),
+            true,
+        ),
+        row("collada-without-an-offset", "part.dae", changed(r#" offset="0""#, ""), true),
+        row(
+            "collada-of-four-numbers-each",
+            "part.dae",
+            changed(r#"stride="3""#, r#"stride="4""#)
+                .replace("0 0 0 1 0 0 0 1 0", "0 0 0 9 1 0 0 9 0 1 0 9"),
+            true,
+        ),
+        row(
+            "collada-that-counts-more-positions",
+            "part.dae",
+            changed(r##"source="#n" count="3""##, r##"source="#n" count="9""##),
+            true,
+        ),
         row("collada-of-utf-16", "part.dae", utf16("\u{feff}"), true),
         row("collada-of-utf-16-without-a-mark", "part.dae", utf16(""), false),
         row("collada-of-200-nodes-in-one-another", "part.dae", deep(200), true),
@@ -203,6 +232,10 @@ pub fn gltf_rows() -> Vec<Row> {
         row("gltf-of-a-fan", "part.gltf", with("/meshes/0/primitives/0/mode", json!(6)), true),
         row("gltf-of-points", "part.gltf", with("/meshes/0/primitives/0/mode", json!(0)), false),
         row("gltf", "part.gltf", gltf().to_string(), true),
+        row("gltf-of-version-2-alone", "part.gltf", with("/asset/version", json!("2")), false),
+        row("gltf-of-version-2.1", "part.gltf", with("/asset/version", json!("2.1")), true),
+        row("gltf-of-a-number-as-version", "part.gltf", with("/asset/version", json!(2.0)), false),
+        row("gltf-without-an-asset", "part.gltf", with("/asset", json!(null)), false),
         row("gltf-of-version-1", "part.gltf", with("/asset/version", json!("1.0")), false),
         row("gltf-of-an-empty-scene", "part.gltf", with("/scenes/0", json!({})), false),
         row("gltf-of-a-scene-that-is-not-there", "part.gltf", with("/scene", json!(1)), false),
