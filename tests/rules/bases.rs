@@ -8,7 +8,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
 use crate::shapes::{fits, two_boxes};
-use crate::{Make, canonical, meshes};
+use crate::{Make, canonical, mesh_files, meshes};
 
 /// Name and URDD. Files that several bases share are stored in the first of them.
 pub fn shared() -> Vec<(&'static str, Make)> {
@@ -22,6 +22,7 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("lone_box", base(fits::lone_box)),
         ("named_configurations", base(configured)),
         ("no_shapes", base(meshes::without_shapes)),
+        ("placed_scenes", base(mesh_files::placed_scenes::base)),
         ("two_boxes", base(two_boxes)),
     ]
 }

@@ -3,6 +3,7 @@
 mod bodies;
 mod glb;
 mod originals;
+pub mod placed_scenes;
 mod prism;
 
 use serde_json::{Value, json};
@@ -153,6 +154,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(glb::cases());
     cases.extend(originals::cases());
     cases.extend(prism::cases());
+    cases.extend(placed_scenes::cases());
     cases.extend(bodies::cases());
     cases
 }

@@ -20,7 +20,7 @@ use testkit::fixture::ROOT;
 /// A case whose changes take more than this fraction of its URDD's bytes gets a base of its own.
 const TOO_DIFFERENT: f64 = 0.25;
 /// Below this many bytes, a case never gets its own base.
-const SMALL: usize = 3000;
+const SMALL: usize = 8000;
 
 /// Files by path in `bases/`.
 type Files = BTreeMap<String, Vec<u8>>;

@@ -27,9 +27,16 @@ pub fn difference(old: &Tree, new: &Tree) -> Value {
             push(&mut tree, json!({ "file": name(path), "patch": patch }));
         }
     }
-    for (path, node) in &new.nodes {
+    // Of the root metadata, sizes and hashes of what has changed follow.
+    let (root, others): (Vec<_>, Vec<_>) =
+        new.nodes.iter().partition(|(path, _)| path.as_str() == Some(ROOT));
+    for (path, node) in others.into_iter().chain(root) {
         let Node::File(bytes) = node else { panic!("{path}: a computed case has files alone") };
-        if !same(&tree, new, path) {
+        let mut sealed = tree.clone();
+        if path.as_str() == Some(ROOT) {
+            rehash(&mut sealed, &untrue_entries(new));
+        }
+        if !same(&sealed, new, path) {
             push(
                 &mut tree,
                 match std::str::from_utf8(bytes) {
