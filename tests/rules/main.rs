@@ -11,6 +11,7 @@
 mod bases;
 mod bounds;
 mod chain;
+mod clauses;
 mod computed;
 mod connections;
 mod dof;

@@ -48,6 +48,10 @@ const TESTS: &[(&str, &str)] = &[
         "cases::every_code_of_the_family",
         "see the message; list the rule in crates/urdd-lint/src/rules/mod.rs",
     ),
+    (
+        "clauses::",
+        "say in conformance/clauses which cases decide the statement, or why none can; URDD_UPDATE=1 cargo test --test rules clauses adds the line",
+    ),
     ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
     ("published_schemas::the_committed_schemas", UPDATE),
     (
@@ -147,6 +151,16 @@ pub fn run(root: &Path) -> Result<bool, String> {
         faults => println!("\n{faults} to mend"),
     }
     Ok(faults == 0)
+}
+
+/// Prints what decides the statements of SPEC.md; returns whether each has a line.
+///
+/// # Errors
+/// If cargo cannot be run.
+pub fn clauses(root: &Path) -> Result<bool, String> {
+    let words = ["test", "--locked", "--quiet", "--workspace", "--test", "rules", "clauses::"];
+    let status = cargo(root).args(words).args(["--", "--nocapture"]).status();
+    status.map(|status| status.success()).map_err(|error| format!("cargo cannot be run: {error}"))
 }
 
 /// The cargo that started this program, in the repository.

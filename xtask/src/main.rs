@@ -19,6 +19,9 @@ cargo xtask check
 cargo xtask update
     Writes again what is generated: cases, schemas, annexes of SPEC.md, snapshots, counts, types for Python.
 
+cargo xtask clauses
+    How many statements of SPEC.md cases decide, by chapter; which line of conformance/clauses is missing or wrong.
+
 cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
     Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
     The code is the family and its next free number (such as SRC010); the name states the fault.
@@ -60,6 +63,7 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
     let text = match (command, plain.as_slice()) {
         ("check", []) => return check::run(&root),
         ("update", []) => return update::run(&root),
+        ("clauses", []) => return check::clauses(&root),
         ("new-rule", [code, name]) if code.starts_with("LNT") => {
             if let Some(option) =
                 ["--clause", "--family"].iter().find(|&&name| options.contains_key(name))

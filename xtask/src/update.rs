@@ -22,7 +22,7 @@ const GENERATED: &[&str] = &[
 
 /// The tests that write what they compare with, by program. The cases first: their number appears on the pages.
 const WRITERS: &[(&str, &[&str])] = &[
-    ("rules", &["computed::the_suite_has"]),
+    ("rules", &["computed::the_suite_has", "clauses::"]),
     ("conformance", &["cases::the_pages_say"]),
     ("export", &["carried::the_page"]),
     ("format", &["typescript::", "cpp_types::"]),
