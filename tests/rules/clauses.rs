@@ -11,12 +11,12 @@ const FOLDER: &str = "conformance/clauses";
 /// Between the beginning of a statement and what decides it.
 const BY: &str = " => ";
 /// Why no case decides a statement: the first word behind it.
-const WHY: [&str; 7] =
-    ["means", "example", "producer", "consumer", "elsewhere", "free", "unreadable"];
+const WHY: [&str; 8] =
+    ["means", "example", "producer", "consumer", "elsewhere", "free", "unreadable", "vectors"];
 /// A statement that a case could decide, and none does yet.
 const OPEN: &str = "open";
 /// As many statements have none yet. It only sinks.
-const MOST_OPEN: usize = 752;
+const MOST_OPEN: usize = 647;
 
 /// A statement: the number of its clause, and its text; of a row of a table its cells, with ` / ` between them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -151,7 +151,7 @@ fn every_statement_is_decided_or_said_not_to_be() {
             wrong.push(format!("`{what}` is the beginning of no statement, or of several"));
         }
         let first = by.split([' ', ':']).next().unwrap_or_default();
-        let chapter = what.split('.').next().and_then(|chapter| chapter.parse().ok());
+        let chapter = what.split(['.', ' ']).next().and_then(|chapter| chapter.parse().ok());
         let count = counts.entry(chapter.unwrap_or_default()).or_default();
         count[usize::from(WHY.contains(&first)) + 2 * usize::from(first == OPEN)] += 1;
         if first == OPEN {
