@@ -202,7 +202,7 @@ const NAMED_FILES: &[(&str, &str)] = &[
         "crates/urdd-source/src/described.rs",
         "xacro files of a folder that a person names, and what the gate opens of those that they include; 64 MiB",
     ),
-    ("crates/urdd-source/src/fragments.rs", "descriptions in a folder that a person names; 64 MiB"),
+    ("crates/urdd-source/src/format.rs", "descriptions in a folder that a person names; 64 MiB"),
     ("crates/urdd-source/src/gate.rs", "the gate"),
     ("crates/urdd-source/src/import/imported.rs", "the description itself; 64 MiB"),
     ("crates/urdd-source/src/inspect.rs", "meshes and their side files, for the gate alone"),

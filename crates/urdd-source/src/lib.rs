@@ -18,7 +18,7 @@ mod endings;
 mod error;
 pub mod fault;
 mod files;
-mod fragments;
+mod format;
 pub mod gate;
 pub mod import;
 mod includes;
@@ -56,6 +56,7 @@ pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
 pub use error::{SourceError, XacroFault};
 pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
+pub use format::{Format, format_of, root_of};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile};
 pub use load::{

@@ -7,7 +7,6 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::companions;
-use super::format::Format;
 use super::model::{Geometry, Model};
 use super::options::ImportOptions;
 use super::origin::origin;
@@ -19,6 +18,7 @@ use super::urdf::{UNIT_SPHERE, urdf};
 use super::{mjcf, sdf};
 use crate::error::SourceError;
 use crate::files::{Files, MAX_SOURCE_BYTES};
+use crate::format::{Format, format_of};
 use crate::gate::Gate;
 use crate::load::{Source, load, stem};
 use crate::note::{Note, NoteKind};
@@ -31,9 +31,6 @@ use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_geometry::primitives;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::obj;
-
-/// How many bytes at the start of a file are searched for its outermost element.
-const HEAD: u64 = 1 << 20;
 
 /// What is put behind a name for the file that exports read.
 const SETUP: &str = ".export.toml";
@@ -133,14 +130,6 @@ impl Imported {
         let (file, line, column) = self.places.get(&(kind, name.to_owned()))?;
         Some((file, *line, *column))
     }
-}
-
-/// The format of a file, by the outermost element in the beginning of it; none of a URDF, and of anything else.
-pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
-    let head = files.head(path, HEAD).ok()?;
-    // By its byte order mark, if it has one.
-    let (text, ..) = encoding_rs::UTF_8.decode(&head);
-    Format::of(&text)
 }
 
 /// Imports a description, if it is MJCF or SDF by its content; `None` of anything else, and of what cannot be read.

@@ -4,7 +4,6 @@
 mod companions;
 pub mod fault;
 pub mod features;
-pub mod format;
 mod imported;
 mod mass;
 pub mod mjcf;
@@ -23,4 +22,4 @@ mod tree;
 pub mod unreachable;
 mod urdf;
 
-pub use imported::{Imported, format_of, import, import_whole};
+pub use imported::{Imported, import, import_whole};

@@ -5,8 +5,8 @@ use sha2::{Digest, Sha256};
 use urdd_directory::writer::sha256;
 use urdd_format::registry::PROGRAM_VERSION;
 
-use super::format::Format;
 use super::place::TextFile;
+use crate::format::Format;
 
 /// The value of `x_urdd_imported`: the format, each file with its size and hash, and the importer.
 pub fn origin(format: Format, files: &[TextFile]) -> Value {

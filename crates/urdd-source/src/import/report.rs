@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use urdd_format::carried::{self, How, Part, table};
 
 use super::features::{ALL, Feature, Remark};
-use super::format::Format;
 use super::model::Model;
 use super::place::Place;
 use super::placed::Positions;
+use crate::format::Format;
 use crate::note::{Note, NoteKind};
 
 /// What became of a description.
