@@ -20,7 +20,6 @@ pub mod fault;
 mod files;
 mod format;
 pub mod gate;
-pub mod import;
 mod includes;
 mod inspect;
 mod installed;
@@ -41,7 +40,7 @@ pub mod robots;
 mod roots;
 mod settings;
 mod setup_py;
-mod sniff;
+pub mod sniff;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -54,13 +53,14 @@ mod xacro_argument;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
+pub use decode::decode;
 pub use error::{SourceError, XacroFault};
 pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
 pub use format::{Format, format_of, root_of};
 pub use includes::included;
-pub use inspect::{Inspected, SideFile};
+pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{
-    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,
+    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf, stem,
     well_formed,
 };
 pub use meshes::{MissingMesh, SourceMesh, SourceMeshes};
@@ -68,6 +68,6 @@ pub use named::{NamedMesh, named};
 pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
-pub use settings::Settings;
+pub use settings::{ImportOptions, Settings};
 pub use watch::Trail;
 pub use xacro::{XACRO_TIMEOUT, XacroSettings};

@@ -377,7 +377,7 @@ pub fn well_formed(text: &str) -> (String, u32) {
 }
 
 /// The file name without its extensions, or `robot`.
-pub(crate) fn stem(path: &Path) -> String {
+pub fn stem(path: &Path) -> String {
     match file_type::stem(path) {
         stem if stem.is_empty() => "robot".to_owned(),
         stem => stem,

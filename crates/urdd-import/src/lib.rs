@@ -1,0 +1,28 @@
+//! Internal to urdd; no stability promise.
+//!
+//! Descriptions that are no URDF: MJCF and SDF. A reader of each format makes a [`model::Model`]; from it come a URDF, its
+//! meshes, an SRDF, what exports need, and a report. Files are found and read by the gate of `urdd-source`.
+
+mod companions;
+mod fault;
+mod features;
+mod imported;
+mod mass;
+mod mjcf;
+mod model;
+mod names;
+mod origin;
+mod place;
+mod placed;
+mod refusal;
+pub mod report;
+mod sdf;
+mod solid;
+#[cfg(test)]
+mod tests;
+mod titles;
+mod tree;
+mod unreachable;
+mod urdf;
+
+pub use imported::{Imported, import, import_whole, open};

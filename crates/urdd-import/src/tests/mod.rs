@@ -1,0 +1,12 @@
+//! The tests of this crate.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction, clippy::disallowed_methods)]
+
+mod bounds;
+mod gate;
+mod mjcf;
+mod mjcf_faults;
+mod mjcf_meaning;
+mod mjcf_seen;
+mod sdf;
