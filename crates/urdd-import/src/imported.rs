@@ -4,21 +4,22 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use serde_json::Value;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 
-use super::companions;
 use super::model::{Geometry, Model};
-use super::origin::origin;
 use super::place::TextFile;
-use super::placed::{Placed, Positions, placed};
+use super::refusal::{Placed, Positions, placed};
 use super::report::Report;
 use super::tree::Tree;
 use super::urdf::{UNIT_SPHERE, urdf};
-use super::{mjcf, sdf};
+use super::{companions, mjcf, sdf};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::path::{self, portable};
+use urdd_directory::writer::sha256;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::ConfigurationEdit;
+use urdd_format::registry::PROGRAM_VERSION;
 use urdd_geometry::primitives;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::obj;
@@ -279,5 +280,22 @@ fn written(
         files,
         shown,
         read: Vec::new(),
+    })
+}
+
+/// The value of `x_urdd_imported`: the format, each file with its size and hash, and the importer.
+pub fn origin(format: Format, files: &[TextFile]) -> Value {
+    let entry = |file: &TextFile| {
+        let name = file.shown.rsplit(['/', '\\']).next().unwrap_or_default();
+        json!({
+            "name": name,
+            "size": file.bytes.len(),
+            "sha256": sha256(&Sha256::digest(&file.bytes)).as_str(),
+        })
+    };
+    json!({
+        "format": format.name(),
+        "files": files.iter().map(entry).collect::<Vec<_>>(),
+        "importer": format!("urdd {PROGRAM_VERSION}"),
     })
 }

@@ -11,18 +11,13 @@ mod mass;
 mod mjcf;
 mod model;
 mod names;
-mod origin;
 mod place;
-mod placed;
 mod refusal;
 pub mod report;
 mod sdf;
-mod solid;
 #[cfg(test)]
 mod tests;
-mod titles;
 mod tree;
-mod unreachable;
 mod urdf;
 
 pub use imported::{Imported, import, import_whole, open};

@@ -3,13 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::fault::ImportFault;
-use super::unreachable::Unreachable;
-use urdd_source::FoundMesh;
-use urdd_source::MAX_SOURCE_BYTES;
-use urdd_source::SourceError;
-use urdd_source::decode;
+use super::fault::{ImportFault, Unreachable};
 use urdd_source::gate::Gate;
+use urdd_source::{FoundMesh, MAX_SOURCE_BYTES, SourceError, decode};
 
 /// What a file costs, bytes, and each byte of its text: bytes, text, document and elements.
 const FILE: usize = 20_000;

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use urdd_format::carried::{self, How, Part, table};
-
 use super::features::{ALL, Feature, Remark};
 use super::model::Model;
 use super::place::Place;
-use super::placed::Positions;
+use super::refusal::Positions;
+use urdd_format::carried::{self, How, Part, table};
 use urdd_source::Format;
 use urdd_source::note::{Note, NoteKind};
 

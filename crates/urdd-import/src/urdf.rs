@@ -1,16 +1,16 @@
 //! Writes the URDF of a [`Model`].
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3};
-use urdd_directory::account::{Account, Overdrawn};
-use urdd_kinematics::rotation::to_rpy;
-use urdd_xml::number::numbers;
-use urdd_xml::writer::Element;
 
 use super::model::{Geometry, Inertial, Material, Model, Shape, Use};
+use super::names::Titles;
 use super::place::Place;
-use super::titles::Titles;
 use super::tree::{Edge, Link, Tree};
+use urdd_directory::account::{Account, Overdrawn};
+use urdd_kinematics::rotation::to_rpy;
 use urdd_source::ImportOptions;
+use urdd_xml::number::numbers;
+use urdd_xml::writer::Element;
 
 /// The limits of a slide that has none, m.
 const FAR: f64 = 10.0;

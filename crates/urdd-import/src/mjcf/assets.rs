@@ -4,19 +4,17 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::account::Charged;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::path::file_name;
-use urdd_directory::read_error::ReadError;
-
-use super::super::fault::ImportFault;
+use super::super::fault::{ImportFault, Unreachable};
 use super::super::model::Asset;
 use super::super::names::Names;
 use super::super::place::{Place, TextFile};
 use super::super::refusal::{Fallible, at};
-use super::super::unreachable::Unreachable;
 use super::compiler::{Compiler, Compilers};
 use super::document::first;
+use urdd_directory::account::Charged;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::path::file_name;
+use urdd_directory::read_error::ReadError;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
 

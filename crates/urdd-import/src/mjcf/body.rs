@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
-use urdd_directory::account::Account;
 
 use super::super::features::{self, Tally};
-use super::super::model::LETTER;
+use super::super::model::{Body, LETTER};
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::compiler::Compilers;
@@ -17,6 +16,7 @@ use super::geom::{Geom, between};
 use super::joint::{self, RawJoint};
 use super::orientation::{euler, pose};
 use super::reading::{View, integer, numbers, required, wrong};
+use urdd_directory::account::{Account, Charged};
 
 /// What an element costs beside what the model has of it, bytes.
 const RAW: usize = 2000;
@@ -257,4 +257,18 @@ impl<'d> Builder<'d, '_> {
         self.bodies.all[scope.body].frames.push(frame);
         Ok(())
     }
+}
+
+/// The bodies of the robot, and what each raw one became.
+#[derive(Default)]
+pub struct Made {
+    pub bodies: Charged<Body>,
+    /// Whether the first one moves freely.
+    pub is_floating: bool,
+    /// The index of a raw body's body.
+    pub index: HashMap<usize, usize>,
+    /// The body and joint of each raw body's joints.
+    pub joints: HashMap<(usize, usize), (usize, usize)>,
+    /// The body and joint that each follower follows.
+    pub leaders: HashMap<(usize, usize), (usize, usize)>,
 }

@@ -3,17 +3,15 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
-use urdd_directory::account::{Account, Charged};
-
 use super::super::model::{Apart, LETTER};
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
-use super::body::{RawBody, WORLD};
+use super::body::{Made, RawBody, WORLD};
 use super::element::Element;
 use super::geom::{Geom, Kind};
 use super::lookup::Lookup;
-use super::made::Made;
 use super::reading::word;
+use urdd_directory::account::{Account, Charged};
 
 /// Bodies that can collide; their pairs are counted one by one.
 const MOST: usize = 1500;

@@ -4,18 +4,16 @@ use std::collections::HashSet;
 use std::mem::replace;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
-
-use super::super::fault::ImportFault;
+use super::super::fault::{ImportFault, Unreachable};
 use super::super::place::{Place, TextFile};
 use super::super::refusal::{Fallible, at};
-use super::super::unreachable::Unreachable;
 use super::attach::{self, Models};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::reading::required;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
+use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};
 
 /// Models that are attached, each to the one before.
 const DEEPEST: usize = 10;

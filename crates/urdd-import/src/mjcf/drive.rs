@@ -7,11 +7,11 @@ use super::super::features::{self, Tally};
 use super::super::model::{self, Joint, JointKind};
 use super::super::refusal::Fallible;
 use super::actuator::{Actuator, Law, TAGS, greatest, within};
+use super::body::Made;
 use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::lookup::Lookup;
-use super::made::Made;
 use super::moved::Moved;
 
 /// What the actuators of one joint give together.

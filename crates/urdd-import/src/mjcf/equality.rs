@@ -3,12 +3,11 @@
 use super::super::features::{self, Tally};
 use super::super::model::Mimic;
 use super::super::refusal::Fallible;
-use super::body::{RawBody, WORLD};
+use super::body::{Made, RawBody, WORLD};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::joint::Kind;
 use super::lookup::Lookup;
-use super::made::Made;
 use super::reading::{View, flag};
 use urdd_format::short::Short;
 

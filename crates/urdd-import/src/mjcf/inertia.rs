@@ -2,12 +2,10 @@
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
-use super::super::mass::Mass;
+use super::super::mass::{Mass, moments, volume};
 use super::super::model::Inertial;
-
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
-use super::super::solid::{moments, volume};
 use super::assets::Assets;
 use super::body::RawBody;
 use super::compiler::{Compiler, FromShapes};

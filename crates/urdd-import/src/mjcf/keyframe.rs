@@ -1,20 +1,19 @@
 //! Keyframes, as named configurations.
 
 use nalgebra::Quaternion;
-use urdd_directory::account::{Account, Charged};
-use urdd_kinematics::rotation::to_rotation_vector;
 
 use super::super::features::{self, Tally};
 use super::super::model::{Configuration, JointValue};
 use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
-use super::body::Bodies;
+use super::body::{Bodies, Made};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::Kind;
-use super::made::Made;
 use super::orientation::unit;
 use super::reading::list;
+use urdd_directory::account::{Account, Charged};
+use urdd_kinematics::rotation::to_rotation_vector;
 
 /// What passing a joint of the model costs.
 const JOINT: usize = 10;

@@ -4,15 +4,12 @@ use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
-use urdd_geometry::Mesh;
-use urdd_geometry::read::{Part, Scene};
-use urdd_geometry::write::stl;
 
+use super::super::fault::Unreachable;
 use super::super::features::{self, Tally};
 use super::super::model::Geometry;
 use super::super::place::Place;
 use super::super::refusal::{Fallible, Refusal, at};
-use super::super::unreachable::Unreachable;
 use super::assets::{Assets, Folder};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
@@ -20,11 +17,13 @@ use super::fault::MjcfFault;
 use super::mesh_mass::{Measures, Mode, measure};
 use super::msh;
 use super::orientation::quaternion;
-use super::points;
 use super::reading::{View, list, wrong};
-use urdd_source::FoundMesh;
+use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::read::{Part, Scene};
+use urdd_geometry::write::stl;
 use urdd_source::sniff::{is_plain_mesh, lines};
-use urdd_source::{Inspected, inspect_alone};
+use urdd_source::{FoundMesh, Inspected, inspect_alone};
 
 /// The meshes of a model. A file is read when a shape needs it.
 pub struct Meshes<'d> {
@@ -72,7 +71,7 @@ const VERTEX: usize = 100;
 impl Content {
     /// A mesh that is written as STL: of points alone, their hull.
     fn made(mesh: Mesh, name: &str, (key, file): (String, String), place: Place) -> Fallible<Self> {
-        let mesh = points::with_faces(mesh);
+        let mesh = with_faces(mesh);
         let mesh = mesh.ok_or_else(|| broken(name, place, "has no faces and no convex hull"))?;
         let bytes = Ok(written(mesh.clone(), name, place)?);
         let (extension, triangles) = ("stl".to_owned(), Triangles::Written(mesh));
@@ -269,7 +268,7 @@ impl MeshAsset<'_> {
             assets.charge(mesh.vertices.len() * VERTEX, place)?;
             return Content::made(mesh, name, (key, file), place);
         }
-        if let Some(vertices) = (extension == "obj").then(|| points::of_obj(&bytes)).flatten() {
+        if let Some(vertices) = (extension == "obj").then(|| points_of_obj(&bytes)).flatten() {
             assets.charge(vertices.len() * VERTEX, place)?;
             let mesh = Mesh { vertices, triangles: Vec::new() };
             return Content::made(mesh, name, (key, file), place);
@@ -356,4 +355,38 @@ fn without_materials(bytes: Vec<u8>) -> Vec<u8> {
 fn broken(name: &str, place: Place, problem: &str) -> Refusal {
     let (name, problem) = (name.to_owned(), problem.to_owned());
     at(place, MjcfFault::Mesh { name, problem })
+}
+
+/// A mesh with its triangles; of points alone, those of their hull. None if they have none.
+fn with_faces(mesh: Mesh) -> Option<Mesh> {
+    match mesh.triangles.is_empty() {
+        false => Some(mesh),
+        true => Some(ConvexHull::new(&mesh.vertices).ok()?.into_mesh()),
+    }
+}
+
+/// The points of an OBJ that has no faces, in 32 bits as MuJoCo keeps them.
+fn points_of_obj(bytes: &[u8]) -> Option<Vec<[f64; 3]>> {
+    // Most have faces, behind their points: of these no number is read.
+    let is_face = |line: &[u8]| {
+        let mut words = line.split(u8::is_ascii_whitespace);
+        words.find(|word| !word.is_empty()) == Some(&b"f"[..]) && std::str::from_utf8(line).is_ok()
+    };
+    if lines(bytes).any(is_face) {
+        return None;
+    }
+    let mut points = Vec::new();
+    for line in lines(bytes) {
+        let Ok(line) = std::str::from_utf8(line) else { continue };
+        let mut words = line.split_ascii_whitespace();
+        if words.next() == Some("v") {
+            let mut point = [0.0; 3];
+            for coordinate in &mut point {
+                *coordinate = f64::from(words.next()?.parse::<f32>().ok()?);
+            }
+            points.push(point);
+        }
+    }
+    let is_finite = points.as_flattened().iter().all(|x| x.is_finite());
+    (is_finite && !points.is_empty()).then_some(points)
 }

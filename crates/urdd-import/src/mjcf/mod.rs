@@ -18,14 +18,12 @@ mod inertia;
 mod joint;
 mod keyframe;
 mod lookup;
-mod made;
 mod material;
 mod mesh;
 mod mesh_mass;
 mod moved;
 mod msh;
 mod orientation;
-mod points;
 mod principal;
 mod reading;
 mod refused;
@@ -37,8 +35,8 @@ mod seen;
 use super::features::Tally;
 use super::model::Model;
 use super::place::TextFile;
-use super::placed::{Placed, placed};
 use super::refusal::Fallible;
+use super::refusal::{Placed, placed};
 use assets::Assets;
 use compiler::Compilers;
 use contact::Contacts;
@@ -54,9 +52,6 @@ use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 
 /// Reads the robot of a description.
-///
-/// # Errors
-/// If it is refused, with the place.
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
     let Whole { files, models, root } = document::read(file, gate);
     match root.and_then(|root| model(&root, &files, models, gate, options)) {

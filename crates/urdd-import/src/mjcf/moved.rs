@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::super::model::{Body, Inertial, Joint, JointKind};
-use super::made::Made;
+use super::body::Made;
 
 /// What the joints of a robot move, where all are at their references. Six numbers are a turn and a shift in the frame of
 /// the first body, or a torque about its origin and a force.

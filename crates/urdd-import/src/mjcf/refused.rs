@@ -6,10 +6,9 @@ use super::super::features::Tally;
 use super::super::model::Inertial;
 use super::super::place::Place;
 use super::assets::{Assets, Folder};
-use super::body::{RawBody, WORLD};
+use super::body::{Made, RawBody, WORLD};
 use super::element::Element;
 use super::geom::Kind;
-use super::made::Made;
 use super::principal::principal;
 use urdd_format::short::Short;
 

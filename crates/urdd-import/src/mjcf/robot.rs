@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3};
-use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Actuator, Body, Geometry, Joint, JointKind, Shape, Use};
@@ -12,7 +11,7 @@ use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::actuator::greatest;
 use super::assets::Assets;
-use super::body::{Bodies, RawBody, WORLD};
+use super::body::{Bodies, Made, RawBody, WORLD};
 use super::compiler::Compilers;
 use super::contact::Contacts;
 use super::fault::MjcfFault;
@@ -20,11 +19,11 @@ use super::fit::{Fitted, fitted};
 use super::geom::{Geom, Kind};
 use super::inertia::inertial;
 use super::joint::{self, RawJoint};
-use super::made::Made;
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::scene::Robot;
 use super::seen::{Part, Seen};
+use urdd_directory::account::{Account, Charged};
 
 /// What is needed to make bodies.
 pub struct Maker<'m, 'd> {

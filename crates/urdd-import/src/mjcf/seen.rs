@@ -90,9 +90,6 @@ fn is_inside(own: &Bounds, look: &Bounds) -> bool {
 }
 
 /// The box around a shape, in the frame of its body; none of a surface without an end, and of what cannot be read.
-///
-/// # Errors
-/// If the account does not have a mesh.
 fn bounds(
     geom: &Geom<'_>,
     fitted: &Fitted,

@@ -6,16 +6,14 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use urdd_directory::account::Charged;
 
-use super::super::fault::ImportFault;
+use super::super::fault::{ImportFault, Unreachable};
 use super::super::model::Asset;
-use super::super::unreachable::Unreachable;
 use super::part::Parts;
+use urdd_directory::account::Charged;
 use urdd_directory::path::file_name;
-use urdd_source::FoundMesh;
-use urdd_source::Inspected;
 use urdd_source::gate::Gate;
+use urdd_source::{FoundMesh, Inspected};
 
 /// The files.
 #[derive(Debug, Default)]
@@ -108,9 +106,6 @@ impl Assets {
     }
 
     /// Adds a file that was made, once.
-    ///
-    /// # Errors
-    /// If it costs too much.
     pub fn made(&mut self, gate: &Gate, path: &str, bytes: Vec<u8>) -> Result<usize, ImportFault> {
         let source = PathBuf::from(path);
         match self.known.get(&source) {

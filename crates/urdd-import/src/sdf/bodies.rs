@@ -21,9 +21,6 @@ pub struct Bodies {
 }
 
 /// Makes bodies: of the world if a joint holds on to it, of links, and of frames.
-///
-/// # Errors
-/// If a name has no meaning.
 pub fn bodies(
     mut scene: Scene,
     frames: &Frames,

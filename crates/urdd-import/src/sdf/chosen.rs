@@ -9,12 +9,12 @@ use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, find, included};
+use super::joint_reader::world_joints;
 use super::kept::keep_plugins;
 use super::libsdformat::say_refusals;
 use super::models::model;
 use super::reader::Reader;
 use super::tag::Tag;
-use super::world::world_joints;
 use urdd_source::ImportOptions;
 
 /// A model of a file, or an `<include>` of one.

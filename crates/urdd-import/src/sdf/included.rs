@@ -2,9 +2,9 @@
 
 use nalgebra::Isometry3;
 
+use super::super::fault::Unreachable;
 use super::super::features;
 use super::super::refusal::Refusal;
-use super::super::unreachable::Unreachable;
 use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
 use super::reader::Reader;

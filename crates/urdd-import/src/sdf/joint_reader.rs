@@ -28,9 +28,6 @@ const KNOWN: &[&str] = &[
 ];
 
 /// Reads a joint into a scope.
-///
-/// # Errors
-/// If it is refused.
 pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
     let (node, joint) = read(reader, tag, scope)?;
@@ -42,9 +39,6 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
 }
 
 /// What a joint says, and the node that is to be the next.
-///
-/// # Errors
-/// If it is refused.
 pub fn read(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(Node, Joint), Refusal> {
     let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
@@ -199,4 +193,43 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
         });
     }
     Ok(axis)
+}
+
+/// Reads the joints between the model that was read and the world. The others are lost.
+pub fn world_joints(reader: &mut Reader, world: Tag, model: &str) -> Result<(), Refusal> {
+    for tag in world.children().filter(|child| child.name() == "joint") {
+        let inside = |name: &str| match name.strip_prefix(model)? {
+            "" => Some("__model__".to_owned()),
+            rest => rest.strip_prefix("::").map(str::to_owned),
+        };
+        let parent = end(tag, "parent")?;
+        let parent = if parent == WORLD { Some(parent) } else { inside(&parent) };
+        let axes = ["axis", "axis2"].map(|axis| tag.descendant(&[axis, "xyz"]));
+        let axes = axes.map(|xyz| xyz.and_then(|xyz| xyz.attribute("expressed_in")));
+        let (_, relative_to) = tag.pose()?;
+        let frames = axes.into_iter().chain([relative_to.as_deref()]).flatten();
+        let is_known =
+            frames.filter(|name| *name != "__model__").all(|name| inside(name).is_some());
+        let Some((parent, child)) = parent.zip(inside(&end(tag, "child")?)).filter(|_| is_known)
+        else {
+            reader.tally.unread("`<joint>` of `<world>`");
+            let text = "a joint of the world to what is not of the robot is lost";
+            reader.tally.remark(tag.place(), text);
+            continue;
+        };
+        let (mut node, mut joint) = read(reader, tag, 0)?;
+        node.attached_to = Some(child);
+        node.relative_to = node.relative_to.as_deref().and_then(inside);
+        joint.parent = parent;
+        for axis in &mut joint.axes {
+            axis.expressed_in = axis.expressed_in.as_deref().map(|name| match inside(name) {
+                Some(inside) => inside,
+                None => name.to_owned(),
+            });
+        }
+        // Names in the model do not mean it: it is in no table.
+        reader.scene.nodes.push(node);
+        reader.scene.joints.push(joint);
+    }
+    Ok(())
 }

@@ -1,27 +1,23 @@
 //! What a URDF carries as text for Gazebo: plugins, sensors, and settings of links.
 
 use nalgebra::Isometry3;
-use urdd_kinematics::rotation::to_rpy;
-use urdd_xml::number::numbers;
-use urdd_xml::writer::Element;
 
 use super::super::features;
 use super::super::model::{GazeboElement, LETTER};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
-use super::posed::Posed;
 use super::poses::Frames;
 use super::reader::Reader;
-use super::scene::Scene;
+use super::scene::{Posed, Scene};
 use super::tag::Tag;
+use urdd_kinematics::rotation::to_rpy;
+use urdd_xml::number::numbers;
+use urdd_xml::writer::Element;
 
 /// What an element of a link or joint is kept for: its name in the URDF, and its node.
 pub type Owner<'n> = (&'n str, usize);
 
 /// Keeps an element of the model, or of a link or joint.
-///
-/// # Errors
-/// If the account does not have its cost.
 pub fn keep(reader: &mut Reader, tag: Tag, owner: Option<Owner>) -> Result<(), Refusal> {
     let mut element = Element::of(tag.node);
     if element.has_prefix() {
@@ -53,18 +49,12 @@ pub fn keep(reader: &mut Reader, tag: Tag, owner: Option<Owner>) -> Result<(), R
 }
 
 /// Keeps the plugins in an element.
-///
-/// # Errors
-/// If the account does not have their cost.
 pub fn keep_plugins(reader: &mut Reader, tag: Tag) -> Result<(), Refusal> {
     let mut plugins = tag.children().filter(|child| child.name() == "plugin");
     plugins.try_for_each(|plugin| keep(reader, plugin, None))
 }
 
 /// Puts elements into the frames of their links and joints, which a URDF has.
-///
-/// # Errors
-/// If the account does not have their cost.
 pub fn keep_posed(reader: &mut Reader, scene: &Scene, frames: &Frames) -> Result<(), Refusal> {
     for Posed { mut element, owner, node, pose: (pose, name), place } in
         std::mem::take(&mut reader.posed)
@@ -89,9 +79,6 @@ pub fn keep_posed(reader: &mut Reader, scene: &Scene, frames: &Frames) -> Result
 }
 
 /// Keeps that the robot is static. libsdformat takes the word of the last `<gazebo>` for it, and a missing one for no.
-///
-/// # Errors
-/// If the account does not have its cost.
 pub fn keep_static(reader: &mut Reader, place: Place) -> Result<(), Refusal> {
     reader.tally.count(features::KEPT);
     push(reader, Element::text("static", "true"), None, place)

@@ -29,9 +29,6 @@ const KEPT: &[&str] = &[
 ];
 
 /// Reads a link into a scope.
-///
-/// # Errors
-/// If it is refused.
 pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
     if name == WORLD {

@@ -1,12 +1,9 @@
 //! Reads SDF: files into a scene, whose names are then looked up, and the tree in its graph of links and joints.
 
 mod assets;
-mod auto_inertia;
 mod bodies;
 mod chosen;
-mod cone;
 pub mod fault;
-mod friction;
 mod included;
 mod inertial;
 mod joint_reader;
@@ -16,19 +13,17 @@ mod link_reader;
 mod models;
 mod moving;
 mod part;
-mod posed;
 mod poses;
 mod reader;
 mod scene;
 mod shape_reader;
 mod spanning;
 mod tag;
-mod world;
 
 use super::model::Model;
 use super::place::TextFile;
-use super::placed::{Placed, placed};
 use super::refusal::Refusal;
+use super::refusal::{Placed, placed};
 use bodies::bodies;
 use chosen::read_chosen;
 use fault::SdfFault;
@@ -40,9 +35,6 @@ use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 
 /// Reads the robot of a description.
-///
-/// # Errors
-/// If it is refused, with the place.
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
     let mut reader = Reader::new(gate);
     let made = made(&mut reader, file, options);

@@ -25,9 +25,6 @@ const KNOWN: &[&str] =
 const SETTINGS: &[&str] = &["self_collide", "allow_auto_disable", "enable_wind"];
 
 /// Reads a model into the scope of another; `None` for the robot itself. Gives whether it is static.
-///
-/// # Errors
-/// If it is refused.
 pub fn model(
     reader: &mut Reader,
     tag: Tag,

@@ -14,9 +14,6 @@ use super::scene::{Axis, Joint, Kind, NodeKind, Scene};
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
 
 /// The joints of a body by which a joint moves it. `body` is the node of the body's link; none of the world.
-///
-/// # Errors
-/// If a name has no meaning.
 pub fn moving(
     scene: &Scene,
     frames: &Frames,

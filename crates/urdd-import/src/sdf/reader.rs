@@ -3,20 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::account::Charged;
-
 use super::super::fault::ImportFault;
-use super::super::features::Tally;
+use super::super::features::{self, Tally};
 use super::super::model::{ENTRY, GazeboElement, LETTER};
 use super::super::names::Names;
 use super::super::place::{Place, TextFile};
 use super::super::refusal::Refusal;
 use super::assets::Assets;
 use super::fault::SdfFault;
-use super::friction::Friction;
-use super::posed::Posed;
-use super::scene::Scene;
+use super::scene::{Posed, Scene};
 use super::tag::Tag;
+use urdd_directory::account::Charged;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
 use urdd_xml::{Mended, parse_leniently};
@@ -87,9 +84,6 @@ impl<'r> Reader<'r> {
 
     /// The name of something in a scope, with the models that it is in; it is charged. Of two that would be the same, as
     /// `n/b` and `b` of a model `n`, the second gets a number.
-    ///
-    /// # Errors
-    /// If the account does not have its cost.
     pub fn whole_name(&mut self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
         let prefix = &self.scene.scopes[scope].prefix;
         self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
@@ -104,9 +98,6 @@ impl<'r> Reader<'r> {
     }
 
     /// Charges what is made at a place, in bytes.
-    ///
-    /// # Errors
-    /// If the account does not have them.
     pub fn charge(&self, bytes: usize, place: Place) -> Result<(), Refusal> {
         self.gate.account().charge(bytes).or_else(|why| Refusal::at(place, why))
     }
@@ -163,5 +154,44 @@ fn version(root: Tag) -> Result<u32, Refusal> {
     match minor.filter(|minor| (first..=last).contains(minor)) {
         Some(minor) => Ok(minor),
         None => Refusal::at(root.place(), SdfFault::Version(version.to_owned())),
+    }
+}
+
+/// What was met so far.
+#[derive(Debug, Default)]
+pub struct Friction {
+    first: Option<Option<f64>>,
+    is_mixed: bool,
+    /// How many shapes say one.
+    given: usize,
+}
+
+/// Where the coefficient is.
+const PATHS: [&[&str]; 2] =
+    [&["surface", "friction", "ode", "mu"], &["surface", "friction", "bullet", "friction"]];
+
+impl Friction {
+    /// Looks at a collision shape.
+    pub fn meet(&mut self, collision: Tag, tally: &mut Tally) {
+        let found = PATHS.iter().find_map(|path| collision.descendant(path));
+        let found = found.and_then(|tag| tag.text().parse::<f64>().ok());
+        let found = found.filter(|value| value.is_finite() && *value >= 0.0);
+        self.is_mixed |= *self.first.get_or_insert(found) != found;
+        if let Some(surface) = collision.child("surface") {
+            let others = surface.node.descendants().filter(|node| {
+                node.is_element() && !node.children().any(|child| child.is_element())
+            });
+            if others.count() > usize::from(found.is_some()) {
+                tally.count(features::CONTACTS);
+            }
+        }
+        self.given += usize::from(found.is_some());
+    }
+
+    /// The coefficient that all have. Counts those that differ.
+    pub fn common(&self, tally: &mut Tally) -> Option<f64> {
+        let feature = if self.is_mixed { features::FRICTIONS } else { features::FRICTION };
+        (0..self.given).for_each(|_| tally.count(feature));
+        self.first.flatten().filter(|_| !self.is_mixed)
     }
 }

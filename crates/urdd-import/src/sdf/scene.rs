@@ -9,6 +9,7 @@ use super::super::model::{Inertial, Shape};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::tag::Tag;
+use urdd_xml::writer::Element;
 
 /// The name of the world, as the parent of a joint.
 pub const WORLD: &str = "world";
@@ -64,9 +65,6 @@ pub struct Node {
 
 impl Node {
     /// What a tag says of its frame; it is attached to nothing.
-    ///
-    /// # Errors
-    /// If its pose is none.
     pub fn of(tag: Tag, name: String, kind: NodeKind, scope: usize) -> Result<Self, Refusal> {
         let (pose, relative_to) = tag.pose()?;
         let (attached_to, placement, place) = (None, None, tag.place());
@@ -200,4 +198,13 @@ impl Scene {
             (scope, name) = (&self.scopes[inside], rest);
         }
     }
+}
+
+/// An element whose pose refers to another frame than that of its link or joint.
+pub struct Posed {
+    pub element: Element,
+    pub owner: String,
+    pub node: usize,
+    pub pose: (Isometry3<f64>, String),
+    pub place: Place,
 }

@@ -1,16 +1,17 @@
 //! Reads visual and collision shapes.
 
-use super::super::fault::ImportFault;
 use nalgebra::{Translation3, Vector3};
 
+use super::super::fault::{ImportFault, Unreachable};
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
 use super::super::refusal::Refusal;
-use super::super::unreachable::Unreachable;
-use super::cone::cone;
 use super::reader::Reader;
 use super::scene::Placeable;
 use super::tag::Tag;
+use urdd_geometry::Mesh;
+use urdd_geometry::read::Part;
+use urdd_geometry::write::stl;
 
 /// What is read of a shape.
 const KNOWN: &[&str] = &["pose", "geometry", "material", "transparency", "surface", "density"];
@@ -245,4 +246,24 @@ fn color(material: Tag) -> Result<Option<[f64; 4]>, Refusal> {
         _ => tag.numbers::<4>("three or four numbers")?,
     };
     Ok(color.map(|color| color.map(|value| value.clamp(0.0, 1.0))))
+}
+
+/// The number of sides.
+const SIDES: u32 = 64;
+
+/// The STL of a cone of radius 1 and length 1 along z, about the middle of its length, its tip at the top.
+pub fn cone() -> Option<Vec<u8>> {
+    let rim = (0..SIDES).map(|side| {
+        let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
+        [angle.cos(), angle.sin(), -0.5]
+    });
+    let vertices: Vec<[f64; 3]> = rim.chain([[0.0, 0.0, 0.5], [0.0, 0.0, -0.5]]).collect();
+    let (tip, middle) = (SIDES, SIDES + 1);
+    let triangles = (0..SIDES).flat_map(|side| {
+        let next = (side + 1) % SIDES;
+        [[side, next, tip], [next, side, middle]]
+    });
+    let mut mesh = Mesh { vertices, triangles: triangles.collect() };
+    mesh.round_to_f32();
+    stl(&[Part::from(mesh)]).ok()
 }

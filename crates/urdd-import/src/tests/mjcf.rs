@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::mjcf;
 use crate::model::{Body, Geometry, Joint, JointKind, Model, Shape, Use};
 use crate::place::TextFile;
-use crate::placed::Placed;
+use crate::refusal::Placed;
 use urdd_source::ImportOptions;
 use urdd_source::Settings;
 use urdd_source::gate::Gate;

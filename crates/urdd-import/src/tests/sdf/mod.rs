@@ -19,7 +19,7 @@ use nalgebra::Isometry3;
 
 use crate::model::{Body, Joint, Model};
 use crate::place::TextFile;
-use crate::placed::Placed;
+use crate::refusal::Placed;
 use crate::sdf;
 use urdd_source::Files;
 use urdd_source::ImportOptions;
