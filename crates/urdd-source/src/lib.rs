@@ -28,7 +28,6 @@ mod launch;
 mod load;
 pub mod macros;
 mod meshes;
-mod named;
 pub mod note;
 pub mod origin;
 mod package_index;
@@ -63,8 +62,7 @@ pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf, stem,
     well_formed,
 };
-pub use meshes::{MissingMesh, SourceMesh, SourceMeshes};
-pub use named::{NamedMesh, named};
+pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;

@@ -9,12 +9,11 @@ use super::beside::Beside;
 use super::error::SourceError;
 use super::gate::Gate;
 use super::load::{Source, load, load_text_in};
-use super::named::named;
 use super::resolve::{FoundMesh, NotFound, OtherCase};
 use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::urdf::UrdfModule;
+use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
 
 /// A URDF and the mesh files that it names.
@@ -165,4 +164,33 @@ impl SourceMeshes {
     pub fn find(&self, filename: &str) -> Result<PathBuf, MissingMesh> {
         Ok(self.gate.find(filename)?.file)
     }
+}
+
+/// A mesh reference in the URDF.
+pub struct NamedMesh<'a> {
+    /// Index of the link.
+    pub link: usize,
+    /// Whether a visual or a collision element names it.
+    pub geometry: GeometryKind,
+    /// Index of the element among the link's elements of that kind.
+    pub element: usize,
+    /// The name as the URDF has it.
+    pub filename: &'a str,
+}
+
+/// The mesh references of a robot: links in order, visual before collision, elements in order.
+pub fn named(robot: &UrdfModule) -> Vec<NamedMesh<'_>> {
+    let mut named = Vec::new();
+    for (link, of) in robot.links.iter().enumerate() {
+        let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());
+        let collision = of.collision.iter().map(|collision| collision.geometry.as_ref());
+        let visual = visual.enumerate().map(|found| (GeometryKind::Visual, found));
+        let collision = collision.enumerate().map(|found| (GeometryKind::Collision, found));
+        for (geometry, (element, found)) in visual.chain(collision) {
+            if let Some(Geometry::Mesh(mesh)) = found {
+                named.push(NamedMesh { link, geometry, element, filename: &mesh.filename });
+            }
+        }
+    }
+    named
 }
