@@ -284,7 +284,7 @@ fn written(
 }
 
 /// The value of `x_urdd_imported`: the format, each file with its size and hash, and the importer.
-pub fn origin(format: Format, files: &[TextFile]) -> Value {
+fn origin(format: Format, files: &[TextFile]) -> Value {
     let entry = |file: &TextFile| {
         let name = file.shown.rsplit(['/', '\\']).next().unwrap_or_default();
         json!({

@@ -248,11 +248,11 @@ fn color(material: Tag) -> Result<Option<[f64; 4]>, Refusal> {
     Ok(color.map(|color| color.map(|value| value.clamp(0.0, 1.0))))
 }
 
-/// The number of sides.
+/// The number of sides of a cone.
 const SIDES: u32 = 64;
 
 /// The STL of a cone of radius 1 and length 1 along z, about the middle of its length, its tip at the top.
-pub fn cone() -> Option<Vec<u8>> {
+fn cone() -> Option<Vec<u8>> {
     let rim = (0..SIDES).map(|side| {
         let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
         [angle.cos(), angle.sin(), -0.5]
