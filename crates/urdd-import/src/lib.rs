@@ -1,6 +1,6 @@
 //! Internal to urdd; no stability promise.
 //!
-//! Descriptions that are no URDF: MJCF and SDF. A reader of each format makes a [`model::Model`]; from it come a URDF, its
+//! Descriptions that are no URDF: MJCF and SDF. A reader of each format makes a model; from it come a URDF, its
 //! meshes, an SRDF, what exports need, and a report. Files are found and read by the gate of `urdd-source`.
 
 mod companions;
