@@ -80,11 +80,7 @@ fn turned(mass: f64, own: &Matrix3<f64>, pose: &Isometry3<f64>, tag: Tag) -> Ine
 const WATER: f64 = 1000.0;
 
 /// The mass of the collision shapes of a link; `None` without shapes that have one. A mass that is given scales it.
-fn auto_inertia(
-    link: Tag,
-    inertial: Tag,
-    tally: &mut Tally,
-) -> Result<Option<Inertial>, Refusal> {
+fn auto_inertia(link: Tag, inertial: Tag, tally: &mut Tally) -> Result<Option<Inertial>, Refusal> {
     let density = inertial.number("density")?.unwrap_or(WATER);
     let mut parts = Vec::new();
     for collision in link.children().filter(|child| child.name() == "collision") {
