@@ -20,8 +20,8 @@ use urdd_diff::{Side, compare};
 use urdd_directory::account::{ALLOWANCE, MULTIPLE};
 use urdd_directory::cancellation::Cancellation;
 use urdd_generate::{Selection, generate_in_memory};
+use urdd_import::import_whole;
 use urdd_lint::{LintSettings, lint_with_text};
-use urdd_source::import::import_whole;
 use urdd_source::{Files, Settings};
 
 /// How many times the allowance lint and diff may take of a description that is imported: what the import makes is their

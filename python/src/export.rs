@@ -7,6 +7,7 @@ use std::sync::Arc;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_export::{
@@ -163,7 +164,7 @@ pub fn joint_groups(
     let robot = Arc::clone(robot.read(py)?);
     let failed = |message: String| raise(py, "ExportError", message, &[]);
     let groups = match file {
-        Some(file) if file.extension().is_some_and(|extension| extension == "srdf") => {
+        Some(file) if FileType::Srdf.is_of(&file) => {
             std::fs::metadata(&file).map_err(|error| {
                 let code = error.raw_os_error();
                 PyOSError::new_err((code, error.kind().to_string(), file.clone()))

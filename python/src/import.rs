@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd_generate::GenerateError;
-use urdd_source::import::import_whole;
+use urdd_import::import_whole;
 
 use crate::errors::of_generate;
 use crate::source::Source;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use urdd_generate::{Packages, SourceSettings, XacroSettings};
-use urdd_source::import::options::ImportOptions;
+use urdd_source::ImportOptions;
 
 /// What functions that read descriptions ask for, which check its types.
 #[derive(FromPyObject)]

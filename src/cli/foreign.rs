@@ -1,14 +1,11 @@
 //! Advice on files that are not URDDs.
 
-use std::io::Read;
 use std::path::Path;
 
 use super::output::one_line;
 use urdd_directory::discover::DiscoverError;
-use urdd_directory::regular;
-
-/// How much of a file is read to identify it, in bytes.
-const HEAD: u64 = 4096;
+use urdd_directory::file_type::FileType;
+use urdd_source::{Files, Format, root_of};
 
 /// The message of an error, with advice if the file has a known format.
 pub fn advice(error: &DiscoverError) -> String {
@@ -19,24 +16,23 @@ pub fn advice(error: &DiscoverError) -> String {
 }
 
 fn of_file(path: &Path) -> Option<&'static str> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let by_name = match extension.to_ascii_lowercase().as_str() {
-        "xacro" => Some(
+    let by_name = match FileType::of(path) {
+        Some(FileType::Xacro) => Some(
             "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it",
         ),
-        "sdf" | "world" => Some(SDF),
-        "srdf" => Some(
+        Some(FileType::Sdf) => Some(SDF),
+        Some(FileType::Srdf) => Some(
             "this is SRDF, which adds groups and skipped collisions to a URDF; \
              give the URDF that it belongs to, or a URDD",
         ),
-        "mjcf" => Some(MJCF),
-        "usd" | "usda" | "usdc" | "usdz" => Some(
+        Some(FileType::Mjcf) => Some(MJCF),
+        Some(FileType::Usd) => Some(
             "this is USD; URDDs are generated from URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
         ),
-        "json" | "yaml" | "yml" => Some(
+        Some(FileType::Document) => Some(
             "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders",
         ),
-        _ => None,
+        Some(FileType::Urdf | FileType::Xml | FileType::Archive) | None => None,
     };
     by_name.or_else(|| by_content(path))
 }
@@ -48,19 +44,12 @@ const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a 
     `urdd import` makes a URDF";
 
 fn by_content(path: &Path) -> Option<&'static str> {
-    let mut head = Vec::new();
-    let file = regular::open(path).ok()?;
-    file.take(HEAD).read_to_end(&mut head).ok()?;
-    let head = String::from_utf8_lossy(&head);
-    if head.contains("<mujoco") {
-        Some(MJCF)
-    } else if head.contains("<sdf") {
-        Some(SDF)
-    } else if head.contains("<robot") {
-        Some(
+    let root = root_of(path, &Files::Disk)?;
+    match Format::of_root(&root) {
+        Some(Format::Mjcf) => Some(MJCF),
+        Some(Format::Sdf) => Some(SDF),
+        None => (root == "robot").then_some(
             "this looks like a URDF; give it a name that ends in .urdf, or use `urdd generate` to generate a URDD from it",
-        )
-    } else {
-        None
+        ),
     }
 }

@@ -13,6 +13,7 @@ use super::output::{self, Failure, one_line};
 use super::robots::RobotArguments;
 use super::signals::{self, Signals};
 use super::xacro;
+use urdd_directory::file_type::FileType;
 use urdd_format::escape;
 use urdd_generate::batch::{self, Observer, Shard};
 use urdd_generate::{
@@ -138,9 +139,7 @@ fn check_used<'a>(
     settings: &Settings,
     sources: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), String> {
-    let is_expanded = |path: &Path| {
-        arguments.making.xacro.xacro || path.extension().is_some_and(|ending| ending == "xacro")
-    };
+    let is_expanded = |path: &Path| arguments.making.xacro.xacro || FileType::Xacro.is_of(path);
     match settings.source.xacro.arguments.first() {
         Some(unused) if !sources.into_iter().any(is_expanded) => Err(format!(
             "`{}` is an argument for xacro, but no .xacro file is given; `--xacro` also expands macros in .urdf files",

@@ -9,7 +9,7 @@ use super::output::{self, Failure, counted, shown};
 use super::packages::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
-use urdd_source::import::{Imported, import_whole};
+use urdd_import::{Imported, import_whole};
 
 /// Maximum number of notes that are printed; the report has all.
 const MAX_NOTES: usize = 20;

@@ -10,6 +10,7 @@ use super::signals;
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
+use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_directory::source::is_archive;
@@ -23,8 +24,9 @@ use urdd_source::{Settings, XacroSettings, read_source};
 /// A message with advice if it cannot be opened.
 pub fn open(path: &Path) -> Result<Robot, Failure> {
     if path.is_file() && !is_archive(path) {
+        let is_urdf = FileType::Urdf.is_of(path);
         let path = path.display().to_string();
-        if path.ends_with(".urdf") {
+        if is_urdf {
             Err(format!(
                 "{}: this is a URDF; generate a URDD from it first: urdd generate {} -o DIR",
                 one_line(&path),
@@ -56,7 +58,7 @@ fn srdf_or_xacro(
     cancellation: Cancellation,
 ) -> Result<String, Failure> {
     let arguments = xacro::only_arguments(words)?;
-    if file.extension().is_none_or(|ending| ending != "xacro") {
+    if !FileType::Xacro.is_of(file) {
         return match arguments.first() {
             None => srdf(file),
             Some(argument) => Err(format!(

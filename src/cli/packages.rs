@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::output::{Failure, one_line, shown};
-use urdd_source::import::options::ImportOptions;
+use urdd_source::ImportOptions;
 use urdd_source::{Packages, Settings};
 
 /// Where the mesh files of a URDF are.

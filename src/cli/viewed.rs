@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::output;
 use urdd_directory::discover::DiscoverError;
+use urdd_directory::file_type::FileType;
 use urdd_format::escape;
-use urdd_source::import::format_of;
 use urdd_source::robots::{self, BatchError, Job};
-use urdd_source::{Files, Settings};
+use urdd_source::{Files, Settings, format_of};
 use urdd_view::{Collection, Source};
 
 /// Adds the robots at these paths. Returns how many there are at each.
@@ -32,15 +32,11 @@ pub(super) fn add(
     paths.iter().map(one).collect()
 }
 
-fn ends(path: &Path, ending: &str) -> bool {
-    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending))
-}
-
 /// The robots of files, by path: URDFs, xacro files, and what is imported.
 fn named(paths: &[PathBuf], settings: &Settings) -> Result<HashMap<PathBuf, Vec<Job>>, String> {
     let is_source = |path: &&PathBuf| {
-        let is_imported = || format_of(path, &Files::Disk).is_some();
-        path.is_file() && (ends(path, "xacro") || ends(path, "urdf") || is_imported())
+        let is_named = matches!(FileType::of(path), Some(FileType::Xacro | FileType::Urdf));
+        path.is_file() && (is_named || format_of(path, &Files::Disk).is_some())
     };
     let files: Vec<PathBuf> = paths.iter().filter(is_source).cloned().collect();
     let jobs = robots::jobs(&files, settings).map_err(|error| error.to_string())?;
@@ -77,7 +73,7 @@ fn add_folder(path: &Path, settings: &Settings, collection: &Collection) -> Resu
     let mut jobs = batch.jobs;
     let count = jobs.len();
     if !settings.xacro.expand_urdf {
-        jobs.retain(|job| !ends(&job.source, "xacro"));
+        jobs.retain(|job| !FileType::Xacro.is_of(&job.source));
     }
     let left = count - jobs.len();
     if left > 0 {

@@ -196,15 +196,15 @@ fn only_urdd_xml_names_the_parser_of_xml() {
 /// Who reads files around descriptions, beside what they name.
 const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
+    ("crates/urdd-import/src/imported.rs", "the description itself; 64 MiB"),
     ("crates/urdd-lint/src/lib.rs", "the xacro file that a person names, to show it; 64 MiB"),
     ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),
     (
         "crates/urdd-source/src/described.rs",
         "xacro files of a folder that a person names, and what the gate opens of those that they include; 64 MiB",
     ),
-    ("crates/urdd-source/src/fragments.rs", "descriptions in a folder that a person names; 64 MiB"),
+    ("crates/urdd-source/src/format.rs", "descriptions in a folder that a person names; 64 MiB"),
     ("crates/urdd-source/src/gate.rs", "the gate"),
-    ("crates/urdd-source/src/import/imported.rs", "the description itself; 64 MiB"),
     ("crates/urdd-source/src/inspect.rs", "meshes and their side files, for the gate alone"),
     ("crates/urdd-source/src/installs.rs", "`CMakeLists.txt` and `setup.py`; 1 MiB"),
     ("crates/urdd-source/src/load.rs", "the description itself; 64 MiB"),

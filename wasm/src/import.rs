@@ -7,8 +7,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::source::Memory;
-use urdd_source::import::import_whole;
-use urdd_source::import::options::ImportOptions;
+use urdd_import::import_whole;
+use urdd_source::ImportOptions;
 
 use crate::around::Given;
 use crate::files::Files;

@@ -1,7 +1,10 @@
 //! The report of a description.
 
+use std::path::Path;
+
 use serde::Deserialize;
 use serde_json::Value;
+use urdd_directory::file_type::FileType;
 use urdd_findings::report;
 use urdd_findings::settings::parse_program;
 use urdd_lint::{LintSettings, lint_with_text};
@@ -71,7 +74,7 @@ fn urdf(paths: &[String], asked: Option<String>) -> Result<String, String> {
     if let Some(asked) = asked {
         return Ok(asked);
     }
-    let mut urdfs = paths.iter().filter(|path| path.ends_with(".urdf"));
+    let mut urdfs = paths.iter().filter(|path| FileType::Urdf.is_of(Path::new(path)));
     match (urdfs.next(), urdfs.next()) {
         (Some(only), None) => Ok(only.clone()),
         (None, _) => Err("there is no .urdf among the files".to_owned()),

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use crate::side::{DiffError, Options, Side};
 use crate::{side_urdd, side_urdf};
 use urdd_directory::discover::{Found, discover};
+use urdd_directory::file_type::FileType;
 use urdd_directory::root::{ReadError, Root};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_format::report;
-use urdd_source::Files;
-use urdd_source::import::format_of;
+use urdd_source::{Files, format_of};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
 
@@ -23,8 +23,7 @@ impl Side {
     /// If the path has no robot, or one that cannot be read.
     pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
         let shown = path.display().to_string();
-        let extension = path.extension().unwrap_or_default();
-        let is_urdf = extension.eq_ignore_ascii_case("urdf") && !path.is_dir();
+        let is_urdf = FileType::Urdf.is_of(path) && !path.is_dir();
         // The validator reads what is written.
         let is_expanded = options.urdf.xacro.expand_urdf;
         if is_urdf && path.exists() && !is_expanded {
@@ -32,7 +31,7 @@ impl Side {
             side.validation = validation(options, |settings| validate(&[path], settings))?;
             return Ok(side);
         }
-        let is_xacro = extension == "xacro" && path.is_file();
+        let is_xacro = FileType::Xacro.is_of(path) && path.is_file();
         if is_urdf && path.exists() || is_xacro || format_of(path, &Files::Disk).is_some() {
             let (mut side, text) = side_urdf::open(path, shown, options)?;
             side.validation = validation(options, |settings| {

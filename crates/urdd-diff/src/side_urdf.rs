@@ -8,7 +8,6 @@ use crate::side::{DiffError, Options, Side};
 use urdd_directory::account::Account;
 use urdd_document::robot::of_urdf;
 use urdd_format::report::Kind;
-use urdd_source::SourceMeshes;
 use urdd_xml::other_parts::other_parts;
 
 /// Opens a URDF and reads its meshes. Gives its text too.
@@ -21,7 +20,7 @@ pub(super) fn open(
     options: &Options,
 ) -> Result<(Side, String), DiffError> {
     let source =
-        SourceMeshes::open(path, &options.urdf, &options.cancellation).map_err(DiffError::Urdf)?;
+        urdd_import::open(path, &options.urdf, &options.cancellation).map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {
         let place = (mesh.link, mesh.geometry, mesh.element);

@@ -13,6 +13,7 @@ pub mod digest;
 pub mod discover;
 pub mod document;
 pub mod file_entry;
+pub mod file_type;
 pub mod json;
 mod json_fault;
 pub mod json_places;

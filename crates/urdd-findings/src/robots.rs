@@ -1,13 +1,14 @@
 //! The robots that a settings file declares: xacro files with their arguments.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
 
 use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::file_type::stem;
 
 /// Maximum number of variants of a settings file: each is expanded by xacro.
 pub const MAX_VARIANTS: usize = 1000;
@@ -151,11 +152,4 @@ impl Entry {
         }
         all
     }
-}
-
-/// The name of a file without `.urdf.xacro`.
-fn stem(file: &Path) -> String {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let name = name.strip_suffix(".xacro").unwrap_or(&name);
-    name.strip_suffix(".urdf").unwrap_or(name).to_owned()
 }

@@ -27,8 +27,8 @@ use urdd_directory::source::Growing;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::root_metadata::{self, ConformanceClass, FileEntry};
+use urdd_import::{Imported, import};
 use urdd_source::Source;
-use urdd_source::import::{Imported, import};
 use urdd_source::note::{Note, NoteKind};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use urdd_directory::layout::setup_beside;
 use urdd_directory::outputs::{self, Output, OutputError, Target};
-use urdd_source::import::Imported;
+use urdd_import::Imported;
 use urdd_source::note::{Note, NoteKind};
 
 /// Writes the file, unless there is one: it may be a person's. Says so then, and where it cannot be written.

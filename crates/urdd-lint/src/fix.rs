@@ -13,7 +13,7 @@ use urdd_directory::regular;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
 use urdd_format::report::{Fix, Place, TextEdit};
-use urdd_source::import::format::Format;
+use urdd_source::Format;
 use urdd_xml::element::{Edit, apply};
 
 /// How often a file is examined again: a mended fault may uncover another one.

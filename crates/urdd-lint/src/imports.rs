@@ -8,8 +8,8 @@ use crate::written::{named, say_where};
 use urdd_findings::examined::Examined;
 use urdd_format::index::Count;
 use urdd_format::report::{ImportedFrom, ImportedPart, StaleIgnore, WrittenAt};
+use urdd_import::Imported;
 use urdd_source::SourceError;
-use urdd_source::import::Imported;
 use urdd_source::written::seen_from;
 
 /// What is found in the URDF of an import of the file `name` in `folder`, and the comments in it that matched nothing.

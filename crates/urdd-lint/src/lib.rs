@@ -56,7 +56,7 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
-use urdd_source::import::import;
+use urdd_import::import;
 use urdd_source::macros::{has_no_link, has_no_name};
 use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::settings::LintSettings;
 use urdd_directory::cancellation::Cancelled;
+use urdd_directory::file_type::FileType;
 use urdd_source::robots::{Batch, BatchError, Job, find};
 
 /// Why a run has no result.
@@ -38,7 +39,7 @@ pub(crate) fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<Sour
     // A xacro file is a program: it runs where somebody names it, or asks for xacro.
     let found = jobs.len();
     let is_named = |job: &Job| paths.contains(&job.source) || settings.source.xacro.expand_urdf;
-    jobs.retain(|job| is_named(job) || job.source.extension().is_none_or(|end| end != "xacro"));
+    jobs.retain(|job| is_named(job) || !FileType::Xacro.is_of(&job.source));
     if jobs.is_empty() && found > 0 {
         return Err(LintError::OnlyXacro);
     }

@@ -7,6 +7,7 @@ use urdd_xml::Node;
 
 use super::srdf_text::Srdf;
 use super::subject::Subject;
+use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_source::{Files, Trail, read_source};
 
@@ -16,8 +17,6 @@ const MAX_EXPANDED: usize = 10;
 const MAX_FILES: usize = 100;
 /// How far up from the URDF's folder MoveIt's packages are looked for.
 const LEVELS: usize = 3;
-/// How the name of an SRDF ends that xacro makes.
-const XACRO: &str = ".srdf.xacro";
 /// Folders of SRDFs, in a package.
 const FOLDERS: [&str; 2] = ["config", "srdf"];
 /// What the name of MoveIt's package of a robot has.
@@ -42,7 +41,8 @@ pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
 fn read(urdf: &Subject) -> Vec<Srdf> {
     let all = candidates(urdf);
     let has_stem = all.iter().any(|one| one.has_stem);
-    let is_only_urdf = urdfs(urdf).filter(|name| name.ends_with(".urdf")).count() < 2;
+    let is_urdf = |name: &String| FileType::Urdf.is_of(Path::new(name));
+    let is_only_urdf = urdfs(urdf).filter(is_urdf).count() < 2;
     let is_only = all.len() == 1 && is_only_urdf;
     let mut found = all;
     found.retain(|one| match has_stem {
@@ -113,23 +113,28 @@ fn is_of_another_urdf(urdf: &Subject, srdf: &Path) -> bool {
 
 /// The names of the URDFs in the URDF's folder.
 fn urdfs(urdf: &Subject) -> impl Iterator<Item = String> {
-    let is_urdf = |name: &String| [".urdf", ".xacro"].iter().any(|ending| name.ends_with(ending));
+    let is_urdf = |name: &String| {
+        matches!(FileType::of(Path::new(name)), Some(FileType::Urdf | FileType::Xacro))
+    };
     names(urdf.files, urdf.folder).into_iter().filter(is_urdf)
 }
 
 /// A file's name without its endings, in small letters.
 fn stem(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let name = name.strip_suffix(".xacro").unwrap_or(&name);
-    let ends = [".urdf", ".srdf"].iter().find_map(|ending| name.strip_suffix(ending));
-    ends.unwrap_or(name).to_owned()
+    file_type::stem(path).to_lowercase()
 }
 
 fn candidates(urdf: &Subject) -> Vec<Candidate> {
     let wanted = stem(Path::new(urdf.file));
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
     let mut expanded = 0;
-    let ends = |name: &String| name.ends_with(".srdf") || name.ends_with(XACRO);
+    // What xacro makes an SRDF of is named `NAME.srdf.xacro`.
+    let is_xacro = |path: &Path| FileType::Xacro.is_of(path);
+    let ends = |name: &String| {
+        let path = Path::new(name);
+        let made = if is_xacro(path) { &*path.with_extension("") } else { path };
+        FileType::Srdf.is_of(made)
+    };
     for (folder, shown, is_own) in folders(urdf.files, urdf.folder) {
         for name in names(urdf.files, &folder).into_iter().filter(ends) {
             let path = folder.join(&name);
@@ -141,7 +146,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
             let Ok(bytes) = urdf.files.read(&path, MAX_SRDF_BYTES) else { continue };
             let mut text = String::from_utf8_lossy(&bytes).into_owned();
             let mut trail = None;
-            if name.ends_with(XACRO) {
+            if is_xacro(&path) {
                 if expanded == MAX_EXPANDED || !has_name(&text) {
                     continue;
                 }

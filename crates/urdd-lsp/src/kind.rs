@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use crate::uri;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_VERSION_BYTES;
 use urdd_directory::regular;
 use urdd_document::load::{find_spec, metadata_of};
@@ -31,12 +32,11 @@ pub enum Kind {
 impl Kind {
     /// What a document is, by its name; by its language if it has no name with an extension.
     pub fn of(uri: &str, path: Option<&Path>, language: &str) -> Kind {
-        let name = uri::file_name(uri).to_lowercase();
-        if name.ends_with(".urdf") {
-            return Kind::Urdf;
-        }
-        if name.ends_with(".xacro") {
-            return Kind::Xacro;
+        let name = uri::file_name(uri);
+        match FileType::of(Path::new(&name)) {
+            Some(FileType::Urdf) => return Kind::Urdf,
+            Some(FileType::Xacro) => return Kind::Xacro,
+            _ => {}
         }
         if let Some(found) = path.and_then(Schema::of_file) {
             return found;

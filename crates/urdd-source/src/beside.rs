@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use crate::gate::Gate;
-use crate::import::Imported;
 use urdd_directory::limits::{MAX_SETUP_BYTES, MAX_SRDF_BYTES};
 use urdd_format::named_configurations::ConfigurationEdit;
 
@@ -32,19 +31,6 @@ pub struct Carried {
 }
 
 impl Beside {
-    /// What an import writes beside its URDF.
-    pub(super) fn of(imported: Imported) -> Beside {
-        let text = |bytes: &[u8]| Ok(String::from_utf8_lossy(bytes).into_owned());
-        Beside {
-            srdf: imported.srdf().map(text),
-            setup: imported.setup().map(text),
-            import: Some(Carried {
-                lost: imported.report.lost().map(|(what, n)| (what.to_owned(), n)).collect(),
-                configurations: imported.configurations,
-            }),
-        }
-    }
-
     /// Reads what stands beside a URDF.
     pub(super) fn read(urdf: &Path, gate: &Gate) -> Beside {
         let at = |ending: &str, limit| companion(&urdf.with_extension(ending), limit, gate);

@@ -7,7 +7,7 @@ use crate::note::{Note, NoteKind};
 
 /// The text of a file, and whether its bytes can be stored unchanged. SPEC 6.1.8 requires UTF-8; a byte order mark is
 /// harmless.
-pub(super) fn decode(
+pub fn decode(
     bytes: &[u8],
     shown: &str,
     notes: &mut Vec<Note>,

@@ -10,6 +10,7 @@ use crate::installs;
 use crate::macros::{self, Content, Macro, MacroFile};
 use crate::settings::Settings;
 use urdd_directory::account::Account;
+use urdd_directory::file_type::FileType;
 use urdd_format::short::Short;
 
 /// Charged for a package that is looked up: the files that are looked at for it.
@@ -285,7 +286,7 @@ impl<'t> Links<'t> {
     fn kind(&self, path: &'t Path, file: &MacroFile) -> FileKind {
         let maker = Maker::File(path);
         // What is wrong with one that is empty, or a URDF, is what its reader says.
-        let is_urdf = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
+        let is_urdf = FileType::Urdf.is_of(path);
         let is_empty = file.root == "robot" && !file.content.is_some;
         if is_empty || (is_urdf && !file.has_xacro) {
             return FileKind::Robot;

@@ -7,11 +7,11 @@ use super::declared::Declared;
 use super::described::{FileKind, describe};
 use super::endings::Endings;
 use super::files::Files;
-use super::fragments::{imported, parts};
-use super::import::format::Format;
+use super::format::{Format, imported, parts_of_others};
 use super::robots::{Job, named};
 use super::settings::Settings;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_type::FileType;
 use urdd_directory::path;
 
 /// Maximum number of packages of one description for which a folder is searched. Descriptions name a few.
@@ -67,7 +67,7 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let mut found: Vec<(PathBuf, Kind)> = found.collect();
     let is_imported = |(_, kind): &&(PathBuf, Kind)| matches!(kind, Kind::Imported(_));
     let imported = found.iter().filter(is_imported).map(|(file, _)| file.as_path());
-    let mut parts = parts(imported, files);
+    let mut parts = parts_of_others(imported, files);
     let is_xacro = |(_, kind): &&(PathBuf, Kind)| *kind == Kind::Xacro;
     let xacro: Vec<PathBuf> = found.iter().filter(is_xacro).map(|(file, _)| file.clone()).collect();
     let settings = Settings { files: files.clone(), ..Settings::default() };
@@ -86,12 +86,11 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
 }
 
 fn kind(file: &Path, files: &Files) -> Option<Kind> {
-    let name = file.file_name()?.to_string_lossy().to_lowercase();
-    let (stem, extension) = name.rsplit_once('.')?;
-    match extension {
-        "urdf" => Some(Kind::Urdf),
-        "xacro" if stem.ends_with(".urdf") => {
-            (!files.is_file(&file.with_extension(""))).then_some(Kind::Xacro)
+    match FileType::of(file)? {
+        FileType::Urdf => Some(Kind::Urdf),
+        FileType::Xacro => {
+            let urdf = file.with_extension("");
+            (FileType::Urdf.is_of(&urdf) && !files.is_file(&urdf)).then_some(Kind::Xacro)
         }
         _ => imported(file, files).map(Kind::Imported),
     }

@@ -5,7 +5,6 @@ use std::fmt;
 use thiserror::Error;
 
 use super::fault::PlacedFault;
-use super::import::fault::ImportFault;
 use super::xacro_argument::XacroArgument;
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::escape;
@@ -36,8 +35,8 @@ pub enum SourceError {
     )]
     NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
     /// A description of another format than URDF.
-    #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(&fault.to_string()))]
-    Import { file: String, line: u32, column: u32, fault: Box<ImportFault> },
+    #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(fault))]
+    Import { file: String, line: u32, column: u32, fault: String },
     #[error("{file}: this is a URDF already; `urdd generate` takes it as it is")]
     IsUrdf { file: String },
     #[error("stopped before it was finished; nothing was changed")]

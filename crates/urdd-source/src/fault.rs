@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::format::Format;
 use super::note::SourcePlace;
 use urdd_format::short::Short;
 
@@ -114,10 +115,12 @@ fn other(line: u32) -> String {
 }
 
 fn sdf_hint(element: &str) -> &'static str {
-    match element {
-        "sdf" => ": this is SDF; `urdd import` makes a URDF of a file of it",
-        "mujoco" => ": this is a MuJoCo model; `urdd import` makes a URDF of a file of it",
-        "xacro:macro" => ": this is a xacro macro file, to be included by others",
+    match (Format::of_root(element), element) {
+        (Some(Format::Sdf), _) => ": this is SDF; `urdd import` makes a URDF of a file of it",
+        (Some(Format::Mjcf), _) => {
+            ": this is a MuJoCo model; `urdd import` makes a URDF of a file of it"
+        }
+        (None, "xacro:macro") => ": this is a xacro macro file, to be included by others",
         _ => "",
     }
 }

@@ -9,15 +9,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::files::{Files, is_broad};
-use super::import::fault::ImportFault;
-use super::import::unreachable::Unreachable;
 use super::inspect::{Inspected, inspect};
 use super::packages::Packages;
 use super::resolve::{FoundMesh, NotFound, resolve};
 use super::roots::{Place, Roots};
 use super::settings::Settings;
 use super::sniff::is_image;
-use urdd_directory::account::Account;
+use thiserror::Error;
+use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::read_error::ReadError;
 
@@ -25,6 +24,16 @@ use urdd_directory::read_error::ReadError;
 const MARKS: &[&str] = &[".git", "package.xml", "pyproject.toml", "setup.py", "model.config"];
 /// A file of each folder of a Python package.
 const PYTHON: &str = "__init__.py";
+
+/// Why an image is not given out.
+#[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum ImageFault {
+    #[error(transparent)]
+    Unread(#[from] ReadError),
+    #[error(transparent)]
+    TooMuch(#[from] Overdrawn),
+}
 
 /// The gate of one description.
 #[derive(Debug)]
@@ -147,18 +156,12 @@ impl Gate {
     }
 
     /// Reads an image that was found and that begins with these bytes; `None` if it is not one, which is charged: it may be
-    /// named, and so read, many times. `shown` is its name in errors.
+    /// named, and so read, many times.
     ///
     /// # Errors
     /// If it cannot be read, or costs too much.
-    pub fn image(
-        &self,
-        found: &FoundMesh,
-        start: &[u8],
-        shown: &str,
-    ) -> Result<Option<Vec<u8>>, ImportFault> {
-        let bytes = self.bytes(found, MAX_DOCUMENT_BYTES);
-        let bytes = bytes.map_err(|why| Unreachable::unread(shown, &why))?;
+    pub fn image(&self, found: &FoundMesh, start: &[u8]) -> Result<Option<Vec<u8>>, ImageFault> {
+        let bytes = self.bytes(found, MAX_DOCUMENT_BYTES)?;
         if bytes.starts_with(start) && is_image(&bytes) {
             return Ok(Some(bytes));
         }
@@ -210,17 +213,6 @@ impl Gate {
 
     fn seen(&self) -> MutexGuard<'_, Seen> {
         self.seen.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// Why a file that was not found cannot be read, under the name that the description has for it.
-pub(crate) fn unreachable(file: &str, why: NotFound) -> Unreachable {
-    match why.outside {
-        Some(outside) => {
-            let folder = outside.parent().unwrap_or(&outside).to_owned();
-            Unreachable::Outside { file: file.to_owned(), folder }
-        }
-        None => Unreachable::Missing(file.to_owned()),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::package_index::PackageIndex;
 use crate::settings::Settings;
 use crate::xacro::run;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::file_type::FileType;
 use urdd_directory::regular;
 
 /// Maximum number of folders, and of files, that are listed.
@@ -20,7 +21,7 @@ pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -
     if !matches!(settings.files, Files::Disk) {
         return Vec::new();
     }
-    let is_xacro = file.extension().is_some_and(|ending| ending == "xacro");
+    let is_xacro = FileType::Xacro.is_of(file);
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
         true => listed(file, settings, cancellation).unwrap_or_else(|| beside(file)),
         false => Vec::new(),

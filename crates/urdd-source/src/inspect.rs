@@ -70,7 +70,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
 }
 
 /// Inspects the bytes of a mesh of which the files that it references are not wanted.
-pub(crate) fn inspect_alone(bytes: Vec<u8>, name: &str) -> Inspected {
+pub fn inspect_alone(bytes: Vec<u8>, name: &str) -> Inspected {
     inspect_bytes(bytes, name, |_| None, |_, _| Err("which is not read".to_owned()))
 }
 

@@ -18,9 +18,8 @@ mod endings;
 mod error;
 pub mod fault;
 mod files;
-mod fragments;
+mod format;
 pub mod gate;
-pub mod import;
 mod includes;
 mod inspect;
 mod installed;
@@ -29,7 +28,6 @@ mod launch;
 mod load;
 pub mod macros;
 mod meshes;
-mod named;
 pub mod note;
 pub mod origin;
 mod package_index;
@@ -41,7 +39,7 @@ pub mod robots;
 mod roots;
 mod settings;
 mod setup_py;
-mod sniff;
+pub mod sniff;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -54,19 +52,20 @@ mod xacro_argument;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
+pub use decode::decode;
 pub use error::{SourceError, XacroFault};
 pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
+pub use format::{Format, format_of, root_of};
 pub use includes::included;
-pub use inspect::{Inspected, SideFile};
+pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{
-    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,
+    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf, stem,
     well_formed,
 };
-pub use meshes::{MissingMesh, SourceMesh, SourceMeshes};
-pub use named::{NamedMesh, named};
+pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
-pub use settings::Settings;
+pub use settings::{ImportOptions, Settings};
 pub use watch::Trail;
 pub use xacro::{XACRO_TIMEOUT, XacroSettings};

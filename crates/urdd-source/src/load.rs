@@ -16,6 +16,7 @@ use super::watch::Trail;
 use super::written::WrittenMap;
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_format::urdf::UrdfModule;
@@ -142,7 +143,7 @@ fn read(
     let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
     let (text, is_verbatim) = decode::decode(&bytes, &shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
-    let is_xacro_file = path.extension().is_some_and(|extension| extension == "xacro");
+    let is_xacro_file = FileType::Xacro.is_of(path);
     let is_expanded = is_xacro_file || (settings.xacro.expand_urdf && text.contains("<xacro:"));
     let (text, trail) = match (is_expanded, &settings.files) {
         (true, Files::Disk) => {
@@ -375,14 +376,12 @@ pub fn well_formed(text: &str) -> (String, u32) {
     (text, lines)
 }
 
-/// The file name without its extensions.
-pub(crate) fn stem(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut stem: &str = &name;
-    for extension in [".xacro", ".xml", ".urdf", ".sdf"] {
-        stem = stem.strip_suffix(extension).unwrap_or(stem);
+/// The file name without its extensions, or `robot`.
+pub fn stem(path: &Path) -> String {
+    match file_type::stem(path) {
+        stem if stem.is_empty() => "robot".to_owned(),
+        stem => stem,
     }
-    if stem.is_empty() { "robot" } else { stem }.to_owned()
 }
 
 /// The name of a robot's file in its URDD.

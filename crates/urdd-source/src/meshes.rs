@@ -8,14 +8,12 @@ use super::around::NearPackage;
 use super::beside::Beside;
 use super::error::SourceError;
 use super::gate::Gate;
-use super::import::import;
-use super::load::{self, Source};
-use super::named::named;
+use super::load::{Source, load, load_text_in};
 use super::resolve::{FoundMesh, NotFound, OtherCase};
 use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::urdf::UrdfModule;
+use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
 
 /// A URDF and the mesh files that it names.
@@ -89,7 +87,7 @@ impl From<NotFound> for MissingMesh {
 }
 
 impl SourceMeshes {
-    /// Opens a description and finds its mesh files. Those of a description that is imported are in memory.
+    /// Opens a URDF, or what xacro makes of a file, and finds its mesh files.
     ///
     /// # Errors
     /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
@@ -98,13 +96,36 @@ impl SourceMeshes {
         settings: &Settings,
         cancellation: &Cancellation,
     ) -> Result<SourceMeshes, SourceError> {
-        let Some(imported) = import(path, settings)? else {
-            return Ok(with_meshes(load::load(path, settings, cancellation)?, settings));
-        };
-        let settings = imported.settings(settings)?;
-        let source = imported.load(&settings, cancellation)?;
-        let made = with_meshes(source, &settings);
-        Ok(SourceMeshes { imported: Some(Beside::of(imported)), ..made })
+        Ok(SourceMeshes::of(load(path, settings, cancellation)?, settings, None))
+    }
+
+    /// Finds the mesh files of a URDF. A missing mesh is not an error. `imported` is what its import writes beside it, if it has one.
+    pub fn of(source: Source, settings: &Settings, imported: Option<Beside>) -> SourceMeshes {
+        let gate = Gate::new(&source.folder, settings);
+        let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
+        let mut meshes = Vec::new();
+        for mesh in named(&source.reading.robot) {
+            let found = found.entry(mesh.filename);
+            let found =
+                found.or_insert_with(|| gate.find(mesh.filename).map_err(MissingMesh::from));
+            meshes.push(SourceMesh {
+                link: mesh.link,
+                geometry: mesh.geometry,
+                element: mesh.element,
+                filename: mesh.filename.to_owned(),
+                file: found.as_ref().map(|found| found.file.clone()).map_err(Clone::clone),
+            });
+        }
+        let found = found.into_values().flatten();
+        let found = found.map(|found| (found.file.clone(), found)).collect();
+        SourceMeshes {
+            text: String::from_utf8_lossy(&source.carried).into_owned(),
+            robot: source.reading.robot,
+            meshes,
+            gate,
+            found,
+            imported,
+        }
     }
 
     /// What stands beside the description at the path that it was opened at, or what its import writes there.
@@ -124,8 +145,8 @@ impl SourceMeshes {
     ) -> Result<SourceMeshes, SourceError> {
         // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
         let folder = settings.files.canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-        let source = load::load_text_in(text.as_bytes().to_owned(), shown, folder)?;
-        Ok(with_meshes(source, settings))
+        let source = load_text_in(text.as_bytes().to_owned(), shown, folder)?;
+        Ok(SourceMeshes::of(source, settings, None))
     }
 
     /// Reads a file of [`SourceMeshes::meshes`].
@@ -145,29 +166,31 @@ impl SourceMeshes {
     }
 }
 
-fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
-    let gate = Gate::new(&source.folder, settings);
-    let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
-    let mut meshes = Vec::new();
-    for mesh in named(&source.reading.robot) {
-        let found = found.entry(mesh.filename);
-        let found = found.or_insert_with(|| gate.find(mesh.filename).map_err(MissingMesh::from));
-        meshes.push(SourceMesh {
-            link: mesh.link,
-            geometry: mesh.geometry,
-            element: mesh.element,
-            filename: mesh.filename.to_owned(),
-            file: found.as_ref().map(|found| found.file.clone()).map_err(Clone::clone),
-        });
+/// A mesh reference in the URDF.
+pub struct NamedMesh<'a> {
+    /// Index of the link.
+    pub link: usize,
+    /// Whether a visual or a collision element names it.
+    pub geometry: GeometryKind,
+    /// Index of the element among the link's elements of that kind.
+    pub element: usize,
+    /// The name as the URDF has it.
+    pub filename: &'a str,
+}
+
+/// The mesh references of a robot: links in order, visual before collision, elements in order.
+pub fn named(robot: &UrdfModule) -> Vec<NamedMesh<'_>> {
+    let mut named = Vec::new();
+    for (link, of) in robot.links.iter().enumerate() {
+        let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());
+        let collision = of.collision.iter().map(|collision| collision.geometry.as_ref());
+        let visual = visual.enumerate().map(|found| (GeometryKind::Visual, found));
+        let collision = collision.enumerate().map(|found| (GeometryKind::Collision, found));
+        for (geometry, (element, found)) in visual.chain(collision) {
+            if let Some(Geometry::Mesh(mesh)) = found {
+                named.push(NamedMesh { link, geometry, element, filename: &mesh.filename });
+            }
+        }
     }
-    let found = found.into_values().flatten();
-    let found = found.map(|found| (found.file.clone(), found)).collect();
-    SourceMeshes {
-        text: String::from_utf8_lossy(&source.carried).into_owned(),
-        robot: source.reading.robot,
-        meshes,
-        gate,
-        found,
-        imported: None,
-    }
+    named
 }

@@ -12,11 +12,12 @@ use super::described::{Description, FileKind, Reason, describe};
 use super::error::SourceError;
 use super::fault::Fault;
 use super::files::Files;
-use super::fragments::{self, imported, may_be_imported};
+use super::format::{imported, parts_of_others};
 use super::packages::{IGNORED, package_name};
 use super::settings::Settings;
 
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
 use urdd_directory::path;
 use urdd_format::escape;
@@ -104,7 +105,7 @@ impl Batch {
     /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link, or it has
     /// none by itself, and another file includes it.
     pub fn is_part(&self, source: &Path, error: &SourceError) -> bool {
-        let is_xacro = source.extension().is_some_and(|end| end == "xacro");
+        let is_xacro = FileType::Xacro.is_of(source);
         self.may_drop(source)
             && is_xacro
             && match error {
@@ -280,7 +281,7 @@ struct Found {
 /// The MJCFs and SDFs among files, without those that are parts of others.
 fn others(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     files.retain(|file| imported(file, &Files::Disk).is_some());
-    let parts = fragments::parts(files.iter().map(PathBuf::as_path), &Files::Disk);
+    let parts = parts_of_others(files.iter().map(PathBuf::as_path), &Files::Disk);
     files.retain(|file| !file.canonicalize().is_ok_and(|file| parts.contains(&file)));
     files
 }
@@ -313,17 +314,17 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
     }
     entries.sort();
     for (name, path, is_folder) in entries {
-        let lower = name.to_lowercase();
         if is_folder {
             if !name.starts_with('.') {
                 search(&path, depth + 1, found)?;
             }
-        } else if lower.ends_with(".urdf")
-            || (lower.ends_with(".xacro") && !expansion(&path).is_file())
-        {
-            found.urdfs.push(path);
-        } else if may_be_imported(&path) {
-            found.others.push(path);
+            continue;
+        }
+        match FileType::of(&path) {
+            Some(FileType::Urdf) => found.urdfs.push(path),
+            Some(FileType::Xacro) if !expansion(&path).is_file() => found.urdfs.push(path),
+            Some(FileType::Xml | FileType::Sdf | FileType::Mjcf) => found.others.push(path),
+            _ => {}
         }
     }
     Ok(())
@@ -332,11 +333,7 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
 /// The URDF that a xacro file is expanded to by hand.
 fn expansion(xacro: &Path) -> PathBuf {
     let stem = xacro.with_extension("");
-    if stem.extension().is_some_and(|end| end == "urdf") {
-        stem
-    } else {
-        stem.with_extension("urdf")
-    }
+    if FileType::Urdf.is_of(&stem) { stem } else { stem.with_extension("urdf") }
 }
 
 /// A unique name for each robot.
@@ -379,11 +376,6 @@ fn names(sources: &[Declared]) -> Vec<String> {
 
 /// The names of a robot's folders, and its own name, or its file's without extension; none of them hidden.
 fn parts(Declared { source, name, .. }: &Declared) -> Vec<String> {
-    let file = source.file_name().unwrap_or_default().to_string_lossy();
-    let mut stem: &str = &file;
-    for extension in [".xacro", ".urdf", ".URDF", ".xml", ".sdf"] {
-        stem = stem.strip_suffix(extension).unwrap_or(stem);
-    }
     let folders = source.parent().into_iter().flat_map(Path::components);
     let folders = folders.filter_map(|component| match component {
         Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
@@ -393,5 +385,5 @@ fn parts(Declared { source, name, .. }: &Declared) -> Vec<String> {
         "" => "robot".to_owned(),
         name => name.to_owned(),
     };
-    folders.chain([name.clone().unwrap_or_else(|| stem.to_owned())]).map(plain).collect()
+    folders.chain([name.clone().unwrap_or_else(|| file_type::stem(source))]).map(plain).collect()
 }

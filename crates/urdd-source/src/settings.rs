@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::declared::Declared;
 use super::files::Files;
-use super::import::options::ImportOptions;
 use super::packages::Packages;
 use super::xacro::XacroSettings;
 
@@ -33,4 +32,17 @@ impl Settings {
         settings.xacro.arguments = arguments.iter().chain(&self.xacro.arguments).cloned().collect();
         settings
     }
+}
+
+/// What a person can choose of an import.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ImportOptions {
+    /// The body of an MJCF that is the root of the robot. By default it is told by the structure.
+    pub body: Option<String>,
+    /// The model of an SDF. By default it is the only one.
+    pub model: Option<String>,
+    /// Whether a ball is written as three revolute joints.
+    pub has_revolute_balls: bool,
+    /// Whether links between the joints of one body get a tiny mass, which MuJoCo asks of what moves.
+    pub has_tiny_masses: bool,
 }

@@ -7,7 +7,7 @@ use urdd_geometry::read::{Format, Scene};
 const HEAD: usize = 64 << 10;
 
 /// Whether a file is a mesh; `scene` is the result of reading it.
-pub fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
+pub(crate) fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
     match scene {
         Some(scene) if scene.triangle_count() > 0 => true,
         // STL and COLLADA are recognised by markers that arbitrary text does not have.
@@ -97,12 +97,12 @@ pub(super) fn fault_of_side_file(
 }
 
 /// Whether a file is an image, by its header and pixel size.
-pub fn is_image(bytes: &[u8]) -> bool {
+pub(crate) fn is_image(bytes: &[u8]) -> bool {
     imagesize::blob_size(bytes).is_ok_and(|size| size.width > 0 && size.height > 0)
 }
 
 /// Whether a file is a material library: text that declares a material or has only comments.
-pub fn is_mtl(bytes: &[u8]) -> bool {
+pub(crate) fn is_mtl(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
         // Material names may be in a legacy encoding.
         return !bytes.contains(&0) && declares_material(&String::from_utf8_lossy(bytes));

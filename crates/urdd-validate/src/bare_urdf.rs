@@ -11,6 +11,7 @@ use super::rule::{Need, Rule};
 use super::rules;
 use super::two_robots::Judges;
 use urdd_directory::discover::Found;
+use urdd_directory::file_type::FileType;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Memory;
 use urdd_document::carried_urdf::{self, CarriedUrdf};
@@ -26,8 +27,7 @@ use urdd_format::report::Kind;
 
 /// Whether a path is a file with the extension of a URDF.
 pub fn is_urdf(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    extension.eq_ignore_ascii_case("urdf") && path.is_file()
+    FileType::Urdf.is_of(path) && path.is_file()
 }
 
 /// The URDF at a path: its folder, and its file name.

@@ -14,6 +14,7 @@ use serde_json::json;
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
 use crate::reply::{Failure, Reply};
+use urdd_directory::file_type::FileType;
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::listing::EntryKind;
 use urdd_directory::root::Root;
@@ -173,7 +174,7 @@ fn sources(
     let mut jobs = robots::jobs(&[folder.to_owned()], &SourceSettings::default())
         .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
     if !with_xacro {
-        jobs.retain(|job| job.source.extension().is_none_or(|it| it != "xacro"));
+        jobs.retain(|job| !FileType::Xacro.is_of(&job.source));
     }
     if jobs.is_empty() {
         let why = "xacro files are programs: start `urdd view --xacro` to run them";

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::super::output::{self, about, shown};
 use super::super::packages::around;
+use urdd_directory::file_type::FileType;
 use urdd_format::escape;
 use urdd_source::arguments::{XacroArgument, arguments};
 use urdd_source::robots::{BatchError, jobs};
@@ -47,7 +48,7 @@ pub fn robot_files(path: &Path) -> Result<Vec<RobotFile>, BatchError> {
         RobotFile { source: source.to_string_lossy().replace('\\', "/"), arguments }
     };
     let mut jobs = jobs(&[path.to_owned()], &settings)?;
-    jobs.retain(|job| job.source.extension().is_some_and(|ending| ending == "xacro"));
+    jobs.retain(|job| FileType::Xacro.is_of(&job.source));
     Ok(jobs.into_iter().map(|job| of(job.source)).collect())
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_source::import::import;
+use urdd_import::import;
 use urdd_source::{Files, Settings};
 
 /// A mesh that any name of a description may find.

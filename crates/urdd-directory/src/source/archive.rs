@@ -17,6 +17,7 @@ use super::tree::{Item, Node, Tree};
 use super::zip_list::{self, Listed, Packed, entry_fault};
 use super::{OpenFile, Source};
 use crate::archive_fault::{ArchiveFault, EntryFault};
+use crate::file_type::FileType;
 use crate::layout::ROOT_METADATA;
 use crate::limits::{
     MAX_ARCHIVE_BYTES, MAX_DOCUMENT_BYTES, MAX_INFLATED_BYTES, MAX_INFLATION, MAX_NAME_BYTES,
@@ -39,13 +40,12 @@ const MACOS_FOLDER: &str = "__MACOSX";
 
 /// Whether a file is a zip archive, by its extension or its first bytes.
 pub fn is_archive(path: &Path) -> bool {
-    let by_name = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zip"));
     let begins = || {
         let mut start = [0; 4];
         regular::open(path).ok()?.read_exact(&mut start).ok()?;
         Some(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
     };
-    path.is_file() && (by_name || begins().unwrap_or(false))
+    path.is_file() && (FileType::Archive.is_of(path) || begins().unwrap_or(false))
 }
 
 /// The shared bytes of an archive.

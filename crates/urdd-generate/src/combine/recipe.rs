@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::Spanned;
 
 use super::error::{CombineError, PartFault, did_you_mean};
+use urdd_directory::file_type::stem;
 use urdd_directory::path::portable;
 use urdd_directory::position::{self, Position};
 use urdd_format::escape;
@@ -307,12 +308,7 @@ impl Recipe {
 }
 
 fn id_of(path: &Path) -> String {
-    let name = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let name = name.file_name().unwrap_or_default().to_string_lossy();
-    let mut stem: &str = &name;
-    for extension in [".zip", ".xacro", ".xml", ".urdf", ".sdf"] {
-        stem = stem.strip_suffix(extension).unwrap_or(stem);
-    }
-    let id = portable(stem).replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "_");
+    let stem = stem(&path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+    let id = portable(&stem).replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "_");
     if id.is_empty() { "part".to_owned() } else { id }
 }

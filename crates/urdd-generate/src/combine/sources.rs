@@ -9,6 +9,7 @@ use super::error::{CombineError, PartFault};
 use super::recipe::{Part, Recipe, Sources};
 use crate::Settings;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_type::FileType;
 use urdd_directory::source::{is_archive, is_urdd};
 use urdd_format::escape;
 
@@ -80,7 +81,7 @@ impl Recipe {
             )));
         }
         let kind = source_kind(&path)?;
-        let is_xacro = path.extension().is_some_and(|ending| ending == "xacro");
+        let is_xacro = FileType::Xacro.is_of(&path);
         match kind == SourceKind::Urdf && is_xacro && !settings.source.xacro.expand_urdf {
             true => Err(PartFault::unusable(
                 "the recipe names a xacro file, which runs as a program; if you trust it, allow it with --xacro",

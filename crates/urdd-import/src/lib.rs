@@ -1,0 +1,23 @@
+//! Internal to urdd; no stability promise.
+//!
+//! Descriptions that are no URDF: MJCF and SDF. A reader of each format makes a model; from it come a URDF, its
+//! meshes, an SRDF, what exports need, and a report. Files are found and read by the gate of `urdd-source`.
+
+mod companions;
+mod fault;
+mod features;
+mod imported;
+mod mass;
+mod mjcf;
+mod model;
+mod names;
+mod place;
+mod refusal;
+pub mod report;
+mod sdf;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod urdf;
+
+pub use imported::{Imported, import, import_whole, open};

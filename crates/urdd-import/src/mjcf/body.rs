@@ -1,0 +1,274 @@
+//! The tree of bodies, with frames and replicas written out.
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use super::super::features::{self, Tally};
+use super::super::model::{Body, LETTER};
+use super::super::place::Place;
+use super::super::refusal::{Fallible, at};
+use super::compiler::Compilers;
+use super::defaults::{Defaults, MAIN, PASSED};
+use super::element::Element;
+use super::fault::MjcfFault;
+use super::geom::{Geom, between};
+use super::joint::{self, RawJoint};
+use super::orientation::{euler, pose};
+use super::reading::{View, integer, numbers, required, wrong};
+use urdd_directory::account::{Account, Charged};
+
+/// What an element costs beside what the model has of it, bytes.
+const RAW: usize = 2000;
+
+/// The world is the first body.
+pub const WORLD: usize = 0;
+
+/// A body.
+#[derive(Default)]
+pub struct RawBody<'d> {
+    pub name: Option<String>,
+    pub parent: Option<usize>,
+    pub pose: Isometry3<f64>,
+    /// Its `pos`, without the frame that it is in.
+    pub written_position: Vector3<f64>,
+    pub inertial: Option<View<'d>>,
+    /// How many it has: the last counts.
+    pub inertials: usize,
+    pub joints: Vec<RawJoint>,
+    pub geoms: Vec<Geom<'d>>,
+    pub frames: Vec<RawFrame>,
+    pub is_mocap: bool,
+    pub place: Place,
+}
+
+/// A site or a camera.
+pub struct RawFrame {
+    pub name: Option<String>,
+    /// `site` or `camera`.
+    pub kind: &'static str,
+    pub pose: Isometry3<f64>,
+    pub place: Place,
+}
+
+/// The bodies of a model.
+pub struct Bodies<'d> {
+    /// The world first, each parent before its children.
+    pub all: Vec<RawBody<'d>>,
+    /// What is put behind the names in replicas, by name.
+    pub suffixes: HashMap<String, Vec<String>>,
+    /// Whether there are bodies that are not read, so that positions cannot be counted.
+    pub is_partial: bool,
+}
+
+/// The bodies of a model.
+pub fn bodies<'d>(
+    root: &'d Element,
+    defaults: &'d Defaults<'d>,
+    compilers: &'d Compilers,
+    tally: &mut Tally,
+    account: &Account,
+) -> Fallible<Bodies<'d>> {
+    let bodies =
+        Bodies { all: vec![RawBody::default()], suffixes: HashMap::new(), is_partial: false };
+    let mut builder = Builder { bodies, defaults, compilers, tally, account };
+    let suffix = String::new();
+    for section in root.all("worldbody") {
+        builder.bodies.all[WORLD].place = section.place;
+        let scope =
+            Scope { body: WORLD, frame: Isometry3::identity(), class: MAIN, suffix: &suffix };
+        builder.children(section, scope)?;
+    }
+    Ok(builder.bodies)
+}
+
+struct Builder<'d, 't> {
+    bodies: Bodies<'d>,
+    defaults: &'d Defaults<'d>,
+    compilers: &'d Compilers,
+    tally: &'t mut Tally,
+    account: &'t Account,
+}
+
+/// Where elements are.
+#[derive(Clone, Copy)]
+struct Scope<'s> {
+    body: usize,
+    /// The frame around them, in the body's.
+    frame: Isometry3<f64>,
+    class: usize,
+    /// What is put behind their names.
+    suffix: &'s str,
+}
+
+impl<'d> Builder<'d, '_> {
+    fn children(&mut self, parent: &'d Element, scope: Scope<'_>) -> Fallible<()> {
+        for element in &parent.children {
+            self.charge(element, scope)?;
+            let is_world = scope.body == WORLD;
+            match element.tag.as_str() {
+                "body" => self.body(element, scope)?,
+                "frame" => self.frame(element, scope)?,
+                "replicate" => self.replicate(element, scope)?,
+                "inertial" | "joint" | "freejoint" if is_world => {
+                    return Err(at(element.place, MjcfFault::InWorld(element.tag.clone())));
+                }
+                "inertial" => {
+                    let view = View::new(element, self.defaults, scope.class)?;
+                    self.bodies.all[scope.body].inertial = Some(view);
+                    self.bodies.all[scope.body].inertials += 1;
+                }
+                "joint" | "freejoint" => self.joint(element, scope)?,
+                "geom" => {
+                    let name = self.name(element, scope);
+                    let view = View::new(element, self.defaults, scope.class)?;
+                    let geom =
+                        Geom::read(view, name, &scope.frame, self.compilers.at(element.place))?;
+                    self.bodies.all[scope.body].geoms.push(geom);
+                }
+                "site" => self.site(element, "site", scope)?,
+                "camera" => self.site(element, "camera", scope)?,
+                "composite" | "flexcomp" => {
+                    self.tally.count(features::SOFT);
+                    self.bodies.is_partial = true;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Charges an element, each time that it is replicated, with its name and other texts.
+    fn charge(&self, element: &Element, scope: Scope<'_>) -> Fallible<()> {
+        let name = element.text("name").map_or(0, str::len) + scope.suffix.len();
+        let bytes = RAW + LETTER * name + PASSED * element.length();
+        self.account.charge(bytes).map_err(|why| at(element.place, why))
+    }
+
+    fn name(&mut self, element: &Element, scope: Scope<'_>) -> Option<String> {
+        let name = element.text("name")?;
+        if !scope.suffix.is_empty() {
+            let suffixes = self.bodies.suffixes.entry(name.to_owned()).or_default();
+            suffixes.push(scope.suffix.to_owned());
+        }
+        Some(format!("{name}{}", scope.suffix))
+    }
+
+    fn body(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
+        let view = View::new(element, self.defaults, scope.class)?;
+        let own = pose(view, self.compilers.at(element.place))?;
+        let class = self.defaults.scope(element, scope.class)?;
+        let body = RawBody {
+            name: self.name(element, scope),
+            parent: Some(scope.body),
+            pose: scope.frame * own,
+            written_position: own.translation.vector,
+            is_mocap: view.flag("mocap")?.unwrap_or(false),
+            place: element.place,
+            ..RawBody::default()
+        };
+        let inner =
+            Scope { body: self.bodies.all.len(), frame: Isometry3::identity(), class, ..scope };
+        self.bodies.all.push(body);
+        self.children(element, inner)?;
+        self.check_joints(inner.body)
+    }
+
+    /// What MuJoCo does not simulate.
+    fn check_joints(&self, body: usize) -> Fallible<()> {
+        let RawBody { joints, parent, place, .. } = &self.bodies.all[body];
+        let kinds: Vec<joint::Kind> = joints.iter().map(|joint| joint.kind).collect();
+        let is_free = kinds.contains(&joint::Kind::Free);
+        let ball = kinds.iter().position(|kind| *kind == joint::Kind::Ball);
+        let turns_after = ball
+            .is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != joint::Kind::Slide));
+        let freedoms: usize =
+            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == joint::Kind::Ball)).sum();
+        if is_free && (kinds.len() > 1 || *parent != Some(WORLD)) || turns_after || freedoms > 6 {
+            return Err(at(*place, MjcfFault::Joints));
+        }
+        Ok(())
+    }
+
+    fn frame(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
+        let view = View::new(element, self.defaults, scope.class)?;
+        let frame = scope.frame * pose(view, self.compilers.at(element.place))?;
+        let class = self.defaults.scope(element, scope.class)?;
+        self.children(element, Scope { frame, class, ..scope })
+    }
+
+    fn replicate(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
+        required(element, "count")?;
+        let count = integer(element, "count")?.unwrap_or_default();
+        if count < 1 {
+            return Err(wrong(element, "count", "a number of replicas"));
+        }
+        let offset = Vector3::from(numbers::<3>(element, "offset")?.unwrap_or_default());
+        let angles = numbers::<3>(element, "euler")?.unwrap_or_default();
+        let separator = element.get("sep").unwrap_or_default();
+        let class = self.defaults.scope(element, scope.class)?;
+        let width = count.to_string().len();
+        let mut position = Vector3::zeros();
+        for number in 0..count {
+            self.charge(element, scope)?;
+            #[expect(clippy::cast_precision_loss, reason = "as many as can be charged")]
+            let turn =
+                euler(angles.map(|angle| angle * number as f64), self.compilers.at(element.place));
+            let at = Isometry3::from_parts(Translation3::from(position), turn);
+            position += turn * offset;
+            let suffix = format!("{separator}{number:0width$}{}", scope.suffix);
+            let frame = scope.frame * at;
+            self.children(element, Scope { frame, class, suffix: &suffix, ..scope })?;
+        }
+        Ok(())
+    }
+
+    fn joint(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
+        let name = self.name(element, scope);
+        let joint = match element.tag.as_str() {
+            "freejoint" => RawJoint::free(element, name),
+            _ => {
+                let view = View::new(element, self.defaults, scope.class)?;
+                RawJoint::read(
+                    view,
+                    name,
+                    &scope.frame,
+                    self.compilers.at(element.place),
+                    self.tally,
+                )?
+            }
+        };
+        self.bodies.all[scope.body].joints.push(joint);
+        Ok(())
+    }
+
+    fn site(&mut self, element: &'d Element, kind: &'static str, scope: Scope<'_>) -> Fallible<()> {
+        let view = View::new(element, self.defaults, scope.class)?;
+        let pose = match between(view)? {
+            Some((pose, _)) => pose,
+            None => pose(view, self.compilers.at(element.place))?,
+        };
+        let frame = RawFrame {
+            name: self.name(element, scope),
+            kind,
+            pose: scope.frame * pose,
+            place: element.place,
+        };
+        self.bodies.all[scope.body].frames.push(frame);
+        Ok(())
+    }
+}
+
+/// The bodies of the robot, and what each raw one became.
+#[derive(Default)]
+pub struct Made {
+    pub bodies: Charged<Body>,
+    /// Whether the first one moves freely.
+    pub is_floating: bool,
+    /// The index of a raw body's body.
+    pub index: HashMap<usize, usize>,
+    /// The body and joint of each raw body's joints.
+    pub joints: HashMap<(usize, usize), (usize, usize)>,
+    /// The body and joint that each follower follows.
+    pub leaders: HashMap<(usize, usize), (usize, usize)>,
+}

@@ -1,0 +1,280 @@
+//! The robot of a model, as the writers of imports want it.
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Translation3};
+
+use super::super::features::{self, Tally};
+use super::super::model::{Actuator, Body, Geometry, Joint, JointKind, Shape, Use};
+use super::super::names::Names;
+use super::super::place::Place;
+use super::super::refusal::{Fallible, at};
+use super::actuator::greatest;
+use super::assets::Assets;
+use super::body::{Bodies, Made, RawBody, WORLD};
+use super::compiler::Compilers;
+use super::contact::Contacts;
+use super::fault::MjcfFault;
+use super::fit::{Fitted, fitted};
+use super::geom::{Geom, Kind};
+use super::inertia::inertial;
+use super::joint::{self, RawJoint};
+use super::material::Materials;
+use super::mesh::Meshes;
+use super::scene::Robot;
+use super::seen::{Part, Seen};
+use urdd_directory::account::{Account, Charged};
+
+/// What is needed to make bodies.
+pub struct Maker<'m, 'd> {
+    pub bodies: &'m Bodies<'d>,
+    pub robot: &'m Robot,
+    pub compilers: &'m Compilers,
+    pub meshes: Meshes<'d>,
+    pub materials: Materials<'d>,
+    pub assets: Assets<'m>,
+    pub contacts: &'m Contacts,
+    pub seen: Seen,
+    pub tally: &'m mut Tally,
+    pub account: &'m Account,
+}
+
+impl<'d> Maker<'_, 'd> {
+    /// Makes the bodies, then the frames of sites and cameras.
+    pub fn make(&mut self) -> Fallible<Made> {
+        let scale = self.scale()?;
+        let names = self.names()?;
+        let mut joint_names = Names::new(self.account);
+        let (bodies, robot) = (self.bodies, self.robot);
+        for raw in &bodies.all {
+            for joint in &raw.joints {
+                let Some(name) = joint.name.as_deref() else { continue };
+                if !joint_names.take(name).map_err(|why| at(joint.place, why))? {
+                    let fault = MjcfFault::SameName { what: "joints", name: name.to_owned() };
+                    return Err(at(joint.place, fault));
+                }
+            }
+        }
+        let mut made = Made { is_floating: robot.is_floating, ..Made::default() };
+        for (raw_index, name) in robot.bodies.iter().zip(names.0) {
+            let raw = &bodies.all[*raw_index];
+            let index = made.bodies.len();
+            let is_world = *raw_index == WORLD;
+            let is_empty = is_world && !robot.has_world;
+            let parent = raw.parent.and_then(|parent| made.index.get(&parent).copied());
+            let pose = parent.map_or_else(Isometry3::identity, |_| raw.pose);
+            let mut body = Body::new(name, parent, pose, raw.place);
+            if !is_world {
+                self.tally.count(features::BODIES);
+            }
+            if !is_empty {
+                let fitted = self.fitted(raw)?;
+                body.shapes = self.shapes(*raw_index, &fitted)?;
+                if !is_world {
+                    body.inertial = self.inertial(raw, &fitted)?;
+                }
+                if let Some(inertial) = &mut body.inertial {
+                    self.tally.count(features::MASSES);
+                    inertial.mass *= scale;
+                    inertial.inertia *= scale;
+                }
+            }
+            if body.parent.is_some() {
+                for (number, joint) in raw.joints.iter().enumerate() {
+                    let place = joint.place;
+                    let Some(joint) = self.joint(joint, &body.name, &mut joint_names)? else {
+                        continue;
+                    };
+                    made.joints.insert((*raw_index, number), (index, body.joints.len()));
+                    body.joints.push(joint, self.account).map_err(|why| at(place, why))?;
+                }
+                if body.joints.len() > 1 {
+                    self.tally.count(features::MORE_JOINTS);
+                }
+            } else if robot.is_floating {
+                self.tally.count(features::FREE);
+            }
+            made.index.insert(*raw_index, index);
+            made.bodies.push(body, self.account).map_err(|why| at(raw.place, why))?;
+        }
+        self.frames(&mut made, names.1)?;
+        Ok(made)
+    }
+
+    fn fitted(&mut self, raw: &RawBody<'d>) -> Fallible<Vec<Fitted>> {
+        let each = raw.geoms.iter();
+        let compilers = self.compilers;
+        let of = |geom| fitted(geom, compilers.at(raw.place), &mut self.meshes, &self.assets);
+        each.map(of).collect()
+    }
+
+    fn inertial(
+        &mut self,
+        raw: &RawBody<'d>,
+        fitted: &[Fitted],
+    ) -> Fallible<Option<super::super::model::Inertial>> {
+        inertial(raw, fitted, self.compilers.at(raw.place), &mut self.meshes, &self.assets)
+    }
+
+    /// By how much all masses are multiplied, so that their sum is what the compiler asks.
+    fn scale(&mut self) -> Fallible<f64> {
+        let Some(total) = self.compilers.at(Place::default()).total_mass else { return Ok(1.0) };
+        let mut mass = 0.0;
+        let bodies = self.bodies;
+        for raw in bodies.all.iter().skip(1) {
+            let fitted = self.fitted(raw)?;
+            mass += self.inertial(raw, &fitted)?.map_or(0.0, |inertial| inertial.mass);
+        }
+        Ok((total / mass.max(1e-15)).max(1e-15))
+    }
+
+    /// A name for each body of the robot, and the names that are left.
+    fn names(&self) -> Fallible<(Vec<String>, Names)> {
+        let mut names = Names::new(self.account);
+        let all = &self.bodies.all;
+        for body in self.robot.bodies.iter().map(|index| &all[*index]) {
+            let Some(name) = body.name.as_deref() else { continue };
+            if !names.take(name).map_err(|why| at(body.place, why))? {
+                let fault = MjcfFault::SameName { what: "bodies", name: name.to_owned() };
+                return Err(at(body.place, fault));
+            }
+        }
+        let mut known: HashMap<usize, String> = HashMap::new();
+        let mut found = Vec::new();
+        for index in &self.robot.bodies {
+            let body = &all[*index];
+            let name = match (&body.name, body.parent.and_then(|parent| known.get(&parent))) {
+                (Some(name), _) => Ok(name.clone()),
+                (None, _) if *index == WORLD => names.free("world"),
+                (None, Some(parent)) => names.free(&format!("{parent}_body")),
+                (None, None) => names.free("body"),
+            };
+            let name = name.map_err(|why| at(body.place, why))?;
+            known.insert(*index, name.clone());
+            found.push(name);
+        }
+        Ok((found, names))
+    }
+
+    fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Fallible<Option<Joint>> {
+        let (kind, feature) = match raw.kind {
+            joint::Kind::Free => return Ok(None),
+            joint::Kind::Ball => (JointKind::Ball, features::BALLS),
+            joint::Kind::Hinge => (JointKind::Hinge, features::HINGES),
+            joint::Kind::Slide if raw.range.is_none() => (JointKind::Slide, features::FREE_SLIDES),
+            joint::Kind::Slide => (JointKind::Slide, features::SLIDES),
+        };
+        self.tally.count(feature);
+        let name = match &raw.name {
+            Some(name) => name.clone(),
+            None => {
+                let free = names.free(&format!("{body}_joint"));
+                free.map_err(|why| at(raw.place, why))?
+            }
+        };
+        let frame = Translation3::from(raw.position).into();
+        Ok(Some(Joint {
+            axis: raw.axis,
+            reference: raw.reference,
+            range: raw.range,
+            effort: raw.force.map(greatest),
+            actuator: Actuator { force: raw.force, ..Actuator::default() },
+            damping: raw.damping,
+            friction: raw.friction,
+            armature: (raw.armature != 0.0).then_some(raw.armature),
+            ..Joint::new(name, kind, frame, raw.place)
+        }))
+    }
+
+    fn shapes(&mut self, body: usize, fitted: &[Fitted]) -> Fallible<Charged<Shape>> {
+        let (mut shapes, contacts) = (Charged::default(), self.contacts);
+        let geoms = &self.bodies.all[body].geoms;
+        let is_visual = |(place, geom): (usize, &Geom<'_>)| contacts.is_visual(geom, body, place);
+        let discards = self.compilers.at(self.bodies.all[body].place).discards_visuals;
+        let each = geoms.iter().enumerate().zip(fitted);
+        let parts: Vec<Part<'_, '_>> = each
+            .map(|((place, geom), fitted)| (geom, fitted, is_visual((place, geom))))
+            .filter(|(.., is_visual)| !(*is_visual && discards))
+            .collect();
+        for _ in parts.len()..geoms.len() {
+            self.tally.count(features::DISCARDED);
+        }
+        let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets)?;
+        for ((geom, fitted, is_visual), is_seen) in parts.into_iter().zip(seen) {
+            let is_seen = is_seen && !self.materials.is_clear(geom, &self.meshes)?;
+            let used = match (is_visual, is_seen) {
+                (true, true) => Use::Visual,
+                (false, true) => Use::Both,
+                (false, false) => {
+                    self.tally.count(features::ONLY_COLLIDING);
+                    Use::Collision
+                }
+                (true, false) => {
+                    self.tally.count(features::UNSEEN);
+                    continue;
+                }
+            };
+            let Some((geometry, frame)) = self.geometry(geom, fitted)? else { continue };
+            let material = self.materials.of(geom, &self.meshes, &mut self.assets, self.tally)?;
+            let shape = Shape {
+                name: geom.name.clone(),
+                used,
+                pose: fitted.pose * frame,
+                geometry,
+                material,
+                place: geom.place,
+            };
+            shapes.push(shape, self.account).map_err(|why| at(geom.place, why))?;
+        }
+        Ok(shapes)
+    }
+
+    fn geometry(
+        &mut self,
+        geom: &Geom<'d>,
+        fitted: &Fitted,
+    ) -> Fallible<Option<(Geometry, Isometry3<f64>)>> {
+        let geometry = match (geom.kind, geom.kind.solid(fitted.size)) {
+            (_, Some(solid)) => solid,
+            (Kind::Mesh | Kind::DistanceField, None) => {
+                let mesh = geom.mesh.unwrap_or_default();
+                return self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
+            }
+            (_, None) => {
+                self.tally.count(features::SURFACES);
+                return Ok(None);
+            }
+        };
+        let feature = match geometry {
+            Geometry::Capsule { .. } => features::CAPSULES,
+            Geometry::Ellipsoid(_) => features::ELLIPSOIDS,
+            _ => features::BOXES,
+        };
+        self.tally.count(feature);
+        Ok(Some((geometry, Isometry3::identity())))
+    }
+
+    /// The sites and cameras, as bodies without mass.
+    fn frames(&mut self, made: &mut Made, mut names: Names) -> Fallible<()> {
+        let (bodies, robot) = (self.bodies, self.robot);
+        for raw_index in robot.bodies.iter().filter(|index| **index != WORLD || robot.has_world) {
+            let parent = made.index.get(raw_index).copied();
+            for frame in &bodies.all[*raw_index].frames {
+                let too_much = |why| at(frame.place, why);
+                self.tally.count(features::FRAMES);
+                let wanted = frame.name.clone().unwrap_or_else(|| {
+                    let body = parent.map_or("", |parent| &made.bodies[parent].name);
+                    format!("{body}_{}", frame.kind)
+                });
+                let name = match names.take(&wanted).map_err(too_much)? {
+                    true => wanted,
+                    false => names.free(&format!("{wanted}_{}", frame.kind)).map_err(too_much)?,
+                };
+                let body = Body::new(name, parent, frame.pose, frame.place);
+                let body = Body { is_frame: true, ..body };
+                made.bodies.push(body, self.account).map_err(too_much)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,343 @@
+//! A robot of another format, in the terms of that format: bodies in a tree, each with the joints by which it moves.
+//!
+//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; the writers of
+//! this room make a URDF and its companions from it. What is in a list was charged to the account of the run, with all
+//! that the writers make of it.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use urdd_directory::account::{Charged, Cost};
+
+use super::features::Tally;
+use super::place::{Place, TextFile};
+
+/// A robot.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// Its name.
+    pub name: String,
+    /// The files that were read: the description first, then what it includes.
+    pub files: Vec<TextFile>,
+    /// Its bodies. A parent stands before its children; names are unique and not empty.
+    pub bodies: Charged<Body>,
+    /// Whether the root moves freely in the world.
+    pub is_floating: bool,
+    /// The meshes and images that shapes name.
+    pub assets: Charged<Asset>,
+    /// Named configurations. Joints without a value are at 0.
+    pub configurations: Charged<Configuration>,
+    /// Pairs of bodies that are never checked for collisions, by index.
+    pub apart: Charged<Apart>,
+    /// Pairs of bodies that are checked, though a joint connects them.
+    pub checked: Charged<Apart>,
+    /// What stands in the URDF as it is.
+    pub elements: Charged<GazeboElement>,
+    /// The coefficient of friction of all shapes, where all have the same.
+    pub friction: Option<f64>,
+    /// What became of what the description says.
+    pub tally: Tally,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Its parent, by index; none of the first body alone.
+    pub parent: Option<usize>,
+    /// Its frame in its parent's, where each of its joints is at [`Joint::reference`].
+    pub pose: Isometry3<f64>,
+    /// The joints between it and its parent, the one that moves first. None: it is fixed.
+    pub joints: Charged<Joint>,
+    /// The name of the fixed joint, if it has no others; `NAME_fixed` otherwise.
+    pub fixed_by: Option<String>,
+    /// Its mass, if it has one.
+    pub inertial: Option<Inertial>,
+    /// Its shapes.
+    pub shapes: Charged<Shape>,
+    /// Whether it is a frame alone: a site, a camera, a frame of SDF.
+    pub is_frame: bool,
+    /// Where it stands.
+    pub place: Place,
+}
+
+impl Body {
+    /// A body without joints, mass and shapes.
+    pub fn new(name: String, parent: Option<usize>, pose: Isometry3<f64>, place: Place) -> Self {
+        Body {
+            name,
+            parent,
+            pose,
+            joints: Charged::default(),
+            fixed_by: None,
+            inertial: None,
+            shapes: Charged::default(),
+            is_frame: false,
+            place,
+        }
+    }
+}
+
+/// Mass, centre of mass and inertia about it, in the body's frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inertial {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass.
+    pub centre: Point3<f64>,
+    /// The inertia about the centre of mass, along the axes of the body.
+    pub inertia: Matrix3<f64>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// About its axis.
+    Hinge,
+    /// Along its axis.
+    Slide,
+    /// About a point.
+    Ball,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name; unique and not empty.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Its frame in the body's, which moves with the body.
+    pub frame: Isometry3<f64>,
+    /// Its axis in its frame; not zero. Of no meaning for a ball.
+    pub axis: Vector3<f64>,
+    /// Its value in the pose of [`Body::pose`], rad or m.
+    pub reference: f64,
+    /// Its least and greatest value, rad or m.
+    pub range: Option<[f64; 2]>,
+    /// The greatest force, N or N m.
+    pub effort: Option<f64>,
+    /// The greatest speed, m/s or rad/s.
+    pub velocity: Option<f64>,
+    /// Damping, N s/m or N m s/rad.
+    pub damping: f64,
+    /// Friction, N or N m.
+    pub friction: f64,
+    /// The joint that it follows.
+    pub mimic: Option<Mimic>,
+    /// Gains of its actuator: N m/rad or N/m, and N m s/rad or N s/m; the inertia of its motor, kg m² or kg.
+    pub kp: Option<f64>,
+    pub kv: Option<f64>,
+    pub armature: Option<f64>,
+    /// What else its actuator says.
+    pub actuator: Actuator,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// What an actuator says beside its gains, in the units of its joint.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Actuator {
+    /// Its name, where the joint has one actuator, of another name.
+    pub name: Option<String>,
+    /// Whether it is told a speed.
+    pub is_of_speed: bool,
+    /// The least and greatest position or speed that it can be told: rad or m, rad/s or m/s.
+    pub control: Option<[f64; 2]>,
+    /// The least and greatest force, N or N m.
+    pub force: Option<[f64; 2]>,
+}
+
+impl Joint {
+    /// A joint about or along z, of which nothing else is said.
+    pub fn new(name: String, kind: JointKind, frame: Isometry3<f64>, place: Place) -> Self {
+        Joint {
+            name,
+            kind,
+            frame,
+            axis: Vector3::z(),
+            reference: 0.0,
+            range: None,
+            effort: None,
+            velocity: None,
+            damping: 0.0,
+            friction: 0.0,
+            mimic: None,
+            kp: None,
+            kv: None,
+            armature: None,
+            actuator: Actuator::default(),
+            place,
+        }
+    }
+}
+
+/// `value = multiplier × leader + offset`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mimic {
+    /// The name of the joint that is followed.
+    pub joint: String,
+    pub multiplier: f64,
+    pub offset: f64,
+}
+
+/// What a shape is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// It is seen.
+    Visual,
+    /// It collides.
+    Collision,
+    /// Both.
+    Both,
+}
+
+/// A shape of a body.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// What it is for.
+    pub used: Use,
+    /// Its frame in the body's.
+    pub pose: Isometry3<f64>,
+    /// What it is.
+    pub geometry: Geometry,
+    /// How it looks, if it is said.
+    pub material: Option<Material>,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A geometric shape about the origin of its frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// Lengths of the edges.
+    Box([f64; 3]),
+    /// Along z.
+    Cylinder { radius: f64, length: f64 },
+    /// Along z; the length is without the two ends.
+    Capsule { radius: f64, length: f64 },
+    /// The radius.
+    Sphere(f64),
+    /// The three radii.
+    Ellipsoid([f64; 3]),
+    /// A mesh: an index in [`Model::assets`], and the factors by which it is scaled.
+    Mesh { asset: usize, scale: [f64; 3] },
+}
+
+/// How a shape looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Its name; one is given to it otherwise.
+    pub name: Option<String>,
+    /// Red, green, blue, alpha, each from 0 to 1.
+    pub rgba: Option<[f64; 4]>,
+    /// An image: an index in [`Model::assets`].
+    pub texture: Option<usize>,
+}
+
+/// A file that the URDF names.
+#[derive(Debug, Clone)]
+pub struct Asset {
+    /// Its path below the folder of the URDF, such as `meshes/base.stl`; unique regardless of case.
+    pub path: String,
+    /// Its content.
+    pub bytes: Arc<[u8]>,
+}
+
+/// A named configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configuration {
+    /// Its name.
+    pub name: String,
+    /// Values of joints, in the order of bodies and of their joints.
+    pub values: Charged<JointValue>,
+    /// Where the free root is in the world, if it is said: x, y, z in m, and the quaternion w, x, y, z.
+    pub base: Option<[f64; 7]>,
+}
+
+/// The value of a joint in a named configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointValue {
+    /// The joint: the index of its body, and its own there.
+    pub joint: (usize, usize),
+    /// Its name.
+    pub name: String,
+    /// In rad or m; of a ball, the components x, y, z of its rotation vector.
+    pub values: Vec<f64>,
+}
+
+/// A complete XML element that stands in the URDF as it is, such as `<gazebo>` with a plugin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GazeboElement(pub String);
+
+/// Two bodies that are never checked for collisions with each other, or always, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// Their indices.
+    pub bodies: [usize; 2],
+    /// The reason; of those that are never checked in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
+    pub reason: &'static str,
+}
+
+/// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
+pub const ENTRY: usize = 3000;
+/// The same, of a value of a joint or a pair.
+pub const PART: usize = 500;
+/// The same, of each byte of a name.
+pub const LETTER: usize = 12;
+
+impl Cost for Body {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Joint {
+    fn cost(&self) -> usize {
+        let leader = self.mimic.as_ref().map(|of| &of.joint);
+        let others = leader.into_iter().chain(&self.actuator.name);
+        ENTRY + LETTER * (self.name.len() + others.map(String::len).sum::<usize>())
+    }
+}
+
+impl Cost for Shape {
+    fn cost(&self) -> usize {
+        let material = self.material.as_ref().and_then(|material| material.name.as_ref());
+        ENTRY + LETTER * self.name.iter().chain(material).map(String::len).sum::<usize>()
+    }
+}
+
+impl Cost for Asset {
+    fn cost(&self) -> usize {
+        self.path.len() + self.bytes.len()
+    }
+}
+
+impl Cost for Configuration {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for JointValue {
+    fn cost(&self) -> usize {
+        PART + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Apart {
+    fn cost(&self) -> usize {
+        PART
+    }
+}
+
+impl Cost for GazeboElement {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.0.len()
+    }
+}

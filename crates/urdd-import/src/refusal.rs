@@ -1,0 +1,64 @@
+//! A fault and its place, on its way to the reader's caller.
+
+use super::fault::ImportFault;
+use super::place::{Place, TextFile};
+use urdd_directory::position::LineIndex;
+
+/// A fault, and where it is.
+#[derive(Debug)]
+pub struct Refusal {
+    pub place: Place,
+    pub fault: ImportFault,
+}
+
+/// What fails with a place.
+pub type Fallible<T> = Result<T, Refusal>;
+
+/// A fault at a place.
+pub fn at(place: Place, fault: impl Into<ImportFault>) -> Refusal {
+    Refusal { place, fault: fault.into() }
+}
+
+impl Refusal {
+    pub fn at<T>(place: Place, fault: impl Into<ImportFault>) -> Result<T, Self> {
+        Err(at(place, fault))
+    }
+}
+
+/// A fault, and its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Placed {
+    /// The file, as the user would name it.
+    pub file: String,
+    /// Line in it, from 1.
+    pub line: u32,
+    /// Column in the line, from 1, in characters.
+    pub column: u32,
+    /// What is wrong.
+    pub fault: ImportFault,
+}
+
+/// A fault at a place of one of the files.
+pub fn placed(files: &[TextFile], place: Place, fault: impl Into<ImportFault>) -> Placed {
+    let file = files.get(place.file).map_or(&[][..], std::slice::from_ref);
+    let there = Positions::of(file).at(Place { file: 0, ..place });
+    let (file, line, column) = there.unwrap_or_default();
+    Placed { file: file.to_owned(), line, column, fault: fault.into() }
+}
+
+/// The lines of files, for places in them.
+pub struct Positions<'f>(Vec<(&'f str, LineIndex<'f>)>);
+
+impl<'f> Positions<'f> {
+    /// Finds the lines.
+    pub fn of(files: &'f [TextFile]) -> Self {
+        Positions(files.iter().map(|file| (&*file.shown, LineIndex::new(&file.text))).collect())
+    }
+
+    /// The file, line and column of a place.
+    pub fn at(&self, place: Place) -> Option<(&'f str, u32, u32)> {
+        let (shown, lines) = self.0.get(place.file)?;
+        let at = lines.position(place.offset);
+        Some((shown, at.line, at.column))
+    }
+}

@@ -1,0 +1,197 @@
+//! Reads the files of an SDF into a scene.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::fault::ImportFault;
+use super::super::features::{self, Tally};
+use super::super::model::{ENTRY, GazeboElement, LETTER};
+use super::super::names::Names;
+use super::super::place::{Place, TextFile};
+use super::super::refusal::Refusal;
+use super::assets::Assets;
+use super::fault::SdfFault;
+use super::scene::{Posed, Scene};
+use super::tag::Tag;
+use urdd_directory::account::Charged;
+use urdd_source::FoundMesh;
+use urdd_source::gate::Gate;
+use urdd_xml::{Mended, parse_leniently};
+
+/// The first minor version of SDF that is read, and the last.
+const VERSIONS: [u32; 2] = [2, 12];
+
+/// What was read so far.
+pub struct Reader<'r> {
+    pub gate: &'r Gate,
+    pub files: Vec<TextFile>,
+    pub scene: Scene,
+    pub tally: Tally,
+    pub assets: Assets,
+    pub kept: Charged<GazeboElement>,
+    /// What is kept when it is known where frames are.
+    pub posed: Vec<Posed>,
+    pub friction: Friction,
+    /// The names of links and joints, with the models that they are in.
+    links: Names,
+    joints: Names,
+    /// The files that are being read, the outermost first.
+    open: Vec<PathBuf>,
+}
+
+impl<'r> Reader<'r> {
+    pub fn new(gate: &'r Gate) -> Self {
+        Reader {
+            gate,
+            files: Vec::new(),
+            scene: Scene::default(),
+            tally: Tally::default(),
+            assets: Assets::default(),
+            kept: Charged::default(),
+            posed: Vec::new(),
+            friction: Friction::default(),
+            links: Names::new(gate.account()),
+            joints: Names::new(gate.account()),
+            open: Vec::new(),
+        }
+    }
+
+    /// The folder of a file.
+    pub fn folder(&self, file: usize) -> PathBuf {
+        let path = self.files.get(file).map(|file| file.path.as_path());
+        path.and_then(Path::parent).unwrap_or(Path::new("/")).to_owned()
+    }
+
+    /// Reads an included file, and goes on with its outermost element.
+    ///
+    /// # Errors
+    /// If it cannot be read, includes itself, or what is done with it fails.
+    pub fn include<T>(
+        &mut self,
+        found: &FoundMesh,
+        place: Place,
+        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        if self.open.contains(&found.file) {
+            let file = found.file.display().to_string();
+            return Refusal::at(place, SdfFault::IncludeCircle(file));
+        }
+        match TextFile::included(self.gate, found) {
+            Ok(file) => self.open(file, then),
+            Err(why) => Refusal::at(place, why),
+        }
+    }
+
+    /// The name of something in a scope, with the models that it is in; it is charged. Of two that would be the same, as
+    /// `n/b` and `b` of a model `n`, the second gets a number.
+    pub fn whole_name(&mut self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
+        let prefix = &self.scene.scopes[scope].prefix;
+        self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
+        // Files before 1.8 have names with the models that they are in.
+        let whole = format!("{prefix}{}", name.replace("::", "/"));
+        let names = match tag.name() {
+            "link" => &mut self.links,
+            "joint" => &mut self.joints,
+            _ => return Ok(whole),
+        };
+        names.free(&whole).or_else(|why| Refusal::at(tag.place(), why))
+    }
+
+    /// Charges what is made at a place, in bytes.
+    pub fn charge(&self, bytes: usize, place: Place) -> Result<(), Refusal> {
+        self.gate.account().charge(bytes).or_else(|why| Refusal::at(place, why))
+    }
+
+    /// Goes on with the outermost element of a file.
+    ///
+    /// # Errors
+    /// If it is not an SDF, or what is done with it fails.
+    pub fn open<T>(
+        &mut self,
+        file: TextFile,
+        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        let known = self.files.iter().position(|known| known.path == file.path);
+        let index = known.unwrap_or(self.files.len());
+        let (text, path) = (Arc::<str>::from(&*file.text), file.path.clone());
+        if known.is_none() {
+            self.files.push(file);
+        }
+        let mended = Mended::default();
+        let document = match parse_leniently(&text, "sdf", &mended) {
+            Ok(document) => document,
+            Err(error) => {
+                let place = Place { file: index, offset: error.offset(&text) };
+                return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
+            }
+        };
+        self.charge(mended.size(), Place { file: index, offset: 0 })?;
+        let node = document.root_element();
+        let root = Tag { node, file: index, mended: &mended, version: 0 };
+        let root = Tag { version: version(root)?, ..root };
+        self.open.push(path);
+        let done = then(self, root);
+        self.open.pop();
+        done
+    }
+}
+
+/// The minor version that an outermost element names.
+fn version(root: Tag) -> Result<u32, Refusal> {
+    if root.name() == "robot" {
+        let words = root.attribute("name").unwrap_or_default().to_owned();
+        return Refusal::at(root.place(), SdfFault::IncludesUrdf(words));
+    }
+    if !matches!(root.name(), "sdf" | "gazebo") {
+        return Refusal::at(root.place(), SdfFault::Root(root.name().to_owned()));
+    }
+    let version = root.attribute("version").unwrap_or_default().trim();
+    let minor = version.strip_prefix("1.").and_then(|rest| {
+        // `1.4.0` was seen.
+        rest.split('.').next()?.parse().ok()
+    });
+    let [first, last] = VERSIONS;
+    match minor.filter(|minor| (first..=last).contains(minor)) {
+        Some(minor) => Ok(minor),
+        None => Refusal::at(root.place(), SdfFault::Version(version.to_owned())),
+    }
+}
+
+/// What was met so far.
+#[derive(Debug, Default)]
+pub struct Friction {
+    first: Option<Option<f64>>,
+    is_mixed: bool,
+    /// How many shapes say one.
+    given: usize,
+}
+
+/// Where the coefficient is.
+const PATHS: [&[&str]; 2] =
+    [&["surface", "friction", "ode", "mu"], &["surface", "friction", "bullet", "friction"]];
+
+impl Friction {
+    /// Looks at a collision shape.
+    pub fn meet(&mut self, collision: Tag, tally: &mut Tally) {
+        let found = PATHS.iter().find_map(|path| collision.descendant(path));
+        let found = found.and_then(|tag| tag.text().parse::<f64>().ok());
+        let found = found.filter(|value| value.is_finite() && *value >= 0.0);
+        self.is_mixed |= *self.first.get_or_insert(found) != found;
+        if let Some(surface) = collision.child("surface") {
+            let others = surface.node.descendants().filter(|node| {
+                node.is_element() && !node.children().any(|child| child.is_element())
+            });
+            if others.count() > usize::from(found.is_some()) {
+                tally.count(features::CONTACTS);
+            }
+        }
+        self.given += usize::from(found.is_some());
+    }
+
+    /// The coefficient that all have. Counts those that differ.
+    pub fn common(&self, tally: &mut Tally) -> Option<f64> {
+        let feature = if self.is_mixed { features::FRICTIONS } else { features::FRICTION };
+        (0..self.given).for_each(|_| tally.count(feature));
+        self.first.flatten().filter(|_| !self.is_mixed)
+    }
+}

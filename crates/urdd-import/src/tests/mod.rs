@@ -1,0 +1,13 @@
+//! The tests of this crate.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction, clippy::disallowed_methods)]
+
+mod bounds;
+mod bounds_of_places;
+mod gate;
+mod mjcf;
+mod mjcf_faults;
+mod mjcf_meaning;
+mod mjcf_seen;
+mod sdf;

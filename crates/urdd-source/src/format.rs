@@ -1,0 +1,93 @@
+//! What a description is by its content, if it is no URDF: MJCF or SDF. Files of these that are parts of others.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use urdd_directory::file_type::FileType;
+use urdd_xml::{Mended, parse_leniently, root_name};
+
+use super::files::{Files, MAX_SOURCE_BYTES};
+
+/// How many bytes at the start of a file are searched for its outermost element.
+const HEAD: u64 = 1 << 20;
+
+/// A format that is imported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// The XML of MuJoCo.
+    Mjcf,
+    /// The simulation description format of Gazebo.
+    Sdf,
+}
+
+impl Format {
+    /// All of them, in the order of the table in docs/import.md.
+    pub const ALL: [Format; 2] = [Format::Mjcf, Format::Sdf];
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Mjcf => "mjcf",
+            Format::Sdf => "sdf",
+        }
+    }
+
+    /// The format of a description with this outermost element; none of a URDF, and of anything else.
+    pub fn of_root(name: &str) -> Option<Self> {
+        match name {
+            "mujoco" => Some(Format::Mjcf),
+            "sdf" | "gazebo" => Some(Format::Sdf),
+            _ => None,
+        }
+    }
+
+    /// The format of a text, by its outermost element.
+    pub fn of(text: &str) -> Option<Self> {
+        Format::of_root(root_name(text)?)
+    }
+}
+
+/// The name of the outermost element of a file, if that is in the beginning of it.
+pub fn root_of(path: &Path, files: &Files) -> Option<String> {
+    let head = files.head(path, HEAD).ok()?;
+    // By its byte order mark, if it has one.
+    let (text, ..) = encoding_rs::UTF_8.decode(&head);
+    root_name(&text).map(str::to_owned)
+}
+
+/// The format of a file, by its outermost element; none of a URDF, and of anything else.
+pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
+    Format::of_root(&root_of(path, files)?)
+}
+
+/// The format of a file of a folder that is imported, by its extension and its content.
+pub(crate) fn imported(file: &Path, files: &Files) -> Option<Format> {
+    match FileType::of(file)? {
+        FileType::Xml | FileType::Sdf | FileType::Mjcf => format_of(file, files),
+        _ => None,
+    }
+}
+
+/// The files among some that are imported and are no robots: MJCFs that one of them includes, or without bodies, and SDFs
+/// without models.
+pub(crate) fn parts_of_others<'p>(
+    sources: impl Iterator<Item = &'p Path>,
+    files: &Files,
+) -> HashSet<PathBuf> {
+    sources.flat_map(|source| parts_of(source, files).unwrap_or_default()).collect()
+}
+
+fn parts_of(source: &Path, files: &Files) -> Option<Vec<PathBuf>> {
+    let bytes = files.read(source, MAX_SOURCE_BYTES).ok()?;
+    let text = std::str::from_utf8(&bytes).ok()?;
+    if !["<body", "<include", "<attach", "<model"].iter().any(|tag| text.contains(tag)) {
+        return Some(vec![files.canonicalize(source).ok()?]);
+    }
+    // A text that names no file is not parsed.
+    let mended = Mended::default();
+    let document =
+        text.contains("<include").then(|| parse_leniently(text, "mujoco", &mended))?.ok()?;
+    let elements = document.descendants().filter(|node| node.has_tag_name("include"));
+    let named = elements.filter_map(|node| Some(source.parent()?.join(node.attribute("file")?)));
+    Some(named.filter_map(|file| files.canonicalize(&file).ok()).collect())
+}
