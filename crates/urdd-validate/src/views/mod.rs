@@ -1,4 +1,4 @@
-//! Data that several rules use: texts, schemas of extensions and what their annotations say, names, shapes and pairs of shapes.
+//! Data that several rules use: schemas of extensions and what their annotations say, names, shapes and pairs of shapes.
 
 pub mod annotated;
 pub mod counts;
@@ -12,4 +12,3 @@ pub mod schema_work;
 pub mod shape_pair;
 pub mod shared_meshes;
 pub mod tangled;
-pub mod text_faults;

@@ -3,10 +3,7 @@
 mod carried_files_mismatch;
 mod convexity;
 mod glb_not_binary;
-mod hull_and_mesh;
-mod hull_leaves_out_mesh;
-mod hull_not_convex;
-mod hull_vertex_off_mesh;
+mod hull_of_mesh;
 mod link_without_mesh;
 mod mesh_file_missing;
 pub mod mesh_file_name;
@@ -21,10 +18,7 @@ mod mesh_unsound;
 mod modules;
 mod original_misdescribed;
 mod outreach;
-mod piece_barely_leaves_hull;
 pub mod piece_count_mismatch;
-mod piece_leaves_hull;
-mod piece_not_convex;
 mod pieces_leave_surface;
 mod wrong_geometry_used;
 
@@ -32,10 +26,9 @@ use crate::rule::rules;
 use modules::MODULES;
 
 rules! {
-    carried_files_mismatch, glb_not_binary, hull_leaves_out_mesh, hull_not_convex,
-    hull_vertex_off_mesh, link_without_mesh, mesh_file_missing, mesh_file_name,
-    mesh_file_shared, mesh_format_mismatch, mesh_formats_differ, mesh_list_length,
-    mesh_misplaced, mesh_presence_differs, mesh_references_differ, mesh_unsound,
-    original_misdescribed, piece_barely_leaves_hull, piece_count_mismatch, piece_leaves_hull,
-    piece_not_convex, pieces_leave_surface, wrong_geometry_used
+    carried_files_mismatch, convexity, glb_not_binary, hull_of_mesh, link_without_mesh,
+    mesh_file_missing, mesh_file_name, mesh_file_shared, mesh_format_mismatch,
+    mesh_formats_differ, mesh_list_length, mesh_misplaced, mesh_presence_differs,
+    mesh_references_differ, mesh_unsound, original_misdescribed, outreach, piece_count_mismatch,
+    pieces_leave_surface, wrong_geometry_used
 }

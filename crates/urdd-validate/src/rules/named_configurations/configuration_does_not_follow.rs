@@ -1,4 +1,4 @@
-use super::dofs::indices;
+use super::positions::indices;
 use crate::rules::prelude::*;
 
 declare_rule! {

@@ -3,4 +3,4 @@
 mod crashing_rule;
 
 /// A rule that crashes: TST001.
-pub const CRASHING: &crate::rule::Rule = crashing_rule::Declared::RULE;
+pub const CRASHING: &crate::rule::Rule = crashing_rule::Declared::RULES[0];

@@ -1,0 +1,74 @@
+use crate::rules::prelude::*;
+
+declare_rule! {
+    /// A revolute or prismatic joint has no limits.
+    ///
+    /// URDF requires `<limit>` of these types. Without it some readers refuse the file, some take
+    /// the joint for locked at 0, and in a URDD it is a joint that is not limited. A joint that
+    /// follows another needs none.
+    ///
+    /// Write `<limit lower=… upper=… effort=… velocity=…/>` in the URDF, or make the joint
+    /// `continuous` where it turns without end. Then write the URDD again.
+    SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot, Version1], check no_limits,
+
+    /// A joint that can move has the limits `effort="0"` and `velocity="0"`.
+    ///
+    /// By these numbers the joint can neither push nor move. Exporters write them where no number was
+    /// given. Planners divide by the speed, controllers clip the effort to 0, and the robot does not
+    /// move. A joint that follows another is not reported, nor one whose `lower` equals its `upper`,
+    /// nor one that leaves the numbers out.
+    ///
+    /// Write the joint's real limits into the URDF; of a joint that no motor drives, such as a
+    /// suspension, what it bears and how fast it moves. ROS refuses a `<limit>` without them. Then write
+    /// the URDD again.
+    SRC009 "no-effort-and-no-speed", Warning, clause "6.1.7", since "0.2.0",
+    phase References, needs [SourceRobot, Version1], check no_effort_and_no_speed,
+}
+
+fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let (name, kind) = (&joint.name, joint.joint_type);
+        let needs_limits = matches!(kind, JointType::Revolute | JointType::Prismatic);
+        if !needs_limits || joint.mimic.is_some() || joint.position_limits().is_some() {
+            continue;
+        }
+        let actual = match joint.limit {
+            None => "no `limit`",
+            Some(_) => "a `limit` with neither `lower` nor `upper`",
+        };
+        let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
+        Finding::at(&file, format!("/joints/{index}/limit"), message)
+            .values("`lower` and `upper`", format!("joint `{name}`: {actual}"))
+            .report(findings);
+    }
+    Some(())
+}
+
+fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let (name, kind) = (&joint.name, joint.joint_type);
+        let limits = joint.position_limits();
+        let moves = match kind {
+            JointType::Revolute | JointType::Prismatic => limits.is_none_or(|(a, b)| a != b),
+            _ => kind == JointType::Continuous,
+        };
+        let zeros = joint
+            .limit
+            .is_some_and(|limit| limit.effort == Some(0.0) && limit.velocity == Some(0.0));
+        if moves && zeros && joint.mimic.is_none() {
+            let message = format!(
+                "joint `{name}` ({kind}) has effort 0 and velocity 0: by its limits it cannot move"
+            );
+            Finding::at(&file, format!("/joints/{index}/limit"), message)
+                .expected("the joint's limits, above 0")
+                .actual(format!("joint `{name}`: effort 0, velocity 0"))
+                .report(findings);
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,94 @@
+use crate::rules::prelude::*;
+use crate::urdf_text::compare::first_names;
+
+declare_rule! {
+    /// The robot has several roots, or no link at all.
+    ///
+    /// The root is the one link that is not the child of a joint; all poses are in its frame. With two
+    /// such links the robot is in parts that no joint connects: readers keep one part, or refuse.
+    ///
+    /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
+    /// own. Then write the URDD again.
+    URD004 "not-one-root", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)], check not_one_root,
+
+    /// A link is the child of two joints.
+    ///
+    /// A URDF is a tree. A link with two parents would have two poses; readers take one of them, or
+    /// refuse. Closed chains (parallel grippers, delta robots) cannot be written this way.
+    ///
+    /// Keep one of the joints in the URDF. Write the other as a constraint, in an element for the
+    /// program that solves it (`<gazebo>`, `<loop_joint>`). Then write the URDD again.
+    URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)], check two_parents,
+
+    /// A joint names a parent or child link that does not exist.
+    ///
+    /// The joint connects nothing: no tree can be built, and nothing that is derived from the tree has
+    /// a meaning. Most often a link was renamed and its joints were not, or a part of the robot was
+    /// left out.
+    ///
+    /// Correct the name, or add the link, in the URDF, and write the URDD again.
+    URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD002)], check unknown_link,
+}
+
+fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    let children: HashSet<usize> =
+        (robot.joints.iter()).filter_map(|joint| robot.link(&joint.child)).collect();
+    let links = robot.links.iter().enumerate();
+    let roots = links.filter(|(index, _)| !children.contains(index));
+    let roots: Vec<&str> = roots.map(|(_, link)| link.name.as_str()).collect();
+    let (message, actual) = match roots.len() {
+        0 if robot.links.is_empty() => ("the robot has no link", "no link".to_owned()),
+        // Without a root, all links are in circles: URD006 reports these.
+        0 | 1 => return Some(()),
+        count => (
+            "the links are not one tree: connect these links by joints",
+            format!("{count}: {}", first_names(&roots)),
+        ),
+    };
+    Finding::at(file, "/links", message)
+        .values("one link that is not the child of a joint", actual)
+        .report(findings);
+    Some(())
+}
+
+fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    let mut held_by: HashMap<&str, (usize, &str)> = HashMap::new();
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let link = &joint.child;
+        let (first, other) = *held_by.entry(link).or_insert((index, &joint.name));
+        if first != index {
+            let message = format!(
+                "link `{link}` is the child of joint `{}` and of joint `{other}`; a link has one parent",
+                joint.name
+            );
+            Finding::at(&file, format!("/joints/{index}/child/link"), message)
+                .expected("a link that no other joint has as its child")
+                .actual(format!("`{link}`, child of /joints/{first} too"))
+                .report(findings);
+        }
+    }
+    Some(())
+}
+
+fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
+            if robot.link(link).is_none() {
+                let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
+                Finding::at(&file, format!("/joints/{index}/{end}/link"), message)
+                    .values("the name of a link", format!("`{link}`"))
+                    .report(findings);
+            }
+        }
+    }
+    Some(())
+}
