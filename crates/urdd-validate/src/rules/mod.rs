@@ -13,7 +13,6 @@ pub mod legacy;
 pub mod meshes;
 pub mod named_configurations;
 mod prelude;
-pub mod schema;
 pub mod shapes;
 pub mod source;
 pub mod testing;
@@ -27,7 +26,6 @@ pub fn all() -> Vec<&'static Rule> {
     let families = [
         directory::rules(),
         text::rules(),
-        schema::rules(),
         extensions::rules(),
         urdf::rules(),
         source::rules(),

@@ -1,4 +1,4 @@
-use super::{LEGACY_WIDENING, columns_agree, dofs, limited_dofs};
+use super::unlimited::{LEGACY_WIDENING, columns_agree, dofs, limited_dofs};
 use crate::rules::prelude::*;
 
 declare_rule! {

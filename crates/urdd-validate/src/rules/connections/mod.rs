@@ -4,13 +4,12 @@
 //! what is written in it: the table of lowest common ancestors is made row by row, and paths are
 //! walked without being made.
 
-mod connection_table_size;
-pub mod explicit_paths_missing;
 mod paths;
+pub mod tables;
 pub mod walk;
 
 use crate::rule::rules;
 
 rules! {
-    connection_table_size, explicit_paths_missing, paths
+    paths, tables
 }

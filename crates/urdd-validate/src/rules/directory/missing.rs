@@ -1,4 +1,3 @@
-use super::listed_files;
 use crate::rules::prelude::*;
 use urdd_document::module::{JsonFile, Mirror, VersionFile};
 use urdd_format::registry;

@@ -1,10 +1,8 @@
 //! EXT: extension modules.
 
-mod annotations;
-mod schema;
-
+mod documents;
 use crate::rule::rules;
 
 rules! {
-    annotations, schema
+    documents
 }

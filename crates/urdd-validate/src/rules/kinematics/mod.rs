@@ -1,12 +1,11 @@
 //! KIN: poses.
 
 mod poses_disagree;
-mod sample_configuration_wrong;
-mod sample_list;
 mod sample_pose_wrong;
+mod samples;
 
 use crate::rule::rules;
 
 rules! {
-    poses_disagree, sample_configuration_wrong, sample_list, sample_pose_wrong
+    poses_disagree, sample_pose_wrong, samples
 }

@@ -1,4 +1,4 @@
-use crate::rules::bounds::limits::{LEGACY_WIDENING, limited_dofs};
+use crate::rules::bounds::unlimited::{LEGACY_WIDENING, limited_dofs};
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;
 use urdd_document::paths::Place;

@@ -1,10 +1,8 @@
 //! CNF: `named_configurations_module`.
 
-mod configuration_does_not_follow;
-mod positions;
-
+mod configurations;
 use crate::rule::rules;
 
 rules! {
-    configuration_does_not_follow, positions
+    configurations
 }

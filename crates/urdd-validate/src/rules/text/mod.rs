@@ -1,11 +1,12 @@
-//! JSN and YML: documents as text, in JSON and in the YAML beside it.
+//! JSN, YML and SCH: documents as text, in JSON and in the YAML beside it, and against their schemas.
 
 mod faults;
 mod json;
+mod schema;
 mod yaml;
 
 use crate::rule::rules;
 
 rules! {
-    json, yaml
+    json, schema, yaml
 }
