@@ -33,8 +33,7 @@ declare_rule! {
     ///
     /// Compare with the formulas and the tables of SPEC 9.3 and 9.4, step by step.
     KIN002 "sample-configuration-wrong", Error, clause "9.2", since "0.1.0",
-    phase Kinematics,
-    needs [
+    phase Kinematics, needs [
         Version1, Module(Kind::KinematicsSamples), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof),
         ModuleV1(Kind::Bounds), Passed(KIN004), Passed(CHN002), Passed(CHN007), Passed(DOF003), Passed(DOF004),
         Passed(DOF005), Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND006),

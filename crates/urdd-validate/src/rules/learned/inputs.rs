@@ -26,7 +26,7 @@ declare_rule! {
     LRN002 "model-input-wrong", Error, clause "8.8.3", since "0.2.0",
     phase References, needs [
         Version1, Module(Kind::SelfCollisionModel), ModuleV1(Kind::Dof), Module(Kind::Chain), ROBOT_SOUND,
-        NotFailed(DOF003), NotFailed(DOF004), NotFailed(DOF005), NotFailed(DOF007), NotFailed(LRN001),
+        NoneFailed(&[DOF003, DOF004, DOF005, DOF007, LRN001]),
     ], check input_wrong,
 }
 

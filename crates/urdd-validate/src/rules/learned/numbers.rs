@@ -12,8 +12,7 @@ declare_rule! {
     /// DOF and a clearance for each pair. No list is empty.
     LRN003 "model-shape-wrong", Error, clause "8.8.4", since "0.2.0",
     phase References, needs [
-        Version1, Module(Kind::SelfCollisionModel), Module(Kind::Dof), ROBOT_SOUND, NotFailed(DOF003),
-        NotFailed(LRN001), NotFailed(LRN002),
+        Version1, Module(Kind::SelfCollisionModel), Module(Kind::Dof), ROBOT_SOUND, NoneFailed(&[DOF003, LRN001, LRN002]),
     ], check wrong_shape,
 
     /// The numbers of a layer of the self-collision model are so large that their sum may be beyond 64-bit numbers.
@@ -24,8 +23,7 @@ declare_rule! {
     /// Train the model again, with weights that stay small.
     LRN004 "model-overflows", Error, clause "8.8.4", since "0.2.0",
     phase References, needs [
-        Version1, Module(Kind::SelfCollisionModel), Module(Kind::Bounds), NotFailed(BND001), NotFailed(LRN001),
-        NotFailed(LRN002), NotFailed(LRN003),
+        Version1, Module(Kind::SelfCollisionModel), Module(Kind::Bounds), NoneFailed(&[BND001, LRN001, LRN002, LRN003]),
     ], check overflow,
 
     /// The self-collision model is larger than a model may be.

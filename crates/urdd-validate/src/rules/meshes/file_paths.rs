@@ -13,7 +13,7 @@ declare_rule! {
     /// Put the file back, or write the module again. DIR011 reports files that `urdd.json` lists
     /// and that do not exist.
     MSH002 "mesh-file-missing", Error, clause "7.1", since "0.1.0",
-    phase References, needs [MESHES, NotFailed(MSH003), NotFailed(MSH009), NotFailed(MSH012)], check mesh_file_missing,
+    phase References, needs [MESHES, NoneFailed(&[MSH003, MSH009, MSH012])], check mesh_file_missing,
 
     /// A derived mesh file is not named after its link.
     ///
@@ -24,16 +24,7 @@ declare_rule! {
     /// Name the file as SPEC 7.3 says, and the path with it.
     MSH006 "mesh-file-name", Error, clause "7.3", since "0.1.0",
     phase References, consequence Format, needs [
-        Version1,
-        Module(Kind::Urdf),
-        DERIVED_MESHES,
-        MESHES_LISTED,
-        NotFailed(MSH002),
-        NotFailed(MSH005),
-        NotFailed(DIR015),
-        NotFailed(URD007),
-        NotFailed(CHN001),
-        NotFailed(URD002),
+        Version1, Module(Kind::Urdf), DERIVED_MESHES, MESHES_LISTED, NoneFailed(&[MSH002, MSH005, DIR015, URD007, CHN001, URD002]),
         // A list that is displaced has the wrong names too.
         NotFailed(MSH004),
     ], check mesh_file_name,

@@ -30,18 +30,9 @@ declare_rule! {
     /// elements, write the mesh modules again.
     MSH008 "wrong-geometry-used", Error, clause "7.4", since "0.1.0",
     phase References, consequence WrongPlace, needs [
-        Version1,
-        Module(Kind::Urdf),
-        ModuleV1(Kind::PlainMeshes),
-        NotFailed(MSH001),
-        NotFailed(MSH009),
-        NotFailed(MSH012),
-        NotFailed(MSH011),
-        NotFailed(MSH016),
+        Version1, Module(Kind::Urdf), ModuleV1(Kind::PlainMeshes), NoneFailed(&[MSH001, MSH009, MSH012, MSH011, MSH016]),
         // The entry of another link has the geometry of another link.
-        NotFailed(MSH006),
-        NotFailed(MSH007),
-        LINKS_NAMED,
+        NotFailed(MSH006), NotFailed(MSH007), LINKS_NAMED,
     ], check wrong_geometry_used,
 }
 

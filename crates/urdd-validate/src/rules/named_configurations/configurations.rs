@@ -21,8 +21,7 @@ declare_rule! {
     ///
     /// Write the DOF's name as `dof_module` has it, each DOF once and in the order of that module.
     CNF002 "configuration-positions-wrong", Error, clause "6.7.3", since "1.0.0",
-    phase References,
-    needs [
+    phase References, needs [
         ModuleV1(Kind::NamedConfigurations), ModuleV1(Kind::Dof), Passed(DOF001), Passed(DOF005), Passed(DOF006),
     ], check configuration_positions_wrong,
 
@@ -33,8 +32,7 @@ declare_rule! {
     ///
     /// Write a position between the DOF's two bounds in `bounds_module`, rad or m.
     CNF003 "configuration-out-of-bounds", Error, clause "6.7.4", since "1.0.0",
-    phase References,
-    needs [
+    phase References, needs [
         ModuleV1(Kind::NamedConfigurations), ModuleV1(Kind::Dof), ModuleV1(Kind::Bounds), Passed(CNF002),
         Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND004),
     ], check configuration_out_of_bounds,
@@ -47,8 +45,7 @@ declare_rule! {
     /// Write each DOF's position, and for a DOF without one its value in the default configuration: 0, or the bound nearest
     /// to 0. `urdd generate` into the same folder does that.
     CNF004 "configuration-does-not-follow", Error, clause "6.7.5", since "1.0.0",
-    phase References,
-    needs [
+    phase References, needs [
         ModuleV1(Kind::NamedConfigurations), ModuleV1(Kind::Dof), ModuleV1(Kind::Bounds), Passed(CNF002),
         Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND006),
     ], check configuration_does_not_follow,

@@ -17,7 +17,7 @@ declare_rule! {
     SHP005 "matrix-size", Error, clause "8.4", since "0.1.0",
     phase References, needs [
         Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes), SHAPE_MATRICES_OR_MODELS,
-        MESHES_LISTED, NotFailed(MSH004), NotFailed(SHP002), NotFailed(SHP010), NO_PIECE_TWICE,
+        MESHES_LISTED, NoneFailed(&[MSH004, SHP002, SHP010]), NO_PIECE_TWICE,
     ], check matrix_size,
 
     /// A shape has a distance to itself, or is not to be skipped against itself.

@@ -14,14 +14,10 @@ declare_rule! {
     /// spheres were measured at the corners of a tessellated one: up to 0.5 % of the radius too little passes.)
     SHP004 "max-distance-wrong", Error, clause "8.3", since "0.1.0",
     phase References, needs [
-        Module(Kind::LinkShapesApproximations),
-        Module(Kind::LinkShapesMaxDistanceFromOrigin),
-        NotFailed(MSH004),
-        SHAPES_LISTED,
-        NotFailed(SHP003),
+        Module(Kind::LinkShapesApproximations), Module(Kind::LinkShapesMaxDistanceFromOrigin), NotFailed(MSH004),
+        SHAPES_LISTED, NotFailed(SHP003),
         // The distance may be that of the right box, where the box itself does not fit.
-        NotFailed(SHP017),
-        NotFailed(SHP018),
+        NotFailed(SHP017), NotFailed(SHP018),
     ], check max_distance_wrong,
 
     /// The largest distance of a hull or piece from its link's origin is not that of its farthest vertex.
@@ -33,9 +29,8 @@ declare_rule! {
     /// has it.
     SHP021 "hull-distance-wrong", Error, clause "8.3", since "0.1.0",
     phase Geometry, needs [
-        Module(Kind::LinkShapesMaxDistanceFromOrigin),
-        HULLS_OR_PIECES,
-        PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED,
+        Module(Kind::LinkShapesMaxDistanceFromOrigin), HULLS_OR_PIECES, PIECES_LISTED, OWN_FILES, SOUND_SHAPES,
+        SHAPES_LISTED,
         // It reports a value beyond the box and the sphere.
         NotFailed(SHP004),
     ], check hull_distance_wrong,

@@ -36,9 +36,8 @@ declare_rule! {
 fn inertia_not_positive_definite(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let bodies = context.rigid_groups()?;
-    let file = context.robot_file()?;
     let at = |index: usize, message: String, link: &Link, found: &str| {
-        Finding::at(&file, format!("/links/{index}/inertial/inertia"), message)
+        finding_in(context, format!("/links/{index}/inertial/inertia"), message)
             .values("three positive principal moments", format!("link `{}`: {found}", link.name))
     };
     for body in &bodies.groups {
@@ -86,7 +85,6 @@ pub fn positive(moments: [f64; 3]) -> bool {
 
 fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, link) in robot.links.iter().enumerate() {
         let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else {
             continue;
@@ -103,7 +101,7 @@ fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option
             link.name,
             100.0 * beyond(moments)
         );
-        Finding::at(&file, pointer, message)
+        finding_in(context, pointer, message)
             .expected(format!("at most {least} kg m²"))
             .actual(format!("link `{}`: {}", link.name, show(moments)))
             .tolerance(INERTIA_TRIANGLE * moments[2])

@@ -28,7 +28,6 @@ declare_rule! {
 
 fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let (name, kind) = (&joint.name, joint.joint_type);
         let needs_limits = matches!(kind, JointType::Revolute | JointType::Prismatic);
@@ -40,7 +39,7 @@ fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
             Some(_) => "a `limit` with neither `lower` nor `upper`",
         };
         let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
-        Finding::at(&file, format!("/joints/{index}/limit"), message)
+        finding_in(context, format!("/joints/{index}/limit"), message)
             .values("`lower` and `upper`", format!("joint `{name}`: {actual}"))
             .report(findings);
     }
@@ -49,7 +48,6 @@ fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let (name, kind) = (&joint.name, joint.joint_type);
         let limits = joint.position_limits();
@@ -64,7 +62,7 @@ fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<
             let message = format!(
                 "joint `{name}` ({kind}) has effort 0 and velocity 0: by its limits it cannot move"
             );
-            Finding::at(&file, format!("/joints/{index}/limit"), message)
+            finding_in(context, format!("/joints/{index}/limit"), message)
                 .expected("the joint's limits, above 0")
                 .actual(format!("joint `{name}`: effort 0, velocity 0"))
                 .report(findings);

@@ -19,9 +19,8 @@ declare_rule! {
 fn mass_not_positive(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let bodies = context.rigid_groups()?;
-    let file = context.robot_file()?;
     let at = |index: usize, message: String, expected: &str, link: &Link| {
-        Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
+        finding_in(context, format!("/links/{index}/inertial/mass"), message)
             .values(expected, found(link))
     };
     for body in &bodies.groups {

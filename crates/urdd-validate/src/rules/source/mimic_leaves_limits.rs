@@ -17,7 +17,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let mimics = context.mimics()?;
-    let file = context.robot_file()?;
     for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
         let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else {
             continue;
@@ -45,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             driver.name,
             number(beyond, 6)
         );
-        Finding::at(&file, pointer, message)
+        finding_in(context, pointer, message)
             .expected(format!("joint `{}` within {}", joint.name, interval(own)))
             .actual(format!(
                 "{} for `{}` from {} to {}",

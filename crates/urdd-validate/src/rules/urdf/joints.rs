@@ -45,12 +45,11 @@ declare_rule! {
 
 fn zero_axis(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         if joint.has_axis() && !has_direction(joint.axis) {
             let (name, kind) = (&joint.name, joint.joint_type);
             let message = format!("the axis of joint `{name}` ({kind}) has no direction");
-            Finding::at(&file, format!("/joints/{index}/axis/xyz"), message)
+            finding_in(context, format!("/joints/{index}/axis/xyz"), message)
                 .values("a vector other than zero", format!("{:?}", joint.axis))
                 .report(findings);
         }
@@ -65,14 +64,13 @@ pub fn has_direction(axis: [f64; 3]) -> bool {
 
 fn unknown_mimic_driver(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         if let Some(mimic) = joint.active_mimic()
             && robot.joint(&mimic.joint).is_none()
         {
             let name = &joint.name;
             let message = format!("joint `{name}` follows a joint that the robot does not have");
-            Finding::at(&file, format!("/joints/{index}/mimic/joint"), message)
+            finding_in(context, format!("/joints/{index}/mimic/joint"), message)
                 .values("the name of a joint", format!("`{}`", mimic.joint))
                 .report(findings);
         }
@@ -82,7 +80,6 @@ fn unknown_mimic_driver(context: &Context, findings: &mut Findings) -> Option<()
 
 fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     let joints = robot.joints.iter();
     let follows = joints.map(|joint| robot.joint(&joint.active_mimic()?.joint));
     for circle in circles(&follows.collect::<Vec<_>>()) {
@@ -95,7 +92,7 @@ fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
                 first_names(&names)
             ),
         };
-        Finding::at(&file, format!("/joints/{}/mimic/joint", circle.first()?), message)
+        finding_in(context, format!("/joints/{}/mimic/joint", circle.first()?), message)
             .expected("a joint that leads to one that follows nothing")
             .actual(format!("a circle of {}", names.len()))
             .report(findings);
@@ -105,7 +102,6 @@ fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn mimic_of_many_dofs(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let Some(mimic) = joint.active_mimic() else {
             continue;
@@ -124,7 +120,7 @@ fn mimic_of_many_dofs(context: &Context, findings: &mut Findings) -> Option<()> 
             continue;
         };
         let (kind, dofs) = (culprit.joint_type, culprit.num_dofs());
-        Finding::at(&file, format!("/joints/{index}/mimic"), message)
+        finding_in(context, format!("/joints/{index}/mimic"), message)
             .values("a joint of one DOF, or a fixed one", format!("{kind}, with {dofs} DOFs"))
             .report(findings);
     }

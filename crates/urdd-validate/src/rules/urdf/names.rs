@@ -41,14 +41,12 @@ fn report<'a>(
     names: impl Iterator<Item = &'a str>,
     findings: &mut Findings,
 ) -> Option<()> {
-    let file = context.robot_file()?;
     for (index, first, name) in repeated(names) {
         let message =
             format!("another {one} is already named `{name}`; give this one a name of its own");
-        Finding::at(&file, format!("/{list}/{index}/name"), message)
+        finding_in(context, format!("/{list}/{index}/name"), message)
             .values(format!("a name that no other {one} has"), format!("`{name}`"))
-            .related(Finding::at(
-                &file,
+            .related(finding_in(context,
                 format!("/{list}/{first}/name"),
                 format!("the first {one} of this name"),
             ))

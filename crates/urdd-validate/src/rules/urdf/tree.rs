@@ -45,7 +45,6 @@ declare_rule! {
 
 fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     let children: HashSet<usize> =
         (robot.joints.iter()).filter_map(|joint| robot.link(&joint.child)).collect();
     let links = robot.links.iter().enumerate();
@@ -60,7 +59,7 @@ fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
             format!("{count}: {}", first_names(&roots)),
         ),
     };
-    Finding::at(file, "/links", message)
+    finding_in(context, "/links", message)
         .values("one link that is not the child of a joint", actual)
         .report(findings);
     Some(())
@@ -68,7 +67,6 @@ fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     let mut held_by: HashMap<&str, (usize, &str)> = HashMap::new();
     for (index, joint) in robot.joints.iter().enumerate() {
         let link = &joint.child;
@@ -78,7 +76,7 @@ fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
                 "link `{link}` is the child of joint `{}` and of joint `{other}`; a link has one parent",
                 joint.name
             );
-            Finding::at(&file, format!("/joints/{index}/child/link"), message)
+            finding_in(context, format!("/joints/{index}/child/link"), message)
                 .expected("a link that no other joint has as its child")
                 .actual(format!("`{link}`, child of /joints/{first} too"))
                 .report(findings);
@@ -89,12 +87,11 @@ fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
             if robot.link(link).is_none() {
                 let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
-                Finding::at(&file, format!("/joints/{index}/{end}/link"), message)
+                finding_in(context, format!("/joints/{index}/{end}/link"), message)
                     .values("the name of a link", format!("`{link}`"))
                     .report(findings);
             }
@@ -105,7 +102,6 @@ fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn cycle(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for circle in circles(&parents(robot)) {
         let links = circle.iter().filter_map(|link| robot.links.get(*link));
         let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
@@ -113,7 +109,7 @@ fn cycle(context: &Context, findings: &mut Findings) -> Option<()> {
             "{} form a cycle, each the child of the next: remove one of their joints, or swap its parent and child",
             first_names(&names)
         );
-        Finding::at(&file, format!("/links/{}", circle.first()?), message)
+        finding_in(context, format!("/links/{}", circle.first()?), message)
             .expected("a path from every link to the root")
             .actual(format!("a cycle of {} links", circle.len()))
             .report(findings);
