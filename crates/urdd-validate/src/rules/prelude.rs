@@ -3,10 +3,10 @@
 pub(super) use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 pub(super) use crate::context::Context;
-pub(super) use crate::distances::tolerances::Tolerances;
 pub(super) use crate::finding::{Compared, finding_in};
 pub(super) use crate::memo::Farthest;
 pub(super) use crate::needs::MESH_MODULES;
+pub(super) use crate::reference::distances::shape_set::Tolerances;
 pub(super) use crate::rule::declare_rule;
 pub(super) use crate::skip;
 pub(super) use crate::tolerance::*;

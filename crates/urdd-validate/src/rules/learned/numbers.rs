@@ -1,4 +1,4 @@
-use crate::learned::network;
+use crate::reference::learned::network;
 use crate::rules::prelude::*;
 use urdd_format::self_collision_model::ModelInput;
 

@@ -1,7 +1,7 @@
 use sha2::{Digest, Sha256};
 
-use crate::learned::network::Network;
-use crate::learned::pairs;
+use crate::reference::learned::network::Network;
+use crate::reference::learned::pairs;
 use crate::rules::prelude::*;
 use urdd_document::meshes::Format;
 

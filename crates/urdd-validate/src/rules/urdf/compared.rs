@@ -1,8 +1,8 @@
 use serde_json::Value;
 
+use crate::reference::urdf_text::compare::{Difference, differences};
+use crate::reference::urdf_text::{Reading, as_legacy};
 use crate::rules::prelude::*;
-use crate::urdf_text::compare::{Difference, differences};
-use crate::urdf_text::{Reading, as_legacy};
 use urdd_directory::position::LineIndex;
 use urdd_document::schema_check::excerpt;
 

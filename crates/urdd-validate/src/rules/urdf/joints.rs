@@ -1,6 +1,6 @@
 use super::tree::circles;
+use crate::reference::urdf_text::compare::first_names;
 use crate::rules::prelude::*;
-use crate::urdf_text::compare::first_names;
 
 declare_rule! {
     /// A joint that needs an axis has an axis without a direction.

@@ -46,7 +46,8 @@ fn report<'a>(
             format!("another {one} is already named `{name}`; give this one a name of its own");
         finding_in(context, format!("/{list}/{index}/name"), message)
             .values(format!("a name that no other {one} has"), format!("`{name}`"))
-            .related(finding_in(context,
+            .related(finding_in(
+                context,
                 format!("/{list}/{first}/name"),
                 format!("the first {one} of this name"),
             ))

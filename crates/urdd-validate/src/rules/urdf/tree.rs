@@ -1,5 +1,5 @@
+use crate::reference::urdf_text::compare::first_names;
 use crate::rules::prelude::*;
-use crate::urdf_text::compare::first_names;
 
 declare_rule! {
     /// The robot has several roots, or no link at all.

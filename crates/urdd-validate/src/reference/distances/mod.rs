@@ -3,17 +3,15 @@
 //!
 //! The number of configurations depends on counted work, not on time, so that results are reproducible: see [`plan`].
 
-pub mod other_reasons;
 pub mod plan;
 pub mod poses;
 pub mod shape_set;
-pub mod tolerances;
 
 use self::plan::Work;
 use self::poses::Poses;
 use self::shape_set::ShapeSet;
-use super::skip;
-use super::solids::Solids;
+use crate::skip;
+use crate::solids::Solids;
 use urdd_document::shape_matrices::statistics;
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;

@@ -2,8 +2,7 @@
 
 use urdd_xml::{Document, Node};
 
-use super::problem::{Fault, Problem, Repeated};
-use super::reading::Reading;
+use super::reading::{Fault, Problem, Reading, Repeated};
 use super::xml;
 use urdd_document::pose::has_quaternions;
 use urdd_format::urdf as v1;

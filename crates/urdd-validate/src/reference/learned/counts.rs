@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::network::Network;
 use super::pairs;
-use crate::distances::poses::Poses;
+use crate::reference::distances::poses::Poses;
 use crate::skip;
 use crate::solids::Solids;
 use urdd_document::urdd::Urdd;

@@ -1,10 +1,11 @@
-//! The shapes of one kind, prepared for distances.
+//! The shapes of one kind, prepared for distances, and the tolerances of these.
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::plan::{self, Work};
 use super::poses::Poses;
 use crate::solids::Solids;
+use crate::tolerance::{distance_tolerance, reach};
 use crate::views::enclosure::Fit;
 use urdd_document::shape_matrices::{Statistics, at};
 use urdd_document::shapes::{ShapeList, Shapes, Volume, approximations};
@@ -15,6 +16,7 @@ use urdd_geometry::convex::{
     ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Sphere, pair_distances,
     pair_ranges, pair_statistics,
 };
+use urdd_geometry::farthest;
 use urdd_kinematics::rotation::from_rpy;
 
 /// The existing, sound shapes of a kind.
@@ -125,7 +127,7 @@ impl ShapeSet {
 }
 
 /// The boxes or spheres of a kind.
-pub(super) fn volumes(urdd: &Urdd, kind: ShapeKind) -> Option<ShapeList<Volume>> {
+fn volumes(urdd: &Urdd, kind: ShapeKind) -> Option<ShapeList<Volume>> {
     let lists = approximations(urdd.document(ModuleKind::LinkShapesApproximations)?)?;
     lists.into_iter().find(|list| list.kind == kind)
 }
@@ -160,4 +162,37 @@ fn cuboid(volume: Volume) -> Option<OrientedBox> {
     };
     let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
     OrientedBox::new(pose, half_extents).ok()
+}
+
+/// The tolerances of the distances of one kind of shapes (SPEC 8.5).
+pub struct Tolerances {
+    /// The robot's reach, m.
+    reach: f64,
+    /// Reach of each shape from its link's origin, m.
+    shapes: Vec<f64>,
+}
+
+impl Tolerances {
+    /// For the shapes of a kind. A missing shape, which other rules report, adds nothing.
+    pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
+        let volumes = volumes(urdd, kind);
+        let of_shape = |shape: usize| -> Option<f64> {
+            let (link, piece) = shapes.place(kind, shape)?;
+            Some(match kind.is_convex_mesh() {
+                true => farthest::of_mesh(solids.sound(kind.meshes(), link, piece)?),
+                false => volumes.as_ref()?.links.get(link)?.get(piece)?.reach(),
+            })
+        };
+        let robot = urdd.robot().zip(urdd.tree());
+        Tolerances {
+            reach: robot.map_or(0.0, |(robot, tree)| reach(robot, tree)),
+            shapes: (0..shapes.count(kind)).map(|shape| of_shape(shape).unwrap_or(0.0)).collect(),
+        }
+    }
+
+    /// Tolerance of the distances of two shapes, m.
+    pub fn pair(&self, i: usize, j: usize) -> f64 {
+        let of = |shape: usize| self.shapes.get(shape).copied().unwrap_or(0.0);
+        distance_tolerance(self.reach, of(i) + of(j))
+    }
 }

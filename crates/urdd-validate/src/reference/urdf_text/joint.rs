@@ -1,7 +1,7 @@
 //! Joints.
 
-use super::problem::Fault;
 use super::reader::{Element, Reader, numbers};
+use super::reading::Fault;
 use super::xml;
 use urdd_format::urdf as v1;
 

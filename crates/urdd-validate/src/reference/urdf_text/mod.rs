@@ -8,20 +8,18 @@ mod joint;
 mod legacy;
 mod link;
 pub mod numbers;
-mod problem;
 mod reader;
 mod reading;
 mod xml;
 
 pub use legacy::as_legacy;
-pub use problem::{Fault, Problem, Repeated};
-pub use reading::Reading;
+pub use reading::{Fault, Problem, Reading, Repeated};
 
 pub fn read(text: &str) -> Reading {
     match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
         Ok(document) => reader::read(&document),
         Err(error) => {
-            Reading { problems: vec![problem::not_xml(&error, text)], ..Reading::default() }
+            Reading { problems: vec![reading::not_xml(&error, text)], ..Reading::default() }
         }
     }
 }
