@@ -68,9 +68,7 @@ pub fn verify_model(path: &Path) -> ModelVerdict {
         Ok(run) => run.report.urdds.into_iter().next(),
         Err(error) => return ModelVerdict::NotVerified(vec![error.to_string()]),
     };
-    let Some(urdd) = urdd else {
-        return ModelVerdict::NotVerified(Vec::new());
-    };
+    let Some(urdd) = urdd else { return ModelVerdict::NotVerified(Vec::new()) };
     let failed = urdd.checks.iter().filter(|check| check.status == Status::Failed);
     let refuted: Vec<String> =
         failed.map(|check| check.code.clone()).filter(|code| code.starts_with("LRN")).collect();

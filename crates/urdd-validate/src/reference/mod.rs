@@ -186,9 +186,7 @@ impl Reference {
 
 /// SPEC 5.4 and 6.1.9; a missing origin is zero.
 fn origin(origin: Option<&v1::Origin>, quaternions: bool) -> Isometry3<f64> {
-    let Some(origin) = origin else {
-        return Isometry3::identity();
-    };
+    let Some(origin) = origin else { return Isometry3::identity() };
     let rotation = match origin.quat_xyzw.filter(|_| quaternions) {
         Some(xyzw) => {
             // Divided by the largest number first, so that squares of tiny or huge numbers do not underflow or

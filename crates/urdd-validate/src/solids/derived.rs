@@ -166,9 +166,7 @@ fn read(
     };
     let mut meshes: Vec<(usize, Mesh)> = Vec::new();
     for path in paths {
-        let Some(format) = path.format else {
-            continue;
-        };
+        let Some(format) = path.format else { continue };
         let mut file = DerivedFile {
             path: path.path.to_owned(),
             pointer: path.pointer.clone(),
@@ -202,9 +200,7 @@ fn read(
     // triangle.
     let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
     let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
-    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else {
-        return derived;
-    };
+    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else { return derived };
     let (mesh_of, mesh) = meshes.swap_remove(first);
     meshes.sort_by_key(|(at, _)| *at);
     let tolerance = mesh_resolution(surface::extent(&mesh));

@@ -42,9 +42,7 @@ impl Solids {
     pub fn read(urdd: &Urdd) -> Self {
         let mut solids = Solids { originals: original::read_all(urdd), ..Solids::default() };
         for kind in urdd_document::meshes::DERIVED {
-            let Some(meshes) = urdd.meshes(*kind) else {
-                continue;
-            };
+            let Some(meshes) = urdd.meshes(*kind) else { continue };
             let read = derived::read_all(urdd, &meshes);
             for (at, mesh) in read.iter().enumerate() {
                 solids.by_place.insert((*kind, mesh.link, mesh.piece), at);

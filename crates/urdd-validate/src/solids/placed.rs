@@ -47,9 +47,7 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
     let look = |mesh: &Derived| -> Result<Option<Misplaced>, Why> {
         let found = mesh.sound().ok_or(Why::Unreadable)?;
-        let Some(kind) = kind_of(urdd, mesh.link) else {
-            return Ok(None);
-        };
+        let Some(kind) = kind_of(urdd, mesh.link) else { return Ok(None) };
         let original = |path: &str| solids.original(path)?.mesh.as_ref().ok().cloned();
         let expected = expected::of_link(urdd, &original, &usable, mesh.link, kind);
         let expected = expected.ok_or(Why::SourceMissing)?;

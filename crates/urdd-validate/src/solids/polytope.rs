@@ -92,9 +92,7 @@ pub fn step(points: usize, faces: usize) -> usize {
 
 /// Why a mesh is not the closed, outward-wound surface of a convex body; `None` if it is.
 pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
-    let Some(polytope) = Polytope::new(mesh) else {
-        return Some(NotConvex::Nothing);
-    };
+    let Some(polytope) = Polytope::new(mesh) else { return Some(NotConvex::Nothing) };
     if let Some(edge) = open_edge(mesh) {
         return Some(NotConvex::Open(edge));
     }

@@ -73,9 +73,7 @@ fn has_pieces_inside(schema: &Map<String, Value>) -> bool {
 
 /// What is wrong with an index of one of the things; `None` if it is below their number, or is not a number.
 fn index_fault(things: &[Thing], counts: &Counts, value: &Value) -> Option<String> {
-    let Value::Number(number) = value else {
-        return None;
-    };
+    let Value::Number(number) = value else { return None };
     let whole = |number: &f64| number.fract() == 0.0 && *number >= 0.0;
     // As an integer: a large one is the largest.
     let index = number.as_u64().or_else(|| Some(number.as_f64().filter(whole)? as u64));

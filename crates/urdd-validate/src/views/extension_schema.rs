@@ -99,12 +99,8 @@ pub fn violations(
             Some((judged, counts)) => annotated::judging(options(), judged, Arc::clone(counts)),
             None => options(),
         };
-        let Ok(validator) = compile(options, schema) else {
-            return Violations::default();
-        };
-        let Err(first) = validator.validate(document) else {
-            return Violations::default();
-        };
+        let Ok(validator) = compile(options, schema) else { return Violations::default() };
+        let Err(first) = validator.validate(document) else { return Violations::default() };
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {

@@ -78,9 +78,7 @@ impl Distances {
         let mut kinds: [Option<KindDistances>; 6] = Default::default();
         let planned = recorded.iter().zip(sets).zip(configurations);
         for (kind, ((stated, set), n)) in kinds.iter_mut().zip(planned) {
-            let (Some(stated), Some(shapes)) = (stated, set) else {
-                continue;
-            };
+            let (Some(stated), Some(shapes)) = (stated, set) else { continue };
             let complete = n == num_samples;
             let found = over(&poses, &first, n, |motion| {
                 if complete { shapes.statistics(motion) } else { shapes.ranges(motion, stated) }

@@ -150,16 +150,12 @@ fn placed<T>(
 }
 
 fn sphere(volume: Volume) -> Option<Sphere> {
-    let Volume::Sphere { radius, offset } = volume else {
-        return None;
-    };
+    let Volume::Sphere { radius, offset } = volume else { return None };
     Sphere::new(Vector3::from(offset), radius).ok()
 }
 
 fn cuboid(volume: Volume) -> Option<OrientedBox> {
-    let Volume::Box { half_extents, offset, rpy } = volume else {
-        return None;
-    };
+    let Volume::Box { half_extents, offset, rpy } = volume else { return None };
     let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
     OrientedBox::new(pose, half_extents).ok()
 }

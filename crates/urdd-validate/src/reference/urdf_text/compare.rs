@@ -99,9 +99,7 @@ impl Comparison {
                 }
             }
             (Value::Number(wanted), Value::Number(there)) => {
-                let (Some(a), Some(b)) = (wanted.as_f64(), there.as_f64()) else {
-                    return;
-                };
+                let (Some(a), Some(b)) = (wanted.as_f64(), there.as_f64()) else { return };
                 if !numbers_agree(a, b) {
                     self.found.push(Difference {
                         tolerance: Some(number_tolerance(a, b)),

@@ -36,9 +36,7 @@ fn bound_count_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
         lists.push(("dof_velocity_limits", v1.dof_velocity_limits.len()));
         lists.push(("dof_effort_limits", v1.dof_effort_limits.len()));
     }
-    let Some(wrong) = wrong_lengths(&lists, dofs.get()) else {
-        return Some(());
-    };
+    let Some(wrong) = wrong_lengths(&lists, dofs.get()) else { return Some(()) };
     let length = wrong.length;
     let message = match wrong.are_all {
         false => format!("one entry per DOF is needed: {}", wrong.in_words),

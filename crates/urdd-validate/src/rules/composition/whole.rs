@@ -110,9 +110,7 @@ fn attachment_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
                 report(pointer, "the joint does not connect two links of the part");
             }
         }
-        let Some(attachment) = &part.attachment else {
-            continue;
-        };
+        let Some(attachment) = &part.attachment else { continue };
         let link = attachment.link_idx.get();
         let (parent, child) = ends(attachment.joint_idx.get());
         let is_there = match attachment.part_idx {

@@ -36,9 +36,7 @@ declare_rule! {
 }
 
 fn class_incomplete(context: &Context, findings: &mut Findings) -> Option<()> {
-    let Some(class) = context.class() else {
-        return Some(());
-    };
+    let Some(class) = context.class() else { return Some(()) };
     // A module may be a folder or an entry of urdd.json; DIR002 and DIR003 report that one of the two is missing.
     let entries = entries::all(context);
     let listed: HashSet<Kind> = entries.iter().filter_map(|entry| entry.kind).collect();

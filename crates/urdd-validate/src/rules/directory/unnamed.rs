@@ -83,9 +83,7 @@ fn stray_file(context: &Context, findings: &mut Findings) -> Option<()> {
             .map(|entry| entry.path.as_str())
             .filter(|path| !listed.contains(path) && !named.contains(path))
             .collect();
-        let Some(first) = stray.first() else {
-            continue;
-        };
+        let Some(first) = stray.first() else { continue };
         let others = match stray.len() - 1 {
             0 => String::new(),
             n => format!(" (and neither does it name {n} more below this folder)"),
@@ -127,9 +125,7 @@ fn file_list_incomplete(context: &Context, findings: &mut Findings) -> Option<()
             continue;
         }
         let unlisted = unlisted(context, &entry);
-        let Some(first) = unlisted.first() else {
-            continue;
-        };
+        let Some(first) = unlisted.first() else { continue };
         let message = match unlisted.len() - 1 {
             0 => format!("{first} is not listed: add it, with size and SHA-256"),
             n => format!("{first} and {n} more are not listed: add them, with sizes and SHA-256"),
@@ -144,9 +140,7 @@ fn file_list_incomplete(context: &Context, findings: &mut Findings) -> Option<()
 
 /// The files of a module that are missing from its list.
 fn unlisted(context: &Context, entry: &Entry<'_>) -> Vec<String> {
-    let Some(module) = entry.module else {
-        return Vec::new();
-    };
+    let Some(module) = entry.module else { return Vec::new() };
     let files = entry.entry.files.iter();
     let listed: HashSet<&str> = files.map(|file| file.path.as_str()).collect();
     let schema = is_extension(&module.folder).then_some("schema.json");

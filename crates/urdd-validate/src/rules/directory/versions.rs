@@ -119,9 +119,7 @@ fn version_differs(context: &Context, findings: &mut Findings) -> Option<()> {
 fn module_version_unknown(context: &Context, findings: &mut Findings) -> Option<()> {
     let differing = folders(context);
     for module in entries::known_modules(context) {
-        let (Some(kind), Some(version)) = (module.kind, &module.version) else {
-            continue;
-        };
+        let (Some(kind), Some(version)) = (module.kind, &module.version) else { continue };
         let old = context.profile() == Profile::V1 && module.is_legacy();
         let sound = module.spec.is_some() && !old;
         // DIR006 reports a malformed version, DIR007 a differing one.

@@ -32,9 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (place, sample) in samples.samples.iter().enumerate() {
-        let Ok(poses) = kinematics.link_poses(&sample.configuration) else {
-            continue;
-        };
+        let Ok(poses) = kinematics.link_poses(&sample.configuration) else { continue };
         for (link, (expected, stored)) in poses.iter().zip(&sample.link_poses).enumerate() {
             let (kind, name) = (sample.kind, &robot.links.get(link)?.name);
             let pointer = format!("/samples/{place}/link_poses/{link}");

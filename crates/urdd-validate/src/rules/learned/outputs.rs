@@ -57,9 +57,7 @@ fn other_geometry(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut text = String::new();
     for path in documents.into_iter().chain(glbs) {
         let mut entries = metadata.modules.iter().flat_map(|module| &module.files);
-        let Some(file) = entries.find(|file| file.path == path) else {
-            return Some(());
-        };
+        let Some(file) = entries.find(|file| file.path == path) else { return Some(()) };
         text += file.sha256.as_str();
         text.push('\n');
     }

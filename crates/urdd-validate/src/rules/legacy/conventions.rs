@@ -64,9 +64,7 @@ fn without_root_metadata(_: &Context, findings: &mut Findings) -> Option<()> {
 fn parent_relative_paths(context: &Context, findings: &mut Findings) -> Option<()> {
     let paths = paths::all(context);
     let paths: Vec<_> = paths.iter().filter(|path| path.from_parent()).collect();
-    let Some(first) = paths.first() else {
-        return Some(());
-    };
+    let Some(first) = paths.first() else { return Some(()) };
     let siblings = paths.iter().filter_map(|path| match path.place(context) {
         Place::Sibling { folder, .. } => Some(folder),
         _ => None,
@@ -93,9 +91,7 @@ fn parent_relative_paths(context: &Context, findings: &mut Findings) -> Option<(
 fn folder_name_differs(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     // With the robot of the carried URDF, urdf_module may be missing.
-    let Some(module) = context.module(Kind::Urdf) else {
-        return Some(());
-    };
+    let Some(module) = context.module(Kind::Urdf) else { return Some(()) };
     let folder = context.root().folder_name();
     if folder != robot.name {
         let message = "the robot's name differs from that of its folder, which mesh paths use";

@@ -47,9 +47,7 @@ fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<()> 
         if let (None, Some(part)) = (mesh.sound(), part) {
             findings.not_verified(part, Why::Unreadable);
         }
-        let Some((fault, dents)) = fault else {
-            continue;
-        };
+        let Some((fault, dents)) = fault else { continue };
         let extent = mesh.mesh.as_ref().map_or(0.0, extent);
         let resolution = mesh_resolution(extent);
         let depth = dents.map(|dents| dents.depth).filter(|depth| *depth > resolution);

@@ -54,9 +54,7 @@ fn glb_not_binary(context: &Context, findings: &mut Findings) -> Option<()> {
         let paths = meshes.paths();
         for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(Format::Glb)) {
             // Other rules report files that cannot be opened.
-            let Ok((file, size)) = files.open(meshes.profile, mesh.path) else {
-                continue;
-            };
+            let Ok((file, size)) = files.open(meshes.profile, mesh.path) else { continue };
             if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
                 let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
                 finding_in(module, &mesh.pointer, message)

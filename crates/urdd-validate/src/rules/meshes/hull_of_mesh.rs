@@ -112,9 +112,7 @@ fn report(
     };
     let off: Vec<Option<Farthest>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
     for (hull, off) in hulls.iter().zip(off) {
-        let Some(off) = off else {
-            continue;
-        };
+        let Some(off) = off else { continue };
         let label = context.link_label(hull.link);
         let (message, expected, actual) = words(&label, &point(off.place), &metres(off.distance));
         finding_in(module, hull.pointer(), message)

@@ -113,9 +113,7 @@ fn legacy(context: &Context, robot: &Robot, meshes: &Meshes, findings: &mut Find
         }
     }
     for (link, path) in meshes.paths() {
-        let Some(names) = names.get(link) else {
-            continue;
-        };
+        let Some(names) = names.get(link) else { continue };
         if !names.contains(&base(path.path)) {
             let mut expected: Vec<&str> = names.iter().map(String::as_str).collect();
             expected.sort_unstable();

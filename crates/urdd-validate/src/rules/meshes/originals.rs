@@ -137,9 +137,7 @@ fn order(original: &OriginalMeshesModule, findings: &mut Findings) {
 fn original_misdescribed(context: &Context, findings: &mut Findings) -> Option<()> {
     let original = document!(context, OriginalMeshes)?;
     for (at, listed) in original.files.iter().enumerate() {
-        let Some(read) = context.solids().original(&listed.path) else {
-            continue;
-        };
+        let Some(read) = context.solids().original(&listed.path) else { continue };
         let path = &listed.path;
         let (usable, message) = match &read.mesh {
             Ok(_) => (true, format!("`{path}` can be read, and has a surface")),

@@ -66,9 +66,7 @@ fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
         .map(|piece| farthest_outside(context, piece, hulls.get(&piece.link)?))
         .collect();
     for (piece, outside) in pieces.iter().zip(outside) {
-        let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else {
-            continue;
-        };
+        let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else { continue };
         let [least, most] = [PIECE_BARELY_OUT_OF_HULL, PIECE_OUT_OF_HULL]
             .map(|fraction| out.tolerance.max(fraction * hull.diagonal));
         let tolerance = match how {

@@ -44,9 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         // One finding per link, reported at the first list that differs from most lists.
         let usual = most_common(counts.clone().map(|(count, _)| count));
         let mut odd = counts.filter(|(count, _)| *count != usual);
-        let Some((count, first)) = odd.next() else {
-            continue;
-        };
+        let Some((count, first)) = odd.next() else { continue };
         let also = match odd.count() {
             0 => String::new(),
             n => format!(" (and {n} more lists)"),

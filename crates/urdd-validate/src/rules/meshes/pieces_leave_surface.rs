@@ -53,9 +53,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
-        let Some(bare) = bare else {
-            continue;
-        };
+        let Some(bare) = bare else { continue };
         let distance = metres(bare.distance);
         let message = format!(
             "the pieces of {} leave out its surface at {}, {distance} outside of all of them",

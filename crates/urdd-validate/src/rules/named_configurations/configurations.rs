@@ -71,9 +71,7 @@ fn configuration_positions_wrong(context: &Context, findings: &mut Findings) -> 
         let mut set = Vec::new();
         for (entry, position) in configuration.positions.iter().enumerate() {
             let name = position.dof_name.as_str();
-            let Some((message, expected)) = fault(name, &known, &mut set, dof) else {
-                continue;
-            };
+            let Some((message, expected)) = fault(name, &known, &mut set, dof) else { continue };
             let pointer = format!("/configurations/{place}/positions/{entry}/dof_name");
             finding_in(Kind::NamedConfigurations, pointer, message)
                 .values(expected, format!("`{name}`"))

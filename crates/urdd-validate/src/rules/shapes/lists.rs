@@ -45,9 +45,7 @@ fn shape_list_length(context: &Context, findings: &mut Findings) -> Option<()> {
     for (_, module, document) in context.documents(LIST_MODULES) {
         let lists = entry_counts(document);
         let lists = lists.iter().map(|list| (list.key, list.links.len()));
-        let Some(wrong) = wrong_lengths(&lists.collect::<Vec<_>>(), links) else {
-            continue;
-        };
+        let Some(wrong) = wrong_lengths(&lists.collect::<Vec<_>>(), links) else { continue };
         let length = wrong.length;
         let message = match wrong.are_all {
             true => format!(
@@ -74,9 +72,7 @@ fn shape_presence_differs(context: &Context, findings: &mut Findings) -> Option<
                 entry.is_some_and(|entry| entry.is_empty() == hull)
             });
             // A link is one mistake, though it shows in every list of the module.
-            let Some(first) = wrong.next() else {
-                continue;
-            };
+            let Some(first) = wrong.next() else { continue };
             let also = match wrong.count() {
                 0 => String::new(),
                 n => format!(", nor as it should be in {n} more lists of this module"),
@@ -105,9 +101,7 @@ fn shape_list_differs(context: &Context, findings: &mut Findings) -> Option<()> 
     });
     let pieces: Vec<PieceShape> = pieces.collect();
     for (_, module, document) in context.documents(V1_MATRIX_MODULES) {
-        let Some((stated_full, stated_pieces)) = shape_lists(document) else {
-            continue;
-        };
+        let Some((stated_full, stated_pieces)) = shape_lists(document) else { continue };
         let link = |link: &LinkIdx| format!("link {link}");
         let piece = |of: &PieceShape| format!("piece {} of link {}", of.piece_idx, of.link_idx);
         let full = first_fault(module, "/full_shapes", &full, stated_full, link);

@@ -46,9 +46,7 @@ fn matrix_size(context: &Context, findings: &mut Findings) -> Option<()> {
         let wrong = |matrix: &Matrix| wrong_size(module, matrix, &shapes);
         let mut wrong = matrices.iter().filter_map(wrong);
         // A stale module is one mistake, though it shows in every matrix.
-        let Some(mut first) = wrong.next() else {
-            continue;
-        };
+        let Some(mut first) = wrong.next() else { continue };
         let others = wrong.count();
         if others > 0 {
             let also = format!("; {others} more matrices of this module are of wrong sizes too");
@@ -81,9 +79,7 @@ fn wrong_size(module: &Module, matrix: &Matrix, shapes: &Shapes) -> Option<Findi
 fn diagonal_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     for (_, module, document) in context.documents(MATRIX_MODULES) {
         for matrix in matrices(document) {
-            let Some(elements) = matrix.elements else {
-                continue;
-            };
+            let Some(elements) = matrix.elements else { continue };
             let tangled = Tangled::new(elements);
             for i in 0..elements.rows() {
                 // SHP006 reports a row with more faults.

@@ -35,9 +35,7 @@ declare_rule! {
 
 /// The volume of a box over that of the smallest one. `None` if it is not too large, for a sphere, or without a hull.
 fn box_ratio(enclosure: &Enclosure) -> Option<f64> {
-    let Volume::Box { half_extents, .. } = enclosure.volume else {
-        return None;
-    };
+    let Volume::Box { half_extents, .. } = enclosure.volume else { return None };
     // A box around a flat hull has no thickness.
     let thick = |half: [f64; 3]| half.map(|h| h + enclosure.tolerance).iter().product::<f64>();
     // Most boxes are not too large, which is found quickly.
@@ -74,9 +72,7 @@ fn outermost(vertices: &[[f64; 3]]) -> Vec<[f64; 3]> {
 /// The radius of a sphere over that of the smallest one; `None` if it is surely not too large, for a box, or without a
 /// hull.
 fn sphere_ratio(enclosure: &Enclosure) -> Option<f64> {
-    let Volume::Sphere { radius, .. } = enclosure.volume else {
-        return None;
-    };
+    let Volume::Sphere { radius, .. } = enclosure.volume else { return None };
     let vertices = &enclosure.mesh.vertices;
     // Well below the bound, so that rounding does not matter.
     if exceeds(vertices, radius / NEEDLESSLY_LARGE_SPHERE * (1.0 + 1e-6)) {

@@ -52,9 +52,7 @@ fn max_distance_wrong(context: &Context, findings: &mut Findings) -> Option<()> 
         (sphere_values, spheres),
     ] {
         for (link, piece, value) in values.entries() {
-            let Some(volume) = entry(volumes, link, piece) else {
-                continue;
-            };
+            let Some(volume) = entry(volumes, link, piece) else { continue };
             let expected = volume.reach();
             let tolerance = number_tolerance(expected, value);
             let shortfall = match volume {
@@ -119,9 +117,7 @@ fn hull_distance_wrong(context: &Context, findings: &mut Findings) -> Option<()>
             if !judged(context, findings, part, &[]) {
                 continue;
             }
-            let Some(mesh) = context.solids().sound(meshes, link, piece) else {
-                continue;
-            };
+            let Some(mesh) = context.solids().sound(meshes, link, piece) else { continue };
             let expected = farthest::of_mesh(mesh);
             let tolerance = HULL_IN_VOLUME * expected;
             if (value - expected).abs() <= tolerance {

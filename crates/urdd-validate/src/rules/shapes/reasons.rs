@@ -53,27 +53,21 @@ fn skip_reason_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     for (((kind, statistics), skips), rows) in
         ShapeKind::ALL.into_iter().zip(six).zip(skips).zip(reasons)
     {
-        let Some(rows) = rows else {
-            continue;
-        };
+        let Some(rows) = rows else { continue };
         let tangled = Tangled::new(Elements::Reasons(rows));
         let stated = statistics.as_ref().map(Pairs::new);
         let mut fold = Fold::new(findings);
         for (i, j) in (0..rows.len()).flat_map(|i| (i..rows.len()).map(move |j| (i, j))) {
             let links = shapes.link(kind, i).zip(shapes.link(kind, j));
             // SHP006 reports a pair whose two elements differ.
-            let (Some(reason), Some((a, b))) = (of_pair(rows, i, j), links) else {
-                continue;
-            };
+            let (Some(reason), Some((a, b))) = (of_pair(rows, i, j), links) else { continue };
             let pair = stated.as_ref().and_then(|stated| stated.read(i, j));
             let expected = match (a == b, pair.filter(Pair::in_order)) {
                 (true, _) => Some(SkipReason::SameLink),
                 (false, Some(pair)) => first_reason(&pair, joined.contains(&ordered(a, b))),
                 (false, None) => None,
             };
-            let Some(expected) = expected else {
-                continue;
-            };
+            let Some(expected) = expected else { continue };
             // SHP026 judges whether the pair is in contact in the default configuration.
             let after_default = matches!(expected, SkipReason::Never | SkipReason::None);
             if reason == SkipReason::Default && after_default {
@@ -118,9 +112,7 @@ fn default_reason_wrong(context: &Context, findings: &mut Findings) -> Option<()
     let shapes = context.shapes()?;
     let distances = findings.or_skip(context.distances())?;
     for ((kind, rows), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
-        let (Some(rows), Some(found)) = (rows, found) else {
-            continue;
-        };
+        let (Some(rows), Some(found)) = (rows, found) else { continue };
         let at_default = distances.at_default_configuration(found);
         let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let mut fold = Fold::new(findings);
@@ -130,9 +122,7 @@ fn default_reason_wrong(context: &Context, findings: &mut Findings) -> Option<()
                 continue;
             }
             let places = found.shapes.place(i).zip(found.shapes.place(j));
-            let Some(distance) = places.and_then(|(a, b)| at(&at_default, a, b)) else {
-                continue;
-            };
+            let Some(distance) = places.and_then(|(a, b)| at(&at_default, a, b)) else { continue };
             let tolerance = tolerances.pair(i, j);
             let (wrong, expected) = match stated {
                 true => (distance > CONTACT + tolerance, "Never or None"),

@@ -44,9 +44,7 @@ fn distance_out_of_range(context: &Context, findings: &mut Findings) -> Option<(
         let mut fold = Fold::new(findings);
         for (i, j) in pairs(one.min.len()).filter(|(i, j)| judged.pair(*i, *j)) {
             let pair = stated.read(i, j).filter(Pair::in_order);
-            let Some((pair, range)) = pair.zip(found.pair(i, j)) else {
-                continue;
-            };
+            let Some((pair, range)) = pair.zip(found.pair(i, j)) else { continue };
             let tolerance = tolerances.pair(i, j);
             let (low, high) = (pair.min - tolerance, pair.max + tolerance);
             let key = match () {
@@ -81,9 +79,7 @@ fn statistics_differ(context: &Context, findings: &mut Findings) -> Option<()> {
     let distances = findings.or_skip(context.distances())?;
     let mut left = Vec::new();
     for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
-        let (Some(one), Some(found)) = (one, found) else {
-            continue;
-        };
+        let (Some(one), Some(found)) = (one, found) else { continue };
         if !found.complete {
             left.push(kind.key());
             continue;
@@ -95,9 +91,7 @@ fn statistics_differ(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut fold = Fold::new(findings);
         for (i, j) in pairs(one.min.len()).filter(|(i, j)| judged.pair(*i, *j)) {
             let pair = stated.read(i, j).filter(Pair::in_order);
-            let Some((pair, right)) = pair.zip(found.pair(i, j)) else {
-                continue;
-            };
+            let Some((pair, right)) = pair.zip(found.pair(i, j)) else { continue };
             let tolerance = tolerances.pair(i, j);
             // SHP022 reports a distance that should be constant and is not.
             if group(i) == group(j) && !pair.is_constant(tolerance) {

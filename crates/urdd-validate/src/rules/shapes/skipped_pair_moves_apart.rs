@@ -81,9 +81,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if by_reason.may_skip(&shapes, (i, j)) || !judged.pair(i, j) {
                 continue;
             }
-            let Some(distances) = set.pair(i, j, &motion) else {
-                continue;
-            };
+            let Some(distances) = set.pair(i, j, &motion) else { continue };
             let apart = CONTACT + tolerances.pair(i, j);
             let met = distances.iter().position(|distance| *distance <= CONTACT);
             let farthest = distances.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));

@@ -58,9 +58,7 @@ fn simple_skip_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let shapes = context.shapes()?;
     let six = context.statistics()?.into_iter().zip(skips(document)?);
     for (kind, (statistics, rows)) in ShapeKind::ALL.into_iter().zip(six) {
-        let Some(rows) = rows else {
-            continue;
-        };
+        let Some(rows) = rows else { continue };
         let stated = statistics.as_ref().map(Pairs::new);
         let mut fold = Fold::new(findings);
         for (i, j, skip) in sound_pairs(rows, Elements::Skips) {
@@ -106,15 +104,11 @@ fn skips_not_from_edits(context: &Context, findings: &mut Findings) -> Option<()
     }
     let simple = reasons(context.document(Kind::LinkShapesSimpleSkips)?)?;
     for ((kind, simple), rows) in ShapeKind::ALL.into_iter().zip(simple).zip(skips(document)?) {
-        let (Some(simple), Some(rows)) = (simple, rows) else {
-            continue;
-        };
+        let (Some(simple), Some(rows)) = (simple, rows) else { continue };
         let tangled_simple = Tangled::new(Elements::Reasons(simple));
         let mut fold = Fold::new(findings);
         for (i, j, skip) in sound_pairs(rows, Elements::Skips) {
-            let Some((a, b)) = shapes.link(kind, i).zip(shapes.link(kind, j)) else {
-                continue;
-            };
+            let Some((a, b)) = shapes.link(kind, i).zip(shapes.link(kind, j)) else { continue };
             let edit = last.get(&(a.min(b), a.max(b))).copied();
             // SHP006 reports a pair whose two reasons differ.
             let reason = of_pair(simple, i, j).filter(|_| !tangled_simple.pair(i, j));

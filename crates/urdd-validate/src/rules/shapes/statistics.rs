@@ -121,9 +121,7 @@ fn rigid_pair_not_constant(context: &Context, findings: &mut Findings) -> Option
             let tolerance = tolerances.pair(i, j);
             // SHP008 reports distances that are out of order.
             let pair = stated.read(i, j).filter(Pair::in_order);
-            let Some(pair) = pair.filter(|pair| !pair.is_constant(tolerance)) else {
-                continue;
-            };
+            let Some(pair) = pair.filter(|pair| !pair.is_constant(tolerance)) else { continue };
             fold.add(|| {
                 let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
                 let pointer = format!("/{}/{min_key}/{i}/{j}", kind.key());

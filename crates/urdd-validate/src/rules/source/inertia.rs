@@ -44,9 +44,7 @@ fn inertia_not_positive_definite(context: &Context, findings: &mut Findings) -> 
         let mut links = links_of(robot, body);
         for (index, link) in links.clone() {
             let moments = tensor(link).map(principal);
-            let Some(moments) = moments.filter(|moments| !positive(*moments)) else {
-                continue;
-            };
+            let Some(moments) = moments.filter(|moments| !positive(*moments)) else { continue };
             let message = format!("link `{}`: the inertia is not positive definite", link.name);
             at(index, message, link, &show(moments))
                 .tolerance(INERTIA_DEFINITE * moments[2].abs())
@@ -86,9 +84,7 @@ pub fn positive(moments: [f64; 3]) -> bool {
 fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     for (index, link) in robot.links.iter().enumerate() {
-        let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else {
-            continue;
-        };
+        let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else { continue };
         let moments = principal(tensor);
         // SRC004 reports tensors that are not positive definite.
         if !positive(moments) || excess(moments) <= INERTIA_TRIANGLE {

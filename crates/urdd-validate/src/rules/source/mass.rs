@@ -27,15 +27,11 @@ fn mass_not_positive(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut links = links_of(robot, body);
         let mut reported = false;
         for (index, link) in links.clone() {
-            let Some((message, expected)) = fault(link) else {
-                continue;
-            };
+            let Some((message, expected)) = fault(link) else { continue };
             reported = true;
             at(index, message, expected, link).report(findings);
         }
-        let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
-            continue;
-        };
+        let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else { continue };
         let stated = links.clone().find(|(_, link)| link.inertial.is_some());
         let weightless = links.all(|(_, link)| mass(link) == 0.0);
         if let (Some((index, link)), true, false) = (stated, weightless, reported) {

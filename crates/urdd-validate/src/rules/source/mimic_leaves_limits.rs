@@ -18,9 +18,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let mimics = context.mimics()?;
     for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
-        let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else {
-            continue;
-        };
+        let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else { continue };
         let driver = robot.joints.get(resolved.driver)?;
         // A fixed driver stays at 0.
         let limits = match driver.joint_type {

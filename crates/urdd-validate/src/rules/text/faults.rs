@@ -46,9 +46,7 @@ pub(super) fn report_yaml(
 fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &mut Findings) {
     for kind in kinds {
         let mut kept = faults.iter().filter(|fault| fault.kind == *kind);
-        let Some(first) = kept.next() else {
-            continue;
-        };
+        let Some(first) = kept.next() else { continue };
         let mut finding = Finding::in_file(file, first.message.clone());
         finding.place = place(file, first);
         finding.count = faults.total(*kind);

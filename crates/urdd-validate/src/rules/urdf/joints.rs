@@ -103,9 +103,7 @@ fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
 fn mimic_of_many_dofs(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
-        let Some(mimic) = joint.active_mimic() else {
-            continue;
-        };
+        let Some(mimic) = joint.active_mimic() else { continue };
         let name = &joint.name;
         let driver = robot.joints.get(robot.joint(&mimic.joint)?)?;
         let (message, culprit) = if joint.num_dofs() > 1 {
