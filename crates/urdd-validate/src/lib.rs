@@ -25,7 +25,6 @@ mod engine;
 pub mod finding;
 mod locate;
 mod memo;
-mod names;
 mod needs;
 #[doc(hidden)]
 pub mod reference;

@@ -5,9 +5,7 @@
 
 pub mod apart;
 pub mod cut;
-pub mod dents;
 pub mod derived;
-pub mod difference;
 pub mod expected;
 pub mod file;
 pub mod glb_chunks;

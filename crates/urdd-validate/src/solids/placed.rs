@@ -5,8 +5,7 @@ use rayon::prelude::*;
 use super::Solids;
 use super::apart::are_apart;
 use super::cut;
-use super::derived::Derived;
-use super::difference;
+use super::derived::{self, Derived};
 use super::expected::{self, Expected};
 use super::original;
 use super::polytope::step;
@@ -119,7 +118,7 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
-    let fault = || Some((difference::in_words(&difference), tolerance));
+    let fault = || Some((derived::in_words(&difference), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
         return fault();
     }

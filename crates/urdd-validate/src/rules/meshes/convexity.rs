@@ -1,8 +1,8 @@
 use rayon::prelude::*;
 
 use crate::rules::prelude::*;
-use crate::solids::dents::{Dents, dents};
 use crate::solids::derived::{Derived, noun};
+use crate::solids::polytope::{Dents, dents};
 use crate::solids::polytope::{NotConvex, not_convex};
 use urdd_geometry::surface::extent;
 

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 
 use crate::rules::prelude::*;
-use crate::views::repeated::repeated;
+use crate::views::lists::repeated;
 use urdd_format::dof::DofModule;
 use urdd_format::nearest::nearest;
 

@@ -3,7 +3,7 @@ use crate::reference::distances::poses::Poses;
 use crate::reference::distances::shape_set::ShapeSet;
 use crate::rules::prelude::*;
 use crate::views::judged::JudgedShapes;
-use crate::views::shape_pair::CONTACT;
+use crate::views::tangled::CONTACT;
 use crate::views::tangled::sound_pairs;
 use urdd_document::shape_matrices::{Elements, at, skips, skips_pointer};
 use urdd_document::shapes::Shapes;

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use crate::views::repeated::repeated;
+use crate::views::lists::repeated;
 
 declare_rule! {
     /// Two links have one name.

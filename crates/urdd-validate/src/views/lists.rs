@@ -1,4 +1,6 @@
-//! Lists of a module that must all have the same length.
+//! Lists that must all have the same length, and names that occur more than once.
+
+use std::collections::HashMap;
 
 /// The lists that do not have the expected length. A stale module is one mistake, even if it shows in every list.
 pub struct WrongLengths {
@@ -22,5 +24,16 @@ pub fn wrong_lengths(lists: &[(&str, usize)], expected: usize) -> Option<WrongLe
         length: *length,
         in_words: words.join(", "),
         are_all: words.len() == lists.len(),
+    })
+}
+
+/// Names that occurred before: index, index of the first occurrence, name.
+pub fn repeated<'a>(
+    names: impl Iterator<Item = &'a str>,
+) -> impl Iterator<Item = (usize, usize, &'a str)> {
+    let mut seen: HashMap<&str, usize> = HashMap::new();
+    names.enumerate().filter_map(move |(index, name)| {
+        let first = *seen.entry(name).or_insert(index);
+        (first != index).then_some((index, first, name))
     })
 }
