@@ -79,7 +79,7 @@ BEFORE = [
                "among.div_ceil(PER_TOLERANCE)", "3 * among.div_ceil(PER_TOLERANCE)"),
     expression("before", "MSH", "which way triangles face is not compared", "crates/urdd-geometry/src/surface.rs",
                "here[facing] > there[facing]", "false"),
-    expression("before", "SRC", "mimics stay within limits to 3e-6", RULES + "source/mimic_leaves_limits.rs",
+    expression("before", "SRC", "mimics stay within limits to 3e-6", RULES + "source/limits.rs",
                "MIMIC_LIMIT * own.0.abs().max(own.1.abs())", "3.0 * MIMIC_LIMIT * own.0.abs().max(own.1.abs())"),
     expression("before", "URD", "roll and yaw exchanged in the reference", VALIDATE + "reference/mod.rs",
                "UnitQuaternion::from_euler_angles(roll, pitch, yaw)",

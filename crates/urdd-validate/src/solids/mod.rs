@@ -12,7 +12,6 @@ pub mod glb_chunks;
 pub mod original;
 pub mod placed;
 pub mod polytope;
-
 pub mod primitive;
 pub mod stl_records;
 

@@ -1,7 +1,7 @@
 //! `x-index` and `x-length` as keywords that assert something (SPEC 11.5): the schema library decides where they apply,
 //! and the counts of links, joints, DOFs and so on by which they are judged.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use jsonschema::{Keyword, ValidationError, ValidationOptions};
@@ -136,21 +136,13 @@ fn length_fault(
     ))
 }
 
-/// The number of each thing; `None` where the URDD does not say.
+/// The number of each thing that the URDD says.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Counts {
-    links: Option<usize>,
-    joints: Option<usize>,
-    dofs: Option<usize>,
-    /// The largest number of visual elements of a link.
-    visuals: Option<usize>,
-    /// The largest number of collision elements of a link.
-    collisions: Option<usize>,
+    /// Of visual and collision elements: the largest number of a link.
+    of: BTreeMap<Thing, usize>,
     /// The convex pieces, if the URDD has them.
     pub pieces: Option<Pieces>,
-    full_shapes: Option<usize>,
-    parts: Option<usize>,
-    pairs: Option<usize>,
 }
 
 /// The convex pieces. What a hostile document asks for often is computed once.
@@ -160,13 +152,6 @@ pub struct Pieces {
     pub of_link: Vec<usize>,
     /// The same numbers, each once.
     pub numbers: BTreeSet<usize>,
-    total: usize,
-}
-
-impl Pieces {
-    fn new(of_link: Vec<usize>) -> Pieces {
-        Pieces { numbers: of_link.iter().copied().collect(), total: of_link.iter().sum(), of_link }
-    }
 }
 
 impl Counts {
@@ -178,23 +163,33 @@ impl Counts {
             Some((0..meshes.num_links()).map(|link| meshes.count(link)).collect::<Vec<_>>())
         };
         let hulls = meshes(ModuleKind::ConvexHullMeshes);
+        let pieces = meshes(ModuleKind::ConvexDecompositionMeshes);
+        let parts = match context.document(ModuleKind::Composition) {
+            Some(ModuleDocument::Composition(module)) => Some(module.parts.len()),
+            _ => None,
+        };
+        let pairs = match context.document(ModuleKind::SelfCollisionModel) {
+            Some(ModuleDocument::SelfCollisionModel(module)) => Some(module.pairs.len()),
+            _ => None,
+        };
+        let visuals = robot.map(|of| most(&mut of.links.iter().map(|link| link.visual.len())));
+        let collisions =
+            robot.map(|of| most(&mut of.links.iter().map(|link| link.collision.len())));
+        let all = [
+            (Thing::Link, robot.map(|robot| robot.links.len())),
+            (Thing::Joint, robot.map(|robot| robot.joints.len())),
+            (Thing::Dof, context.dofs().map(|dofs| dofs.num_dofs.get())),
+            (Thing::Visual, visuals),
+            (Thing::Collision, collisions),
+            (Thing::FullShape, hulls.map(|of| of.iter().filter(|count| **count > 0).count())),
+            (Thing::DecompositionShape, pieces.as_ref().map(|of_link| of_link.iter().sum())),
+            (Thing::Part, parts),
+            (Thing::Pair, pairs),
+        ];
         Counts {
-            links: robot.map(|robot| robot.links.len()),
-            joints: robot.map(|robot| robot.joints.len()),
-            dofs: context.dofs().map(|dofs| dofs.num_dofs.get()),
-            visuals: robot.map(|robot| most(&mut robot.links.iter().map(|link| link.visual.len()))),
-            collisions: robot
-                .map(|robot| most(&mut robot.links.iter().map(|link| link.collision.len()))),
-            pieces: meshes(ModuleKind::ConvexDecompositionMeshes).map(Pieces::new),
-            full_shapes: hulls.map(|hulls| hulls.iter().filter(|count| **count > 0).count()),
-            parts: match context.document(ModuleKind::Composition) {
-                Some(ModuleDocument::Composition(module)) => Some(module.parts.len()),
-                _ => None,
-            },
-            pairs: match context.document(ModuleKind::SelfCollisionModel) {
-                Some(ModuleDocument::SelfCollisionModel(module)) => Some(module.pairs.len()),
-                _ => None,
-            },
+            of: all.into_iter().filter_map(|(thing, count)| Some((thing, count?))).collect(),
+            pieces: pieces
+                .map(|of_link| Pieces { numbers: of_link.iter().copied().collect(), of_link }),
         }
     }
 
@@ -202,26 +197,15 @@ impl Counts {
     pub fn below(&self, thing: Thing) -> Option<u64> {
         let count = match thing {
             Thing::Piece => self.pieces.as_ref()?.numbers.last().copied().unwrap_or(0),
-            Thing::Visual => self.visuals?,
-            Thing::Collision => self.collisions?,
             Thing::Sample => return Some(1 << 32),
-            Thing::Other => return None,
-            thing => self.count(thing)?,
+            thing => *self.of.get(&thing)?,
         };
         Some(count as u64)
     }
 
     /// The length of a list with an element for each of a thing; `None` where nothing decides it, or (pieces) the link.
     pub fn count(&self, thing: Thing) -> Option<usize> {
-        match thing {
-            Thing::Link => self.links,
-            Thing::Joint => self.joints,
-            Thing::Dof => self.dofs,
-            Thing::FullShape => self.full_shapes,
-            Thing::DecompositionShape => Some(self.pieces.as_ref()?.total),
-            Thing::Part => self.parts,
-            Thing::Pair => self.pairs,
-            Thing::Piece | Thing::Visual | Thing::Collision | Thing::Sample | Thing::Other => None,
-        }
+        let is_counted = !matches!(thing, Thing::Visual | Thing::Collision);
+        self.of.get(&thing).copied().filter(|_| is_counted)
     }
 }

@@ -114,10 +114,9 @@ fn children_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
         links.sort_unstable();
         let written_joints = link.children_joint_idxs.iter().map(|joint| joint.get());
         let written_links = link.children_link_idxs.iter().map(|link| link.get());
-        let (written_joints, written_links) = (written_joints.collect(), written_links.collect());
         let lists: [(&str, &Vec<usize>, Vec<usize>); 2] = [
-            ("children_joint_idxs", joints, written_joints),
-            ("children_link_idxs", &links, written_links),
+            ("children_joint_idxs", joints, written_joints.collect()),
+            ("children_link_idxs", &links, written_links.collect()),
         ];
         for (key, right, mut written) in lists {
             if any_order {

@@ -51,18 +51,15 @@ fn index_out_of_range(context: &Context, findings: &mut Findings) -> Option<()> 
     };
     let (links, joints) = (robot.links.len(), robot.joints.len());
     if let Some(base) = &composition.base {
-        let pointer = "/base/link_idx".to_owned();
-        judge(pointer, "link", base.link_idx.get(), links);
+        judge("/base/link_idx".to_owned(), "link", base.link_idx.get(), links);
     }
     for (place, part) in composition.parts.iter().enumerate() {
         let at = |rest: String| format!("/parts/{place}/{rest}");
         for (idx, link) in part.links.iter().enumerate() {
-            let pointer = at(format!("links/{idx}/link_idx"));
-            judge(pointer, "link", link.link_idx.get(), links);
+            judge(at(format!("links/{idx}/link_idx")), "link", link.link_idx.get(), links);
         }
         for (idx, joint) in part.joints.iter().enumerate() {
-            let pointer = at(format!("joints/{idx}/joint_idx"));
-            judge(pointer, "joint", joint.joint_idx.get(), joints);
+            judge(at(format!("joints/{idx}/joint_idx")), "joint", joint.joint_idx.get(), joints);
         }
         for (idx, joint) in part.frozen_joints.iter().enumerate() {
             let pointer = at(format!("frozen_joints/{idx}/joint_idx"));
@@ -102,15 +99,12 @@ fn renamed_otherwise(context: &Context, findings: &mut Findings) -> Option<()> {
     let composition = document!(context, Composition)?;
     let robot = context.robot()?;
     for (place, part) in composition.parts.iter().enumerate() {
-        let links = part.links.iter().enumerate().map(|(idx, of)| {
-            let name = &robot.links[of.link_idx.get()].name;
-            ("links", idx, &of.name, name)
-        });
-        let joints = part.joints.iter().enumerate().map(|(idx, of)| {
-            let name = &robot.joints[of.joint_idx.get()].name;
-            ("joints", idx, &of.name, name)
-        });
-        for (key, idx, own, name) in links.chain(joints) {
+        let links = part.links.iter().map(|of| (&of.name, &robot.links[of.link_idx.get()].name));
+        let joints = part.joints.iter();
+        let joints = joints.map(|of| (&of.name, &robot.joints[of.joint_idx.get()].name));
+        let links = links.enumerate().map(|names| ("links", names));
+        let joints = joints.enumerate().map(|names| ("joints", names));
+        for (key, (idx, (own, name))) in links.chain(joints) {
             let renamed = format!("{}{own}", part.prefix);
             if renamed != *name {
                 let message = "prefix and name are not the name in this robot";

@@ -69,28 +69,20 @@ fn root_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn link_to_link_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let table = document!(context, Connections)?.link_to_link_paths.as_deref();
-    report_pairs(
-        context,
-        findings,
-        ("link_to_link_paths", table.unwrap_or_default()),
-        path_fault,
-        |[i, _, j]| format!("this is not the path from link {i} to link {j}"),
-    )
+    let table = ("link_to_link_paths", table.unwrap_or_default());
+    report_pairs(context, findings, table, path_fault, |[i, _, j]| {
+        format!("this is not the path from link {i} to link {j}")
+    })
 }
 
 fn descendant_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let table = context.connections()?.link_connection_paths.as_deref();
-    report_pairs(
-        context,
-        findings,
-        ("link_connection_paths", table.unwrap_or_default()),
-        fault,
-        |[i, top, j]| match top == i {
-            true if i == j => "the path of a link to itself is that link alone".to_owned(),
-            true => format!("this is not the path from link {i} down to link {j}"),
-            false => format!("link {j} is not below link {i}; write null"),
-        },
-    )
+    let table = ("link_connection_paths", table.unwrap_or_default());
+    report_pairs(context, findings, table, fault, |[i, top, j]| match top == i {
+        true if i == j => "the path of a link to itself is that link alone".to_owned(),
+        true => format!("this is not the path from link {i} down to link {j}"),
+        false => format!("link {j} is not below link {i}; write null"),
+    })
 }
 
 /// The first difference of an entry from the path down from link `i` to link `j`: pointer below the entry, expected and

@@ -52,44 +52,47 @@ fn root_metadata_missing(context: &Context, findings: &mut Findings) -> Option<(
     Some(())
 }
 
-fn module_json_missing(context: &Context, findings: &mut Findings) -> Option<()> {
-    for module in entries::known_modules(context) {
-        if matches!(module.json, JsonFile::Missing) {
-            let message =
-                "the module has no module.json: write the module again, or delete its folder";
-            Finding::in_file(module.file("module.json"), message).report(findings);
-        }
+/// Reports the file of each module for which it `is_missing`.
+fn report(
+    context: &Context,
+    findings: &mut Findings,
+    name: &str,
+    is_missing: impl Fn(&Module) -> bool,
+    message: &str,
+) -> Option<()> {
+    for module in entries::known_modules(context).filter(|module| is_missing(module)) {
+        Finding::in_file(module.file(name), message).report(findings);
     }
     Some(())
+}
+
+fn is_empty(module: &Module) -> bool {
+    matches!(module.json, JsonFile::Missing)
+}
+
+fn module_json_missing(context: &Context, findings: &mut Findings) -> Option<()> {
+    let message = "the module has no module.json: write the module again, or delete its folder";
+    report(context, findings, "module.json", is_empty, message)
 }
 
 fn version_missing(context: &Context, findings: &mut Findings) -> Option<()> {
-    for module in entries::known_modules(context) {
+    let message =
+        "the module has no VERSION: write the version of its format into it, such as 1.0.0";
+    let is_missing = |module: &Module| {
         // Before the specification, some modules were published without one.
         let never_had_one = module.kind.and_then(|kind| registry::find(kind, "")).is_some();
-        let empty = matches!(module.json, JsonFile::Missing);
-        if matches!(module.version_file, VersionFile::Missing) && !never_had_one && !empty {
-            let message =
-                "the module has no VERSION: write the version of its format into it, such as 1.0.0";
-            Finding::in_file(module.file("VERSION"), message).report(findings);
-        }
-    }
-    Some(())
+        matches!(module.version_file, VersionFile::Missing) && !never_had_one && !is_empty(module)
+    };
+    report(context, findings, "VERSION", is_missing, message)
 }
 
 fn module_yaml_missing(context: &Context, findings: &mut Findings) -> Option<()> {
+    let message = "the module has no module.yaml: write the document of module.json as YAML too";
     // DIR011 reports a file that is listed and missing.
     let listed = context.metadata().map(listed_files).unwrap_or_default();
-    for module in entries::known_modules(context) {
-        let file = module.file("module.yaml");
-        if matches!(module.mirror, Mirror::Missing)
-            && !matches!(module.json, JsonFile::Missing)
-            && !listed.contains(file.as_str())
-        {
-            let message =
-                "the module has no module.yaml: write the document of module.json as YAML too";
-            Finding::in_file(file, message).report(findings);
-        }
-    }
-    Some(())
+    let is_missing = |module: &Module| {
+        let is_listed = listed.contains(module.file("module.yaml").as_str());
+        matches!(module.mirror, Mirror::Missing) && !is_empty(module) && !is_listed
+    };
+    report(context, findings, "module.yaml", is_missing, message)
 }

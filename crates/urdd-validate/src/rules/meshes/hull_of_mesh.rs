@@ -34,13 +34,10 @@ declare_rule! {
 
 fn hull_leaves_out_mesh(context: &Context, findings: &mut Findings) -> Option<()> {
     report(context, findings, Code::MSH018, farthest_outside, |label, place, distance| {
-        (
-            format!(
-                "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
-            ),
-            "every vertex of the plain mesh inside",
-            format!("{distance} outside"),
-        )
+        let message = format!(
+            "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
+        );
+        (message, "every vertex of the plain mesh inside", format!("{distance} outside"))
     })
 }
 
@@ -65,13 +62,10 @@ const MAX_SEARCHED: usize = 2_000;
 
 fn hull_vertex_off_mesh(context: &Context, findings: &mut Findings) -> Option<()> {
     report(context, findings, Code::MSH019, farthest_off, |label, place, distance| {
-        (
-            format!(
-                "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
-            ),
-            "vertices of the plain mesh only",
-            format!("a vertex {distance} off"),
-        )
+        let message = format!(
+            "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
+        );
+        (message, "vertices of the plain mesh only", format!("a vertex {distance} off"))
     })
 }
 

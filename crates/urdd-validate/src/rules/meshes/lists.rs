@@ -1,5 +1,6 @@
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;
+use urdd_document::shapes::{LIST_MODULES, entry_counts};
 
 declare_rule! {
     /// A list of a mesh module does not hold one entry per link.
@@ -35,6 +36,19 @@ declare_rule! {
     /// Write the mesh modules again, all from the same plain meshes.
     MSH007 "mesh-presence-differs", Error, clause "7.2", since "0.1.0",
     phase References, needs [DERIVED_MESHES, NotFailed(MSH001), NotFailed(MSH003)], check mesh_presence_differs,
+
+    /// Modules disagree about the number of convex pieces of a link.
+    ///
+    /// Piece k of a link is the same piece in `convex_decomposition_meshes_module`, in the boxes and
+    /// spheres, and in the distances. Where one of them has more or fewer, boxes belong to other
+    /// pieces than their places say. Most often the meshes were decomposed again and the link shape
+    /// modules were not.
+    ///
+    /// Write the link shape modules again from the convex pieces that are there.
+    MSH004 "piece-count-mismatch", Error, clause "7.7", since "0.1.0",
+    phase References, needs [
+        Module(Kind::ConvexDecompositionMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001), NO_PIECE_TWICE,
+    ], check piece_count_mismatch,
 }
 
 fn mesh_list_length(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -56,10 +70,7 @@ fn mesh_list_length(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 fn mesh_file_shared(context: &Context, findings: &mut Findings) -> Option<()> {
-    for shared in shared_meshes::all(context) {
-        if shared.alike {
-            continue;
-        }
+    for shared in shared_meshes::all(context).into_iter().filter(|shared| !shared.alike) {
         let ((first, first_pointer), (link, pointer)) = (shared.first, shared.other);
         let label = context.link_label(link);
         let message = match first == link {
@@ -107,4 +118,59 @@ fn mesh_presence_differs(context: &Context, findings: &mut Findings) -> Option<(
         findings.report(finding.values(expected, actual));
     }
     Some(())
+}
+
+/// The number of pieces of each link, by a list of a module.
+struct Counted<'a> {
+    module: &'a Module,
+    key: &'static str,
+    counts: Vec<usize>,
+}
+
+fn piece_count_mismatch(context: &Context, findings: &mut Findings) -> Option<()> {
+    let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
+    let links = 0..pieces.num_links();
+    let mut lists = vec![Counted {
+        module: context.module(Kind::ConvexDecompositionMeshes)?,
+        key: pieces.lists.first().map_or("", |list| list.key),
+        counts: links.clone().map(|link| pieces.count(link)).collect(),
+    }];
+    for (_, module, document) in context.documents(LIST_MODULES) {
+        let of_pieces = entry_counts(document).into_iter().filter(|list| !list.kind.is_of_links());
+        lists.extend(of_pieces.map(|list| Counted {
+            module,
+            key: list.key,
+            counts: list.links.iter().map(Vec::len).collect(),
+        }));
+    }
+    for link in links {
+        let counts = lists.iter().filter_map(|list| Some((*list.counts.get(link)?, list)));
+        // One finding per link, reported at the first list that differs from most lists.
+        let usual = most_common(counts.clone().map(|(count, _)| count));
+        let mut odd = counts.filter(|(count, _)| *count != usual);
+        let Some((count, first)) = odd.next() else { continue };
+        let also = match odd.count() {
+            0 => String::new(),
+            n => format!(" (and {n} more lists)"),
+        };
+        let message = format!(
+            "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
+            context.link_label(link)
+        );
+        finding_in(first.module, format!("/{}/{link}", first.key), message)
+            .counts(usual, count, "entries")
+            .report(findings);
+    }
+    Some(())
+}
+
+/// The most frequent number; of several, the first.
+pub fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
+    let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+    for (place, number) in numbers.enumerate() {
+        seen.entry(number).or_insert((0, place)).0 += 1;
+    }
+    let best =
+        seen.into_iter().max_by_key(|(_, (times, place))| (*times, std::cmp::Reverse(*place)));
+    best.map_or(0, |(number, _)| number)
 }

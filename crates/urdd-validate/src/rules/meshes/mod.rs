@@ -4,18 +4,17 @@ mod convexity;
 pub mod file_paths;
 mod formats;
 mod hull_of_mesh;
-mod lists;
+pub mod lists;
 mod made_of;
 mod mesh_format_mismatch;
 mod of_urdf;
 mod originals;
 mod outreach;
-pub mod piece_count_mismatch;
 mod pieces_leave_surface;
 
 use crate::rule::rules;
 
 rules! {
     convexity, file_paths, formats, hull_of_mesh, lists, made_of, mesh_format_mismatch, of_urdf,
-    originals, outreach, piece_count_mismatch, pieces_leave_surface
+    originals, outreach, pieces_leave_surface
 }

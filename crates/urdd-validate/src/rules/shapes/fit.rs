@@ -74,10 +74,7 @@ fn fault(volume: &Volume) -> Option<(String, &'static str, String)> {
 
 fn shape_leaves_out_part(context: &Context, findings: &mut Findings) -> Option<()> {
     let module = context.module(Kind::LinkShapesApproximations)?;
-    for enclosure in enclosures(context, findings) {
-        if enclosure.holds() {
-            continue;
-        }
+    for enclosure in enclosures(context, findings).into_iter().filter(|one| !one.holds()) {
         let (vertex, away) = enclosure.fit.outside;
         let (noun, what) = (enclosure.noun(), enclosure.of_what(context));
         let (place, distance) = (point(*enclosure.mesh.vertices.get(vertex)?), metres(away));

@@ -132,6 +132,5 @@ fn first_fault<T: PartialEq>(
         right.len()
     );
     let finding = finding_in(module, format!("{pointer}{place}"), message);
-    let finding = finding.expected(shown(right.get(at)));
-    Some(finding.actual(shown(stated.get(at))))
+    Some(finding.values(shown(right.get(at)), shown(stated.get(at))))
 }

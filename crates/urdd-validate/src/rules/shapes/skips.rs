@@ -56,10 +56,9 @@ fn simple_skip_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = Kind::LinkShapesSimpleSkips;
     let document = context.document(kind)?;
     let shapes = context.shapes()?;
-    let six = context.statistics()?.into_iter().zip(skips(document)?);
-    for (kind, (statistics, rows)) in ShapeKind::ALL.into_iter().zip(six) {
-        let Some(rows) = rows else { continue };
-        let stated = statistics.as_ref().map(Pairs::new);
+    let statistics = context.statistics()?;
+    for (kind, rows) in by_kind(skips(document)?) {
+        let stated = statistics[kind as usize].as_ref().map(Pairs::new);
         let mut fold = Fold::new(findings);
         for (i, j, skip) in sound_pairs(rows, Elements::Skips) {
             let same_link = shapes.link(kind, i) == shapes.link(kind, j);

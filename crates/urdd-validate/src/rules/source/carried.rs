@@ -33,10 +33,8 @@ declare_rule! {
 fn mesh_not_carried(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let meshes = document!(context, OriginalMeshes)?;
-    for (index, reference) in meshes.references.iter().enumerate() {
-        if reference.path.is_some() {
-            continue;
-        }
+    let references = meshes.references.iter().enumerate();
+    for (index, reference) in references.filter(|(_, reference)| reference.path.is_none()) {
         let link = robot.links.get(reference.link_idx.get()).map_or("", |link| &link.name);
         let filename = excerpt(&reference.filename.as_str().into());
         let message = format!("a mesh of link `{link}` was not found and is not carried");

@@ -3,12 +3,11 @@
 mod carried;
 mod crossed_limits;
 pub mod inertia;
-mod limits;
+pub mod limits;
 mod mass;
-pub mod mimic_leaves_limits;
 
 use crate::rule::rules;
 
 rules! {
-    carried, crossed_limits, inertia, limits, mass, mimic_leaves_limits
+    carried, crossed_limits, inertia, limits, mass
 }

@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Give every link a different name in the URDF, and write the URDD again.
     URD002 "duplicate-link-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)], check duplicate_link_name,
+    phase References, needs [Module(Kind::Urdf)], check |context, findings| report(context, "link", findings),
 
     /// Two joints have one name.
     ///
@@ -18,39 +18,25 @@ declare_rule! {
     ///
     /// Give every joint a different name in the URDF, and write the URDD again.
     URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)], check duplicate_joint_name,
+    phase References, needs [Module(Kind::Urdf)], check |context, findings| report(context, "joint", findings),
 }
 
-fn duplicate_link_name(context: &Context, findings: &mut Findings) -> Option<()> {
-    let links = context.robot()?.links.iter();
-    let names = links.map(|link| link.name.as_str());
-    report(context, "links", "link", names, findings)
-}
-
-fn duplicate_joint_name(context: &Context, findings: &mut Findings) -> Option<()> {
-    let joints = context.robot()?.joints.iter();
-    let names = joints.map(|joint| joint.name.as_str());
-    report(context, "joints", "joint", names, findings)
-}
-
-/// Reports each repeated name of `list`: `links` or `joints`, of which one is `one`.
-fn report<'a>(
-    context: &Context,
-    list: &str,
-    one: &str,
-    names: impl Iterator<Item = &'a str>,
-    findings: &mut Findings,
-) -> Option<()> {
-    for (index, first, name) in repeated(names) {
+/// Reports each repeated name of a `link` or a `joint`.
+fn report(context: &Context, one: &str, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let names: Vec<&str> = match one {
+        "link" => robot.links.iter().map(|link| link.name.as_str()).collect(),
+        _ => robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
+    };
+    for (index, first, name) in repeated(names.into_iter()) {
+        let at = |index: usize, message: String| {
+            finding_in(context, format!("/{one}s/{index}/name"), message)
+        };
         let message =
             format!("another {one} is already named `{name}`; give this one a name of its own");
-        finding_in(context, format!("/{list}/{index}/name"), message)
+        at(index, message)
             .values(format!("a name that no other {one} has"), format!("`{name}`"))
-            .related(finding_in(
-                context,
-                format!("/{list}/{first}/name"),
-                format!("the first {one} of this name"),
-            ))
+            .related(at(first, format!("the first {one} of this name")))
             .report(findings);
     }
     Some(())

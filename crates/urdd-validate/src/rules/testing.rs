@@ -1,3 +1,5 @@
+//! TST: rules for trying out the validator itself. None of them is ever run unasked.
+
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -13,3 +15,6 @@ declare_rule! {
 fn check(context: &Context, _: &mut Findings) -> Option<()> {
     panic!("crashed on purpose at {} modules", context.modules().len())
 }
+
+/// A rule that crashes: TST001.
+pub const CRASHING: &crate::rule::Rule = Declared::RULES[0];
