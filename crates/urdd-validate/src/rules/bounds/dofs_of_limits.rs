@@ -22,7 +22,8 @@ declare_rule! {
     /// Write true for DOFs of revolute and prismatic joints whose `limit` has `lower` or `upper`, and false
     /// for all others, those of continuous joints included.
     BND004 "limited-flag-wrong", Error, clause "6.5.2", since "0.1.0",
-    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)], check limited_flag_wrong,
+    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)],
+    check limited_flag_wrong,
 
     /// The velocity or effort limit of a DOF is not the joint's.
     ///
@@ -32,7 +33,8 @@ declare_rule! {
     /// Copy `velocity` and `effort` of the `limit` of joints of one DOF. Write null where the URDF has none,
     /// and for the DOFs of planar, floating and spherical joints.
     BND005 "speed-or-effort-differs", Error, clause "6.5.4", since "0.1.0",
-    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)], check speed_or_effort_differs,
+    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)],
+    check speed_or_effort_differs,
 }
 
 fn bound_differs_from_limit(context: &Context, findings: &mut Findings) -> Option<()> {

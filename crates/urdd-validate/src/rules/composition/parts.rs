@@ -26,7 +26,8 @@ declare_rule! {
     ///
     /// Write the name that the link or joint has in the part, and the prefix that all its names have.
     CMP004 "composition-renamed-otherwise", Error, clause "6.6.4", since "0.2.0",
-    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)], check renamed_otherwise,
+    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)],
+    check renamed_otherwise,
 
     /// A joint that was made fixed, as `composition_module` says, moves, is of another part, or is listed twice.
     ///
@@ -36,7 +37,8 @@ declare_rule! {
     /// List the part's own joints that moved in it and are fixed here, each once and in ascending order, and no others.
     /// A joint of one DOF has one value, a planar or spherical one three, a floating one six.
     CMP006 "composition-frozen-joint-moves", Error, clause "6.6.6", since "0.2.0",
-    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)], check frozen_joint_moves,
+    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)],
+    check frozen_joint_moves,
 }
 
 fn index_out_of_range(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -20,7 +20,8 @@ declare_rule! {
     /// Name the joint above the part's root link, the link that carries that joint, and the part which has this
     /// link.
     CMP005 "composition-attachment-wrong", Error, clause "6.6.5", since "0.2.0",
-    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)], check attachment_wrong,
+    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)],
+    check attachment_wrong,
 }
 
 fn not_one_to_one(context: &Context, findings: &mut Findings) -> Option<()> {

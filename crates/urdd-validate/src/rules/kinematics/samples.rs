@@ -23,7 +23,8 @@ declare_rule! {
     /// Write the four named configurations first, then samples 0, 1, 2 and so on without gaps, each
     /// with one value per DOF and one pose per link.
     KIN004 "sample-list-wrong", Error, clause "9.2", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::KinematicsSamples), Passed(URD004), Passed(DOF003)], check sample_list_wrong,
+    phase References, needs [Version1, Module(Kind::KinematicsSamples), Passed(URD004), Passed(DOF003)],
+    check sample_list_wrong,
 
     /// The configuration of a kinematics sample is not the one that the specification defines.
     ///

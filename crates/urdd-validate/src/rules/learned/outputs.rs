@@ -41,7 +41,8 @@ declare_rule! {
     /// Look at the order of the inputs, at the hyperbolic tangent after every layer but the last, and at the margin,
     /// which is subtracted. `examples/self_collision_model.py` is a short consumer to compare with.
     LRN008 "model-output-differs", Error, clause "8.8.6", since "0.2.0",
-    phase Kinematics, needs [Version1, Module(Kind::SelfCollisionModel), Passed(LRN003), Passed(LRN004), Passed(LRN005)], check output_differs,
+    phase Kinematics, needs [Version1, Module(Kind::SelfCollisionModel), Passed(LRN003), Passed(LRN004), Passed(LRN005)],
+    check output_differs,
 }
 
 /// The modules whose documents are part of the digest.

@@ -52,7 +52,8 @@ declare_rule! {
     /// Nothing needs to be done now. When one of these links gets another visual origin or scale, the
     /// meshes of the others become wrong without notice. In version 1 each link has its own file.
     LEG007 "mesh-file-shared-alike", Info, clause "10.6", since "0.1.0",
-    phase References, needs [Legacy, Module(Kind::Urdf), NotFailed(MSH001), NotFailed(MSH003)], check mesh_file_shared_alike,
+    phase References, needs [Legacy, Module(Kind::Urdf), NotFailed(MSH001), NotFailed(MSH003)],
+    check mesh_file_shared_alike,
 }
 
 fn without_root_metadata(_: &Context, findings: &mut Findings) -> Option<()> {

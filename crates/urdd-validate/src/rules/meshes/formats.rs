@@ -45,7 +45,8 @@ declare_rule! {
     ///
     /// Write all three from the same triangles.
     MSH014 "mesh-formats-differ", Error, clause "7.6", since "0.1.0",
-    phase Geometry, consequence WrongPlace, needs [DERIVED_MESHES, NotFailed(MSH003), OWN_FILES], check mesh_formats_differ,
+    phase Geometry, consequence WrongPlace, needs [DERIVED_MESHES, NotFailed(MSH003), OWN_FILES],
+    check mesh_formats_differ,
 }
 
 fn glb_not_binary(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -16,7 +16,8 @@ declare_rule! {
     /// with the file name as the URDF has it. In legacy modules a link's files are those of its visual
     /// meshes.
     MSH009 "mesh-references-differ", Error, clause "7.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), NotFailed(MSH001), LINKS_NAMED], check mesh_references_differ,
+    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), NotFailed(MSH001), LINKS_NAMED],
+    check mesh_references_differ,
 
     /// A link's mesh is not its geometry in its place.
     ///

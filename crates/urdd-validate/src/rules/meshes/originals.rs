@@ -12,7 +12,8 @@ declare_rule! {
     /// Give each reference the path of the file that was carried for it, the same for the same file
     /// name of the URDF, and list each of these files once, sorted byte by byte; side files too.
     MSH012 "carried-files-mismatch", Error, clause "7.5", since "0.1.0",
-    phase References, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(DIR015), NotFailed(MSH009)], check carried_files_mismatch,
+    phase References, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(DIR015), NotFailed(MSH009)],
+    check carried_files_mismatch,
 
     /// `usable` or `side_files` of a carried mesh is wrong.
     ///
@@ -23,7 +24,8 @@ declare_rule! {
     ///
     /// Set `usable` by reading the file, and list the carried files that it names, sorted.
     MSH016 "original-misdescribed", Error, clause "7.5", since "0.1.0",
-    phase Geometry, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(MSH002), NotFailed(MSH012)], check original_misdescribed,
+    phase Geometry, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(MSH002), NotFailed(MSH012)],
+    check original_misdescribed,
 }
 
 fn carried_files_mismatch(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -23,7 +23,8 @@ declare_rule! {
     ///
     /// Write the link shape modules again from the hulls that are there.
     SHP002 "shape-presence-differs", Error, clause "8.2", since "0.1.0",
-    phase References, needs [Module(Kind::ConvexHullMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001)], check shape_presence_differs,
+    phase References, needs [Module(Kind::ConvexHullMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001)],
+    check shape_presence_differs,
 
     /// `full_shapes` or `decomposition_shapes` does not say what the matrices' indices stand for.
     ///

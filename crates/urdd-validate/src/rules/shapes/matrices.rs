@@ -36,7 +36,8 @@ declare_rule! {
     ///
     /// Write the matrix.
     SHP015 "piece-matrix-missing", Error, clause "8.4", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::ConvexDecompositionMeshes), SHAPE_MATRICES, PIECES_LISTED], check piece_matrix_missing,
+    phase References, needs [Version1, Module(Kind::ConvexDecompositionMeshes), SHAPE_MATRICES, PIECES_LISTED],
+    check piece_matrix_missing,
 }
 
 fn matrix_size(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -10,7 +10,8 @@ declare_rule! {
     ///
     /// Compute all three again in one run.
     SHP008 "statistics-out-of-order", Error, clause "8.5", since "0.1.0",
-    phase References, needs [Module(Kind::LinkShapesDistanceStatistics), NotFailed(SHP005)], check statistics_out_of_order,
+    phase References, needs [Module(Kind::LinkShapesDistanceStatistics), NotFailed(SHP005)],
+    check statistics_out_of_order,
 
     /// A distance between two shapes is negative.
     ///
@@ -19,7 +20,8 @@ declare_rule! {
     ///
     /// Write 0 for every sample in contact, and take mean, smallest and largest over these.
     SHP009 "negative-distance", Error, clause "8.5", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::LinkShapesDistanceStatistics), NotFailed(SHP005)], check negative_distance,
+    phase References, needs [Version1, Module(Kind::LinkShapesDistanceStatistics), NotFailed(SHP005)],
+    check negative_distance,
 
     /// The distance statistics are said to be of no samples.
     ///
@@ -28,7 +30,8 @@ declare_rule! {
     ///
     /// Write the number of configurations that were sampled, at least 1.
     SHP016 "no-samples", Error, clause "8.5", since "0.1.0",
-    phase References, consequence Format, needs [Version1, ModuleV1(Kind::LinkShapesDistanceStatistics)], check no_samples,
+    phase References, consequence Format, needs [Version1, ModuleV1(Kind::LinkShapesDistanceStatistics)],
+    check no_samples,
 
     /// The distance of two shapes that fixed joints hold together is not the same at all times.
     ///
