@@ -3,7 +3,6 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
-pub mod apart;
 pub mod cut;
 pub mod derived;
 pub mod expected;
