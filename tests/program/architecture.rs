@@ -161,16 +161,17 @@ fn files_stay_small() {
 fn every_rule_on_disk_is_registered() {
     let mut on_disk = BTreeSet::new();
     for text in rust_files(&rules_folder()).into_values() {
-        let Some(place) = text.find("declare_rule! {") else {
-            continue;
-        };
-        let code = text[place..]
-            .lines()
-            .map(str::trim)
-            .find(|line| !line.starts_with("///") && !line.starts_with("declare_rule"))
-            .and_then(|line| line.split_whitespace().next())
-            .expect("a code after the documentation");
-        assert!(on_disk.insert(code.to_owned()), "{code} is declared twice");
+        for declared in text.split("declare_rule! {").skip(1) {
+            let lines = declared.lines().take_while(|line| *line != "}").map(str::trim);
+            // A file may declare several: after the documentation of each is its code.
+            let codes = lines.filter_map(|line| line.split_once(" \"")).map(|(code, _)| code);
+            let codes = codes.filter(|code| Code::parse(code).is_some());
+            let before = on_disk.len();
+            for code in codes {
+                assert!(on_disk.insert(code.to_owned()), "{code} is declared twice");
+            }
+            assert!(on_disk.len() > before, "no code after the documentation");
+        }
     }
     let mut registered: BTreeSet<String> =
         rules::all().iter().map(|rule| rule.code.to_string()).collect();

@@ -3,12 +3,12 @@
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
-use super::distances::Distances;
-use super::learned::counts::Judge;
 use super::memo::Memos;
+use super::reference::distances::Distances;
+use super::reference::learned::counts::Judge;
+use super::reference::urdf_text;
 use super::solids::Solids;
 use super::solids::placed::{self, Placed};
-use super::urdf_text;
 use urdd_directory::cancellation::Cancellation;
 use urdd_document::meshes::Meshes;
 use urdd_document::module::Module;

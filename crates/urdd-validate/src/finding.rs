@@ -2,6 +2,7 @@
 
 use std::fmt::{Debug, Display};
 
+use super::context::Context;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_document::entries::Entry;
 use urdd_document::module::Module;
@@ -25,6 +26,13 @@ impl Document for &Module {
 impl Document for ModuleKind {
     fn locate(&self, pointer: String) -> (String, String) {
         (format!("{}/module.json", self.folder()), pointer)
+    }
+}
+
+/// The file that the robot was read from.
+impl Document for &Context {
+    fn locate(&self, pointer: String) -> (String, String) {
+        (self.robot_file().unwrap_or_default(), pointer)
     }
 }
 

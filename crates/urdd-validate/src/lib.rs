@@ -1,7 +1,7 @@
 //! The validator: checks a URDD from any producer against the specification.
 //!
 //! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Run`], plain
-//! data. Rules are one file each, in `rules/`.
+//! data. Rules are in `rules/`.
 //!
 //! ```
 //! use urdd_validate::{settings::Settings, validate};
@@ -20,18 +20,11 @@
 mod bare_urdf;
 #[doc(hidden)]
 pub mod context;
-#[doc(hidden)]
-pub mod distances;
 mod engine;
-mod find_errors;
 #[doc(hidden)]
 pub mod finding;
-#[doc(hidden)]
-pub mod learned;
 mod locate;
 mod memo;
-mod model_verified;
-mod names;
 mod needs;
 #[doc(hidden)]
 pub mod reference;
@@ -43,18 +36,18 @@ pub mod rules;
 pub mod skip;
 #[doc(hidden)]
 pub mod solids;
+mod summary;
 #[doc(hidden)]
 pub mod tolerance;
 mod two_robots;
-#[doc(hidden)]
-pub mod urdf_text;
 #[doc(hidden)]
 pub mod views;
 
 #[doc(hidden)]
 pub use bare_urdf::examine_urdf;
-pub use find_errors::find_errors;
-pub use model_verified::{ModelVerdict, verify_model};
+#[doc(hidden)]
+pub use reference::{distances, learned, urdf_text};
+pub use summary::{ModelVerdict, find_errors, verify_model};
 pub use urdd_findings::run::Run;
 pub use urdd_findings::{code, report, selection, settings, settings_file};
 

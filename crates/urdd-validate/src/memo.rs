@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-use super::solids::dents::Dents;
+use super::solids::polytope::Dents;
 use super::solids::polytope::NotConvex;
 use urdd_findings::code::Code;
 

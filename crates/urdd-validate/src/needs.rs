@@ -1,46 +1,38 @@
 //! Groups of needs with names. A need of parts is met part by part: a rule leaves out unsound parts and judges the others.
 
 use super::rule::Need::{self, *};
+use urdd_document::meshes::DERIVED;
+use urdd_document::shape_matrices::{MATRIX_MODULES, V1_MATRIX_MODULES};
+use urdd_document::shapes::LIST_MODULES;
 use urdd_findings::code::Code::*;
 use urdd_format::registry::ModuleKind;
 
-/// At least one module of meshes per link.
-pub const DERIVED_MESHES: Need = AnyModule(&[
-    ModuleKind::PlainMeshes,
-    ModuleKind::ConvexHullMeshes,
-    ModuleKind::ConvexDecompositionMeshes,
-]);
-
-/// At least one module of meshes, original ones included.
-pub const MESHES: Need = AnyModule(&[
+/// Every mesh module.
+pub const MESH_MODULES: &[ModuleKind] = &[
     ModuleKind::OriginalMeshes,
     ModuleKind::PlainMeshes,
     ModuleKind::ConvexHullMeshes,
     ModuleKind::ConvexDecompositionMeshes,
-]);
+];
+
+/// At least one module of meshes per link.
+pub const DERIVED_MESHES: Need = AnyModule(DERIVED);
+
+/// At least one module of meshes, original ones included.
+pub const MESHES: Need = AnyModule(MESH_MODULES);
 
 /// The hulls or the pieces.
 pub const HULLS_OR_PIECES: Need =
     AnyModule(&[ModuleKind::ConvexHullMeshes, ModuleKind::ConvexDecompositionMeshes]);
 
 /// At least one module with lists of shapes per link.
-pub const SHAPE_LISTS: Need =
-    AnyModule(&[ModuleKind::LinkShapesApproximations, ModuleKind::LinkShapesMaxDistanceFromOrigin]);
+pub const SHAPE_LISTS: Need = AnyModule(LIST_MODULES);
 
 /// At least one module with matrices over shapes.
-pub const SHAPE_MATRICES: Need = AnyModule(&[
-    ModuleKind::LinkShapesDistanceStatistics,
-    ModuleKind::LinkShapesSimpleSkips,
-    ModuleKind::LinkShapesSkips,
-]);
+pub const SHAPE_MATRICES: Need = AnyModule(V1_MATRIX_MODULES);
 
 /// The same, including the legacy error models.
-pub const SHAPE_MATRICES_OR_MODELS: Need = AnyModule(&[
-    ModuleKind::LinkShapesDistanceStatistics,
-    ModuleKind::LinkShapesSimpleSkips,
-    ModuleKind::LinkShapesSkips,
-    ModuleKind::LinkShapesLieAlgErrorModels,
-]);
+pub const SHAPE_MATRICES_OR_MODELS: Need = AnyModule(MATRIX_MODULES);
 
 /// No file of the part belongs to another part too.
 pub const OWN_FILES: Need = Each(&[MSH005]);

@@ -98,58 +98,75 @@ pub const fn of_family(code: &str) -> Consequence {
     }
 }
 
-/// Declares the rule of a file as `Declared::RULE`, checked by the file's function `check`. `urdd explain` prints its
+/// Declares the rules of a file, each as an associated constant of `Declared` with its code as its name. A rule is
+/// checked by the function that it names, otherwise by the file's function `check`. `urdd explain` prints its
 /// documentation.
 macro_rules! declare_rule {
-    (
+    ($(
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
         phase $phase:ident, $(consequence $consequence:ident,)?
-        needs [$($need:expr),* $(,)?] $(,)?
-    ) => {
-        /// The rule of this file. A `static` of the module would be compiled into whatever does not use it, too.
+        needs [$($need:expr),* $(,)?], $(check $check:expr,)?
+    )+) => {
+        /// The rules of this file. A `static` of the module would be compiled into whatever does not use it, too.
         pub struct Declared;
 
         impl Declared {
-            $(#[doc = $doc])+
-            pub const RULE: &'static $crate::rule::Rule = &{
-                #[allow(unused_imports)]
-                use $crate::needs::*;
-                #[allow(unused_imports)]
-                use $crate::rule::Need::*;
-                #[allow(unused_imports)]
-                use urdd_findings::code::Code::*;
-                $crate::rule::Rule {
-                    description: urdd_findings::description::Description {
-                        code: urdd_findings::code::Code::$code,
-                        name: $name,
-                        severity: urdd_findings::description::Severity::$severity,
-                        clause: Some($clause),
-                        since: $since,
-                        consequence: {
-                            #[allow(unused_variables)]
-                            let consequence = $crate::rule::of_family(stringify!($code));
-                            $(let consequence = urdd_findings::description::Consequence::$consequence;)?
-                            consequence
+            /// All of them.
+            pub const RULES: &'static [&'static $crate::rule::Rule] = &[$(Self::$code),+];
+
+            $(
+                $(#[doc = $doc])+
+                pub const $code: &'static $crate::rule::Rule = &{
+                    #[allow(unused_imports)]
+                    use $crate::needs::*;
+                    #[allow(unused_imports)]
+                    use $crate::rule::Need::*;
+                    #[allow(unused_imports)]
+                    use urdd_findings::code::Code::*;
+                    $crate::rule::Rule {
+                        description: urdd_findings::description::Description {
+                            code: urdd_findings::code::Code::$code,
+                            name: $name,
+                            severity: urdd_findings::description::Severity::$severity,
+                            clause: Some($clause),
+                            since: $since,
+                            consequence: {
+                                #[allow(unused_variables)]
+                                let consequence = $crate::rule::of_family(stringify!($code));
+                                $(let consequence = urdd_findings::description::Consequence::$consequence;)?
+                                consequence
+                            },
+                            phase: urdd_findings::description::Phase::$phase,
+                            doc: &[$($doc),+],
                         },
-                        phase: urdd_findings::description::Phase::$phase,
-                        doc: &[$($doc),+],
-                    },
-                    needs: &[$($need),*],
-                    check,
-                }
-            };
+                        needs: &[$($need),*],
+                        check: $crate::rule::check_of!($($check)?),
+                    }
+                };
+            )+
         }
     };
 }
 pub(crate) use declare_rule;
 
-/// Lists the rules of a family, one file each, as `rules()`.
+/// The check that a rule names, otherwise the function `check` of its file.
+macro_rules! check_of {
+    () => {
+        check
+    };
+    ($check:expr) => {
+        $check
+    };
+}
+pub(crate) use check_of;
+
+/// Lists the rules of a family by their files, as `rules()`.
 macro_rules! rules {
     ($($file:ident),+ $(,)?) => {
         /// The rules of this family.
-        pub fn rules() -> &'static [&'static $crate::rule::Rule] {
-            &[$($file::Declared::RULE),+]
+        pub fn rules() -> Vec<&'static $crate::rule::Rule> {
+            [$($file::Declared::RULES),+].concat()
         }
     };
 }

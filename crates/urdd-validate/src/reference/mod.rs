@@ -1,8 +1,14 @@
-//! The kinematic reference: link poses computed from the text of the carried URDF (parsed by `crate::urdf_text`,
-//! multiplied by nalgebra). Shares nothing with the modules or with `urdd_kinematics`, which it verifies. Nothing
-//! recurses, because a chain may be as long as the file.
+//! What the validator computes by itself, from SPEC.md alone, where the generator computes it too (CONTRIBUTING.md has the
+//! list): the URDF's text as data (`urdf_text`), link poses, distances and their statistics (`distances`), and the
+//! learned model with its counts (`learned`).
+//!
+//! Here are the link poses, computed from the text of the carried URDF (multiplied by nalgebra). They share nothing with
+//! the modules or with `urdd_kinematics`, which they verify. Nothing recurses, because a chain may be as long as the file.
 
+pub mod distances;
+pub mod learned;
 pub mod motion;
+pub mod urdf_text;
 
 use std::collections::HashMap;
 
@@ -180,9 +186,7 @@ impl Reference {
 
 /// SPEC 5.4 and 6.1.9; a missing origin is zero.
 fn origin(origin: Option<&v1::Origin>, quaternions: bool) -> Isometry3<f64> {
-    let Some(origin) = origin else {
-        return Isometry3::identity();
-    };
+    let Some(origin) = origin else { return Isometry3::identity() };
     let rotation = match origin.quat_xyzw.filter(|_| quaternions) {
         Some(xyzw) => {
             // Divided by the largest number first, so that squares of tiny or huge numbers do not underflow or

@@ -1,4 +1,4 @@
-//! Every rule, one file each, in folders by family.
+//! Every rule, in folders by family. A file has one rule, or several that are about the same or share their check.
 
 pub mod bounds;
 pub mod chain;
@@ -7,29 +7,25 @@ pub mod connections;
 pub mod directory;
 pub mod dof;
 pub mod extensions;
-pub mod json;
 pub mod kinematics;
 pub mod learned;
 pub mod legacy;
 pub mod meshes;
 pub mod named_configurations;
 mod prelude;
-pub mod schema;
 pub mod shapes;
 pub mod source;
 pub mod testing;
+pub mod text;
 pub mod urdf;
-pub mod yaml;
 
 use super::rule::Rule;
 
 /// Every rule, in the order of their codes.
 pub fn all() -> Vec<&'static Rule> {
-    let families: &[&[&Rule]] = &[
+    let families = [
         directory::rules(),
-        json::rules(),
-        yaml::rules(),
-        schema::rules(),
+        text::rules(),
         extensions::rules(),
         urdf::rules(),
         source::rules(),
@@ -45,7 +41,7 @@ pub fn all() -> Vec<&'static Rule> {
         named_configurations::rules(),
         legacy::rules(),
     ];
-    let mut rules: Vec<&Rule> = families.concat();
+    let mut rules = families.concat();
     rules.sort_by_key(|rule| rule.code);
     rules
 }

@@ -3,22 +3,21 @@
 pub(super) use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 pub(super) use crate::context::Context;
-pub(super) use crate::distances::tolerances::Tolerances;
 pub(super) use crate::finding::{Compared, finding_in};
 pub(super) use crate::memo::Farthest;
+pub(super) use crate::needs::MESH_MODULES;
+pub(super) use crate::reference::distances::shape_set::Tolerances;
 pub(super) use crate::rule::declare_rule;
 pub(super) use crate::skip;
 pub(super) use crate::tolerance::*;
 pub(super) use crate::views::extension_schema;
 pub(super) use crate::views::judged::judged;
-pub(super) use crate::views::list_lengths::wrong_lengths;
-pub(super) use crate::views::shape_pair::{Pair, Pairs};
+pub(super) use crate::views::lists::wrong_lengths;
 pub(super) use crate::views::tangled::pairs;
-pub(super) use crate::views::text_faults::{report_json, report_yaml};
+pub(super) use crate::views::tangled::{Pair, Pairs};
 pub(super) use urdd_directory::discover::ROOT_METADATA;
 pub(super) use urdd_directory::path;
 pub(super) use urdd_directory::root::{EntryKind, ReadError};
-pub(super) use urdd_directory::text_fault::TextFaultKind;
 pub(super) use urdd_document::entries::{self, Entry};
 pub(super) use urdd_document::meshes::DERIVED;
 pub(super) use urdd_document::module::{Module, VersionFile};
@@ -31,8 +30,8 @@ pub(super) use urdd_findings::part::{Part, Why};
 pub(super) use urdd_findings::skip::SkipReason;
 pub(super) use urdd_format::readable::{metres, number};
 pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind as Kind, Profile};
-use urdd_format::root_metadata::Source;
 pub(super) use urdd_format::root_metadata::{FileEntry, Version};
+use urdd_format::root_metadata::{RootMetadata, Source};
 pub(super) use urdd_format::shape_kind::ShapeKind;
 pub(super) use urdd_format::urdf::JointType;
 pub(super) use urdd_geometry::Mesh;
@@ -53,6 +52,12 @@ pub(super) use document;
 /// The modules that `urdd.json` lists.
 pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
     context.metadata().map(|_| entries::all(context))
+}
+
+/// The files that `urdd.json` lists as those of modules.
+pub(super) fn listed_files(metadata: &RootMetadata) -> HashSet<&str> {
+    let files = metadata.modules.iter().flat_map(|module| &module.files);
+    files.map(|file| file.path.as_str()).collect()
 }
 
 /// The source URDF that `urdd.json` names.

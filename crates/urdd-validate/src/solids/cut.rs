@@ -150,9 +150,7 @@ fn fill(
     let mut open: Vec<(u32, u32)> = left.keys().copied().collect();
     while let Some(edge) = open.pop() {
         let on = on_edge.get_mut(&edge).filter(|_| left.contains_key(&edge));
-        let Some(at) = on.and_then(Vec::pop) else {
-            continue;
-        };
+        let Some(at) = on.and_then(Vec::pop) else { continue };
         let (triangle, [a, b, c]) = candidates[at];
         used.push(triangle);
         for (from, to) in [(a, b), (b, c), (c, a)] {

@@ -5,12 +5,13 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
-use super::glb_chunks;
-use super::stl_records;
+use super::{glb_chunks, stl_records};
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{Format, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
+use urdd_findings::finding::point;
+use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleKind, Profile};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Format as Content;
@@ -166,9 +167,7 @@ fn read(
     };
     let mut meshes: Vec<(usize, Mesh)> = Vec::new();
     for path in paths {
-        let Some(format) = path.format else {
-            continue;
-        };
+        let Some(format) = path.format else { continue };
         let mut file = DerivedFile {
             path: path.path.to_owned(),
             pointer: path.pointer.clone(),
@@ -202,9 +201,7 @@ fn read(
     // triangle.
     let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
     let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
-    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else {
-        return derived;
-    };
+    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else { return derived };
     let (mesh_of, mesh) = meshes.swap_remove(first);
     meshes.sort_by_key(|(at, _)| *at);
     let tolerance = mesh_resolution(surface::extent(&mesh));
@@ -229,4 +226,22 @@ pub fn noun(kind: ModuleKind) -> &'static str {
         ModuleKind::ConvexDecompositionMeshes => "piece",
         _ => "mesh",
     }
+}
+
+pub fn in_words(difference: &Difference) -> String {
+    let counts = [
+        (difference.missing, "missing"),
+        (difference.extra.len(), "too many"),
+        (difference.turned, "turned round"),
+    ];
+    let parts = counts.into_iter().filter_map(|(count, what)| match count {
+        0 => None,
+        1 => Some(format!("1 triangle {what}")),
+        _ => Some(format!("{count} triangles {what}")),
+    });
+    let mut text = parts.collect::<Vec<_>>().join(", ");
+    if difference.distance > 0.0 {
+        text += &format!(", corners {} apart", metres(difference.distance));
+    }
+    text + &format!(", first at {}", point(difference.place))
 }

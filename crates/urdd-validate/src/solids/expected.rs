@@ -39,9 +39,7 @@ pub fn of_link(
         if !usable.is_usable(link, kind, at) {
             continue;
         }
-        let Some(geometry) = &element.geometry else {
-            continue;
-        };
+        let Some(geometry) = &element.geometry else { continue };
         let rotation = element.origin.rotation();
         if let Some(primitive) = Primitive::new(geometry, rotation, element.origin.xyz) {
             expected.extent = expected.extent.max(primitive.extent());

@@ -3,18 +3,14 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
-pub mod apart;
 pub mod cut;
-pub mod dents;
 pub mod derived;
-pub mod difference;
 pub mod expected;
 pub mod file;
 pub mod glb_chunks;
 pub mod original;
 pub mod placed;
 pub mod polytope;
-
 pub mod primitive;
 pub mod stl_records;
 
@@ -42,9 +38,7 @@ impl Solids {
     pub fn read(urdd: &Urdd) -> Self {
         let mut solids = Solids { originals: original::read_all(urdd), ..Solids::default() };
         for kind in urdd_document::meshes::DERIVED {
-            let Some(meshes) = urdd.meshes(*kind) else {
-                continue;
-            };
+            let Some(meshes) = urdd.meshes(*kind) else { continue };
             let read = derived::read_all(urdd, &meshes);
             for (at, mesh) in read.iter().enumerate() {
                 solids.by_place.insert((*kind, mesh.link, mesh.piece), at);

@@ -2,14 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::Solids;
-use super::apart::are_apart;
-use super::cut;
-use super::derived::Derived;
-use super::difference;
+use super::derived::{self, Derived};
 use super::expected::{self, Expected};
-use super::original;
 use super::polytope::step;
+use super::{Solids, cut, original};
 use crate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, placing_resolution};
 use urdd_document::urdd::Urdd;
 use urdd_document::usable_geometry::UsableGeometry;
@@ -19,7 +15,7 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{self, Likeness};
+use urdd_geometry::surface::{self, Likeness, is_thin};
 
 /// A link with a wrong mesh.
 #[derive(Debug)]
@@ -47,9 +43,7 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
     let look = |mesh: &Derived| -> Result<Option<Misplaced>, Why> {
         let found = mesh.sound().ok_or(Why::Unreadable)?;
-        let Some(kind) = kind_of(urdd, mesh.link) else {
-            return Ok(None);
-        };
+        let Some(kind) = kind_of(urdd, mesh.link) else { return Ok(None) };
         let original = |path: &str| solids.original(path)?.mesh.as_ref().ok().cloned();
         let expected = expected::of_link(urdd, &original, &usable, mesh.link, kind);
         let expected = expected.ok_or(Why::SourceMissing)?;
@@ -121,7 +115,7 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
-    let fault = || Some((difference::in_words(&difference), tolerance));
+    let fault = || Some((derived::in_words(&difference), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
         return fault();
     }
@@ -210,4 +204,22 @@ fn in_words(expected: &Expected) -> String {
     }
     parts.extend(expected.primitives.iter().map(|one| format!("a {}", one.name())));
     if parts.is_empty() { "nothing".to_owned() } else { parts.join(", ") }
+}
+
+/// Whether [`surface::difference`](urdd_geometry::surface::difference) is certain to find a triangle of `expected` missing in
+/// `found`. Looks at a few triangles only, so false says nothing.
+pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
+    const TRIANGLES: usize = 3;
+    let near = |p: &[f64; 3], q: &[f64; 3]| (0..3).all(|i| (p[i] - q[i]).abs() <= tolerance);
+    // Points within the tolerance are merged, in chains too, so points of both meshes count.
+    let is_alone = |p: &&[f64; 3]| {
+        !found.vertices.iter().any(|q| near(p, q))
+            && !expected.vertices.iter().any(|q| *p != q && near(p, q))
+    };
+    let triangles = expected.triangles.iter();
+    let thick = triangles
+        .map(|triangle| expected.corners(*triangle))
+        .filter(|corners| !is_thin(*corners, tolerance));
+    // With two such corners, none of the three is merged with another, and the triangle counts.
+    thick.take(TRIANGLES).any(|corners| corners.iter().filter(is_alone).count() >= 2)
 }

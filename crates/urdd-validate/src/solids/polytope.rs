@@ -1,10 +1,12 @@
-//! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, and what is outside it.
+//! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, what is outside it,
+//! and where it is dented.
 
 use nalgebra::Vector3;
 
 use crate::tolerance::mesh_resolution;
 use urdd_geometry::Mesh;
 use urdd_geometry::half_spaces::{HalfSpace, HalfSpaces};
+use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::mesh::Bounds;
 use urdd_geometry::surface::{distinct, is_thin, open_edge};
 
@@ -92,9 +94,7 @@ pub fn step(points: usize, faces: usize) -> usize {
 
 /// Why a mesh is not the closed, outward-wound surface of a convex body; `None` if it is.
 pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
-    let Some(polytope) = Polytope::new(mesh) else {
-        return Some(NotConvex::Nothing);
-    };
+    let Some(polytope) = Polytope::new(mesh) else { return Some(NotConvex::Nothing) };
     if let Some(edge) = open_edge(mesh) {
         return Some(NotConvex::Open(edge));
     }
@@ -111,4 +111,42 @@ pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
         _ if inward => Some(NotConvex::Inward),
         (vertex, distance) => Some(NotConvex::Vertex(vertex, distance)),
     }
+}
+
+/// How a closed surface differs from that of a convex body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dents {
+    /// Number of faces towards the middle of the vertices.
+    pub inward: usize,
+    pub faces: usize,
+    /// Largest depth of the surface inside the hull of its vertices, m.
+    pub depth: f64,
+    /// Its place: a vertex or the centroid of a face, m.
+    pub place: [f64; 3],
+}
+
+/// The dents of a surface; `None` if its vertices have no hull. Of very many points, only some are measured.
+pub fn dents(mesh: &Mesh) -> Option<Dents> {
+    let vertices = distinct(mesh);
+    let hull = ConvexHull::new(&vertices).ok()?.into_mesh();
+    let polytope = Polytope::new(&hull)?;
+    let sum: Vector3<f64> = vertices.iter().map(|p| Vector3::from(*p)).sum();
+    let middle = sum / vertices.len() as f64;
+    let mut dents =
+        Dents { inward: 0, faces: mesh.triangles.len(), depth: 0.0, place: middle.into() };
+    let mut centres = Vec::with_capacity(mesh.triangles.len());
+    for triangle in &mesh.triangles {
+        let [a, b, c] = mesh.corners(*triangle).map(Vector3::from);
+        let centre = (a + b + c) / 3.0;
+        dents.inward += usize::from((b - a).cross(&(c - a)).dot(&(centre - middle)) < 0.0);
+        centres.push(centre.into());
+    }
+    let every = step(vertices.len() + centres.len(), polytope.num_faces());
+    for place in vertices.into_iter().chain(centres).step_by(every) {
+        let depth = polytope.depth(place);
+        if depth > dents.depth {
+            (dents.depth, dents.place) = (depth, place);
+        }
+    }
+    Some(dents)
 }

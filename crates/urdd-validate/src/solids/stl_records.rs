@@ -16,9 +16,7 @@ pub fn fault(stl: &[u8]) -> Option<String> {
         for (number, bytes) in numbers.iter_mut().zip(record.as_chunks().0) {
             *number = f64::from(f32::from_le_bytes(*bytes));
         }
-        let &[normal, a, b, c] = numbers.as_chunks().0 else {
-            return None;
-        };
+        let &[normal, a, b, c] = numbers.as_chunks().0 else { return None };
         let (normal, corners) = (Vector3::from(normal), [a, b, c]);
         let extent = numbers[3..].iter().map(|x| x.abs()).fold(0.0, f64::max);
         if record[48..] != [0, 0] {

@@ -1,12 +1,15 @@
-//! `x-index` and `x-length` as keywords that assert something (SPEC 11.5): the schema library decides where they apply.
+//! `x-index` and `x-length` as keywords that assert something (SPEC 11.5): the schema library decides where they apply,
+//! and the counts of links, joints, DOFs and so on by which they are judged.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use jsonschema::{Keyword, ValidationError, ValidationOptions};
 use serde_json::{Map, Value};
 
-use super::counts::Counts;
+use crate::context::Context;
 use urdd_format::annotations::{self, INDEX, LENGTH, Thing};
+use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 /// One of the two keywords that are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,9 +76,7 @@ fn has_pieces_inside(schema: &Map<String, Value>) -> bool {
 
 /// What is wrong with an index of one of the things; `None` if it is below their number, or is not a number.
 fn index_fault(things: &[Thing], counts: &Counts, value: &Value) -> Option<String> {
-    let Value::Number(number) = value else {
-        return None;
-    };
+    let Value::Number(number) = value else { return None };
     let whole = |number: &f64| number.fract() == 0.0 && *number >= 0.0;
     // As an integer: a large one is the largest.
     let index = number.as_u64().or_else(|| Some(number.as_f64().filter(whole)? as u64));
@@ -133,4 +134,78 @@ fn length_fault(
     Some(format!(
         "`{LENGTH}` of schema.json asks for a list of {pieces} (pieces of link {link}) as element {link}, and this has {length}"
     ))
+}
+
+/// The number of each thing that the URDD says.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Of visual and collision elements: the largest number of a link.
+    of: BTreeMap<Thing, usize>,
+    /// The convex pieces, if the URDD has them.
+    pub pieces: Option<Pieces>,
+}
+
+/// The convex pieces. What a hostile document asks for often is computed once.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Pieces {
+    /// The number of pieces of each link.
+    pub of_link: Vec<usize>,
+    /// The same numbers, each once.
+    pub numbers: BTreeSet<usize>,
+}
+
+impl Counts {
+    pub fn of(context: &Context) -> Counts {
+        let robot = context.robot();
+        let most = |counts: &mut dyn Iterator<Item = usize>| counts.max().unwrap_or(0);
+        let meshes = |kind| {
+            let meshes = context.meshes(kind)?;
+            Some((0..meshes.num_links()).map(|link| meshes.count(link)).collect::<Vec<_>>())
+        };
+        let hulls = meshes(ModuleKind::ConvexHullMeshes);
+        let pieces = meshes(ModuleKind::ConvexDecompositionMeshes);
+        let parts = match context.document(ModuleKind::Composition) {
+            Some(ModuleDocument::Composition(module)) => Some(module.parts.len()),
+            _ => None,
+        };
+        let pairs = match context.document(ModuleKind::SelfCollisionModel) {
+            Some(ModuleDocument::SelfCollisionModel(module)) => Some(module.pairs.len()),
+            _ => None,
+        };
+        let visuals = robot.map(|of| most(&mut of.links.iter().map(|link| link.visual.len())));
+        let collisions =
+            robot.map(|of| most(&mut of.links.iter().map(|link| link.collision.len())));
+        let all = [
+            (Thing::Link, robot.map(|robot| robot.links.len())),
+            (Thing::Joint, robot.map(|robot| robot.joints.len())),
+            (Thing::Dof, context.dofs().map(|dofs| dofs.num_dofs.get())),
+            (Thing::Visual, visuals),
+            (Thing::Collision, collisions),
+            (Thing::FullShape, hulls.map(|of| of.iter().filter(|count| **count > 0).count())),
+            (Thing::DecompositionShape, pieces.as_ref().map(|of_link| of_link.iter().sum())),
+            (Thing::Part, parts),
+            (Thing::Pair, pairs),
+        ];
+        Counts {
+            of: all.into_iter().filter_map(|(thing, count)| Some((thing, count?))).collect(),
+            pieces: pieces
+                .map(|of_link| Pieces { numbers: of_link.iter().copied().collect(), of_link }),
+        }
+    }
+
+    /// What an index of a thing must be below; `None` where nothing limits it.
+    pub fn below(&self, thing: Thing) -> Option<u64> {
+        let count = match thing {
+            Thing::Piece => self.pieces.as_ref()?.numbers.last().copied().unwrap_or(0),
+            Thing::Sample => return Some(1 << 32),
+            thing => *self.of.get(&thing)?,
+        };
+        Some(count as u64)
+    }
+
+    /// The length of a list with an element for each of a thing; `None` where nothing decides it, or (pieces) the link.
+    pub fn count(&self, thing: Thing) -> Option<usize> {
+        let is_counted = !matches!(thing, Thing::Visual | Thing::Collision);
+        self.of.get(&thing).copied().filter(|_| is_counted)
+    }
 }

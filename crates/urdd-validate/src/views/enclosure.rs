@@ -130,15 +130,11 @@ impl Enclosure<'_> {
 /// Every box and sphere whose hull or piece is readable.
 pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
     let document = urdd.document(ModuleKind::LinkShapesApproximations);
-    let Some(lists) = document.and_then(approximations) else {
-        return Vec::new();
-    };
+    let Some(lists) = document.and_then(approximations) else { return Vec::new() };
     let mut enclosures = Vec::new();
     for list in lists {
         for (link, piece, volume) in list.entries() {
-            let Some(mesh) = solids.sound(list.kind.meshes(), link, piece) else {
-                continue;
-            };
+            let Some(mesh) = solids.sound(list.kind.meshes(), link, piece) else { continue };
             enclosures.push(Enclosure {
                 kind: list.kind,
                 pointer: list.pointer(link, piece),

@@ -7,14 +7,14 @@ use jsonschema::error::ValidationErrorKind;
 use jsonschema::{ValidationError, ValidationOptions, Validator};
 use serde_json::Value;
 
+use super::annotated::Counts;
 use super::annotated::{self, Judged};
-use super::counts::Counts;
-use super::schema_parts::{SchemaFault, faults_of_parts};
-use super::schema_work::affordable_work;
+use super::schema_work::{affordable_work, schemas_in};
 use urdd_directory::json;
 use urdd_directory::root::ReadError;
 use urdd_document::module::Module;
 use urdd_document::urdd::Urdd;
+use urdd_format::annotations;
 
 /// Maximum size of a `schema.json`, bytes.
 pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
@@ -99,12 +99,8 @@ pub fn violations(
             Some((judged, counts)) => annotated::judging(options(), judged, Arc::clone(counts)),
             None => options(),
         };
-        let Ok(validator) = compile(options, schema) else {
-            return Violations::default();
-        };
-        let Err(first) = validator.validate(document) else {
-            return Violations::default();
-        };
+        let Ok(validator) = compile(options, schema) else { return Violations::default() };
+        let Err(first) = validator.validate(document) else { return Violations::default() };
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {
@@ -192,4 +188,54 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
             Err(error) => std::panic::resume_unwind(Box::new(error.to_string())),
         }
     })
+}
+
+pub struct SchemaFault {
+    /// JSON Pointer into the schema.
+    pub pointer: String,
+    pub message: String,
+}
+
+/// References that leave the schema's own file, constructs that would make references ambiguous, and annotations that
+/// are not defined.
+pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
+    let mut faults = Vec::new();
+    let mut open = vec![(String::new(), schema)];
+    while let Some((pointer, schema)) = open.pop() {
+        for key in ["$ref", "$dynamicRef"] {
+            if let Some(target) = schema.get(key).and_then(Value::as_str)
+                && !target.starts_with('#')
+            {
+                let shown: String = target.chars().take(80).collect();
+                faults.push(SchemaFault {
+                    pointer: format!("{pointer}/{key}"),
+                    message: format!(
+                        "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
+                    ),
+                });
+            }
+        }
+        for fault in schema.as_object().map(annotations::faults).unwrap_or_default() {
+            faults.push(SchemaFault {
+                pointer: format!("{pointer}/{}", fault.keyword),
+                message: fault.to_string(),
+            });
+        }
+        if !pointer.is_empty() && schema.get("$id").is_some() {
+            faults.push(SchemaFault {
+                pointer: format!("{pointer}/$id"),
+                message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
+            });
+        }
+        open.extend(
+            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
+        );
+        let definitions = schema.get("$defs").and_then(Value::as_object);
+        for (name, schema) in definitions.into_iter().flatten() {
+            let name = name.replace('~', "~0").replace('/', "~1");
+            open.push((format!("{pointer}/$defs/{name}"), schema));
+        }
+    }
+    faults.sort_by(|a, b| a.pointer.cmp(&b.pointer));
+    faults
 }

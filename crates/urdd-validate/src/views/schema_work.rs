@@ -152,9 +152,7 @@ impl<'a> Estimate<'a> {
         if depth > MAX_DEPTH || self.steps > self.allowed {
             return None;
         }
-        let Value::Object(keywords) = schema else {
-            return Some(1);
-        };
+        let Value::Object(keywords) = schema else { return Some(1) };
         let key = (std::ptr::from_ref(schema), std::ptr::from_ref(value));
         if let Some(work) = self.known.get(&key) {
             return Some(*work);
@@ -226,9 +224,7 @@ impl<'a> Estimate<'a> {
     }
 
     fn targets(&self, reference: &str) -> Vec<&'a Value> {
-        let Some(fragment) = reference.strip_prefix('#') else {
-            return Vec::new();
-        };
+        let Some(fragment) = reference.strip_prefix('#') else { return Vec::new() };
         if fragment.is_empty() || fragment.starts_with('/') {
             // A name with an escape (%25) is rare. A name that is not found costs nothing here, and is expensive later,
             // so both spellings are tried.

@@ -28,9 +28,7 @@ pub struct SharedMesh {
 pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
     let mut shared: Vec<SharedMesh> = Vec::new();
     for kind in DERIVED {
-        let Some(meshes) = urdd.meshes(*kind) else {
-            continue;
-        };
+        let Some(meshes) = urdd.meshes(*kind) else { continue };
         let mut first_use: HashMap<&str, Use> = HashMap::new();
         // Index in `shared`, by links and by whether they share alike.
         let mut by_links: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
@@ -80,9 +78,7 @@ fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
     let Some(urdf) = urdd.description().filter(|_| urdd.is_legacy(ModuleKind::Urdf)) else {
         return false;
     };
-    let (Some(a), Some(b)) = (urdf.links.get(a), urdf.links.get(b)) else {
-        return false;
-    };
+    let (Some(a), Some(b)) = (urdf.links.get(a), urdf.links.get(b)) else { return false };
     let (a, b) = (placements(a), placements(b));
     !a.is_empty() && a == b
 }

@@ -1,6 +1,6 @@
-//! The rule `dof::dof_count_differs`.
+//! The rules of `dof::counts`.
 
-use urdd_validate::rules::dof::dof_count_differs::*;
+use urdd_validate::rules::dof::counts::*;
 
 #[test]
 fn the_odd_one_is_named() {

@@ -1,6 +1,6 @@
-//! The rule `dof::dof_mappings_disagree`.
+//! The rules of `dof::mappings`.
 
-use urdd_validate::rules::dof::dof_mappings_disagree::*;
+use urdd_validate::rules::dof::mappings::*;
 
 fn inverse(joint_of_dof: &[usize], dofs_of_joint: &[&[usize]]) -> bool {
     are_inverse(joint_of_dof, dofs_of_joint.iter().map(|list| list.iter().copied()))

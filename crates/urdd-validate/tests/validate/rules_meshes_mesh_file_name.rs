@@ -1,6 +1,6 @@
-//! The rule `meshes::mesh_file_name`.
+//! The rules of `meshes::file_paths`.
 
-use urdd_validate::rules::meshes::mesh_file_name::slug;
+use urdd_validate::rules::meshes::file_paths::slug;
 
 #[test]
 fn names_become_slugs() {

@@ -1,6 +1,6 @@
-//! The rule `meshes::piece_count_mismatch`.
+//! The rules of `meshes::lists`.
 
-use urdd_validate::rules::meshes::piece_count_mismatch::most_common;
+use urdd_validate::rules::meshes::lists::most_common;
 
 #[test]
 fn the_number_that_comes_most_often_and_first() {

@@ -1,9 +1,9 @@
-//! The rule `shapes::needlessly_large_sphere`.
+//! The rules of `shapes::needlessly_large`.
 
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::primitives::{cuboid, sphere};
-use urdd_validate::rules::shapes::needlessly_large_sphere::*;
+use urdd_validate::rules::shapes::needlessly_large::*;
 
 #[test]
 fn a_bound_is_near_the_smallest_radius_and_never_above_it() {

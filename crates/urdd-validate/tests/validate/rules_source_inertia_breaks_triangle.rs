@@ -1,6 +1,6 @@
-//! The rule `source::inertia_breaks_triangle`.
+//! The rules of `source::inertia`.
 
-use urdd_validate::rules::source::inertia_breaks_triangle::*;
+use urdd_validate::rules::source::inertia::*;
 use urdd_validate::tolerance::INERTIA_TRIANGLE;
 
 #[test]

@@ -1,7 +1,7 @@
-//! The rule `source::inertia_not_positive_definite`.
+//! The rules of `source::inertia`.
 
-use urdd_validate::rules::source::inertia_not_positive_definite::positive;
-use urdd_validate::rules::source::moments::principal;
+use urdd_validate::rules::source::inertia::positive;
+use urdd_validate::rules::source::inertia::principal;
 
 #[test]
 fn thin_is_not_singular() {

@@ -1,6 +1,6 @@
-//! The rule `source::mimic_leaves_limits`.
+//! The rules of `source::limits`.
 
-use urdd_validate::rules::source::mimic_leaves_limits::*;
+use urdd_validate::rules::source::limits::*;
 
 #[test]
 fn a_negative_multiplier_turns_the_interval_round() {

@@ -1,6 +1,6 @@
 //! Principal moments of inertia.
 
-use urdd_validate::rules::source::moments::*;
+use urdd_validate::rules::source::inertia::*;
 
 #[test]
 fn agrees_with_numpy() {

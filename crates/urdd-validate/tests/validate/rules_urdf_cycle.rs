@@ -1,6 +1,6 @@
-//! The rule `urdf::cycle`.
+//! The rules of `urdf::tree`.
 
-use urdd_validate::rules::urdf::cycle::circles;
+use urdd_validate::rules::urdf::tree::circles;
 
 #[test]
 fn finds_each_circle_once() {

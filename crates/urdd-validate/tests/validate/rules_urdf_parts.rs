@@ -1,6 +1,6 @@
 //! Which rule compares which values of `urdf_module` with the carried URDF.
 
-use urdd_validate::rules::urdf::parts::{Part, element_part};
+use urdd_validate::rules::urdf::compared::{Part, element_part};
 
 #[test]
 fn each_value_belongs_to_one_part() {

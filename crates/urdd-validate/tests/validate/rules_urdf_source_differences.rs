@@ -1,7 +1,7 @@
 //! Compares `urdf_module` with the carried URDF, for URD001, URD013 and URD014.
 
 use serde_json::json;
-use urdd_validate::rules::urdf::source_differences::is_nothing;
+use urdd_validate::rules::urdf::compared::is_nothing;
 
 #[test]
 fn zeros_and_nulls_say_nothing() {

@@ -1,6 +1,6 @@
-//! The rule `urdf::zero_axis`.
+//! The rules of `urdf::joints`.
 
-use urdd_validate::rules::urdf::zero_axis::has_direction;
+use urdd_validate::rules::urdf::joints::has_direction;
 
 #[test]
 fn short_axes_have_a_direction() {

@@ -2,7 +2,7 @@
 
 use urdd_geometry::primitives::cuboid;
 use urdd_geometry::surface::{Likeness, difference};
-use urdd_validate::solids::apart::*;
+use urdd_validate::solids::placed::*;
 
 #[test]
 fn only_different_surfaces_are_apart() {

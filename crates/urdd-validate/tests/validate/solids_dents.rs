@@ -1,7 +1,7 @@
 //! Where a surface that should be convex is not.
 
 use urdd_geometry::primitives::cuboid;
-use urdd_validate::solids::dents::*;
+use urdd_validate::solids::polytope::*;
 
 #[test]
 fn a_corner_that_is_pushed_in_is_a_dent_of_its_depth() {

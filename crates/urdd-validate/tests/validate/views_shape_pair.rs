@@ -1,7 +1,7 @@
 //! The statistics of a pair of shapes (SPEC 8.5).
 
 use urdd_document::shape_matrices::Statistics;
-use urdd_validate::views::shape_pair::*;
+use urdd_validate::views::tangled::*;
 
 fn pair(mean: f64, min: f64, max: f64, samples: u32) -> Pair {
     let rows = |value: f64| vec![vec![0.0, value], vec![value, 0.0]];

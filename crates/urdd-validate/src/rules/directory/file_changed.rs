@@ -33,9 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (mut to_read, mut too_large) = (Vec::new(), Vec::new());
     for listed in &listed {
         // Other rules report files that are missing or unreadable.
-        let Ok(size) = entries::look(context, &listed.file.path) else {
-            continue;
-        };
+        let Ok(size) = entries::look(context, &listed.file.path) else { continue };
         match left.checked_sub(size) {
             Some(rest) => {
                 left = rest;
@@ -125,9 +123,7 @@ fn report_cause(
 ) {
     let of_cause: Vec<&Listed<'_>> =
         changes.iter().filter(|(_, change)| *change == cause).map(|(listed, _)| *listed).collect();
-    let Some(first) = of_cause.first() else {
-        return;
-    };
+    let Some(first) = of_cause.first() else { return };
     let others = match of_cause.len() {
         1 => String::new(),
         n => format!(" (and of {} more)", n - 1),

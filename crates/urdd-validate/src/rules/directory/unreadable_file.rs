@@ -1,4 +1,3 @@
-use super::listed_files;
 use crate::rules::prelude::*;
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use urdd_document::module::{JsonFile, Mirror, VersionFile};

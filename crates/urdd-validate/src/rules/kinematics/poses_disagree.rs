@@ -19,13 +19,12 @@ declare_rule! {
     /// The finding names the first joint, from the root outwards, at which the two differ. Write the
     /// modules again from the carried URDF, or carry the URDF from which they were written.
     KIN001 "poses-disagree", Error, clause "9.1", since "0.1.0",
-    phase Kinematics,
-    needs [
-        CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
-        Passed(URD001), ROBOT_SOUND, Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
+    phase Kinematics, needs [
+        CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof), Passed(URD001), ROBOT_SOUND,
+        Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
         Passed(DOF003), Passed(DOF004), Passed(DOF005),
         // These report what moves links, and where. Legacy modules do not have these fields.
-        NotFailed(DOF007), NotFailed(CHN007), NotFailed(CHN008), NotFailed(CHN009), NotFailed(CHN010),
+        NoneFailed(&[DOF007, CHN007, CHN008, CHN009, CHN010]),
     ],
 }
 

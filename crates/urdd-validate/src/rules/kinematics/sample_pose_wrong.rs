@@ -15,8 +15,7 @@ declare_rule! {
     /// Compute the poses again. Where only some links are off, look at the joint above the first of
     /// them; where all are off by one transform, look at the frame: poses are in the root link's.
     KIN003 "sample-pose-wrong", Error, clause "9.2", since "0.1.0",
-    phase Kinematics,
-    needs [
+    phase Kinematics, needs [
         Version1, Module(Kind::KinematicsSamples), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof), Module(Kind::Urdf),
         Passed(KIN002), Passed(CHN001), Passed(CHN003), Passed(CHN006), Passed(CHN008), Passed(CHN009),
         Passed(CHN010), Passed(DOF007),
@@ -33,9 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (place, sample) in samples.samples.iter().enumerate() {
-        let Ok(poses) = kinematics.link_poses(&sample.configuration) else {
-            continue;
-        };
+        let Ok(poses) = kinematics.link_poses(&sample.configuration) else { continue };
         for (link, (expected, stored)) in poses.iter().zip(&sample.link_poses).enumerate() {
             let (kind, name) = (sample.kind, &robot.links.get(link)?.name);
             let pointer = format!("/samples/{place}/link_poses/{link}");

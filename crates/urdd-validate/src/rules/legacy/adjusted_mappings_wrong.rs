@@ -17,9 +17,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     for (_, module, document) in context.documents(&[Kind::AdjustedRobot]) {
-        let ModuleDocument::LegacyAdjustedRobot(adjusted) = document else {
-            continue;
-        };
+        let ModuleDocument::LegacyAdjustedRobot(adjusted) = document else { continue };
         for mapping in mappings(adjusted, robot.links.len(), robot.joints.len()) {
             mapping.check(&module.file("module.json"), findings);
         }

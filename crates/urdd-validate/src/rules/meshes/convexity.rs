@@ -1,15 +1,38 @@
-//! Hulls and pieces that are not convex bodies, for MSH017 and MSH020.
-
 use rayon::prelude::*;
 
 use crate::rules::prelude::*;
-use crate::solids::dents::{Dents, dents};
 use crate::solids::derived::{Derived, noun};
+use crate::solids::polytope::{Dents, dents};
 use crate::solids::polytope::{NotConvex, not_convex};
 use urdd_geometry::surface::extent;
 
+declare_rule! {
+    /// A convex hull is not the closed surface of a convex body.
+    ///
+    /// Programs compute distances from its vertices, and whether a point is inside from its faces; the
+    /// two agree only for a convex body. Here a vertex lies outside of a face, an edge has a face on one
+    /// side only, or the faces look inward.
+    ///
+    /// Compute the hull of the link's plain mesh again, and write every triangle, counter-clockwise seen
+    /// from outside.
+    MSH017 "hull-not-convex", Error, clause "7.9", since "0.1.0",
+    phase Geometry, consequence Collisions, needs [Module(Kind::ConvexHullMeshes), NotFailed(MSH003)],
+    check |context, findings| report(context, Kind::ConvexHullMeshes, findings),
+
+    /// A convex piece is not the closed surface of a convex body.
+    ///
+    /// As for hulls (MSH017): programs compute with its vertices or with its faces, and the two agree only
+    /// for a convex body. Decompositions that write the parts of the surface instead of the hull of each
+    /// part make such pieces.
+    ///
+    /// Write the convex hull of each piece, every triangle, counter-clockwise seen from outside.
+    MSH020 "piece-not-convex", Error, clause "7.10", since "0.1.0",
+    phase Geometry, consequence Collisions, needs [Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003)],
+    check |context, findings| report(context, Kind::ConvexDecompositionMeshes, findings),
+}
+
 /// Reports every mesh of a module that is not the closed surface of a convex body.
-pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<()> {
+fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<()> {
     let module = context.module(kind)?;
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
@@ -24,9 +47,7 @@ pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<
         if let (None, Some(part)) = (mesh.sound(), part) {
             findings.not_verified(part, Why::Unreadable);
         }
-        let Some((fault, dents)) = fault else {
-            continue;
-        };
+        let Some((fault, dents)) = fault else { continue };
         let extent = mesh.mesh.as_ref().map_or(0.0, extent);
         let resolution = mesh_resolution(extent);
         let depth = dents.map(|dents| dents.depth).filter(|depth| *depth > resolution);

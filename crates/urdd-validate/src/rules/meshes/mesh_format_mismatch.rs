@@ -21,9 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         counts(context, &meshes, kind, module, findings);
         formats(context, &meshes, module, findings);
         for (link, mesh) in meshes.paths() {
-            let Some(format) = mesh.format else {
-                continue;
-            };
+            let Some(format) = mesh.format else { continue };
             let right = format.extension();
             let name = mesh.path.rsplit('/').next().unwrap_or_default();
             let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
@@ -41,9 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 
 /// Reports meshes of a module of version 1 that do not have the formats of most meshes.
 fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut Findings) {
-    let [list] = meshes.lists.as_slice() else {
-        return;
-    };
+    let [list] = meshes.lists.as_slice() else { return };
     let links = list.links.iter().enumerate();
     let all = links.flat_map(|(link, meshes)| meshes.iter().map(move |mesh| (link, mesh)));
     for format in [Format::Stl, Format::Obj] {
@@ -88,9 +84,7 @@ fn counts(
             [(_, a), (key, b), _] if a != b => Some((key, b, a)),
             _ => None,
         };
-        let Some((key, actual, expected)) = odd else {
-            continue;
-        };
+        let Some((key, actual, expected)) = odd else { continue };
         let what = match kind {
             Kind::ConvexDecompositionMeshes => "pieces",
             _ => "meshes",

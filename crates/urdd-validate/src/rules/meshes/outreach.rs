@@ -1,18 +1,45 @@
-//! Pieces that reach out of the hulls of their links, for MSH021 and MSH023.
-
-use std::sync::OnceLock;
-
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, step};
 use urdd_geometry::surface::distinct;
 
+declare_rule! {
+    /// A convex piece reaches far out of the hull of its link.
+    ///
+    /// Pieces stand for parts of the link, so all of them are inside its hull. This one reaches out by more
+    /// than 2 % of the hull's diagonal: it is of another link, in another place, or larger than what it
+    /// stands for. Programs then report collisions that do not happen.
+    ///
+    /// Decompose the link's plain mesh, and cut the pieces to its hull.
+    MSH021 "piece-leaves-hull", Error, clause "7.10", since "0.1.0",
+    phase Geometry, consequence Collisions, needs [
+        Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003),
+        NotFailed(MSH007), SOUND_HULL,
+    ],
+    check |context, findings| report(context, How::Far, findings),
+
+    /// A convex piece reaches a little out of the hull of its link.
+    ///
+    /// Pieces stand for parts of the link, so all of them are inside its hull. Programs that simplify pieces, or
+    /// fit them to voxels (V-HACD, CoACD), make them reach out of it by up to some 1 % of its diagonal. Distances of
+    /// pieces are then smaller than those of the link.
+    ///
+    /// Cut the pieces to the hull, or decompose the link's plain mesh more finely.
+    MSH023 "piece-barely-leaves-hull", Warning, clause "7.10", since "0.2.0",
+    phase Geometry, consequence Collisions, needs [
+        Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003),
+        NotFailed(MSH007), SOUND_HULL,
+    ],
+    check |context, findings| report(context, How::Barely, findings),
+}
+
 /// Which pieces to report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum How {
+enum How {
     /// Those that reach out farther than allowed.
     Far,
     /// Those that reach out within the allowance.
@@ -20,7 +47,7 @@ pub enum How {
 }
 
 /// Reports the pieces that reach out of the hulls of their links.
-pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
+fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     let kind = Kind::ConvexDecompositionMeshes;
     let module = context.module(kind)?;
     let part = |piece: &Derived| Part::Piece { link: piece.link, piece: piece.piece };
@@ -39,9 +66,7 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
         .map(|piece| farthest_outside(context, piece, hulls.get(&piece.link)?))
         .collect();
     for (piece, outside) in pieces.iter().zip(outside) {
-        let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else {
-            continue;
-        };
+        let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else { continue };
         let [least, most] = [PIECE_BARELY_OUT_OF_HULL, PIECE_OUT_OF_HULL]
             .map(|fraction| out.tolerance.max(fraction * hull.diagonal));
         let tolerance = match how {

@@ -16,8 +16,7 @@ declare_rule! {
     /// Decompose the link's plain mesh again, or promise less.
     MSH022 "pieces-leave-surface", Error, clause "7.10", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003), NotFailed(MSH004),
-        NotFailed(MSH007), CONVEX_PIECE,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes), NoneFailed(&[MSH003, MSH004, MSH007]), CONVEX_PIECE,
     ],
 }
 
@@ -54,9 +53,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
-        let Some(bare) = bare else {
-            continue;
-        };
+        let Some(bare) = bare else { continue };
         let distance = metres(bare.distance);
         let message = format!(
             "the pieces of {} leave out its surface at {}, {distance} outside of all of them",

@@ -22,9 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let shapes = context.shapes();
     for (kind, module, document) in context.documents(MATRIX_MODULES) {
         for matrix in matrices(document) {
-            let Some(elements) = matrix.elements else {
-                continue;
-            };
+            let Some(elements) = matrix.elements else { continue };
             let name = |shape: usize| match &shapes {
                 Some(shapes) => shapes.describe(context, matrix.kind, shape),
                 None => shape.to_string(),

@@ -1,13 +1,13 @@
-use crate::distances::other_reasons::OtherReasons;
-use crate::distances::plan;
-use crate::distances::poses::Poses;
-use crate::distances::shape_set::ShapeSet;
+use crate::reference::distances::plan;
+use crate::reference::distances::poses::Poses;
+use crate::reference::distances::shape_set::ShapeSet;
 use crate::rules::prelude::*;
 use crate::views::judged::JudgedShapes;
-use crate::views::shape_pair::CONTACT;
+use crate::views::tangled::CONTACT;
 use crate::views::tangled::sound_pairs;
-use urdd_document::shape_matrices::{Elements, skips, skips_pointer};
+use urdd_document::shape_matrices::{Elements, at, skips, skips_pointer};
 use urdd_document::shapes::Shapes;
+use urdd_format::link_shapes_skips::SkippedReason;
 
 declare_rule! {
     /// A pair of shapes is skipped, and is in contact in some configurations and apart in others.
@@ -22,19 +22,13 @@ declare_rule! {
     /// `link_shapes_skips_module`, and is free.
     SHP025 "skipped-pair-moves-apart", Error, clause "8.6", since "0.1.0",
     phase Statistics, needs [
-        AnyModule(&[Kind::LinkShapesSimpleSkips, Kind::LinkShapesSkips]),
-        Module(Kind::Urdf),
-        Module(Kind::Dof),
-        Module(Kind::Chain),
-        Module(Kind::Bounds),
-        Module(Kind::ConvexHullMeshes),
-        Module(Kind::ConvexDecompositionMeshes),
-        Module(Kind::LinkShapesApproximations),
-        POSES_KNOWN, BOUNDS_SOUND_IN_VERSION_1,
-        PIECES_LISTED, OWN_FILES_IN_VERSION_1,
-        SHAPES_LISTED, NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010),
+        AnyModule(&[Kind::LinkShapesSimpleSkips, Kind::LinkShapesSkips]), Module(Kind::Urdf), Module(Kind::Dof),
+        Module(Kind::Chain), Module(Kind::Bounds), Module(Kind::ConvexHullMeshes),
+        Module(Kind::ConvexDecompositionMeshes), Module(Kind::LinkShapesApproximations), POSES_KNOWN,
+        BOUNDS_SOUND_IN_VERSION_1, PIECES_LISTED, OWN_FILES_IN_VERSION_1, SHAPES_LISTED, NotFailed(SHP003),
+        Passed(SHP005), NotFailed(SHP010),
         // Their faults make skips wrong too.
-        NotFailedInV1(SHP017), NotFailed(SHP011), NotFailed(SHP013), NotFailed(SHP023), NotFailed(SHP024),
+        NotFailedInV1(SHP017), NoneFailed(&[SHP011, SHP013, SHP023, SHP024]),
     ],
 }
 
@@ -87,9 +81,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if by_reason.may_skip(&shapes, (i, j)) || !judged.pair(i, j) {
                 continue;
             }
-            let Some(distances) = set.pair(i, j, &motion) else {
-                continue;
-            };
+            let Some(distances) = set.pair(i, j, &motion) else { continue };
             let apart = CONTACT + tolerances.pair(i, j);
             let met = distances.iter().position(|distance| *distance <= CONTACT);
             let farthest = distances.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
@@ -138,4 +130,46 @@ fn movable_pairs(
         links.is_some_and(|(a, b)| !poses.is_rigid(a, b) && !edited.contains(&(a.min(b), a.max(b))))
     });
     movable.map(|(i, j, _)| (i, j)).collect()
+}
+
+/// The reasons other than `Always` for which `link_shapes_skips_module` may skip a pair.
+struct OtherReasons<'a> {
+    set: &'a ShapeSet,
+    /// The pairs of links connected by a joint, if these are skipped.
+    adjacent: HashSet<(usize, usize)>,
+    /// The distances in the default configuration, if pairs in contact there are skipped.
+    at_default: Option<Vec<Vec<f64>>>,
+}
+
+impl<'a> OtherReasons<'a> {
+    fn new(context: &Context, document: &ModuleDocument, poses: &Poses, set: &'a ShapeSet) -> Self {
+        let skipped = |reason: SkippedReason| match document {
+            ModuleDocument::LinkShapesSkips(module) => module.skipped_reasons.contains(&reason),
+            _ => false,
+        };
+        let chain = context.chain().filter(|_| skipped(SkippedReason::Adjacent));
+        let joints = chain.iter().flat_map(|chain| &chain.joints_in_chain);
+        let adjacent = joints.map(|joint| {
+            let (a, b) = (joint.parent_link_idx.get(), joint.child_link_idx.get());
+            (a.min(b), a.max(b))
+        });
+        let motion = poses.default_motion().ok().filter(|_| skipped(SkippedReason::Default));
+        OtherReasons {
+            set,
+            adjacent: adjacent.collect(),
+            at_default: motion.map(|motion| set.statistics(&motion).min),
+        }
+    }
+
+    /// Whether a pair may be skipped for one of these reasons.
+    fn may_skip(&self, shapes: &Shapes, (i, j): (usize, usize)) -> bool {
+        let kind = self.set.kind;
+        let links = shapes.link(kind, i).zip(shapes.link(kind, j));
+        let adjacent = links.is_some_and(|(a, b)| self.adjacent.contains(&(a.min(b), a.max(b))));
+        let places = self.set.place(i).zip(self.set.place(j));
+        let distance =
+            (self.at_default.as_ref().zip(places)).and_then(|(rows, (a, b))| at(rows, a, b));
+        // A pair within the tolerance may be skipped.
+        adjacent || distance.is_some_and(|distance| distance <= 2.0 * CONTACT)
+    }
 }

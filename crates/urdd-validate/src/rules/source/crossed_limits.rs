@@ -13,7 +13,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let limits = joint.position_limits().zip(joint.limit);
         if let Some(((lower, upper), limit)) = limits
@@ -27,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             let message =
                 format!("the limits of joint `{name}` are crossed{absent}: no position is allowed");
-            Finding::at(&file, format!("/joints/{index}/limit"), message)
+            finding_in(context, format!("/joints/{index}/limit"), message)
                 .values("lower <= upper", format!("joint `{name}`: {lower} > {upper}"))
                 .report(findings);
         }

@@ -1,21 +1,13 @@
 //! SRC: unusual robots, whose URDD may still be correct.
 
+mod carried;
 mod crossed_limits;
-pub mod inertia_breaks_triangle;
-pub mod inertia_not_positive_definite;
-mod links;
-mod mass_not_positive;
-mod mesh_not_carried;
-pub mod mimic_leaves_limits;
-pub mod moments;
-mod no_effort_and_no_speed;
-mod no_limits;
-mod repeated_element;
+pub mod inertia;
+pub mod limits;
+mod mass;
 
 use crate::rule::rules;
-use links::links_of;
 
 rules! {
-    crossed_limits, inertia_breaks_triangle, inertia_not_positive_definite, mass_not_positive,
-    mesh_not_carried, mimic_leaves_limits, no_effort_and_no_speed, no_limits, repeated_element
+    carried, crossed_limits, inertia, limits, mass
 }

@@ -1,0 +1,194 @@
+//! The shapes of one kind, prepared for distances, and the tolerances of these.
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use super::plan::{self, Work};
+use super::poses::Poses;
+use crate::solids::Solids;
+use crate::tolerance::{distance_tolerance, reach};
+use crate::views::enclosure::Fit;
+use urdd_document::shape_matrices::{Statistics, at};
+use urdd_document::shapes::{ShapeList, Shapes, Volume, approximations};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
+use urdd_geometry::convex::{
+    ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Sphere, pair_distances,
+    pair_ranges, pair_statistics,
+};
+use urdd_geometry::farthest;
+use urdd_kinematics::rotation::from_rpy;
+
+/// The existing, sound shapes of a kind.
+pub struct ShapeSet {
+    pub kind: ShapeKind,
+    /// Index in the list of each shape.
+    places: Vec<Option<usize>>,
+    list: List,
+}
+
+enum List {
+    Hulls(Vec<PlacedShape<ConvexShape>>),
+    Boxes(Vec<PlacedShape<OrientedBox>>),
+    Spheres(Vec<PlacedShape<Sphere>>),
+}
+
+/// The same of a list, whatever its shapes.
+macro_rules! of_list {
+    ($list:expr, $of:ident => $same:expr) => {
+        match $list {
+            List::Hulls($of) => $same,
+            List::Boxes($of) => $same,
+            List::Spheres($of) => $same,
+        }
+    };
+}
+
+impl ShapeSet {
+    /// Leaves out unreadable hulls and pieces and, if only `fitting` ones are wanted, boxes and spheres that do not fit
+    /// theirs (SHP017, SHP018).
+    pub fn new(
+        urdd: &Urdd,
+        solids: &Solids,
+        shapes: &Shapes,
+        kind: ShapeKind,
+        fitting: bool,
+    ) -> Self {
+        let volumes = volumes(urdd, kind);
+        let mesh = |link, piece| solids.sound(kind.meshes(), link, piece);
+        let volume = |link: usize, piece: usize| {
+            let volume = volumes.as_ref()?.links.get(link)?.get(piece)?;
+            let mesh = mesh(link, piece).filter(|_| fitting);
+            let sound = mesh.is_none_or(|mesh| Fit::new(volume, mesh).is_tight(mesh));
+            sound.then_some(*volume)
+        };
+        let mut places = Vec::new();
+        let list = match kind {
+            ShapeKind::Hulls | ShapeKind::Pieces => {
+                let hull = |link, piece| ConvexShape::new(mesh(link, piece)?).ok();
+                List::Hulls(placed(shapes, kind, hull, &mut places))
+            }
+            ShapeKind::Spheres | ShapeKind::PieceSpheres => {
+                let sphere = |link, piece| sphere(volume(link, piece)?);
+                List::Spheres(placed(shapes, kind, sphere, &mut places))
+            }
+            ShapeKind::Boxes | ShapeKind::PieceBoxes => {
+                let cuboid = |link, piece| cuboid(volume(link, piece)?);
+                List::Boxes(placed(shapes, kind, cuboid, &mut places))
+            }
+        };
+        ShapeSet { kind, places, list }
+    }
+
+    /// Index of a shape in the matrices of [`ShapeSet::statistics`].
+    pub fn place(&self, shape: usize) -> Option<usize> {
+        self.places.get(shape).copied().flatten()
+    }
+
+    /// The work of all distances.
+    pub fn work(&self, poses: &Poses) -> Work {
+        let bodies: Vec<usize> =
+            of_list!(&self.list, list => list.iter().map(|placed| placed.body).collect());
+        let one = match &self.list {
+            List::Hulls(_) => plan::HULL,
+            List::Boxes(_) => plan::BOX,
+            List::Spheres(_) => 1,
+        };
+        let mut work = Work { once: 0, each: poses.num_links() as u64 * plan::POSE };
+        for (i, a) in bodies.iter().enumerate() {
+            for b in &bodies[i + 1..] {
+                if poses.is_rigid(*a, *b) { work.once += one } else { work.each += one }
+            }
+        }
+        work
+    }
+
+    pub fn statistics(&self, motion: &Motion) -> PairStatistics {
+        // Every shape is on a link, and the motion contains all links.
+        of_list!(&self.list, list => pair_statistics(list, motion)).unwrap_or_default()
+    }
+
+    /// The smallest and largest distances of all pairs: exact where they are outside the stated ones.
+    pub fn ranges(&self, motion: &Motion, stated: &Statistics) -> PairStatistics {
+        let shapes: Vec<usize> =
+            (0..self.places.len()).filter(|shape| self.place(*shape).is_some()).collect();
+        let range = |i: usize, j: usize| {
+            let (i, j) = (*shapes.get(i)?, *shapes.get(j)?);
+            Some([at(stated.min, i, j)?, at(stated.max, i, j)?])
+        };
+        of_list!(&self.list, list => pair_ranges(list, motion, range)).unwrap_or_default()
+    }
+
+    /// The distance of a pair in each configuration.
+    pub fn pair(&self, i: usize, j: usize, motion: &Motion) -> Option<Vec<f64>> {
+        let (i, j) = (self.place(i)?, self.place(j)?);
+        of_list!(&self.list, list => pair_distances(list.get(i)?, list.get(j)?, motion))
+    }
+}
+
+/// The boxes or spheres of a kind.
+fn volumes(urdd: &Urdd, kind: ShapeKind) -> Option<ShapeList<Volume>> {
+    let lists = approximations(urdd.document(ModuleKind::LinkShapesApproximations)?)?;
+    lists.into_iter().find(|list| list.kind == kind)
+}
+
+/// The shapes of a kind that can be made of link and piece. `places` gets the index among them of each shape.
+fn placed<T>(
+    shapes: &Shapes,
+    kind: ShapeKind,
+    make: impl Fn(usize, usize) -> Option<T>,
+    places: &mut Vec<Option<usize>>,
+) -> Vec<PlacedShape<T>> {
+    let mut list = Vec::new();
+    places.extend((0..shapes.count(kind)).map(|shape| {
+        let (body, piece) = shapes.place(kind, shape)?;
+        let shape = make(body, piece)?;
+        list.push(PlacedShape { body, shape });
+        Some(list.len() - 1)
+    }));
+    list
+}
+
+fn sphere(volume: Volume) -> Option<Sphere> {
+    let Volume::Sphere { radius, offset } = volume else { return None };
+    Sphere::new(Vector3::from(offset), radius).ok()
+}
+
+fn cuboid(volume: Volume) -> Option<OrientedBox> {
+    let Volume::Box { half_extents, offset, rpy } = volume else { return None };
+    let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
+    OrientedBox::new(pose, half_extents).ok()
+}
+
+/// The tolerances of the distances of one kind of shapes (SPEC 8.5).
+pub struct Tolerances {
+    /// The robot's reach, m.
+    reach: f64,
+    /// Reach of each shape from its link's origin, m.
+    shapes: Vec<f64>,
+}
+
+impl Tolerances {
+    /// For the shapes of a kind. A missing shape, which other rules report, adds nothing.
+    pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
+        let volumes = volumes(urdd, kind);
+        let of_shape = |shape: usize| -> Option<f64> {
+            let (link, piece) = shapes.place(kind, shape)?;
+            Some(match kind.is_convex_mesh() {
+                true => farthest::of_mesh(solids.sound(kind.meshes(), link, piece)?),
+                false => volumes.as_ref()?.links.get(link)?.get(piece)?.reach(),
+            })
+        };
+        let robot = urdd.robot().zip(urdd.tree());
+        Tolerances {
+            reach: robot.map_or(0.0, |(robot, tree)| reach(robot, tree)),
+            shapes: (0..shapes.count(kind)).map(|shape| of_shape(shape).unwrap_or(0.0)).collect(),
+        }
+    }
+
+    /// Tolerance of the distances of two shapes, m.
+    pub fn pair(&self, i: usize, j: usize) -> f64 {
+        let of = |shape: usize| self.shapes.get(shape).copied().unwrap_or(0.0);
+        distance_tolerance(self.reach, of(i) + of(j))
+    }
+}

@@ -1,0 +1,139 @@
+use super::walk::{Fault, path_fault, report_pairs, show_path};
+use crate::rules::prelude::*;
+use urdd_document::tree::Tree;
+use urdd_format::index::LinkIdx;
+
+declare_rule! {
+    /// A path of `root_paths` is not the path from the root to its link.
+    ///
+    /// Every other path is cut from these, and they say which joints move a link: a wrong one gives wrong
+    /// Jacobians and wrong paths for every pair that the link belongs to.
+    ///
+    /// `links` begins with the root and ends with the link itself; `joints` are those between them, one
+    /// fewer. For the root: itself alone, and no joint.
+    CON002 "root-path-wrong", Error, clause "6.4.2", since "0.1.0",
+    phase References, needs [Version1, Passed(CON001), ModuleV1(Kind::Connections)], check root_path_wrong,
+
+    /// A path of `link_to_link_paths` is not the path between its two links.
+    ///
+    /// Programs take relative poses and Jacobians of two links along it. A wrong path leaves out joints
+    /// that move one link against the other, or counts joints that do not.
+    ///
+    /// Element (i, j) begins with link i and ends with link j, and climbs no further than their lowest
+    /// common ancestor; `joints` are those between the links, one fewer. Element (j, i) is the same
+    /// backwards.
+    CON004 "link-to-link-path-wrong", Error, clause "6.4.4", since "0.1.0",
+    phase References, needs [Version1, Passed(CON001), ModuleV1(Kind::Connections)], check link_to_link_path_wrong,
+
+    /// An entry of `link_connection_paths` is not the way down from one link to another.
+    ///
+    /// Programs read from this table whether link j is below link i in the tree, and through which
+    /// links. With a path that does not exist, a link that does not move seems to move; with a
+    /// missing path, the reverse.
+    ///
+    /// Element (i, j) is `[i]` where i is j. Where j is below i, it is the links from i (not included) to
+    /// j (included). Otherwise it is null.
+    CON005 "descendant-path-wrong", Error, clause "6.4.5", since "0.1.0",
+    phase References, needs [Passed(CON001)], check descendant_path_wrong,
+
+    /// An entry of `lowest_common_ancestors` is not the last link that two root paths share.
+    ///
+    /// It is where the path between two links turns from climbing to descending. With a wrong one, a
+    /// program that cuts the path out of `root_paths` leaves links out, or takes in links that no path
+    /// between the two passes.
+    ///
+    /// Compare the root paths of the two links from the front; the last link in which they agree is the
+    /// entry. The table is symmetric, and has every link itself on its diagonal.
+    CON003 "common-ancestor-wrong", Error, clause "6.4.3", since "0.1.0",
+    phase References, needs [Version1, Passed(CON001), ModuleV1(Kind::Connections)], check common_ancestor_wrong,
+}
+
+fn root_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let tree = context.tree()?;
+    let connections = document!(context, Connections)?;
+    let mut fold = Fold::new(findings);
+    let paths = connections.root_paths.iter().zip(&robot.links);
+    for (to, (path, link)) in paths.enumerate() {
+        if let Some((place, right, written)) = path_fault(tree, [tree.root, tree.root, to], path) {
+            fold.add(|| {
+                let pointer = format!("/root_paths/{to}{place}");
+                let message =
+                    format!("this is not the path from the root to link {to} ({:?})", link.name);
+                finding_in(Kind::Connections, pointer, message).values(right, written)
+            });
+        }
+    }
+    Some(())
+}
+
+fn link_to_link_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let table = document!(context, Connections)?.link_to_link_paths.as_deref();
+    let table = ("link_to_link_paths", table.unwrap_or_default());
+    report_pairs(context, findings, table, path_fault, |[i, _, j]| {
+        format!("this is not the path from link {i} to link {j}")
+    })
+}
+
+fn descendant_path_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let table = context.connections()?.link_connection_paths.as_deref();
+    let table = ("link_connection_paths", table.unwrap_or_default());
+    report_pairs(context, findings, table, fault, |[i, top, j]| match top == i {
+        true if i == j => "the path of a link to itself is that link alone".to_owned(),
+        true => format!("this is not the path from link {i} down to link {j}"),
+        false => format!("link {j} is not below link {i}; write null"),
+    })
+}
+
+/// The first difference of an entry from the path down from link `i` to link `j`: pointer below the entry, expected and
+/// actual value.
+fn fault(tree: &Tree, [i, top, j]: [usize; 3], path: &Option<Vec<LinkIdx>>) -> Option<Fault> {
+    let show =
+        |path: &[LinkIdx]| show_path(&path.iter().map(|link| link.get()).collect::<Vec<_>>());
+    let path = path.as_deref();
+    let right = match (top == i, path) {
+        (false, None) => return None,
+        (false, Some(path)) => return Some((String::new(), "null".to_owned(), show(path))),
+        (true, _) => way_down(tree, i, j),
+    };
+    let path = match path {
+        Some(path) if path.len() == right.len() => path,
+        Some(path) => return Some((String::new(), show_path(&right), show(path))),
+        None => return Some((String::new(), show_path(&right), "null".to_owned())),
+    };
+    let differ = right.iter().zip(path).enumerate().rev();
+    let mut differ = differ.filter(|(_, (right, written))| **right != written.get());
+    differ.next().map(|(place, (right, written))| {
+        (format!("/{place}"), right.to_string(), written.get().to_string())
+    })
+}
+
+/// The links from link `i` (not included, unless it is `j`) down to link `j`.
+fn way_down(tree: &Tree, i: usize, j: usize) -> Vec<usize> {
+    let mut links = vec![j];
+    let mut link = j;
+    while let Some(parent) = tree.parent_link[link].filter(|parent| *parent != i && link != i) {
+        links.push(parent);
+        link = parent;
+    }
+    links.reverse();
+    links
+}
+
+fn common_ancestor_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let table = &document!(context, Connections)?.lowest_common_ancestors;
+    report_pairs(
+        context,
+        findings,
+        ("lowest_common_ancestors", table.as_slice()),
+        |_, [_, top, _], written| {
+            let fault = || (String::new(), top.to_string(), written.to_string());
+            (written.get() != top).then(fault)
+        },
+        |[i, _, j]| {
+            format!(
+                "this is not the lowest common ancestor of links {i} and {j}, the last link that their root paths share"
+            )
+        },
+    )
+}

@@ -1,0 +1,176 @@
+use crate::rules::prelude::*;
+use crate::views::shared_meshes;
+use urdd_document::shapes::{LIST_MODULES, entry_counts};
+
+declare_rule! {
+    /// A list of a mesh module does not hold one entry per link.
+    ///
+    /// The place in the list is the link index: where an entry is missing or too many, every later
+    /// link gets another link's mesh. Most often the module is stale: it was written before a link
+    /// was added or removed.
+    ///
+    /// Write the mesh modules again from the same URDF as `urdf_module`, with null (or an empty list)
+    /// for links without a mesh.
+    MSH001 "mesh-list-length", Error, clause "7.1", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), MESHES, LINKS_NAMED], check mesh_list_length,
+
+    /// Two entries of a mesh module name the same file, which can be right for one of them only.
+    ///
+    /// A derived mesh is in its link's own frame: the origin and scale of the link's geometry are
+    /// applied. When two links are given one file, the mesh of the second overwrote that of the first,
+    /// and hulls, pieces, boxes and distances of the first were then made from the wrong shape.
+    ///
+    /// Name derived files by link (SPEC 7.3), and write the mesh and link shape modules again. In
+    /// legacy modules, links that place the very same mesh at the very same origin and scale may
+    /// share a file: then it is right for both (LEG007).
+    MSH005 "mesh-file-shared", Error, clause "7.3", since "0.1.0",
+    phase References, needs [
+        Module(Kind::Urdf), DERIVED_MESHES, NotFailed(MSH001), NotFailed(MSH003), NotFailedInV1(MSH007),
+    ], check mesh_file_shared,
+
+    /// A link has a mesh in one mesh module and none in another.
+    ///
+    /// Hulls and convex pieces are made from the plain mesh: a link has all three or none. Where one is
+    /// missing, a program that checks collisions passes over a link that another program sees.
+    ///
+    /// Write the mesh modules again, all from the same plain meshes.
+    MSH007 "mesh-presence-differs", Error, clause "7.2", since "0.1.0",
+    phase References, needs [DERIVED_MESHES, NotFailed(MSH001), NotFailed(MSH003)], check mesh_presence_differs,
+
+    /// Modules disagree about the number of convex pieces of a link.
+    ///
+    /// Piece k of a link is the same piece in `convex_decomposition_meshes_module`, in the boxes and
+    /// spheres, and in the distances. Where one of them has more or fewer, boxes belong to other
+    /// pieces than their places say. Most often the meshes were decomposed again and the link shape
+    /// modules were not.
+    ///
+    /// Write the link shape modules again from the convex pieces that are there.
+    MSH004 "piece-count-mismatch", Error, clause "7.7", since "0.1.0",
+    phase References, needs [
+        Module(Kind::ConvexDecompositionMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001), NO_PIECE_TWICE,
+    ], check piece_count_mismatch,
+}
+
+fn mesh_list_length(context: &Context, findings: &mut Findings) -> Option<()> {
+    let links = context.robot()?.links.len();
+    for (_, module, meshes) in context.mesh_modules(MESH_MODULES) {
+        let lists = meshes.lists.iter().map(|list| (list.key, list.links.len()));
+        if let Some(wrong) = wrong_lengths(&lists.collect::<Vec<_>>(), links) {
+            let message = format!(
+                "one entry per link is needed, and urdf_module has {links} links: {}; write the module again",
+                wrong.in_words
+            );
+            finding_in(module, wrong.pointer, message)
+                .expected(format!("{links} entries (links of urdf_module)"))
+                .actual(format!("{} entries", wrong.length))
+                .report(findings);
+        }
+    }
+    Some(())
+}
+
+fn mesh_file_shared(context: &Context, findings: &mut Findings) -> Option<()> {
+    for shared in shared_meshes::all(context).into_iter().filter(|shared| !shared.alike) {
+        let ((first, first_pointer), (link, pointer)) = (shared.first, shared.other);
+        let label = context.link_label(link);
+        let message = match first == link {
+            true => format!("{label} names one file twice"),
+            false => format!(
+                "{} and {label} name the same file, which can be right for only one of them: write one for each link",
+                context.link_label(first)
+            ),
+        };
+        let file = format!("{}/module.json", shared.kind.folder());
+        let mut finding = Finding::at(file, pointer, message)
+            .values("a file of its own", format!("`{}` (also {first_pointer})", shared.path));
+        finding.parts = shared.parts;
+        findings.report(finding);
+    }
+    Some(())
+}
+
+fn mesh_presence_differs(context: &Context, findings: &mut Findings) -> Option<()> {
+    let modules: Vec<_> = context.mesh_modules(DERIVED).collect();
+    let links = modules.iter().map(|(_, _, meshes)| meshes.num_links()).max();
+    for link in 0..links.unwrap_or(0) {
+        let (with, without): (Vec<_>, Vec<_>) =
+            (modules.iter()).partition(|(_, _, meshes)| meshes.count(link) > 0);
+        if with.is_empty() || without.is_empty() {
+            continue;
+        }
+        // Reported at the module that differs from the others; of two, at the one without a mesh.
+        let odd_has = with.len() < without.len();
+        let (odd, others) = if odd_has { (with, without) } else { (without, with) };
+        let (_, module, meshes) = odd.first()?;
+        let others: Vec<&str> = others.iter().map(|(kind, ..)| kind.name()).collect();
+        let (label, others) = (context.link_label(link), others.join(" and "));
+        let (message, expected, actual) = match odd_has {
+            true => {
+                let message = format!("{label} has a mesh here, but none in {others}");
+                (message, "no mesh", "a mesh")
+            }
+            false => {
+                let message = format!("{label} has no mesh here, but one in {others}");
+                (message, "a mesh", "none")
+            }
+        };
+        let finding = finding_in(*module, meshes.pointer(link), message);
+        findings.report(finding.values(expected, actual));
+    }
+    Some(())
+}
+
+/// The number of pieces of each link, by a list of a module.
+struct Counted<'a> {
+    module: &'a Module,
+    key: &'static str,
+    counts: Vec<usize>,
+}
+
+fn piece_count_mismatch(context: &Context, findings: &mut Findings) -> Option<()> {
+    let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
+    let links = 0..pieces.num_links();
+    let mut lists = vec![Counted {
+        module: context.module(Kind::ConvexDecompositionMeshes)?,
+        key: pieces.lists.first().map_or("", |list| list.key),
+        counts: links.clone().map(|link| pieces.count(link)).collect(),
+    }];
+    for (_, module, document) in context.documents(LIST_MODULES) {
+        let of_pieces = entry_counts(document).into_iter().filter(|list| !list.kind.is_of_links());
+        lists.extend(of_pieces.map(|list| Counted {
+            module,
+            key: list.key,
+            counts: list.links.iter().map(Vec::len).collect(),
+        }));
+    }
+    for link in links {
+        let counts = lists.iter().filter_map(|list| Some((*list.counts.get(link)?, list)));
+        // One finding per link, reported at the first list that differs from most lists.
+        let usual = most_common(counts.clone().map(|(count, _)| count));
+        let mut odd = counts.filter(|(count, _)| *count != usual);
+        let Some((count, first)) = odd.next() else { continue };
+        let also = match odd.count() {
+            0 => String::new(),
+            n => format!(" (and {n} more lists)"),
+        };
+        let message = format!(
+            "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
+            context.link_label(link)
+        );
+        finding_in(first.module, format!("/{}/{link}", first.key), message)
+            .counts(usual, count, "entries")
+            .report(findings);
+    }
+    Some(())
+}
+
+/// The most frequent number; of several, the first.
+pub fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
+    let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+    for (place, number) in numbers.enumerate() {
+        seen.entry(number).or_insert((0, place)).0 += 1;
+    }
+    let best =
+        seen.into_iter().max_by_key(|(_, (times, place))| (*times, std::cmp::Reverse(*place)));
+    best.map_or(0, |(number, _)| number)
+}

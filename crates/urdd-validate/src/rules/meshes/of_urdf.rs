@@ -1,0 +1,158 @@
+use crate::rules::prelude::*;
+use crate::solids::placed;
+use urdd_document::meshes::Meshes;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::original_meshes::OriginalMeshesModule;
+use urdd_format::urdf::Geometry;
+
+declare_rule! {
+    /// `original_meshes_module` does not list the meshes that the URDF names.
+    ///
+    /// The module maps every mesh reference of the URDF to the file that is carried for it, so that
+    /// nobody has to resolve `package://` again. A reference that is missing, out of order, or of
+    /// another file gives a link another link's looks.
+    ///
+    /// Write `references` in the order of the URDF: links, visual before collision, elements; each
+    /// with the file name as the URDF has it. In legacy modules a link's files are those of its visual
+    /// meshes.
+    MSH009 "mesh-references-differ", Error, clause "7.5", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), NotFailed(MSH001), LINKS_NAMED],
+    check mesh_references_differ,
+
+    /// A link's mesh is not its geometry in its place.
+    ///
+    /// The plain mesh of a link is what the URDF shows there: the triangles of each mesh that it names,
+    /// scaled, turned and moved as the URDF says, and its boxes, cylinders, capsules and spheres,
+    /// tessellated. Here it is something else. Often a scale or an origin was left out, a second element
+    /// of the link was forgotten, or two links wrote the same file, so that one has the other's mesh.
+    /// Everything that is made from the mesh is wrong then too: hull, pieces, boxes, distances.
+    ///
+    /// Write it again, from the carried meshes. Vertices may differ by the rounding of binary32.
+    MSH015 "mesh-misplaced", Error, clause "7.8", since "0.1.0",
+    phase Geometry, consequence WrongPlace, needs [
+        Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes), NotFailedInV1(MSH001),
+        NotFailed(MSH003), NotFailed(MSH008), NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),
+    ], check mesh_misplaced,
+}
+
+/// A mesh that the URDF names: link, kind, element, file name.
+type Named<'a> = (usize, GeometryKind, usize, &'a str);
+
+fn mesh_references_differ(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    match context.document(Kind::OriginalMeshes)? {
+        ModuleDocument::OriginalMeshes(original) => references(robot, original, findings),
+        _ => {
+            let meshes = context.meshes(Kind::OriginalMeshes)?;
+            legacy(context, robot, &meshes, findings);
+        }
+    }
+    Some(())
+}
+
+/// The meshes that the URDF names, in the order of SPEC 7.5.
+fn named(robot: &Robot) -> Vec<Named<'_>> {
+    let mut named = Vec::new();
+    for (link, elements) in robot.links.iter().enumerate() {
+        for kind in [GeometryKind::Visual, GeometryKind::Collision] {
+            for (at, element) in elements.elements(kind).iter().enumerate() {
+                if let Some(Geometry::Mesh(mesh)) = &element.geometry {
+                    named.push((link, kind, at, mesh.filename.as_str()));
+                }
+            }
+        }
+    }
+    named
+}
+
+/// Compares `references` with the robot's meshes.
+fn references(robot: &Robot, original: &OriginalMeshesModule, findings: &mut Findings) {
+    let shown = |(link, kind, element, filename): &Named| {
+        format!("link {link}, {kind:?} {element}, `{filename}`")
+    };
+    let expected = named(robot);
+    let actual: Vec<Named> = (original.references.iter())
+        .map(|of| (of.link_idx.get(), of.geometry, of.element_idx.get(), of.filename.as_str()))
+        .collect();
+    if expected.len() != actual.len() {
+        let differs = (0..).find(|at| expected.get(*at) != actual.get(*at));
+        let at = differs.unwrap_or_default();
+        let place = match at < actual.len() {
+            true => format!("/references/{at}"),
+            false => "/references".to_owned(),
+        };
+        let first = match (expected.get(at), actual.get(at)) {
+            (Some(expected), _) => format!("the first that differs should be {}", shown(expected)),
+            (None, Some(actual)) => format!("the URDF has no {}", shown(actual)),
+            (None, None) => String::new(),
+        };
+        let message = format!("one reference for each mesh of urdf_module is needed; {first}");
+        finding_in(Kind::OriginalMeshes, place, message)
+            .counts(expected.len(), actual.len(), "references")
+            .report(findings);
+        return;
+    }
+    for (at, (expected, actual)) in expected.iter().zip(&actual).enumerate() {
+        if expected != actual {
+            let message = "this is not the mesh that urdf_module has in this place";
+            finding_in(Kind::OriginalMeshes, format!("/references/{at}"), message)
+                .values(shown(expected), shown(actual))
+                .report(findings);
+        }
+    }
+}
+
+/// Legacy: the files of a link are copies of its visual meshes, under their own names.
+fn legacy(context: &Context, robot: &Robot, meshes: &Meshes, findings: &mut Findings) {
+    let base = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
+    let mut names: Vec<HashSet<String>> = vec![HashSet::new(); robot.links.len()];
+    for (link, kind, _, filename) in named(robot) {
+        if kind == GeometryKind::Visual
+            && let Some(names) = names.get_mut(link)
+        {
+            names.insert(base(filename));
+        }
+    }
+    for (link, path) in meshes.paths() {
+        let Some(names) = names.get(link) else { continue };
+        if !names.contains(&base(path.path)) {
+            let mut expected: Vec<&str> = names.iter().map(String::as_str).collect();
+            expected.sort_unstable();
+            let message = format!(
+                "the URDF does not name this file as a visual mesh of {}",
+                context.link_label(link)
+            );
+            finding_in(Kind::OriginalMeshes, &path.pointer, message)
+                .expected(match expected.is_empty() {
+                    true => "null: the link has no visual mesh".to_owned(),
+                    false => format!("a copy of {}", expected.join(" or ")),
+                })
+                .actual(format!("`{}`", path.path))
+                .report(findings);
+        }
+    }
+}
+
+fn mesh_misplaced(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(Kind::PlainMeshes)?;
+    for (link, why) in &context.placed().unknown {
+        findings.not_verified(Part::Plain(*link), *why);
+    }
+    for wrong in &context.placed().wrong {
+        let label = context.link_label(wrong.link);
+        let owner = placed::owner(context, context.solids(), wrong.link);
+        let hint = owner.map_or_else(String::new, |owner| {
+            format!("; it is the mesh of {}", context.link_label(owner))
+        });
+        let message = format!(
+            "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
+            wrong.what
+        );
+        finding_in(module, &wrong.pointer, message)
+            .values(&wrong.expected, &wrong.actual)
+            .tolerance(wrong.tolerance)
+            .part(Part::Plain(wrong.link))
+            .report(findings);
+    }
+    Some(())
+}

@@ -1,0 +1,142 @@
+use nalgebra::Matrix3;
+
+use super::mass::links_of;
+use crate::rules::prelude::*;
+use urdd_document::robot::Link;
+use urdd_format::readable::number;
+
+declare_rule! {
+    /// An inertia tensor is not positive definite.
+    ///
+    /// The principal moments of a body are positive. Where one is negative or 0, dynamics cannot be
+    /// solved about its axis: simulators refuse the link, or it spins without end. Most often a sign is
+    /// wrong, products of inertia are larger than the moments, or a number was rounded to `0`.
+    ///
+    /// A link without mass may have a zero tensor, and so may a link with mass (a point mass) that
+    /// is fixed to a link with inertia, or that no joint turns. A moment counts as positive when
+    /// it is more than 1e-9 of the largest.
+    ///
+    /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
+    /// correct the URDF, and write the URDD again.
+    SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot, ROBOT_SOUND], check inertia_not_positive_definite,
+
+    /// A principal moment of inertia is larger than the sum of the other two.
+    ///
+    /// No body has such moments. For a flat plate the largest is the sum of the others; for every other
+    /// body it is less. Some simulators refuse the robot (MuJoCo, Gazebo), others simulate an impossible
+    /// body. Most often the numbers were made up, the axes mixed, or the units wrong in some of them
+    /// (g mm² for kg m²).
+    ///
+    /// Compute the tensor again, correct the URDF, and write the URDD again.
+    SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot], check inertia_breaks_triangle,
+}
+
+fn inertia_not_positive_definite(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let bodies = context.rigid_groups()?;
+    let at = |index: usize, message: String, link: &Link, found: &str| {
+        finding_in(context, format!("/links/{index}/inertial/inertia"), message)
+            .values("three positive principal moments", format!("link `{}`: {found}", link.name))
+    };
+    for body in &bodies.groups {
+        let mut links = links_of(robot, body);
+        for (index, link) in links.clone() {
+            let moments = tensor(link).map(principal);
+            let Some(moments) = moments.filter(|moments| !positive(*moments)) else { continue };
+            let message = format!("link `{}`: the inertia is not positive definite", link.name);
+            at(index, message, link, &show(moments))
+                .tolerance(INERTIA_DEFINITE * moments[2].abs())
+                .report(findings);
+        }
+        let moved_by = body.moved_by.and_then(|joint| robot.joints.get(joint));
+        let turned_by = moved_by.filter(|joint| joint.joint_type != JointType::Prismatic);
+        let point = links.clone().find(|(_, link)| is_point_mass(link));
+        let no_inertia = links.all(|(_, link)| tensor(link).is_none());
+        if let (Some(joint), Some((index, link)), true) = (turned_by, point, no_inertia) {
+            let (joint, name) = (&joint.name, &link.name);
+            let message =
+                format!("joint `{joint}` turns link `{name}`, which has mass, but no inertia");
+            at(index, message, link, "every moment is 0 or missing").report(findings);
+        }
+    }
+    Some(())
+}
+
+/// A link's tensor, unless it is missing or zero.
+fn tensor(link: &Link) -> Option<[f64; 6]> {
+    link.inertial?.inertia.filter(|tensor| *tensor != [0.0; 6])
+}
+
+/// Whether a link has mass and states that it has no inertia.
+fn is_point_mass(link: &Link) -> bool {
+    link.inertial.is_some_and(|inertial| {
+        inertial.mass.is_some_and(|mass| mass > 0.0) && inertial.inertia == Some([0.0; 6])
+    })
+}
+
+/// Whether ascending principal moments are those of a positive definite tensor.
+pub fn positive(moments: [f64; 3]) -> bool {
+    moments[0] > INERTIA_DEFINITE * moments[2].abs()
+}
+
+fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (index, link) in robot.links.iter().enumerate() {
+        let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else { continue };
+        let moments = principal(tensor);
+        // SRC004 reports tensors that are not positive definite.
+        if !positive(moments) || excess(moments) <= INERTIA_TRIANGLE {
+            continue;
+        }
+        let least = number(moments[0] + moments[1], 5);
+        let pointer = format!("/links/{index}/inertial/inertia");
+        let message = format!(
+            "link `{}`: no body has this inertia; its largest principal moment is larger than the sum of the others by {:.2} %",
+            link.name,
+            100.0 * beyond(moments)
+        );
+        finding_in(context, pointer, message)
+            .expected(format!("at most {least} kg m²"))
+            .actual(format!("link `{}`: {}", link.name, show(moments)))
+            .tolerance(INERTIA_TRIANGLE * moments[2])
+            .report(findings);
+    }
+    Some(())
+}
+
+/// By what fraction of the sum of the others the largest of three ascending moments exceeds it.
+pub fn beyond(moments: [f64; 3]) -> f64 {
+    moments[2] / (moments[0] + moments[1]) - 1.0
+}
+
+/// By what fraction of itself the largest of three ascending moments exceeds the sum of the others.
+pub fn excess(moments: [f64; 3]) -> f64 {
+    1.0 - moments[0] / moments[2] - moments[1] / moments[2]
+}
+
+/// The principal moments of a tensor (xx, xy, xz, yy, yz, zz), ascending.
+pub fn principal([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
+    // Scaled to 1 first: squaring numbers near the ends of binary64 would overflow or underflow.
+    let scale = [xx, xy, xz, yy, yz, zz]
+        .into_iter()
+        .fold(0.0, |largest: f64, element| largest.max(element.abs()));
+    if scale == 0.0 || !scale.is_finite() {
+        return [0.0; 3];
+    }
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).map(|element| element / scale);
+    let mut moments: [f64; 3] = tensor.symmetric_eigenvalues().into();
+    moments.sort_by(f64::total_cmp);
+    moments.map(|moment| moment * scale)
+}
+
+/// Moments for messages; those within rounding of 0 are shown as 0.
+fn show(moments: [f64; 3]) -> String {
+    let largest = moments.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let shown = moments.map(|moment| match moment.abs() > 1e-14 * largest {
+        true => number(moment, 5),
+        false => "0".to_owned(),
+    });
+    format!("principal moments {} kg m²", shown.join(", "))
+}

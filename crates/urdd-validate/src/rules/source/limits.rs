@@ -1,0 +1,138 @@
+use crate::rules::prelude::*;
+
+declare_rule! {
+    /// A revolute or prismatic joint has no limits.
+    ///
+    /// URDF requires `<limit>` of these types. Without it some readers refuse the file, some take
+    /// the joint for locked at 0, and in a URDD it is a joint that is not limited. A joint that
+    /// follows another needs none.
+    ///
+    /// Write `<limit lower=… upper=… effort=… velocity=…/>` in the URDF, or make the joint
+    /// `continuous` where it turns without end. Then write the URDD again.
+    SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot, Version1], check no_limits,
+
+    /// A joint that can move has the limits `effort="0"` and `velocity="0"`.
+    ///
+    /// By these numbers the joint can neither push nor move. Exporters write them where no number was
+    /// given. Planners divide by the speed, controllers clip the effort to 0, and the robot does not
+    /// move. A joint that follows another is not reported, nor one whose `lower` equals its `upper`,
+    /// nor one that leaves the numbers out.
+    ///
+    /// Write the joint's real limits into the URDF; of a joint that no motor drives, such as a
+    /// suspension, what it bears and how fast it moves. ROS refuses a `<limit>` without them. Then write
+    /// the URDD again.
+    SRC009 "no-effort-and-no-speed", Warning, clause "6.1.7", since "0.2.0",
+    phase References, needs [SourceRobot, Version1], check no_effort_and_no_speed,
+
+    /// A mimic joint leaves its own limits while its driver is within its limits.
+    ///
+    /// The bounds in a URDD are those of the driver. A position within these bounds puts the mimic joint
+    /// beyond its own `<limit>`: some programs refuse such a state, some stop the driver early, some
+    /// ignore it. Chains of mimics are followed to their end. Mimics of a driver without limits are not
+    /// checked.
+    ///
+    /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
+    /// URDF, and write the URDD again.
+    SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)], check mimic_leaves_limits,
+}
+
+fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let (name, kind) = (&joint.name, joint.joint_type);
+        let needs_limits = matches!(kind, JointType::Revolute | JointType::Prismatic);
+        if !needs_limits || joint.mimic.is_some() || joint.position_limits().is_some() {
+            continue;
+        }
+        let actual = match joint.limit {
+            None => "no `limit`",
+            Some(_) => "a `limit` with neither `lower` nor `upper`",
+        };
+        let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
+        finding_in(context, format!("/joints/{index}/limit"), message)
+            .values("`lower` and `upper`", format!("joint `{name}`: {actual}"))
+            .report(findings);
+    }
+    Some(())
+}
+
+fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let (name, kind) = (&joint.name, joint.joint_type);
+        let limits = joint.position_limits();
+        let moves = match kind {
+            JointType::Revolute | JointType::Prismatic => limits.is_none_or(|(a, b)| a != b),
+            _ => kind == JointType::Continuous,
+        };
+        let zeros = joint
+            .limit
+            .is_some_and(|limit| limit.effort == Some(0.0) && limit.velocity == Some(0.0));
+        if moves && zeros && joint.mimic.is_none() {
+            let message = format!(
+                "joint `{name}` ({kind}) has effort 0 and velocity 0: by its limits it cannot move"
+            );
+            finding_in(context, format!("/joints/{index}/limit"), message)
+                .expected("the joint's limits, above 0")
+                .actual(format!("joint `{name}`: effort 0, velocity 0"))
+                .report(findings);
+        }
+    }
+    Some(())
+}
+
+fn mimic_leaves_limits(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let mimics = context.mimics()?;
+    for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
+        let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else { continue };
+        let driver = robot.joints.get(resolved.driver)?;
+        // A fixed driver stays at 0.
+        let limits = match driver.joint_type {
+            JointType::Fixed => Some((0.0, 0.0)),
+            _ => driver.position_limits(),
+        };
+        // SRC001 reports crossed limits.
+        let Some(limits) = limits.filter(|limits| limits.0 <= limits.1 && own.0 <= own.1) else {
+            continue;
+        };
+        let range = follow(limits, resolved.multiplier, resolved.offset);
+        let tolerance = MIMIC_LIMIT * own.0.abs().max(own.1.abs());
+        let beyond = (own.0 - range.0).max(range.1 - own.1);
+        if beyond <= tolerance {
+            continue;
+        }
+        let pointer = format!("/joints/{index}/limit");
+        let message = format!(
+            "joint `{}` follows joint `{}`, and leaves its own limits by up to {} while the driver is within its limits",
+            joint.name,
+            driver.name,
+            number(beyond, 6)
+        );
+        finding_in(context, pointer, message)
+            .expected(format!("joint `{}` within {}", joint.name, interval(own)))
+            .actual(format!(
+                "{} for `{}` from {} to {}",
+                interval(range),
+                driver.name,
+                number(limits.0, 6),
+                number(limits.1, 6)
+            ))
+            .tolerance(tolerance)
+            .report(findings);
+    }
+    Some(())
+}
+
+/// The interval of a mimic while its driver moves through an interval.
+pub fn follow(driver: (f64, f64), multiplier: f64, offset: f64) -> (f64, f64) {
+    let at = |position: f64| multiplier * position + offset;
+    let (a, b) = (at(driver.0), at(driver.1));
+    (a.min(b), a.max(b))
+}
+
+fn interval((lower, upper): (f64, f64)) -> String {
+    format!("[{}, {}]", number(lower, 6), number(upper, 6))
+}

@@ -1,0 +1,166 @@
+use crate::reference::urdf_text::compare::first_names;
+use crate::rules::prelude::*;
+
+declare_rule! {
+    /// The robot has several roots, or no link at all.
+    ///
+    /// The root is the one link that is not the child of a joint; all poses are in its frame. With two
+    /// such links the robot is in parts that no joint connects: readers keep one part, or refuse.
+    ///
+    /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
+    /// own. Then write the URDD again.
+    URD004 "not-one-root", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)], check not_one_root,
+
+    /// A link is the child of two joints.
+    ///
+    /// A URDF is a tree. A link with two parents would have two poses; readers take one of them, or
+    /// refuse. Closed chains (parallel grippers, delta robots) cannot be written this way.
+    ///
+    /// Keep one of the joints in the URDF. Write the other as a constraint, in an element for the
+    /// program that solves it (`<gazebo>`, `<loop_joint>`). Then write the URDD again.
+    URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)], check two_parents,
+
+    /// A joint names a parent or child link that does not exist.
+    ///
+    /// The joint connects nothing: no tree can be built, and nothing that is derived from the tree has
+    /// a meaning. Most often a link was renamed and its joints were not, or a part of the robot was
+    /// left out.
+    ///
+    /// Correct the name, or add the link, in the URDF, and write the URDD again.
+    URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD002)], check unknown_link,
+
+    /// Joints connect links in a circle.
+    ///
+    /// A URDF is a tree: from every link, going from parent to parent ends at the root. Links in a
+    /// circle, and the links below them, have no pose. A program that walks the tree may never end.
+    ///
+    /// Swap parent and child of one of the joints, or remove the joint, in the URDF. Then write the URDD
+    /// again.
+    URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)], check cycle,
+}
+
+fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let children: HashSet<usize> =
+        (robot.joints.iter()).filter_map(|joint| robot.link(&joint.child)).collect();
+    let links = robot.links.iter().enumerate();
+    let roots = links.filter(|(index, _)| !children.contains(index));
+    let roots: Vec<&str> = roots.map(|(_, link)| link.name.as_str()).collect();
+    let (message, actual) = match roots.len() {
+        0 if robot.links.is_empty() => ("the robot has no link", "no link".to_owned()),
+        // Without a root, all links are in circles: URD006 reports these.
+        0 | 1 => return Some(()),
+        count => (
+            "the links are not one tree: connect these links by joints",
+            format!("{count}: {}", first_names(&roots)),
+        ),
+    };
+    finding_in(context, "/links", message)
+        .values("one link that is not the child of a joint", actual)
+        .report(findings);
+    Some(())
+}
+
+fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let mut held_by: HashMap<&str, (usize, &str)> = HashMap::new();
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let link = &joint.child;
+        let (first, other) = *held_by.entry(link).or_insert((index, &joint.name));
+        if first != index {
+            let message = format!(
+                "link `{link}` is the child of joint `{}` and of joint `{other}`; a link has one parent",
+                joint.name
+            );
+            finding_in(context, format!("/joints/{index}/child/link"), message)
+                .expected("a link that no other joint has as its child")
+                .actual(format!("`{link}`, child of /joints/{first} too"))
+                .report(findings);
+        }
+    }
+    Some(())
+}
+
+fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
+            if robot.link(link).is_none() {
+                let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
+                finding_in(context, format!("/joints/{index}/{end}/link"), message)
+                    .values("the name of a link", format!("`{link}`"))
+                    .report(findings);
+            }
+        }
+    }
+    Some(())
+}
+
+fn cycle(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for circle in circles(&parents(robot)) {
+        let links = circle.iter().filter_map(|link| robot.links.get(*link));
+        let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+        let message = format!(
+            "{} form a cycle, each the child of the next: remove one of their joints, or swap its parent and child",
+            first_names(&names)
+        );
+        finding_in(context, format!("/links/{}", circle.first()?), message)
+            .expected("a path from every link to the root")
+            .actual(format!("a cycle of {} links", circle.len()))
+            .report(findings);
+    }
+    Some(())
+}
+
+/// The parent link of each link.
+fn parents(robot: &Robot) -> Vec<Option<usize>> {
+    let mut parents = vec![None; robot.links.len()];
+    for joint in &robot.joints {
+        if let (Some(parent), Some(child)) = (robot.link(&joint.parent), robot.link(&joint.child))
+            && let Some(slot) = parents.get_mut(child)
+        {
+            *slot = Some(parent);
+        }
+    }
+    parents
+}
+
+/// The circles of a map, each starting at its lowest member.
+pub fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+    // The walk that first reached each member.
+    let mut walk_of: Vec<Option<usize>> = vec![None; next.len()];
+    let mut circles = Vec::new();
+    for start in 0..next.len() {
+        let mut at = start;
+        let closes = loop {
+            match walk_of.get_mut(at) {
+                Some(walk @ None) => *walk = Some(start),
+                Some(Some(walk)) => break *walk == start,
+                None => break false,
+            }
+            match next.get(at).copied().flatten() {
+                Some(then) => at = then,
+                None => break false,
+            }
+        };
+        if closes {
+            // Starts are ascending, but a walk may enter a circle anywhere.
+            let mut circle = vec![at];
+            while let Some(then) = circle.last().and_then(|last| next.get(*last).copied().flatten())
+                && then != at
+            {
+                circle.push(then);
+            }
+            let lowest = circle.iter().enumerate().min_by_key(|(_, member)| **member);
+            let place = lowest.map_or(0, |(place, _)| place);
+            circle.rotate_left(place);
+            circles.push(circle);
+        }
+    }
+    circles
+}
