@@ -9,7 +9,6 @@ use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
-use super::srdf_text::Srdfs;
 use super::subject::Subject;
 use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
@@ -82,10 +81,11 @@ pub fn examined(
     };
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
-        let left = match as_it_is {
+        let mut left = Vec::new();
+        match as_it_is {
             Some(code) => attach_all(&asked, code, checks),
-            None => attach(&subject, &mut asked, checks),
-        };
+            None => left = attach(&subject, &mut asked, checks),
+        }
         examined.report.programs = asked.results;
         left
     });
@@ -131,11 +131,7 @@ impl<'a> Job<'a> {
     where
         'a: 'd,
     {
-        let files = &self.settings.source.files;
-        let subject = Subject::new(self.name, self.folder, files, document, source.as_ref());
-        let mut subject = subject.without_meshes(self.settings.without_meshes);
-        subject.srdfs = Srdfs::new(self.settings);
-        subject
+        Subject::new(self.name, self.folder, document, source.as_ref(), self.settings)
     }
 
     /// Asks the programs; not about files beyond the limits of XML.

@@ -25,7 +25,6 @@ impl Srdf {
 }
 
 /// The SRDFs of a robot, read on first use.
-#[derive(Default)]
 pub struct Srdfs<'a> {
     xacro: Option<&'a LintSettings>,
     all: OnceLock<Vec<Srdf>>,

@@ -5,16 +5,11 @@ mod joints;
 mod links;
 mod values;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
 
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::look::Look;
-use crate::tree::{Node, Tree};
-use crate::unknown::Names;
-use crate::{tinyxml, tinyxml1};
+use crate::prelude::*;
+use crate::tinyxml1;
+use crate::tree::Tree;
 
 /// ROS lyrical and rolling.
 pub(crate) const SIX: About = About {
@@ -26,33 +21,30 @@ pub(crate) const SIX: About = About {
     is_asked: true,
     names: Names::Exact,
     never: &[],
-    read: read_six,
+    read: |file, effects| model(parse(file, effects)?, Release::Six, effects).map(|_| ()),
 };
 
 /// ROS jazzy and kilted.
 pub(crate) const FOUR: About = About {
     id: "urdfdom4",
     name: "ROS jazzy (urdfdom 4)",
-    family: "ROS",
     version: "4.0.1",
     settings: &["jazzy", "kilted"],
-    is_asked: true,
-    names: Names::Exact,
-    never: &[],
-    read: read_four,
+    read: |file, effects| model(parse(file, effects)?, Release::Four, effects).map(|_| ()),
+    ..SIX
 };
 
-/// ROS noetic, humble and iron.
+/// ROS noetic, humble and iron. 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
 pub(crate) const THREE: About = About {
     id: "urdfdom3",
     name: "ROS humble (urdfdom 3)",
-    family: "ROS",
     version: "3.0.1",
     settings: &["humble", "noetic", "iron"],
-    is_asked: true,
-    names: Names::Exact,
-    never: &[],
-    read: read_three,
+    read: |file, effects| {
+        let tree = effects.parsed(tinyxml1::parse(file.counted))?;
+        model(&tree, Release::Four, effects).map(|_| ())
+    },
+    ..SIX
 };
 
 const NO_COLOR: &str = "the material has no colour and no texture";
@@ -89,37 +81,17 @@ pub(crate) struct Model<'t> {
     pub joints: BTreeMap<&'t str, Joint<'t>>,
 }
 
-pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = parse(file, effects)?;
-    model(tree, Release::Six, effects).map(|_| ())
-}
-
-/// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
-pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml1::parse(file.counted))?;
-    model(&tree, Release::Four, effects).map(|_| ())
-}
-
-pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = parse(file, effects)?;
-    model(tree, Release::Four, effects).map(|_| ())
-}
-
-/// The XML.
 pub(crate) fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
     effects.parsed(file.document.within(tinyxml::MAX_DEPTH))
 }
 
-/// The robot.
 pub(crate) fn model<'t>(
     tree: &'t Tree<'t>,
     release: Release,
     effects: &mut Effects,
 ) -> Reading<Model<'t>> {
     let robot = effects.robot(tree)?;
-    if robot.attribute("name").is_none() {
-        return effects.refuse(robot, Fault::Missing("name"));
-    }
+    effects.needed(robot, "name")?;
     let minor = match robot.attribute("version") {
         None => 0,
         Some(written) => match version(&written.value) {
@@ -147,13 +119,9 @@ fn formats(effects: &mut Effects) -> Reading<()> {
         let is_named = effect.fault == Fault::Other(NO_COLOR) && is_format(&effect.part);
         is_named || is_format(&effect.fault.to_string())
     });
-    match found.map(|effect| effect.at) {
-        Some(at) => {
-            let why = "the message about it takes its `%s` or `%n` for a format";
-            effects.crash(at, Fault::Other(why))
-        }
-        None => Ok(()),
-    }
+    let Some(at) = found.map(|effect| effect.at) else { return Ok(()) };
+    let why = "the message about it takes its `%s` or `%n` for a format";
+    effects.crash(at, Fault::Other(why))
 }
 
 /// Two whole numbers with a point between them.
@@ -188,9 +156,8 @@ impl Reader<'_> {
                         Some(end) if end.attribute("link").is_some() => Fault::Empty("link"),
                         Some(_) => Fault::Missing("link"),
                     };
-                    return self
-                        .effects
-                        .refuse(joint.node.child(name).unwrap_or(joint.node), fault);
+                    let at = joint.node.child(name).unwrap_or(joint.node);
+                    return self.effects.refuse(at, fault);
                 }
             }
             for (name, link) in [ends[1], ends[0]] {
@@ -205,11 +172,9 @@ impl Reader<'_> {
         let mut roots: Vec<usize> = roots.map(|(_, link)| link.node.start()).collect();
         roots.sort_unstable();
         match roots[..] {
-            [] => self.effects.refuse(robot, Fault::Tree("no link is the root")),
+            [] => self.effects.refuse(robot, NO_ROOT),
             [_] => Ok(()),
-            [_, second, ..] => {
-                self.effects.refuse(second, Fault::Tree("two links have no joint above them"))
-            }
+            [_, second, ..] => self.effects.refuse(second, TWO_ROOTS),
         }
     }
 }

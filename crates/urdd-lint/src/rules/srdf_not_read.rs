@@ -110,8 +110,8 @@ struct Reader<'d, 'f> {
 
 impl<'d, 'f> Reader<'d, 'f> {
     fn new(file: &'d str, document: &'d Document<'d>, findings: &'f mut Findings) -> Self {
-        let groups = children(document.root_element()).filter(|(name, _)| *name == "group");
-        let groups = groups.filter_map(|(_, group)| group.attribute("name"));
+        let groups = named(document.root_element(), "group");
+        let groups = groups.filter_map(|group| group.attribute("name"));
         Reader {
             file,
             lines: LineIndex::new(document.input_text()),

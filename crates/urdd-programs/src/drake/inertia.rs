@@ -1,10 +1,7 @@
 //! What Drake takes for the inertia of a body.
 
 use super::Reader;
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::Node;
+use crate::prelude::*;
 
 impl Reader<'_> {
     /// An inertial. One that no body can have is a solid sphere of water of its mass, or of 1 kg.

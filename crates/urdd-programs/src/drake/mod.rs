@@ -6,19 +6,8 @@ mod inertia;
 mod joints;
 mod shapes;
 
-use std::collections::{HashMap, HashSet};
+use crate::prelude::*;
 
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::number::{is_space, istream};
-use crate::part::Part;
-use crate::tinyxml;
-use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
-
-/// Drake.
 pub(crate) const ABOUT: About = About {
     id: "drake",
     name: "Drake",
@@ -27,15 +16,7 @@ pub(crate) const ABOUT: About = About {
     settings: &[],
     is_asked: true,
     names: Names::Exact,
-    never: &[
-        "safety_controller",
-        "calibration",
-        "acceleration",
-        "deceleration",
-        "jerk",
-        "version",
-        "quat_xyzw",
-    ],
+    never: &["safety_controller calibration version quat_xyzw", FURTHER],
     read,
 };
 
@@ -81,8 +62,7 @@ impl Reader<'_> {
         match &*name.value {
             "" => self.effects.refuse(name, Fault::Empty("name")),
             "WorldModelInstance" | "DefaultModelInstance" if kind == "robot" => {
-                let fault = Fault::Name { kind, name: (&*name.value).into(), rule };
-                self.effects.refuse(name, fault)
+                self.effects.refuse(name, Fault::name(kind, &name.value, rule))
             }
             name => Ok(name),
         }
@@ -101,8 +81,7 @@ impl Reader<'_> {
                 let fault = Fault::Way("a link `world` is the world of the program");
                 self.effects.read_as(link, &part, fault, "the world");
                 if let Some(inertial) = inertial {
-                    let fault = Fault::NeverRead("inertial".into());
-                    self.effects.drop(inertial, part.inside("inertial"), fault);
+                    self.effects.unread(inertial, part.inside("inertial"), "inertial");
                 }
             } else {
                 if let Some(inertial) = inertial {
@@ -113,8 +92,8 @@ impl Reader<'_> {
                 }
             }
             for kind in ["visual", "collision"] {
-                for (index, shape) in link.named(kind).enumerate() {
-                    self.shape(shape, &part.inside(format_args!("{kind}/{index}")))?;
+                for (shape, part) in part.shapes(link, kind) {
+                    self.shape(shape, &part)?;
                 }
             }
         }
@@ -216,7 +195,7 @@ impl Reader<'_> {
             self.vector(origin, name, 3, part)?;
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
-            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
+            self.effects.unread(quaternion, part, "quat_xyzw");
         }
         Ok(())
     }
@@ -239,8 +218,7 @@ impl Reader<'_> {
 
     /// As many numbers as the text begins with: what follows them is left out.
     fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &Part) -> Reading<Vec<f64>> {
-        let text = &*value.value;
-        let (mut numbers, mut rest) = (Vec::new(), text);
+        let (mut numbers, mut rest) = (Vec::new(), &*value.value);
         while let Some((number, behind)) = istream(rest) {
             numbers.push(number);
             rest = behind;
@@ -248,15 +226,14 @@ impl Reader<'_> {
         let is_only_numbers = rest.trim_start_matches(is_space).is_empty();
         if numbers.len() != count {
             let fault = match is_only_numbers && !numbers.is_empty() {
-                true => Fault::count(&value.name, count, text),
-                false => Fault::not_a_number(&value.name, text),
+                true => Fault::count(value, count),
+                false => Fault::not_a_number(value),
             };
             return self.effects.refuse(value, fault);
         }
         if !is_only_numbers {
-            let fault = Fault::not_a_number(&value.name, text);
             let read: Vec<String> = numbers.iter().map(f64::to_string).collect();
-            self.effects.read_as(value, part, fault, read.join(" "));
+            self.effects.read_as(value, part, Fault::not_a_number(value), read.join(" "));
         }
         Ok(numbers)
     }

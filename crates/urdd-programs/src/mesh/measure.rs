@@ -2,6 +2,8 @@
 
 use std::collections::HashSet;
 
+use crate::space::{dot, less};
+
 /// A triangle's corners.
 pub(super) type Triangle = [[f64; 3]; 3];
 
@@ -106,14 +108,6 @@ pub(super) fn has_repeated(points: impl Iterator<Item = [f64; 3]>) -> bool {
 #[allow(clippy::cast_possible_truncation)]
 fn single(point: [f64; 3]) -> [f64; 3] {
     point.map(|axis| f64::from(axis as f32))
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

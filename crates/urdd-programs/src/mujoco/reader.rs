@@ -1,9 +1,6 @@
 //! What the parts of the reader share.
 
-use std::collections::HashSet;
-
-use crate::effect::Effects;
-use crate::file::File;
+use crate::prelude::*;
 
 /// The least mass, and the least moment of inertia, of a link that moves.
 pub const LEAST: f64 = 1e-15;

@@ -1,10 +1,7 @@
 //! `<mujoco>` in a URDF.
 
 use super::reader::Reader;
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::number::{is_space, strtod, whole};
-use crate::tree::Node;
+use crate::prelude::*;
 
 impl Reader<'_> {
     pub fn settings(&mut self, robot: Node<'_>) -> Reading<()> {
@@ -69,8 +66,7 @@ impl Reader<'_> {
         for value in names.iter().filter_map(|name| node.attribute(name)) {
             let mut words = value.value.split(is_space).filter(|word| !word.is_empty());
             if !words.all(|word| whole(strtod(word)).is_some()) {
-                let fault = Fault::not_a_number(&value.name, &value.value);
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::not_a_number(value));
             }
         }
         Ok(())

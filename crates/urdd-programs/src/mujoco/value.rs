@@ -1,11 +1,7 @@
 //! Attributes and children, as MuJoCo asks for them.
 
 use super::reader::{Reader, Release};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::number::{is_space, strtod, whole};
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// The least numbers without loss, of double and of single precision.
 const TINY: f64 = f64::MIN_POSITIVE;
@@ -31,10 +27,7 @@ impl Reader<'_> {
 
     /// An attribute that is needed.
     pub fn text<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<&'t str> {
-        match node.value(name) {
-            Some(value) => Ok(value),
-            None => self.effects.refuse(node, Fault::Missing(name)),
-        }
+        Ok(&self.effects.needed(node, name)?.value)
     }
 
     /// Numbers that may be left out; `part` is what has them.
@@ -66,9 +59,7 @@ impl Reader<'_> {
         node: Node<'_>,
         name: &'static str,
     ) -> Reading<[f64; N]> {
-        let Some(value) = node.attribute(name) else {
-            return self.effects.refuse(node, Fault::Missing(name));
-        };
+        let value = self.effects.needed(node, name)?;
         match self.vector(value)? {
             Some(numbers) => Ok(numbers),
             None => self.effects.refuse(value, Fault::Empty(name)),
@@ -80,7 +71,7 @@ impl Reader<'_> {
         for value in names.iter().filter_map(|name| node.attribute(name)) {
             let is_finite = |word| whole(strtod(word)).is_none_or(f64::is_finite);
             if !words(&value.value).all(is_finite) {
-                let fault = Fault::range(&value.name, &value.value, "must be finite");
+                let fault = Fault::range(value, "must be finite");
                 self.effects.read_as(value, "robot/?", fault, "a simulation that is unstable");
             }
         }
@@ -110,14 +101,13 @@ impl Reader<'_> {
         let mut numbers = Vec::new();
         for word in words(&value.value) {
             let Some(number) = whole(strtod(word)) else {
-                let fault = Fault::not_a_number(&value.name, &value.value);
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::not_a_number(value));
             };
             if is_too_large(word, number)
                 || (self.release == Release::Three && is_too_small(word, number))
             {
                 let rule = "the program cannot have so large or small a number";
-                return self.effects.refuse(value, Fault::range(&value.name, &value.value, rule));
+                return self.effects.refuse(value, Fault::range(value, rule));
             }
             numbers.push(number);
         }
@@ -126,7 +116,7 @@ impl Reader<'_> {
         }
         match numbers.try_into() {
             Ok(numbers) => Ok(Some(numbers)),
-            Err(_) => self.effects.refuse(value, Fault::count(&value.name, N, &value.value)),
+            Err(_) => self.effects.refuse(value, Fault::count(value, N)),
         }
     }
 
@@ -143,9 +133,9 @@ impl Reader<'_> {
         let count = words(&value.value).count();
         let numbers: Option<Vec<f64>> = words(&value.value).take(3).map(number).collect();
         match numbers.map(<[f64; 3]>::try_from) {
-            None => self.effects.refuse(value, Fault::not_a_number("scale", &value.value)),
+            None => self.effects.refuse(value, Fault::not_a_number(value)),
             Some(Ok(scale)) if count == 3 => Ok(scale),
-            _ => self.effects.refuse(value, Fault::count("scale", 3, &value.value)),
+            _ => self.effects.refuse(value, Fault::count(value, 3)),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The releases that are told apart.
 
-use crate::number::is_space;
+use crate::prelude::*;
 
 /// Which libsdformat.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -1,16 +1,12 @@
 //! The links and joints of a robot as libsdformat makes them: fixed joints are left out, and their links become part of
 //! the link above; links without mass are left out, with all below.
 
-use std::collections::{HashMap, HashSet};
-
 use urdd_format::short::Short;
 
-use super::inertia::{Inertia, Pose};
+use super::inertia::{Inertia, inertia_of, pose};
 use super::release::Release;
-use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
-use crate::part::Part;
-use crate::tree::Node;
+use crate::prelude::*;
+use crate::space::Pose;
 use crate::urdfdom::Model;
 
 /// The least mass of a link.
@@ -67,7 +63,7 @@ impl<'t> Tree<'t> {
                 name,
                 node: link.node,
                 kept: link.kept.map(|(count, _)| count),
-                inertia: super::values::inertia_of(link.node),
+                inertia: inertia_of(link.node),
                 joint: None,
                 owner: tree.bodies.len(),
                 is_made: false,
@@ -83,7 +79,7 @@ impl<'t> Tree<'t> {
                 node: joint.node,
                 kind: joint.kind,
                 parent,
-                origin: super::values::pose(joint.node).unwrap_or_default(),
+                origin: pose(joint.node).unwrap_or_default(),
                 is_merged: joint.kind == "fixed" && !kept_joints.contains(name),
             });
         }
@@ -165,9 +161,7 @@ impl<'t> Tree<'t> {
     pub fn spoiler(&self, owner: usize) -> Node<'t> {
         let merged = (0..self.bodies.len()).filter(|body| self.bodies[*body].owner == owner);
         let mut nodes = std::iter::once(owner).chain(merged).map(|body| self.bodies[body].node);
-        let spoils = |node: &Node<'t>| {
-            super::values::inertia_of(*node).is_some_and(|inertia| !inertia.is_valid())
-        };
+        let spoils = |node: &Node<'t>| inertia_of(*node).is_some_and(|inertia| !inertia.is_valid());
         nodes.find(spoils).unwrap_or(self.bodies[owner].node)
     }
 

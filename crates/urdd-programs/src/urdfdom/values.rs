@@ -1,9 +1,6 @@
 //! Attributes, elements and numbers as urdfdom needs them.
 
-use crate::effect::At;
-use crate::fault::Fault;
-use crate::number::{istream, pieces, whole};
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// A part that may be faulty: where, and why.
 pub(super) type PartRead<T> = Result<T, (usize, Fault)>;
@@ -19,7 +16,7 @@ pub(super) fn needed_element<'t>(node: Node<'t>, name: &'static str) -> PartRead
 /// A number without anything behind it.
 pub(super) fn number(value: &Attribute<'_>) -> PartRead<f64> {
     let read = whole(istream(&value.value));
-    read.ok_or_else(|| (value.at(), Fault::not_a_number(&value.name, &value.value)))
+    read.ok_or_else(|| (value.at(), Fault::not_a_number(value)))
 }
 
 /// Numbers that may be left out.
@@ -35,10 +32,8 @@ pub(super) fn vector(value: &Attribute<'_>, count: usize) -> PartRead<Vec<f64>> 
     let numbers: Option<Vec<f64>> =
         pieces(&value.value).map(|piece| whole(istream(piece))).collect();
     match numbers {
-        None => Err((value.at(), Fault::not_a_number(&value.name, &value.value))),
-        Some(numbers) if numbers.len() != count => {
-            Err((value.at(), Fault::count(&value.name, count, &value.value)))
-        }
+        None => Err((value.at(), Fault::not_a_number(value))),
+        Some(numbers) if numbers.len() != count => Err((value.at(), Fault::count(value, count))),
         Some(numbers) => Ok(numbers),
     }
 }

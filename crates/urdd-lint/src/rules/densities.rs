@@ -4,6 +4,14 @@ use crate::inertial::mass;
 use urdd_format::readable::number;
 
 declare_lint! {
+    /// The inertia of a link is less than a thousandth of what its mass and shapes give.
+    ///
+    /// All of the mass would be in a ball of 3 % of the link's size. Joints answer to forces a thousand times more than
+    /// the real ones, and MuJoCo refuses the smallest. Where it is 0, SRC004 says so.
+    ///
+    /// Compute the tensor from the link's geometry, in kg m²: `1e-6` is often a default.
+    LNT005 "inertia-far-below-geometry", Warning, WrongMotion, since "1.1.0" => inertia_far_below_geometry;
+
     /// The mass and the shapes of a body make no density of a thing that is built.
     ///
     /// Above 20,000 kg/m³, unless it is the base, it is heavier than solid tungsten, although the convex hull is larger than the part. Below 10 kg/m³ it is
@@ -11,7 +19,41 @@ declare_lint! {
     /// heavy part touches a far too light one, simulators need tiny steps, or explode.
     ///
     /// Write the mass in kilograms, and scale meshes to metres (`scale="0.001 0.001 0.001"`).
-    LNT003 "odd-density", Warning, WrongMotion, since "1.1.0"
+    LNT003 "odd-density", Warning, WrongMotion, since "1.1.0" => odd_density
+}
+
+/// A motor in a shell has a tenth of the inertia of the evenly filled hull.
+const LEAST_PART: f64 = 1e-3;
+
+fn inertia_far_below_geometry(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let (robot, _) = urdf.bodies(findings)?;
+    let geometry = urdf.geometry(findings)?;
+    if !urdf.moves() {
+        return Some(());
+    }
+    // LNT022 finds larger ones.
+    let longest = urdf.longest_part(findings)?;
+    for (index, link) in robot.links.iter().enumerate() {
+        let shapes = &geometry.links[index];
+        let Some(inertial) = Inertial::of(link).filter(|_| !shapes.is_partial) else {
+            continue;
+        };
+        let Some(hull) = shapes.hull() else { continue };
+        let (trace, even) = (inertial.trace(), inertial.mass * hull.even_trace());
+        let is_huge = diagonal(shapes.corners()) > longest;
+        if trace <= 0.0 || trace >= LEAST_PART * even || is_huge {
+            continue;
+        }
+        let message = format!(
+            "the principal moments sum up to {} kg m²; the link's mass and shapes give {}, {} times as much. Compute the \
+            inertia from the link's geometry, in kg m²",
+            number(trace, 3),
+            number(even, 3),
+            number(even / trace, 2)
+        );
+        urdf.at(urdf.inertial(index, "inertia"), message).report(findings);
+    }
+    Some(())
 }
 
 /// The least and the greatest density, kg/m³.
@@ -20,7 +62,7 @@ const GREATEST: f64 = 20_000.0;
 /// Dummies of a gram in a box of a millimetre are not meant to be dense, kg.
 const DUMMY: f64 = 0.05;
 
-fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+fn odd_density(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let geometry = urdf.geometry(findings)?;
     // LNT022 finds larger ones.
