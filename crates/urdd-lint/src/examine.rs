@@ -174,7 +174,8 @@ impl<'a> Job<'a> {
             }
         };
         run(first, checks);
-        subject.set_programs(programs(checks));
+        // It is set once.
+        let _ = subject.programs.set(programs(checks));
         run(last, checks);
         checks.sort_by_key(|check| check.rule.code);
     }

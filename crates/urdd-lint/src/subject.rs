@@ -59,7 +59,8 @@ pub struct Subject<'a> {
     elements: OnceLock<Vec<Node<'a, 'a>>>,
     shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
     joint_names: OnceLock<Names<'a>>,
-    programs: OnceLock<Vec<Left>>,
+    /// The faults that only programs name, once the other rules ran.
+    pub programs: OnceLock<Vec<Left>>,
 }
 
 impl<'a> Subject<'a> {
@@ -268,17 +269,6 @@ impl<'a> Subject<'a> {
     /// What URDF does not define.
     pub fn unknown(&self) -> &[Unknown<'a>] {
         self.unknown.get_or_init(|| unknown(self.root))
-    }
-
-    /// Sets the faults that only programs name.
-    pub fn set_programs(&self, left: Vec<Left>) {
-        // It is set once.
-        let _ = self.programs.set(left);
-    }
-
-    /// The faults that only programs name. Empty before the other rules ran.
-    pub fn programs(&self) -> &[Left] {
-        self.programs.get().map_or(&[], Vec::as_slice)
     }
 
     /// The element whose start tag holds an offset, or is the last before it.

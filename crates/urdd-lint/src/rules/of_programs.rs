@@ -25,7 +25,8 @@ declare_lint! {
 
 /// Reports the faults for which a program refuses the robot, or the others.
 fn report(urdf: &Subject, is_refused: bool, findings: &mut Findings) -> Option<()> {
-    for fault in urdf.programs().iter().filter(|fault| fault.is_refused == is_refused) {
+    let left = urdf.programs.get().into_iter().flatten();
+    for fault in left.filter(|fault| fault.is_refused == is_refused) {
         let mut finding = urdf.at_offset(fault.offset, &fault.message);
         finding.severity = Some(fault.severity);
         finding.consequence = fault.consequence;

@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::element::{Attribute, Element};
-use super::scan::scan;
+use super::scan::{Attribute, Element, scan};
 
 /// The elements of a text, in the order in which they begin.
 #[derive(Debug)]

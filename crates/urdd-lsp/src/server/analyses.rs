@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use lsp_server::Notification;
 use lsp_types::{Diagnostic, DiagnosticSeverity, PublishDiagnosticsParams, Uri};
 
-use super::open_document::Document;
-use super::state::{Event, Server};
+use super::state::{Document, Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::diagnostics::{Found, at_the_top};
 use crate::document::Snapshot;

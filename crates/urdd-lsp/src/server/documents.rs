@@ -9,8 +9,7 @@ use lsp_types::{
 };
 use serde_json::Value;
 
-use super::open_document::Document;
-use super::state::Server;
+use super::state::{Document, Server};
 use crate::analysis::Depth;
 use crate::document::Snapshot;
 use crate::kind::Kind;

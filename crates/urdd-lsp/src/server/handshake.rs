@@ -6,10 +6,9 @@ use crossbeam_channel::{Receiver, Sender};
 use lsp_server::{ErrorCode, Message, Response};
 use serde_json::Value;
 
-use super::ended::Ended;
+use super::state::{Ended, Process};
 use crate::capabilities::{Client, initialize_result};
 use crate::options::Options;
-use crate::parent::Process;
 use crate::uri;
 
 /// What the editor said of itself.

@@ -11,8 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::open_document::Document;
-use super::state::{Event, Server};
+use super::state::{Document, Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::code_actions::code_actions;
 use crate::completion::completion;

@@ -7,9 +7,8 @@ use crossbeam_channel::{Receiver, select, unbounded};
 use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
 
-use super::ended::Ended;
 use super::handshake;
-use super::state::{Event, Server};
+use super::state::{Ended, Event, Server};
 use crate::pool::Pool;
 
 /// How often the server looks whether the editor still runs.
