@@ -23,7 +23,6 @@ use urdd_format::report::{Place, StaleIgnore};
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
-/// The family of this crate's rules.
 const FAMILY: &str = "LNT";
 /// The rules that say what other rules do not see of what programs do.
 const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];

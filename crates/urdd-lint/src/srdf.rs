@@ -18,7 +18,6 @@ const MAX_FILES: usize = 100;
 const LEVELS: usize = 3;
 /// How the name of an SRDF ends that xacro makes.
 const XACRO: &str = ".srdf.xacro";
-/// Folders of SRDFs, in a package.
 const FOLDERS: [&str; 2] = ["config", "srdf"];
 /// What the name of MoveIt's package of a robot has.
 const MOVEIT: &str = "moveit_config";

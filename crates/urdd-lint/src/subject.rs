@@ -212,7 +212,6 @@ impl<'a> Subject<'a> {
         child(inertial, wanted).unwrap_or(inertial)
     }
 
-    /// The `<mesh>` of a mesh.
     pub fn mesh_node(&self, mesh: &SourceMesh) -> Option<Node<'a, 'a>> {
         let shapes = self.shapes.get_or_init(|| {
             let of = |link: &Node<'a, 'a>| {
@@ -225,7 +224,6 @@ impl<'a> Subject<'a> {
         inside.find(|node| node.tag_name().name() == "mesh")
     }
 
-    /// The joints of these types.
     pub fn joints_of(&self, types: &[&str]) -> impl Iterator<Item = Node<'a, 'a>> {
         let is_one =
             |node: &&Node| node.attribute("type").is_some_and(|kind| types.contains(&kind));
@@ -243,7 +241,6 @@ impl<'a> Subject<'a> {
         all.flat_map(|node| node.descendants()).filter(Node::is_element)
     }
 
-    /// The names of elements.
     pub fn names<'n>(
         &self,
         nodes: &'n [Node<'a, 'a>],
@@ -266,7 +263,6 @@ impl<'a> Subject<'a> {
         named.collect()
     }
 
-    /// What URDF does not define.
     pub fn unknown(&self) -> &[Unknown<'a>] {
         self.unknown.get_or_init(|| unknown(self.root))
     }

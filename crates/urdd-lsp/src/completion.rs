@@ -90,7 +90,6 @@ fn item(
 
 type Value = (String, CompletionItemKind, Option<String>);
 
-/// The values of an attribute.
 fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
     let text = snapshot.text.as_str();
     let markup = snapshot.markup();

@@ -23,7 +23,6 @@ pub fn definition(snapshot: &Snapshot, at: Position) -> Option<Location> {
     Some(Location { uri: snapshot.uri.clone(), range: snapshot.text.range(name.value.clone()) })
 }
 
-/// The file of a mesh.
 fn mesh(snapshot: &Snapshot, name: &str) -> Option<Location> {
     let file = match snapshot.robot() {
         Some(model) => {

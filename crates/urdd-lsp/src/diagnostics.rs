@@ -70,8 +70,7 @@ pub fn diagnostic(
 /// An error at the start of a text, about all of it.
 pub fn at_the_top(snapshot: &Snapshot, severity: DiagnosticSeverity, message: &str) -> Found {
     let end = snapshot.text.line_end(0);
-    let range = snapshot.text.range(0..end);
-    diagnostic(range, severity, "", message, (None, None)).into()
+    diagnostic(snapshot.text.range(0..end), severity, "", message, (None, None)).into()
 }
 
 /// The findings of a rule, each place by itself.

@@ -24,7 +24,6 @@ pub const MAX_TEXT_BYTES: usize = 16 << 20;
 const MAX_ELEMENTS: usize = 100_000;
 const MAX_PARTS: usize = 20_000;
 
-/// A version of a document.
 pub struct Snapshot {
     /// Its address, as the editor writes it.
     pub uri: Uri,
@@ -108,7 +107,6 @@ impl Snapshot {
         }
     }
 
-    /// The file's name, for reports.
     pub fn name(&self) -> String {
         uri::file_name(self.uri.as_str())
     }
@@ -132,7 +130,6 @@ impl Snapshot {
         })
     }
 
-    /// The names in the text.
     pub fn outline(&self) -> &Outline {
         let make = || Outline::new(self.text.as_str(), self.markup());
         self.computed.outline.get_or_init(make)

@@ -191,7 +191,6 @@ fn word(kind: JointType) -> String {
     kind.as_str().to_lowercase()
 }
 
-/// What a mesh file has.
 fn mesh(model: Option<&RobotModel>, snapshot: &Snapshot, name: &str, element: usize) -> String {
     let title = format!("**mesh {}**\n\n", code(name));
     let meshes = model.map(|model| model.source.meshes.iter());
@@ -222,7 +221,6 @@ fn mesh(model: Option<&RobotModel>, snapshot: &Snapshot, name: &str, element: us
     title + &lines.join("\n")
 }
 
-/// The extent of a scaled mesh.
 fn extent(mesh: &Mesh, scale: [f64; 3]) -> Option<String> {
     let bounds = mesh.bounds()?;
     let ends = |pick: fn(f64, f64) -> f64| {

@@ -145,7 +145,6 @@ fn same_name(snapshot: &Snapshot, place: &Place) -> Option<usize> {
     Some(snapshot.markup().elements[element].tag.start)
 }
 
-/// An element that includes a file.
 struct Include {
     element: usize,
     file: PathBuf,

@@ -19,7 +19,6 @@ impl Part {
         Part(format!("{kind}/{}", short::name(name)).into())
     }
 
-    /// A part of it.
     pub(crate) fn inside(&self, what: impl Display) -> Self {
         Part(format!("{}/{what}", self.0).into())
     }

@@ -121,8 +121,7 @@ impl Reader<'_> {
                 continue;
             };
             if number(&value.value) < 0.0 {
-                let fault = Fault::range(value, "must not be negative");
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::range(value, "must not be negative"));
             }
         }
         Ok(())
@@ -153,7 +152,6 @@ impl Reader<'_> {
         }
     }
 
-    /// A link's visuals or collisions.
     fn shapes(
         &mut self,
         kind: &'static str,

@@ -16,7 +16,6 @@ pub(crate) enum Names {
     Written,
 }
 
-/// The text of a file.
 pub(crate) struct Text<'a> {
     pub text: Cow<'a, str>,
     /// The place in the file of each byte of the text, if they differ.
@@ -71,7 +70,6 @@ impl<'a> Text<'a> {
         tree
     }
 
-    /// Parses it.
     pub fn parse(&self, names: Names) -> Parsed<Tree<'_>> {
         match parse(&self.text, names) {
             Ok(tree) => Ok(self.placed(tree)),

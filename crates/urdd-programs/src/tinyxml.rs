@@ -22,7 +22,6 @@ pub(crate) struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// Parses a file.
     pub fn of(file: Counted<'a>) -> Self {
         let mut making = Making::default();
         let parsed = making.file(file.bytes());

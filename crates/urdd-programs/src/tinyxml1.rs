@@ -8,7 +8,6 @@ use urdd_xml::Counted;
 use crate::number::is_space;
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
-/// Parses a file.
 pub(crate) fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());

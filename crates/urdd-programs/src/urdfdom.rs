@@ -3,7 +3,6 @@
 
 mod joints;
 mod links;
-mod values;
 
 use std::collections::BTreeMap;
 
@@ -58,14 +57,12 @@ pub(crate) enum Release {
     Six,
 }
 
-/// What it has of a link.
 pub(crate) struct Link<'t> {
     pub node: Node<'t>,
     /// How many visuals and collisions it reads, and whether these are all.
     pub kept: [(usize, bool); 2],
 }
 
-/// What it has of a joint.
 pub(crate) struct Joint<'t> {
     pub node: Node<'t>,
     pub kind: &'t str,
@@ -73,7 +70,6 @@ pub(crate) struct Joint<'t> {
     pub child: &'t str,
 }
 
-/// What it has of a robot.
 pub(crate) struct Model<'t> {
     pub robot: Node<'t>,
     pub links: BTreeMap<&'t str, Link<'t>>,
@@ -120,8 +116,7 @@ fn formats(effects: &mut Effects) -> Reading<()> {
         is_named || is_format(&effect.fault.to_string())
     });
     let Some(at) = found.map(|effect| effect.at) else { return Ok(()) };
-    let why = "the message about it takes its `%s` or `%n` for a format";
-    effects.crash(at, Fault::Other(why))
+    effects.crash(at, Fault::Other("the message about it takes its `%s` or `%n` for a format"))
 }
 
 /// Two whole numbers with a point between them.
@@ -176,5 +171,41 @@ impl Reader<'_> {
             [_] => Ok(()),
             [_, second, ..] => self.effects.refuse(second, TWO_ROOTS),
         }
+    }
+}
+
+/// A part that may be faulty: where, and why.
+type PartRead<T> = Result<T, (usize, Fault)>;
+
+fn needed<'t>(node: Node<'t>, name: &'static str) -> PartRead<&'t Attribute<'t>> {
+    node.attribute(name).ok_or((node.start(), Fault::Missing(name)))
+}
+
+fn needed_element<'t>(node: Node<'t>, name: &'static str) -> PartRead<Node<'t>> {
+    node.child(name).ok_or((node.start(), Fault::MissingElement(name)))
+}
+
+/// A number without anything behind it.
+fn number(value: &Attribute<'_>) -> PartRead<f64> {
+    let read = whole(istream(&value.value));
+    read.ok_or_else(|| (value.at(), Fault::not_a_number(value)))
+}
+
+/// Numbers that may be left out.
+fn numbers(node: Node<'_>, names: &[&str]) -> PartRead<()> {
+    names
+        .iter()
+        .filter_map(|name| node.attribute(name))
+        .try_for_each(|value| number(value).map(|_| ()))
+}
+
+/// Numbers with spaces, and nothing else, between them.
+fn vector(value: &Attribute<'_>, count: usize) -> PartRead<Vec<f64>> {
+    let numbers: Option<Vec<f64>> =
+        pieces(&value.value).map(|piece| whole(istream(piece))).collect();
+    match numbers {
+        None => Err((value.at(), Fault::not_a_number(value))),
+        Some(numbers) if numbers.len() != count => Err((value.at(), Fault::count(value, count))),
+        Some(numbers) => Ok(numbers),
     }
 }

@@ -25,7 +25,6 @@ use crate::subject::Subject;
 /// What programs do because of the faults at the places of rules' findings.
 type Given = HashMap<(Code, Position), (Faulty, Option<Fix>)>;
 
-/// A finding of another rule.
 struct Known {
     code: Code,
     at: Position,

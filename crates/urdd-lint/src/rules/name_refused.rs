@@ -44,8 +44,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let message = format!("{wrong}; choose another name");
-        urdf.at_attribute(*node, "name", message).report(findings);
+        urdf.at_attribute(*node, "name", format!("{wrong}; choose another name")).report(findings);
     }
     Some(())
 }

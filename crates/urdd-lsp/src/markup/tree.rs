@@ -41,7 +41,6 @@ impl Markup {
         std::iter::successors(Some(element), |one| self.elements[*one].parent)
     }
 
-    /// Whether an element contains another.
     pub fn has_children(&self, element: usize) -> bool {
         let next = self.elements.get(element + 1);
         next.is_some_and(|next| next.parent == Some(element))

@@ -52,8 +52,7 @@ impl Server {
             }
             "textDocument/codeAction" => self.code_actions(id, params),
             _ => {
-                let message = format!("there is no method {method}");
-                self.refuse(id, ErrorCode::MethodNotFound, message);
+                self.refuse(id, ErrorCode::MethodNotFound, format!("there is no method {method}"));
             }
         }
     }
@@ -115,8 +114,7 @@ impl Server {
     /// Answers at once that a request was cancelled. What is computed for it is dropped.
     pub(super) fn cancel(&mut self, id: RequestId) {
         if self.pending.remove(&id) {
-            let message = "cancelled by the editor".to_owned();
-            self.refuse(id, ErrorCode::RequestCanceled, message);
+            self.refuse(id, ErrorCode::RequestCanceled, "cancelled by the editor".to_owned());
         }
     }
 

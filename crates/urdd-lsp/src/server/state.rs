@@ -65,7 +65,6 @@ impl Process {
     }
 }
 
-/// An open document.
 pub struct Document {
     pub snapshot: Arc<Snapshot>,
     /// When its findings are to be computed.
@@ -114,7 +113,6 @@ impl Document {
     }
 }
 
-/// What a thread has computed.
 pub enum Event {
     /// The findings of a version of a document.
     Analysed(Arc<Snapshot>, Depth, Analysis),

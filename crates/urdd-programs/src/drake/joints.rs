@@ -3,7 +3,6 @@
 use super::{Links, Reader, WORLD};
 use crate::prelude::*;
 
-/// A joint that Drake has.
 struct Joint<'t> {
     node: Node<'t>,
     freedoms: usize,
@@ -12,7 +11,6 @@ struct Joint<'t> {
     is_driven: bool,
 }
 
-/// The joints of a robot.
 struct Model<'l, 't> {
     links: &'l Links<'t>,
     joints: HashMap<&'t str, Joint<'t>>,

@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use crate::space::{dot, less};
 
-/// A triangle's corners.
 pub(super) type Triangle = [[f64; 3]; 3];
 
 /// Measures of a mesh, in its own units. All are 0 without points.

@@ -2,7 +2,6 @@
 
 use crate::space::{Matrix, Pose, Vector, centre, moved, sum, turned};
 
-/// The least eigenvalue of a tensor.
 pub const LEAST_EIGENVALUE: f64 = 1e-14;
 
 /// Mass, centre, tensor about the centre, and its eigenvalues from the largest to the smallest.

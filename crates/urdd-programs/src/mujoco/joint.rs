@@ -62,8 +62,7 @@ impl Reader<'_> {
         self.limit(&joint, &part)?;
         if joint.kind == "planar" {
             let fault = Fault::Way("a planar joint becomes three joints");
-            let makes = format!("{name}_TX, {name}_TY and {name}_RZ");
-            self.effects.read_as(kind, &part, fault, makes);
+            self.effects.read_as(kind, &part, fault, format!("{name}_TX, {name}_TY and {name}_RZ"));
         }
         self.effects.unread_elements(node, "safety_controller calibration", &part);
         Ok(joint)
@@ -88,8 +87,7 @@ impl Reader<'_> {
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         let Some(limit) = self.only(joint.node, "limit")? else {
             if is_limited {
-                let fault = Fault::MissingElement("limit");
-                self.effects.read_as(joint.node, part, fault, "no limit");
+                self.effects.read_as(joint.node, part, Fault::MissingElement("limit"), "no limit");
             }
             return Ok(());
         };

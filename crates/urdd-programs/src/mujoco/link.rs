@@ -151,7 +151,6 @@ impl Reader<'_> {
         Ok(sum.unwrap_or_default())
     }
 
-    /// A collision.
     fn geom(&mut self, node: Node<'_>, part: &Part) -> Reading<(Solid, Pose)> {
         let geometry = self.needed(node, "geometry")?;
         let mut found = None;
@@ -205,7 +204,6 @@ impl Reader<'_> {
         }
     }
 
-    /// An `<origin>`.
     pub fn origin(&mut self, node: Node<'_>, part: &Part) -> Reading<Pose> {
         let Some(origin) = self.only(node, "origin")? else { return Ok(Pose::default()) };
         let part = part.inside("origin");

@@ -6,9 +6,7 @@ use crate::prelude::*;
 
 /// The most triangles of an STL file.
 const MAX_TRIANGLES: usize = 200_000;
-/// The largest coordinate.
 const MAX_COORDINATE: f64 = (1 << 30) as f64;
-/// The least volume.
 const LEAST_VOLUME: f64 = 1e-15;
 
 impl Reader<'_> {

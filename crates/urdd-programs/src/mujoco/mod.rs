@@ -6,8 +6,6 @@ mod joint;
 mod link;
 mod mesh;
 mod reader;
-mod settings;
-mod value;
 
 use crate::prelude::*;
 use crate::space::Pose;
@@ -15,7 +13,6 @@ use inertia::Body;
 use joint::Joint;
 use reader::{LEAST, Reader, Release, Settings};
 
-/// MuJoCo 4.
 pub(crate) const FOUR: About = About {
     id: "mujoco",
     name: "MuJoCo 4",
@@ -28,7 +25,6 @@ pub(crate) const FOUR: About = About {
     read: |file, effects| read(file, effects, Release::Four),
 };
 
-/// MuJoCo 3.3.
 pub(crate) const THREE: About = About {
     id: "mujoco33",
     name: "MuJoCo 3.3",
@@ -44,7 +40,6 @@ pub(crate) const THREE: About = About {
 const NEVER_READ: &str = "safety_controller calibration velocity version quat_xyzw texture visual material color \
     geometry box cylinder sphere capsule mesh";
 
-/// A link in the tree.
 struct Link<'t> {
     node: Node<'t>,
     name: &'t str,

@@ -96,8 +96,7 @@ impl Reader<'_> {
         }
         self.vector(xyz, part);
         if pieces[..3].iter().all(|piece| atof(piece) == 0.0) {
-            let fault = Fault::range(xyz, "an axis needs a length");
-            self.effects.read_as(xyz, part, fault, "nan");
+            self.effects.read_as(xyz, part, Fault::range(xyz, "an axis needs a length"), "nan");
         }
         Ok(())
     }

@@ -45,8 +45,7 @@ impl Reader<'_> {
         let own = if is_defined(material) { rgba(material) } else { first };
         if !is_same(own, last) {
             // All of a name have the last colour.
-            let fault = Fault::not_unique("material", name);
-            self.effects.read_as(material, part, fault, last);
+            self.effects.read_as(material, part, Fault::not_unique("material", name), last);
         }
         Ok(())
     }

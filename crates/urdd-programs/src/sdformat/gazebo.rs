@@ -3,7 +3,6 @@
 use super::release::Release;
 use crate::prelude::*;
 
-/// Elements that have a number.
 const NUMBERS: &str = "mu1 mu2 kp kd maxVel minDepth dampingFactor laserRetro springReference \
     springStiffness stopCfm stopErp fudgeFactor";
 

@@ -15,7 +15,6 @@ use self::tree::{Body, Joint, Tree};
 use crate::prelude::*;
 use crate::urdfdom::{self, Model};
 
-/// Gazebo Fortress.
 pub(crate) const FORTRESS: About = About {
     id: "sdformat",
     name: "Gazebo Fortress",
@@ -28,7 +27,6 @@ pub(crate) const FORTRESS: About = About {
     read: |file, effects| read(file, Release::Twelve, effects),
 };
 
-/// Gazebo Harmonic.
 pub(crate) const HARMONIC: About = About {
     id: "sdformat14",
     name: "Gazebo Harmonic",
@@ -200,8 +198,7 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
         }
         for one in ["effort", "velocity"].into_iter().filter_map(|name| limit.attribute(name)) {
             if number(&one.value).is_some_and(|number| number < 0.0) {
-                let fault = Fault::range(one, "must not be negative");
-                effects.read_as(one, &part, fault, "no limit");
+                effects.read_as(one, &part, Fault::range(one, "must not be negative"), "no limit");
             }
         }
     }

@@ -9,7 +9,6 @@ use crate::prelude::*;
 use crate::space::Pose;
 use crate::urdfdom::Model;
 
-/// The least mass of a link.
 const MIN_MASS: f64 = 1e-6;
 
 /// A link, and the joint above it.

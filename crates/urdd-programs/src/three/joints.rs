@@ -62,8 +62,7 @@ impl<'t> Reader<'_, 't> {
         let is_limited = matches!(text, "revolute" | "prismatic");
         let mut limits = named(joint, "limit").peekable();
         if limits.peek().is_none() && is_limited {
-            let fault = Fault::MissingElement("limit");
-            self.effects.read_as(joint, &part, fault, "locked at 0");
+            self.effects.read_as(joint, &part, Fault::MissingElement("limit"), "locked at 0");
         }
         for limit in limits {
             self.numbers(limit, &["lower", "upper", "effort", "velocity"], &part, "NaN");

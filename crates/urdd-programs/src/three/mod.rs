@@ -49,7 +49,6 @@ struct Reader<'r, 't> {
     whites: HashSet<&'t str>,
 }
 
-/// A joint.
 struct Joint<'t> {
     node: Node<'t>,
     child: Option<&'t str>,
@@ -184,8 +183,7 @@ impl<'t> Reader<'_, 't> {
         let Some(last) = all.last() else { return Some(first) };
         let is_empty = first.attributes().is_empty() && first.children().next().is_none();
         if !is_empty && !last.is_like(first) {
-            let fault = Fault::Repeated(name.into());
-            self.effects.read_as(last, part.inside(name), fault, "the last");
+            self.effects.read_as(last, part.inside(name), Fault::Repeated(name.into()), "the last");
         }
         Some(last)
     }

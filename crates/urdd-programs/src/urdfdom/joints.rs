@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{PartRead, needed, number, numbers, vector};
-use super::{Joint, Reader};
+use super::{Joint, PartRead, Reader, needed, number, numbers, vector};
 use crate::prelude::*;
 
 impl Reader<'_> {

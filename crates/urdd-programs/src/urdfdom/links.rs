@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{PartRead, needed, needed_element, number, vector};
-use super::{Link, NO_COLOR, Reader};
+use super::{Link, NO_COLOR, PartRead, Reader, needed, needed_element, number, vector};
 use crate::prelude::*;
 
 impl Reader<'_> {
@@ -168,10 +167,7 @@ impl Reader<'_> {
 
     fn positive(&self, size: &Attribute<'_>, values: &[f64]) -> PartRead<()> {
         match self.minor >= 2 && !values.iter().all(|value| *value > 0.0) {
-            true => {
-                let rule = "URDF 1.2 has only sizes above 0";
-                Err((size.at(), Fault::range(size, rule)))
-            }
+            true => Err((size.at(), Fault::range(size, "URDF 1.2 has only sizes above 0"))),
             false => Ok(()),
         }
     }

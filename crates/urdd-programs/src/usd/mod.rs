@@ -157,12 +157,10 @@ impl<'t> Reader<'_, 't> {
         let part = part.inside("limit");
         match last(node, "limit") {
             None if matches!(kind, "revolute" | "prismatic") => {
-                let fault = Fault::MissingElement("limit");
-                self.effects.read_as(node, part, fault, "locked at 0");
+                self.effects.read_as(node, part, Fault::MissingElement("limit"), "locked at 0");
             }
             Some(limit) if kind == "planar" => {
-                let fault = Fault::Way("a planar joint has no limit in USD");
-                self.effects.drop(limit, part, fault);
+                self.effects.drop(limit, part, Fault::Way("a planar joint has no limit in USD"));
             }
             Some(limit) => self.effects.unread_attributes(limit, FURTHER, &part),
             None => {}

@@ -3,7 +3,6 @@
 use crate::number::python;
 use crate::prelude::*;
 
-/// What it has of a joint.
 pub(super) struct Joint<'t> {
     pub node: Node<'t>,
     pub name: &'t str,
