@@ -1,6 +1,5 @@
 //! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use urdd_xml::Document;
@@ -50,14 +49,13 @@ pub fn examined(
     let job = Job { text, bytes, name, folder, settings };
     let mut examined = examine_urdf(text, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
-        Ok(_) => (Cow::Borrowed(text), 0),
-        Err(_) => {
-            let (mended, lines) = well_formed(text);
-            (Cow::Owned(mended), lines)
-        }
+    let parsed = urdd_xml::parse(text, urdd_xml::Kind::Robot);
+    let mended = parsed.is_err().then(|| well_formed(text));
+    let parsed = match &mended {
+        Some((mended, _)) => urdd_xml::parse(mended, urdd_xml::Kind::Robot),
+        None => parsed,
     };
-    let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
+    let Ok(document) = parsed else {
         let skipped = rules_to_run(settings)
             .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
@@ -68,12 +66,13 @@ pub fn examined(
         return (examined, Vec::new());
     };
     let of_mended = match &mended {
-        Cow::Owned(mended) => complete(&mut examined, examine_urdf(mended, name)),
-        Cow::Borrowed(_) => Vec::new(),
+        Some((mended, _)) => complete(&mut examined, examine_urdf(mended, name)),
+        None => Vec::new(),
     };
     let source = job.source(&examined.checks);
     let subject = job.subject(&document, &source);
-    let is_mended = matches!(mended, Cow::Owned(_));
+    let is_mended = mended.is_some();
+    let lines = mended.as_ref().map_or(0, |(_, lines)| *lines);
     let as_it_is = match is_mended {
         true => Some(Code::URD011),
         false => subject.macros().map(|_| Code::LNT051),
@@ -97,7 +96,7 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
-    for srdf in subject.srdfs.known() {
+    for srdf in subject.srdfs.all.get().into_iter().flatten() {
         if let Some(trail) = &srdf.trail {
             let expansion = (srdf.text.as_str(), trail, srdf.path.as_path(), srdf.shown.as_str());
             say_where_expanded(expansion, &mut examined.checks, &mut []);

@@ -35,7 +35,7 @@ struct Candidate {
 /// one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
 /// URDF's. No other URDF beside this one has its file's name.
 pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
-    urdf.srdfs.all(|| read(urdf))
+    urdf.srdfs.all.get_or_init(|| read(urdf))
 }
 
 fn read(urdf: &Subject) -> Vec<Srdf> {
@@ -157,7 +157,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
 
 /// What xacro makes of an SRDF, if it may run; `None` where it makes nothing: LNT063 is about what is read.
 fn expand(urdf: &Subject, path: &Path) -> Option<(String, Option<Trail>)> {
-    let settings = urdf.srdfs.xacro()?;
+    let settings = urdf.srdfs.xacro?;
     let made = read_source(path, &settings.source, &settings.report.cancellation).ok()?;
     Some((made.text, made.trail))
 }

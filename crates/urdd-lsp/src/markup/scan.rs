@@ -28,20 +28,8 @@ pub struct Element {
 }
 
 /// Elements that contain others: one whose start tag is not finished still contains what follows.
-const CONTAINERS: &[&str] = &[
-    "robot",
-    "link",
-    "joint",
-    "visual",
-    "collision",
-    "inertial",
-    "geometry",
-    "material",
-    "transmission",
-    "gazebo",
-    "ros2_control",
-    "actuator",
-];
+const CONTAINERS: &str = "robot link joint visual collision inertial geometry material transmission gazebo \
+    ros2_control actuator";
 
 pub(super) fn scan(text: &str) -> Vec<Element> {
     let mut scan = Scan { text, elements: Vec::new(), open: Vec::new() };
@@ -112,7 +100,7 @@ impl Scan<'_> {
             let rest = rest.trim_start();
             if rest.is_empty() || rest.starts_with('<') {
                 // Not finished: what follows is about something else.
-                is_empty = !CONTAINERS.contains(&&self.text[name.clone()]);
+                is_empty = !CONTAINERS.split(' ').any(|one| *one == self.text[name.clone()]);
                 break;
             }
             at += blank;

@@ -197,7 +197,7 @@ impl Reader<'_> {
             let fault = Fault::Way("a link that no joint moves is a part of the world");
             self.effects.drop(inertial, Part::of("link", link.name).inside("inertial"), fault);
         }
-        if let Some((_, joint)) = link.above.filter(|_| self.settings.fuses) {
+        if let Some((_, joint)) = link.above.filter(|_| !self.settings.keeps_fixed) {
             let part = Part::of("joint", joint.value("name").unwrap_or_default());
             let fault = Fault::Way("links that are fixed to each other become one body");
             self.effects.read_as(joint, part, fault, "one body");

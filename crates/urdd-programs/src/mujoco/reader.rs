@@ -35,6 +35,7 @@ pub struct Reader<'r> {
 }
 
 /// What `<compiler>` says.
+#[derive(Default)]
 pub struct Settings {
     /// Visuals are geoms too.
     pub has_visuals: bool,
@@ -44,26 +45,12 @@ pub struct Settings {
     pub mesh_folder: String,
     /// Tensors that no body can have are mended.
     pub balances: bool,
-    /// Links that are fixed together are one.
-    pub fuses: bool,
+    /// Links that are fixed together stay links.
+    pub keeps_fixed: bool,
     /// Inertias come from collisions, whatever inertials say.
     pub ignores_inertials: bool,
     /// The least mass and the least moment.
     pub least: [f64; 2],
-}
-
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
-            has_visuals: false,
-            strips_paths: None,
-            mesh_folder: String::new(),
-            balances: false,
-            fuses: true,
-            ignores_inertials: false,
-            least: [0.0; 2],
-        }
-    }
 }
 
 /// The least numbers without loss, of double and of single precision.
@@ -101,7 +88,7 @@ impl Reader<'_> {
         self.settings.has_visuals = self.flag(compiler, "discardvisual")? == Some(false);
         self.settings.strips_paths = self.flag(compiler, "strippath")?;
         self.settings.balances = self.flag(compiler, "balanceinertia")?.unwrap_or(false);
-        self.settings.fuses = self.flag(compiler, "fusestatic")?.unwrap_or(true);
+        self.settings.keeps_fixed = self.flag(compiler, "fusestatic")? == Some(false);
         self.settings.mesh_folder = compiler.value("meshdir").unwrap_or_default().to_owned();
         let ignores = self.keyword(compiler, "inertiafromgeom", &["false", "true", "auto"])?;
         self.settings.ignores_inertials = ignores == Some("true");

@@ -1,6 +1,6 @@
 //! `<gazebo>` elements, as libsdformat reads them.
 
-use super::release::Release;
+use super::tree::Release;
 use crate::prelude::*;
 
 const NUMBERS: &str = "mu1 mu2 kp kd maxVel minDepth dampingFactor laserRetro springReference \

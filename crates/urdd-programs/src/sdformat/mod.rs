@@ -4,14 +4,12 @@
 mod gazebo;
 mod inertia;
 mod names;
-mod release;
 mod tree;
 mod xml;
 
 use self::gazebo::{Extensions, stod};
 use self::inertia::{number, vector};
-use self::release::Release;
-use self::tree::{Body, Joint, Tree};
+use self::tree::{Body, Joint, Release, Tree};
 use crate::prelude::*;
 use crate::urdfdom::{self, Model};
 

@@ -1,7 +1,6 @@
 //! Names that SDF cannot have, or that are of nothing.
 
-use super::release::Release;
-use super::tree::Tree;
+use super::tree::{Release, Tree};
 use crate::prelude::*;
 
 /// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
