@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 
 use super::subject::Subject;
-use super::unknown::{Unknown, What};
+use super::unknown::What;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;
 use urdd_findings::check::{Check, Outcome};
@@ -133,25 +133,23 @@ fn reported(checks: &[Check], code: Code) -> impl Iterator<Item = (&Place, &str)
 fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
     let mut found: Vec<Misspelling> = Vec::new();
     let mut renamed = HashSet::new();
-    for Unknown { node, what, meant, .. } in urdf.unknown().iter().cloned() {
-        let Some(meant) = meant else { continue };
-        let (finding, ranges) = match what {
-            What::Element => (urdf.at(node, ""), urdf.tag_names(node)),
+    for one in urdf.unknown() {
+        let Some(meant) = one.meant else { continue };
+        let ranges = match one.what {
+            What::Element => urdf.tag_names(one.node),
             What::Attribute(name) => {
-                if node.has_attribute(meant) || !renamed.insert((node.id(), meant)) {
+                if one.node.has_attribute(meant) || !renamed.insert((one.node.id(), meant)) {
                     continue;
                 }
-                let range = node.attribute_node(name).map(|one| one.range_qname());
-                (urdf.at_attribute(node, name, ""), range.into_iter().collect())
+                let attribute = one.node.attribute_node(name);
+                attribute.map(|attribute| attribute.range_qname()).into_iter().collect()
             }
         };
         let edit = |range| Edit { range, text: meant.to_owned() };
-        found.extend(at(&finding.place).map(|at| Misspelling {
-            at,
-            subject: finding.place.subject,
-            meant,
-            edits: ranges.into_iter().map(edit).collect(),
-        }));
+        let edits = ranges.into_iter().map(edit).collect();
+        let place = urdf.at_unknown(one, "").place;
+        let at = at(&place);
+        found.extend(at.map(|at| Misspelling { at, subject: place.subject, meant, edits }));
     }
     found
 }

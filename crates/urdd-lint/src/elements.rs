@@ -10,9 +10,14 @@ pub const WITH_AXIS: [&str; 4] = ["revolute", "continuous", "prismatic", "planar
 /// The joint types of one degree of freedom.
 pub const ONE_DOF: [&str; 3] = ["revolute", "continuous", "prismatic"];
 
+/// The child elements of a name.
+pub fn named<'a>(node: Node<'a, 'a>, wanted: &str) -> impl Iterator<Item = Node<'a, 'a>> {
+    children(node).filter(move |(name, _)| *name == wanted).map(|(_, child)| child)
+}
+
 /// The first child element of a name.
 pub fn child<'a>(node: Node<'a, 'a>, wanted: &str) -> Option<Node<'a, 'a>> {
-    children(node).find(|(name, _)| *name == wanted).map(|(_, child)| child)
+    named(node, wanted).next()
 }
 
 /// Finite numbers in an attribute, separated by white space; `None` if they are not `N` numbers (URD011 says so).

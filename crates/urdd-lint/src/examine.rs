@@ -1,6 +1,5 @@
 //! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use urdd_xml::Document;
@@ -9,7 +8,6 @@ use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
-use super::srdf_text::Srdfs;
 use super::subject::Subject;
 use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
@@ -24,7 +22,6 @@ use urdd_format::report::{Place, StaleIgnore};
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
-/// The family of this crate's rules.
 const FAMILY: &str = "LNT";
 /// The rules that say what other rules do not see of what programs do.
 const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];
@@ -52,14 +49,13 @@ pub fn examined(
     let job = Job { text, bytes, name, folder, settings };
     let mut examined = examine_urdf(text, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
-        Ok(_) => (Cow::Borrowed(text), 0),
-        Err(_) => {
-            let (mended, lines) = well_formed(text);
-            (Cow::Owned(mended), lines)
-        }
+    let parsed = urdd_xml::parse(text, urdd_xml::Kind::Robot);
+    let mended = parsed.is_err().then(|| well_formed(text));
+    let parsed = match &mended {
+        Some((mended, _)) => urdd_xml::parse(mended, urdd_xml::Kind::Robot),
+        None => parsed,
     };
-    let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
+    let Ok(document) = parsed else {
         let skipped = rules_to_run(settings)
             .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
@@ -70,22 +66,24 @@ pub fn examined(
         return (examined, Vec::new());
     };
     let of_mended = match &mended {
-        Cow::Owned(mended) => complete(&mut examined, examine_urdf(mended, name)),
-        Cow::Borrowed(_) => Vec::new(),
+        Some((mended, _)) => complete(&mut examined, examine_urdf(mended, name)),
+        None => Vec::new(),
     };
     let source = job.source(&examined.checks);
     let subject = job.subject(&document, &source);
-    let is_mended = matches!(mended, Cow::Owned(_));
+    let is_mended = mended.is_some();
+    let lines = mended.as_ref().map_or(0, |(_, lines)| *lines);
     let as_it_is = match is_mended {
         true => Some(Code::URD011),
         false => subject.macros().map(|_| Code::LNT051),
     };
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
-        let left = match as_it_is {
+        let mut left = Vec::new();
+        match as_it_is {
             Some(code) => attach_all(&asked, code, checks),
-            None => attach(&subject, &mut asked, checks),
-        };
+            None => left = attach(&subject, &mut asked, checks),
+        }
         examined.report.programs = asked.results;
         left
     });
@@ -98,7 +96,7 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
-    for srdf in subject.srdfs.known() {
+    for srdf in subject.srdfs.all.get().into_iter().flatten() {
         if let Some(trail) = &srdf.trail {
             let expansion = (srdf.text.as_str(), trail, srdf.path.as_path(), srdf.shown.as_str());
             say_where_expanded(expansion, &mut examined.checks, &mut []);
@@ -131,11 +129,7 @@ impl<'a> Job<'a> {
     where
         'a: 'd,
     {
-        let files = &self.settings.source.files;
-        let subject = Subject::new(self.name, self.folder, files, document, source.as_ref());
-        let mut subject = subject.without_meshes(self.settings.without_meshes);
-        subject.srdfs = Srdfs::new(self.settings);
-        subject
+        Subject::new(self.name, self.folder, document, source.as_ref(), self.settings)
     }
 
     /// Asks the programs; not about files beyond the limits of XML.
@@ -178,7 +172,8 @@ impl<'a> Job<'a> {
             }
         };
         run(first, checks);
-        subject.set_programs(programs(checks));
+        // It is set once.
+        let _ = subject.programs.set(programs(checks));
         run(last, checks);
         checks.sort_by_key(|check| check.rule.code);
     }

@@ -140,7 +140,6 @@ impl Shapes {
         self.shapes.iter().any(|shape| shape.is_turned)
     }
 
-    /// The corners of all shapes.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.shapes.iter().flat_map(Shape::corners)
     }

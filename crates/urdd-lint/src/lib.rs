@@ -106,7 +106,6 @@ pub fn lint_with_text(
     Ok((run_of(&paths, Vec::from_iter(linted), 0, settings), text))
 }
 
-/// What was found in a file.
 struct Linted {
     examined: Examined,
     /// Ignores and comments that matched nothing.
@@ -186,7 +185,6 @@ fn lint_file(
     (!is_part).then_some(Linted { examined, stale, text })
 }
 
-/// The text of a file.
 fn as_written(path: &Path, files: &Files) -> Option<String> {
     let bytes = files.read(path, MAX_SOURCE_BYTES).ok();
     bytes.and_then(|bytes| String::from_utf8(bytes).ok())

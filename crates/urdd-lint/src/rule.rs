@@ -14,35 +14,39 @@ pub struct LintRule {
     pub check: fn(&Subject, &mut Findings) -> Option<()>,
 }
 
-/// Declares the rule of a file as `Declared::RULE`, checked by the file's function `check`. `urdd explain` prints its
-/// documentation.
+/// Declares the rules of a file as `Declared::RULES`: each is checked by what is behind its `=>`, or by the file's function
+/// `check`. `urdd explain` prints its documentation.
 macro_rules! declare_lint {
-    (
+    ($(
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, $consequence:ident, since $since:literal
-        $(, $default:ident by default)?
-    ) => {
-        /// The rule of this file. A `static` of the module would be compiled into whatever does not use it, too.
+        $(, $default:ident by default)? $(=> $check:expr)?
+    );+) => {
+        /// The rules of this file. A `static` of the module would be compiled into whatever does not use it, too.
         pub struct Declared;
 
         impl Declared {
-            $(#[doc = $doc])+
-            pub const RULE: &'static $crate::rule::LintRule = &$crate::rule::LintRule {
-                description: $crate::rule::Description {
-                    code: urdd_findings::code::Code::$code,
-                    name: $name,
-                    severity: urdd_findings::description::Severity::$severity,
-                    clause: None,
-                    since: $since,
-                    consequence: urdd_findings::description::Consequence::$consequence,
-                    phase: urdd_findings::description::Phase::References,
-                    doc: &[$($doc),+],
-                },
-                on_by_default: true $(&& $crate::rule::$default)?,
-                check,
-            };
+            /// The rules.
+            pub const RULES: &'static [&'static $crate::rule::LintRule] = &[$(
+                &$crate::rule::LintRule {
+                    description: $crate::rule::Description {
+                        code: urdd_findings::code::Code::$code,
+                        name: $name,
+                        severity: urdd_findings::description::Severity::$severity,
+                        clause: None,
+                        since: $since,
+                        consequence: urdd_findings::description::Consequence::$consequence,
+                        phase: urdd_findings::description::Phase::References,
+                        doc: &[$($doc),+],
+                    },
+                    on_by_default: true $(&& $crate::rule::$default)?,
+                    check: $crate::rule::declare_lint!(@check $($check)?),
+                }
+            ),+];
         }
     };
+    (@check) => { check };
+    (@check $check:expr) => { $check };
 }
 pub(crate) use declare_lint;
 
@@ -50,12 +54,12 @@ pub(crate) use declare_lint;
 #[allow(non_upper_case_globals)]
 pub(crate) const off: bool = false;
 
-/// Lists the rules, one file each, as `all()`.
+/// Lists the files of rules as `all()`.
 macro_rules! rules {
     ($($file:ident),+ $(,)?) => {
         /// Every rule, in the order of their codes.
         pub fn all() -> Vec<&'static $crate::rule::LintRule> {
-            let mut rules = vec![$($file::Declared::RULE),+];
+            let mut rules = [$($file::Declared::RULES),+].concat();
             rules.sort_by_key(|rule| rule.description.code);
             rules
         }

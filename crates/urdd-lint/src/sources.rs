@@ -24,7 +24,6 @@ pub enum LintError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What there is to lint.
 pub(crate) struct Sources {
     pub jobs: Vec<Job>,
     /// The number of those that the settings exclude.

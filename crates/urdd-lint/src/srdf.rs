@@ -17,7 +17,6 @@ const MAX_EXPANDED: usize = 10;
 const MAX_FILES: usize = 100;
 /// How far up from the URDF's folder MoveIt's packages are looked for.
 const LEVELS: usize = 3;
-/// Folders of SRDFs, in a package.
 const FOLDERS: [&str; 2] = ["config", "srdf"];
 /// What the name of MoveIt's package of a robot has.
 const MOVEIT: &str = "moveit_config";
@@ -35,7 +34,7 @@ struct Candidate {
 /// one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
 /// URDF's. No other URDF beside this one has its file's name.
 pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
-    urdf.srdfs.all(|| read(urdf))
+    urdf.srdfs.all.get_or_init(|| read(urdf))
 }
 
 fn read(urdf: &Subject) -> Vec<Srdf> {
@@ -163,7 +162,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
 
 /// What xacro makes of an SRDF, if it may run; `None` where it makes nothing: LNT063 is about what is read.
 fn expand(urdf: &Subject, path: &Path) -> Option<(String, Option<Trail>)> {
-    let settings = urdf.srdfs.xacro()?;
+    let settings = urdf.srdfs.xacro?;
     let made = read_source(path, &settings.source, &settings.report.cancellation).ok()?;
     Some((made.text, made.trail))
 }

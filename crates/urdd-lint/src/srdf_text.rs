@@ -24,11 +24,12 @@ impl Srdf {
     }
 }
 
-/// The SRDFs of a robot, read on first use.
-#[derive(Default)]
+/// The SRDFs of a robot.
 pub struct Srdfs<'a> {
-    xacro: Option<&'a LintSettings>,
-    all: OnceLock<Vec<Srdf>>,
+    /// The settings by which those that are xacro are expanded, if they may be.
+    pub xacro: Option<&'a LintSettings>,
+    /// All, read on first use.
+    pub all: OnceLock<Vec<Srdf>>,
 }
 
 impl<'a> Srdfs<'a> {
@@ -36,20 +37,5 @@ impl<'a> Srdfs<'a> {
     pub fn new(settings: &'a LintSettings) -> Self {
         let xacro = Some(settings).filter(|settings| settings.source.xacro.expand_urdf);
         Srdfs { xacro, all: OnceLock::new() }
-    }
-
-    /// The settings by which those that are xacro are expanded, if they may be.
-    pub fn xacro(&self) -> Option<&'a LintSettings> {
-        self.xacro
-    }
-
-    /// All, as `read` finds them.
-    pub fn all(&self, read: impl FnOnce() -> Vec<Srdf>) -> &[Srdf] {
-        self.all.get_or_init(read)
-    }
-
-    /// All, if a rule had them read.
-    pub fn known(&self) -> &[Srdf] {
-        self.all.get().map_or(&[], Vec::as_slice)
     }
 }

@@ -9,13 +9,14 @@ use nalgebra::Vector3;
 use urdd_xml::{Document, Node};
 
 use super::bodies::Bodies;
-use super::elements::{child, kind, numbers};
+use super::elements::{child, kind, named, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::programs::Left;
+use super::settings::LintSettings;
 use super::skip::{WITHOUT_MESHES, refused};
 use super::srdf_text::Srdfs;
-use super::unknown::{Unknown, unknown};
+use super::unknown::{Unknown, What, unknown};
 use super::vocabulary::Names;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_document::robot::{Robot, of_urdf};
@@ -28,7 +29,7 @@ use urdd_format::report::{Fix, TextEdit};
 use urdd_format::short;
 use urdd_format::urdf::JointType;
 use urdd_source::{Files, SourceMesh, SourceMeshes};
-use urdd_xml::element::{children, name};
+use urdd_xml::element::name;
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
 pub struct Subject<'a> {
@@ -53,11 +54,13 @@ pub struct Subject<'a> {
     robot: OnceLock<(Robot, Option<Bodies>)>,
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
+    /// Whether no mesh file is read.
     without_meshes: bool,
     elements: OnceLock<Vec<Node<'a, 'a>>>,
     shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
     joint_names: OnceLock<Names<'a>>,
-    programs: OnceLock<Vec<Left>>,
+    /// The faults that only programs name, once the other rules ran.
+    pub programs: OnceLock<Vec<Left>>,
 }
 
 impl<'a> Subject<'a> {
@@ -65,16 +68,12 @@ impl<'a> Subject<'a> {
     pub fn new(
         file: &'a str,
         folder: &'a Path,
-        files: &'a Files,
         document: &'a Document<'a>,
         source: Result<&'a SourceMeshes, &SkipReason>,
+        settings: &'a LintSettings,
     ) -> Self {
         let root = document.root_element();
-        let named = |wanted: &str| {
-            let found = children(root).filter(|(name, _)| *name == wanted);
-            found.map(|(_, node)| node).collect::<Vec<_>>()
-        };
-        let (links, joints) = (named("link"), named("joint"));
+        let [links, joints] = ["link", "joint"].map(|name| named(root, name).collect::<Vec<_>>());
         // Elements are found by their indices in both.
         let source = source.map_err(Clone::clone).and_then(|source| {
             let robot = &source.robot;
@@ -85,13 +84,13 @@ impl<'a> Subject<'a> {
         Subject {
             file,
             folder,
-            files,
+            files: &settings.source.files,
             text: document.input_text(),
             root,
             lines: LineIndex::new(document.input_text()),
             source,
-            without_meshes: false,
-            srdfs: Srdfs::default(),
+            without_meshes: settings.without_meshes,
+            srdfs: Srdfs::new(settings),
             links,
             joints,
             robot: OnceLock::new(),
@@ -102,12 +101,6 @@ impl<'a> Subject<'a> {
             joint_names: OnceLock::new(),
             programs: OnceLock::new(),
         }
-    }
-
-    /// Whether no mesh file is read.
-    pub fn without_meshes(mut self, without: bool) -> Self {
-        self.without_meshes = without;
-        self
     }
 
     /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
@@ -219,14 +212,10 @@ impl<'a> Subject<'a> {
         child(inertial, wanted).unwrap_or(inertial)
     }
 
-    /// The `<mesh>` of a mesh.
     pub fn mesh_node(&self, mesh: &SourceMesh) -> Option<Node<'a, 'a>> {
         let shapes = self.shapes.get_or_init(|| {
             let of = |link: &Node<'a, 'a>| {
-                ["visual", "collision"].map(|kind| {
-                    let all = children(*link).filter(|(name, _)| *name == kind);
-                    all.map(|(_, node)| node).collect()
-                })
+                ["visual", "collision"].map(|kind| named(*link, kind).collect())
             };
             self.links.iter().map(of).collect()
         });
@@ -235,11 +224,15 @@ impl<'a> Subject<'a> {
         inside.find(|node| node.tag_name().name() == "mesh")
     }
 
-    /// The joints of these types.
     pub fn joints_of(&self, types: &[&str]) -> impl Iterator<Item = Node<'a, 'a>> {
         let is_one =
             |node: &&Node| node.attribute("type").is_some_and(|kind| types.contains(&kind));
         self.joints.iter().filter(is_one).copied()
+    }
+
+    /// The joints of these types that have a `<limit>`, with it.
+    pub fn limits_of(&self, types: &[&str]) -> impl Iterator<Item = (Node<'a, 'a>, Node<'a, 'a>)> {
+        self.joints_of(types).filter_map(|joint| Some((joint, child(joint, "limit")?)))
     }
 
     /// Every element in a link or joint.
@@ -248,7 +241,6 @@ impl<'a> Subject<'a> {
         all.flat_map(|node| node.descendants()).filter(Node::is_element)
     }
 
-    /// The names of elements.
     pub fn names<'n>(
         &self,
         nodes: &'n [Node<'a, 'a>],
@@ -271,20 +263,8 @@ impl<'a> Subject<'a> {
         named.collect()
     }
 
-    /// What URDF does not define.
     pub fn unknown(&self) -> &[Unknown<'a>] {
         self.unknown.get_or_init(|| unknown(self.root))
-    }
-
-    /// Sets the faults that only programs name.
-    pub fn set_programs(&self, left: Vec<Left>) {
-        // It is set once.
-        let _ = self.programs.set(left);
-    }
-
-    /// The faults that only programs name. Empty before the other rules ran.
-    pub fn programs(&self) -> &[Left] {
-        self.programs.get().map_or(&[], Vec::as_slice)
     }
 
     /// The element whose start tag holds an offset, or is the last before it.
@@ -355,6 +335,14 @@ impl<'a> Subject<'a> {
         let range = node.attribute_node(attribute).map(|one| one.range());
         let start = range.map_or(node.range().start, |range| range.start);
         self.placed(node, start, message)
+    }
+
+    /// A finding about something that URDF does not define.
+    pub fn at_unknown(&self, one: &Unknown<'a>, message: impl Into<String>) -> Finding {
+        match one.what {
+            What::Element => self.at(one.node, message),
+            What::Attribute(name) => self.at_attribute(one.node, name, message),
+        }
     }
 
     /// A finding about what is at an offset.

@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 
 use lsp_types::DiagnosticSeverity;
 
-use crate::diagnostics::{Found, at_the_top, of_check};
+use crate::diagnostics::{Found, at_the_top, failures, of_check};
 use crate::document::Snapshot;
-use crate::failures::failures;
 use crate::kind::Kind;
 use crate::project::Project;
 use crate::urdd_documents;

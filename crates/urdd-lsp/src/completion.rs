@@ -8,8 +8,8 @@ use lsp_types::{CompletionItem, CompletionItemKind, CompletionTextEdit, Position
 use crate::document::Snapshot;
 use crate::markup::{Place, escaped};
 use crate::reference::{Names, names};
-use crate::vocabulary;
 use urdd_format::urdf::JointType;
+use urdd_lint::vocabulary::of;
 
 /// What can be written at a position.
 pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
@@ -40,7 +40,7 @@ pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
                 Some(parent) => {
                     let around = markup.elements[element].parent;
                     let around = around.and_then(|parent| markup.parent_name(text, parent));
-                    vocabulary::children(around.unwrap_or_default(), parent)
+                    known_children(around.unwrap_or_default(), parent)
                 }
             };
             let range = markup.elements[element].name.clone();
@@ -90,7 +90,6 @@ fn item(
 
 type Value = (String, CompletionItemKind, Option<String>);
 
-/// The values of an attribute.
 fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
     let text = snapshot.text.as_str();
     let markup = snapshot.markup();
@@ -160,11 +159,47 @@ fn attributes(
         .filter(|attribute| current != Some(attribute))
         .map(|attribute| &text[attribute.name.clone()])
         .collect();
-    let free = vocabulary::attributes(parent, markup.name(text, element)).into_iter();
+    let free = known_attributes(parent, markup.name(text, element)).into_iter();
     let free = free.filter(|name| !written.contains(name));
     free.map(|name| {
         let new = if has_value { name.to_owned() } else { format!("{name}=\"\"") };
         item(snapshot, &range, name, new, CompletionItemKind::PROPERTY, None)
     })
     .collect()
+}
+
+/// An element: where it is, its name, its attributes, and what it contains.
+type Word = (&'static str, &'static str, &'static [&'static str], &'static [&'static str]);
+
+/// Elements that other programs read: `urdd lint` leaves their content to these.
+const WORDS: &[Word] = &[
+    ("robot", "gazebo", &["reference"], &[]),
+    ("robot", "transmission", &["name"], &["type", "joint", "actuator"]),
+    ("transmission", "joint", &["name"], &["hardwareInterface"]),
+    ("transmission", "actuator", &["name"], &["hardwareInterface", "mechanicalReduction"]),
+    ("robot", "ros2_control", &["name", "type"], &["hardware", "joint", "sensor", "gpio"]),
+    ("ros2_control", "joint", &["name"], &["command_interface", "state_interface", "param"]),
+];
+
+/// The attributes of an element in another one.
+fn known_attributes(parent: &str, name: &str) -> Vec<&'static str> {
+    let attributes = match known(parent, name) {
+        Some((_, _, attributes, _)) => attributes,
+        None => of(name).map_or(&[][..], |known| known.attributes),
+    };
+    // A declaration that only xacro needs.
+    let xacro = (name == "robot").then_some("xmlns:xacro");
+    attributes.iter().copied().chain(xacro).collect()
+}
+
+/// What an element in another one contains.
+fn known_children(parent: &str, name: &str) -> &'static [&'static str] {
+    match known(parent, name) {
+        Some((.., children)) => children,
+        None => of(name).map_or(&[][..], |known| known.children),
+    }
+}
+
+fn known(parent: &str, name: &str) -> Option<&'static Word> {
+    WORDS.iter().find(|word| (word.0, word.1) == (parent, name))
 }

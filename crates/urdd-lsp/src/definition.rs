@@ -5,25 +5,24 @@ use std::path::{Path, PathBuf};
 use lsp_types::{Location, Position, Range};
 
 use crate::document::Snapshot;
-use crate::reference::{Found, Reference, reference};
+use crate::reference::{Names, reference};
 use crate::uri;
 
 /// Where what a position names is defined.
 pub fn definition(snapshot: &Snapshot, at: Position) -> Option<Location> {
-    let Found { to, .. } = reference(snapshot, snapshot.text.offset(at))?;
-    let outline = snapshot.outline();
-    let element = match &to {
-        Reference::Link(name) => outline.element("link", name)?,
-        Reference::Joint(name) => outline.element("joint", name)?,
-        Reference::Material(name) => outline.element("material", name)?,
-        Reference::Mesh(name) => return mesh(snapshot, name),
+    let found = reference(snapshot, snapshot.text.offset(at))?;
+    let kind = match found.to {
+        Names::Links => "link",
+        Names::Joints | Names::Both => "joint",
+        Names::Materials => "material",
+        Names::Meshes => return mesh(snapshot, &found.name),
     };
+    let element = snapshot.outline().element(kind, &found.name)?;
     let markup = snapshot.markup();
     let name = markup.attribute(snapshot.text.as_str(), element, "name")?;
     Some(Location { uri: snapshot.uri.clone(), range: snapshot.text.range(name.value.clone()) })
 }
 
-/// The file of a mesh.
 fn mesh(snapshot: &Snapshot, name: &str) -> Option<Location> {
     let file = match snapshot.robot() {
         Some(model) => {

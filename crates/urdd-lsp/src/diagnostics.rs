@@ -1,4 +1,4 @@
-//! Findings as editors show them.
+//! Findings as editors show them, and what keeps rules from running: a text that is not XML, a rule that crashed.
 
 use std::ops::Range;
 use std::path::Path;
@@ -10,11 +10,12 @@ use lsp_types::{
 
 use crate::document::Snapshot;
 use crate::uri;
-use urdd_findings::check::Check;
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::examined::Examined;
 use urdd_findings::finding::Finding;
 use urdd_format::escape;
 use urdd_format::index::Count;
-use urdd_format::report::{Fix, Place, Severity};
+use urdd_format::report::{Fix, Place, Severity, Verdict};
 
 /// What diagnostics name as their source.
 pub const SOURCE: &str = "urdd";
@@ -69,8 +70,7 @@ pub fn diagnostic(
 /// An error at the start of a text, about all of it.
 pub fn at_the_top(snapshot: &Snapshot, severity: DiagnosticSeverity, message: &str) -> Found {
     let end = snapshot.text.line_end(0);
-    let range = snapshot.text.range(0..end);
-    diagnostic(range, severity, "", message, (None, None)).into()
+    diagnostic(snapshot.text.range(0..end), severity, "", message, (None, None)).into()
 }
 
 /// The findings of a rule, each place by itself.
@@ -196,4 +196,36 @@ pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
         Some(attribute) => offset..(attribute.value.end + 1).min(element.tag.end).min(end_of_line),
         None => offset..element.tag.end.min(end_of_line),
     }
+}
+
+/// What kept rules from running to their end.
+pub fn failures(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
+    let mut failures = Vec::new();
+    if let (Verdict::Unreadable | Verdict::Incomplete, Some(reason)) =
+        (examined.report.verdict, &examined.report.reason)
+    {
+        failures.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, reason));
+    }
+    for check in &examined.checks {
+        if let Outcome::Crashed(reason) = &check.outcome {
+            let message = format!(
+                "rule {} crashed: {reason}; this is a bug in urdd, please report it",
+                check.rule.code.as_str()
+            );
+            failures.push(at_the_top(snapshot, DiagnosticSeverity::WARNING, &message));
+        }
+    }
+    failures
+}
+
+/// Why a text is not XML, if it is not.
+pub fn not_well_formed(snapshot: &Snapshot) -> Option<Found> {
+    let text = snapshot.text.content();
+    let error = urdd_xml::parse(text, urdd_xml::Kind::Robot).err()?;
+    let offset = snapshot.text.content_start() + error.offset(text);
+    let end = snapshot.text.line_end(offset).max(offset);
+    let range = snapshot.text.range(offset..end);
+    let words = error.words(text);
+    let message = format!("not well-formed XML: {words}");
+    Some(diagnostic(range, DiagnosticSeverity::ERROR, "", &message, (None, None)).into())
 }

@@ -1,18 +1,22 @@
-//! Open documents.
+//! Versions of documents, and the robots that they describe.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use lsp_types::Uri;
+use nalgebra::Isometry3;
 
 use crate::kind::Kind;
 use crate::markup::Markup;
 use crate::options::Options;
 use crate::outline::Outline;
-use crate::robot::RobotModel;
 use crate::text::Text;
 use crate::uri;
 use urdd_directory::cancellation::Cancellation;
+use urdd_document::robot::{Robot, of_urdf};
+use urdd_document::tree::Tree;
+use urdd_lint::pose::at_default;
+use urdd_source::{Settings, SourceMeshes};
 
 /// Maximum size of a text, bytes: that of a URDF of several thousand links. `urdd lint` takes larger ones.
 pub const MAX_TEXT_BYTES: usize = 16 << 20;
@@ -20,7 +24,6 @@ pub const MAX_TEXT_BYTES: usize = 16 << 20;
 const MAX_ELEMENTS: usize = 100_000;
 const MAX_PARTS: usize = 20_000;
 
-/// A version of a document.
 pub struct Snapshot {
     /// Its address, as the editor writes it.
     pub uri: Uri,
@@ -35,6 +38,12 @@ pub struct Snapshot {
     /// What the user set.
     pub options: Options,
     earlier: Option<Earlier>,
+    computed: Computed,
+}
+
+/// What is computed of a version on first use.
+#[derive(Default)]
+struct Computed {
     robot: OnceLock<Option<Arc<RobotModel>>>,
     markup: OnceLock<Markup>,
     outline: OnceLock<Outline>,
@@ -72,15 +81,12 @@ impl Snapshot {
             text,
             options: options.clone(),
             earlier: None,
-            robot: OnceLock::new(),
-            markup: OnceLock::new(),
-            outline: OnceLock::new(),
-            excess: OnceLock::new(),
+            computed: Computed::default(),
         }
     }
 
     pub fn next(self: &Arc<Self>, version: i32, text: Text, options: &Options) -> Self {
-        let earlier = match self.robot.get() {
+        let earlier = match self.computed.robot.get() {
             Some(Some(robot)) => Some(Earlier::Robot(Arc::clone(robot))),
             Some(None) => self.earlier.clone(),
             None => {
@@ -97,14 +103,10 @@ impl Snapshot {
             text,
             options: options.clone(),
             earlier,
-            robot: OnceLock::new(),
-            markup: OnceLock::new(),
-            outline: OnceLock::new(),
-            excess: OnceLock::new(),
+            computed: Computed::default(),
         }
     }
 
-    /// The file's name, for reports.
     pub fn name(&self) -> String {
         uri::file_name(self.uri.as_str())
     }
@@ -117,26 +119,25 @@ impl Snapshot {
     /// What the text has too much of to be read, and how much it may have.
     pub fn excess(&self) -> Option<&str> {
         let measure = || excess(self.text.as_str(), self.kind.is_xml());
-        self.excess.get_or_init(measure).as_deref()
+        self.computed.excess.get_or_init(measure).as_deref()
     }
 
     /// The elements of the text, also where it is half typed. None if it is too large, or is not XML.
     pub fn markup(&self) -> &Markup {
-        self.markup.get_or_init(|| {
+        self.computed.markup.get_or_init(|| {
             let is_read = self.kind.is_xml() && !self.is_too_large();
             Markup::new(if is_read { self.text.as_str() } else { "" })
         })
     }
 
-    /// The names in the text.
     pub fn outline(&self) -> &Outline {
         let make = || Outline::new(self.text.as_str(), self.markup());
-        self.outline.get_or_init(make)
+        self.computed.outline.get_or_init(make)
     }
 
     /// The robot: of this version, or of the last one that described one.
     pub fn robot(&self) -> Option<Arc<RobotModel>> {
-        let of_this = self.robot.get_or_init(|| {
+        let of_this = self.computed.robot.get_or_init(|| {
             if !matches!(self.kind, Kind::Urdf) || self.is_too_large() {
                 return None;
             }
@@ -171,4 +172,26 @@ fn excess(text: &str, is_xml: bool) -> Option<String> {
     }
     let words = || format!("{parts} links and joints, at most {MAX_PARTS}");
     (parts > MAX_PARTS).then(words)
+}
+
+/// The robot that a URDF describes: where its links are, and its mesh files.
+pub struct RobotModel {
+    pub source: SourceMeshes,
+    /// Its links and joints, with URDF's defaults.
+    pub robot: Robot,
+    /// Its tree; `None` if the joints form none.
+    pub tree: Option<Tree>,
+    /// The pose of each link in the root link's frame, in the default configuration; empty without a tree.
+    pub poses: Vec<Isometry3<f64>>,
+}
+
+impl RobotModel {
+    /// The robot of a URDF; `None` if it describes none.
+    pub fn new(text: &str, name: &str, folder: &Path, settings: &Settings) -> Option<Self> {
+        let source = SourceMeshes::of_text(text, name, folder, settings).ok()?;
+        let robot = of_urdf(&source.robot);
+        let tree = Tree::new(&robot);
+        let poses = tree.as_ref().map(|tree| at_default(&robot, tree));
+        Some(RobotModel { source, robot, tree, poses: poses.unwrap_or_default() })
+    }
 }

@@ -1,22 +1,26 @@
 //! What is at the cursor: the robot, a link, a joint, a mesh, a value of a document.
 
+use std::fs;
+
 use lsp_types::{Hover, Position};
 use nalgebra::Isometry3;
 
-use crate::document::Snapshot;
+use crate::document::{RobotModel, Snapshot};
 use crate::kind::Kind;
 use crate::markup::Place;
-use crate::mesh_hover;
-use crate::reference::{Reference, reference};
-use crate::robot::RobotModel;
+use crate::reference::{Names, reference};
 use crate::shown::{code, markdown, sentence};
 use crate::urdd_documents;
 use urdd_document::robot::Joint;
+use urdd_format::escape;
 use urdd_format::readable::number;
 use urdd_format::urdf::JointType;
+use urdd_geometry::Mesh;
 
 /// Significant digits of numbers.
 const DIGITS: usize = 5;
+/// Significant digits of the lengths of a mesh.
+const MESH_DIGITS: usize = 4;
 /// How many children are named.
 const MOST_CHILDREN: usize = 10;
 /// Lengths and angles below this are shown as 0: they come from rounding.
@@ -40,13 +44,13 @@ pub fn hover(
     let range = Some(snapshot.text.range(found.range.clone()));
     let robot = snapshot.robot();
     let text = match found.to {
-        Reference::Link(name) => link(robot.as_deref()?, &name)?,
-        Reference::Joint(name) => match robot.as_deref() {
-            Some(robot) => joint(robot, &name)?,
-            None => joint_as_written(snapshot, &name)?,
+        Names::Links => link(robot.as_deref()?, &found.name)?,
+        Names::Joints | Names::Both => match robot.as_deref() {
+            Some(robot) => joint(robot, &found.name)?,
+            None => joint_as_written(snapshot, &found.name)?,
         },
-        Reference::Mesh(name) => mesh_hover::mesh(robot.as_deref(), snapshot, &name, found.element),
-        Reference::Material(_) => return None,
+        Names::Meshes => mesh(robot.as_deref(), snapshot, &found.name, found.element),
+        Names::Materials => return None,
     };
     Some(markdown(text, range))
 }
@@ -185,4 +189,58 @@ fn limits(joint: &Joint) -> Vec<String> {
 
 fn word(kind: JointType) -> String {
     kind.as_str().to_lowercase()
+}
+
+fn mesh(model: Option<&RobotModel>, snapshot: &Snapshot, name: &str, element: usize) -> String {
+    let title = format!("**mesh {}**\n\n", code(name));
+    let meshes = model.map(|model| model.source.meshes.iter());
+    let mesh = meshes.and_then(|mut meshes| meshes.find(|mesh| mesh.filename == name));
+    let (Some(model), Some(mesh)) = (model, mesh) else {
+        return title + "Not looked for: the text does not describe a robot yet.";
+    };
+    let file = match &mesh.file {
+        Ok(file) => file,
+        Err(missing) => return title + "Not found: " + &escape::line(&missing.reason),
+    };
+    let mut lines = vec![format!("- file: {}", code(&file.display().to_string()))];
+    match fs::metadata(file) {
+        Ok(metadata) => lines.push(format!("- size: {} bytes", metadata.len())),
+        Err(error) => lines.push(format!("- not readable: {error}")),
+    }
+    match model.source.read(file) {
+        Ok(scene) => {
+            lines.push(format!("- triangles: {}", scene.triangle_count()));
+            let scale = scale(snapshot, element);
+            lines.extend(extent(&scene.merged(), scale));
+            if scale != [1.0; 3] {
+                lines.push(format!("- scale: {}", lengths(scale)));
+            }
+        }
+        Err(reason) => lines.push(format!("- no usable surface: {}", escape::line(&reason))),
+    }
+    title + &lines.join("\n")
+}
+
+fn extent(mesh: &Mesh, scale: [f64; 3]) -> Option<String> {
+    let bounds = mesh.bounds()?;
+    let ends = |pick: fn(f64, f64) -> f64| {
+        let axes = [0, 1, 2];
+        axes.map(|axis| pick(bounds.min[axis] * scale[axis], bounds.max[axis] * scale[axis]))
+    };
+    let (low, high) = (ends(f64::min), ends(f64::max));
+    let size = [0, 1, 2].map(|axis| number(high[axis] - low[axis], MESH_DIGITS)).join(" × ");
+    Some(format!("- bounding box: {size} m, from ({}) to ({})", lengths(low), lengths(high)))
+}
+
+fn lengths(values: [f64; 3]) -> String {
+    values.map(|value| number(value, MESH_DIGITS)).join(" ")
+}
+
+/// The scale that the element has; 1 where it has none that can be read.
+fn scale(snapshot: &Snapshot, element: usize) -> [f64; 3] {
+    let text = snapshot.text.as_str();
+    let value = snapshot.markup().value(text, element, "scale");
+    let words = value.as_deref().unwrap_or_default().split_whitespace();
+    let factors: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    factors.and_then(|factors| factors.try_into().ok()).unwrap_or([1.0; 3])
 }

@@ -6,7 +6,7 @@
 //! One feature is one file. `server` receives messages and keeps the open documents; everything else computes
 //! something from one version of one document (`document::Snapshot`), in threads of its own (`pool`), so that a
 //! large mesh delays no key stroke. Names and places come from the text as it is, half typed or not (`markup`); poses
-//! and meshes from the last version that described a robot (`robot`).
+//! and meshes from the last version that described a robot (`document`).
 
 // Hidden modules are public for `tests/`.
 mod analysis;
@@ -16,33 +16,26 @@ mod completion;
 mod definition;
 mod diagnostics;
 mod document;
-mod failures;
 mod hover;
-mod includes;
 mod kept;
 mod kind;
 #[doc(hidden)]
 pub mod markup;
-mod mesh_hover;
 #[doc(hidden)]
 pub mod options;
 mod outline;
-mod parent;
 mod pool;
 mod project;
 mod reference;
-mod robot;
 mod server;
 mod shown;
 mod symbols;
 #[doc(hidden)]
 pub mod text;
 mod transport;
-#[doc(hidden)]
-pub mod urdd_documents;
+mod urdd_documents;
 #[doc(hidden)]
 pub mod uri;
-mod vocabulary;
 mod xacro;
 
 pub use document::MAX_TEXT_BYTES;

@@ -60,7 +60,6 @@ impl Project {
         Project { settings, faults, seen: seen.unwrap_or_else(|| snapshot.name()) }
     }
 
-    /// Whether `urdd.toml` excludes the document.
     pub fn is_excluded(&self) -> bool {
         let mut excludes = self.settings.report.excludes.iter();
         excludes.any(|exclude| exclude.matches(&self.seen))

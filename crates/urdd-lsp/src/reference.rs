@@ -5,19 +5,12 @@ use std::ops::Range;
 use crate::document::Snapshot;
 use crate::markup::{Attribute, Markup, Place, unescaped};
 
-/// What is named.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Reference {
-    Link(String),
-    Joint(String),
-    Material(String),
-    Mesh(String),
-}
-
 /// What a place names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
-    pub to: Reference,
+    /// What it is; links and joints are told apart where the text has a link of the name.
+    pub to: Names,
+    pub name: String,
     /// The bytes that name it.
     pub range: Range<usize>,
     pub element: usize,
@@ -68,14 +61,11 @@ pub fn reference(snapshot: &Snapshot, offset: usize) -> Option<Found> {
             (element, first, tag.tag.clone())
         }
     };
-    let value = unescaped(&text[attribute.value.clone()]).into_owned();
+    let name = unescaped(&text[attribute.value.clone()]).into_owned();
     let to = match names(element, attribute)? {
-        Names::Links => Reference::Link(value),
-        Names::Joints => Reference::Joint(value),
-        Names::Both if snapshot.outline().link(&value).is_none() => Reference::Joint(value),
-        Names::Both => Reference::Link(value),
-        Names::Materials => Reference::Material(value),
-        Names::Meshes => Reference::Mesh(value),
+        Names::Both if snapshot.outline().link(&name).is_some() => Names::Links,
+        Names::Both => Names::Joints,
+        to => to,
     };
-    Some(Found { to, range, element })
+    Some(Found { to, name, range, element })
 }

@@ -4,7 +4,6 @@ use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Range};
 
 use urdd_format::escape;
 
-/// A text to show.
 pub fn markdown(value: String, range: Option<Range>) -> Hover {
     Hover {
         contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value }),

@@ -1,23 +1,11 @@
 //! What a program does because of something in a file.
 
+pub use urdd_format::report::Deed;
 use urdd_format::short;
 
-use crate::fault::Fault;
+use crate::fault::{Fault, NO_SHAPE};
 use crate::part::Part;
 use crate::tree::{Attribute, Node, Parsed, Tree};
-
-/// What becomes of a part of a robot in a program, or of the whole.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Deed {
-    /// It reads the part otherwise than the file says.
-    Reads,
-    /// It leaves the part out.
-    Drops,
-    /// It refuses the whole file.
-    Refuses,
-    /// It crashes.
-    Crashes,
-}
 
 /// What a program does, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,10 +71,38 @@ impl Effects {
     ) {
         self.add(Deed::Reads, at.at(), part.into(), fault, Some(makes.as_ref()));
     }
-}
 
-/// What a program refuses to be without.
-impl Effects {
+    /// Something that the program never reads.
+    pub(crate) fn unread(&mut self, at: impl At, part: impl Into<Part>, name: &str) {
+        self.drop(at, part, Fault::NeverRead(name.into()));
+    }
+
+    /// Elements that the program never reads, where they are there. `names` has spaces between them.
+    pub(crate) fn unread_elements(&mut self, node: Node<'_>, names: &str, part: &Part) {
+        for name in names.split(' ') {
+            if let Some(found) = node.child(name) {
+                self.unread(found, part.inside(name), name);
+            }
+        }
+    }
+
+    /// Attributes that the program never reads, where they are there. `names` has spaces between them.
+    pub(crate) fn unread_attributes(&mut self, node: Node<'_>, names: &str, part: &Part) {
+        for name in names.split(' ') {
+            if let Some(found) = node.attribute(name) {
+                self.unread(found, part.inside(name), name);
+            }
+        }
+    }
+
+    /// A `<geometry>` in which the program finds no shape.
+    pub(crate) fn shapeless<T>(&mut self, geometry: Node<'_>) -> Reading<T> {
+        match geometry.children().next() {
+            Some(other) => self.refuse(other, Fault::Shape(other.name().into())),
+            None => self.refuse(geometry, NO_SHAPE),
+        }
+    }
+
     /// What a parser made of the file.
     pub(crate) fn parsed<T>(&mut self, parsed: Parsed<T>) -> Reading<T> {
         parsed.or_else(|bad| self.refuse(bad.at, Fault::Xml(bad.why)))

@@ -4,6 +4,8 @@ use std::fmt;
 
 use urdd_format::short::Short;
 
+use crate::tree::Attribute;
+
 /// A reason. Programs that do something at one place for one reason share a sentence.
 // Fields are what the sentence of a fault names.
 #[allow(missing_docs)]
@@ -88,27 +90,52 @@ pub(crate) const MERGED: Fault =
 pub(crate) const FOLLOWS_NONE: Fault =
     Fault::Other("the joint that it follows is fixed, or left out");
 
+/// The shape of a visual or collision is missing.
+pub(crate) const NO_SHAPE: Fault = Fault::Other("`<geometry>` has no shape");
+
+pub(crate) const CROSSED: Fault = Fault::Limits("`lower` is above `upper`");
+pub(crate) const NO_DYNAMICS: Fault = Fault::Other("`<dynamics>` has neither damping nor friction");
+/// What a colour breaks.
+pub(crate) const COLOR_RULE: &str = "a colour is of numbers from 0 to 1";
+pub(crate) const MIMICS_ITSELF: Fault = Fault::Other("the joint mimics itself");
+
+pub(crate) const NO_ROOT: Fault = Fault::Tree("no link is the root");
+pub(crate) const TWO_ROOTS: Fault = Fault::Tree("two links have no joint above them");
+pub(crate) const TWO_PARENTS: Fault = Fault::Tree("a link is the child of two joints");
+pub(crate) const UNREACHED: Fault = Fault::Tree("it is in a loop, which the root does not reach");
+
+/// What a limit has since URDF 1.2.
+pub(crate) const FURTHER: &str = "acceleration deceleration jerk";
+/// The numbers of an `<inertia>`.
+pub(crate) const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+/// The types of joints that URDF has.
+pub(crate) const JOINT_TYPES: &[&str] =
+    &["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
+
 impl Fault {
-    pub(crate) fn not_a_number(attribute: &str, text: &str) -> Fault {
-        Fault::NotANumber { attribute: attribute.into(), text: text.into() }
+    pub(crate) fn not_a_number(value: &Attribute) -> Fault {
+        Fault::NotANumber { attribute: (&*value.name).into(), text: (&*value.value).into() }
     }
 
-    pub(crate) fn count(attribute: &str, expected: usize, text: &str) -> Fault {
-        Fault::Count { attribute: attribute.into(), expected, text: text.into() }
+    pub(crate) fn count(value: &Attribute, expected: usize) -> Fault {
+        let (attribute, text) = ((&*value.name).into(), (&*value.value).into());
+        Fault::Count { attribute, expected, text }
     }
 
-    pub(crate) fn range(attribute: &str, text: &str, rule: &'static str) -> Fault {
+    pub(crate) fn range(value: &Attribute, rule: &'static str) -> Fault {
+        Fault::range_of(&value.name, &value.value, rule)
+    }
+
+    pub(crate) fn range_of(attribute: &str, text: &str, rule: &'static str) -> Fault {
         Fault::Range { attribute: attribute.into(), text: text.into(), rule }
     }
 
     pub(crate) fn value(attribute: &str, text: &str) -> Fault {
-        const TYPES: [&str; 7] =
-            ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
-        let of_urdf = TYPES.into_iter().find(|one| attribute == "type" && *one == text);
-        if let Some(known) = of_urdf {
-            return Fault::Type(known);
+        let mut types = JOINT_TYPES.iter().chain(&["spherical"]);
+        match types.find(|one| attribute == "type" && **one == text) {
+            Some(known) => Fault::Type(known),
+            None => Fault::Value { attribute: attribute.into(), text: text.into() },
         }
-        Fault::Value { attribute: attribute.into(), text: text.into() }
     }
 
     pub(crate) fn not_unique(kind: &'static str, name: &str) -> Fault {
@@ -119,9 +146,13 @@ impl Fault {
         Fault::Unknown { kind, name: name.into() }
     }
 
+    pub(crate) fn name(kind: &'static str, name: &str, rule: &'static str) -> Fault {
+        Fault::Name { kind, name: name.into(), rule }
+    }
+
     /// A link below a joint has the name of the world.
     pub(crate) fn world() -> Fault {
-        Fault::Name { kind: "link", name: "world".into(), rule: "this is the world itself" }
+        Fault::name("link", "world", "this is the world itself")
     }
 
     /// Whether the program does so with every robot.

@@ -1,12 +1,34 @@
-//! What a reader is asked about.
+//! What a reader is asked about, and what it says of its program.
 
 use std::cell::OnceCell;
 
 use urdd_xml::Counted;
 
+use crate::effect::{Effects, Reading};
 use crate::mesh::Mesh;
 use crate::tinyxml::Document;
 use crate::unknown::{self, Found, Names};
+
+/// What a reader says of its program.
+pub(crate) struct About {
+    /// As reports and the table of `tests/figures/programs` name it.
+    pub id: &'static str,
+    /// As people know it.
+    pub name: &'static str,
+    /// Its name whatever its version.
+    pub family: &'static str,
+    /// The version that the reader is held to.
+    pub version: &'static str,
+    /// Names of settings for it besides `id`, the best first.
+    pub settings: &'static [&'static str],
+    /// Whether it is asked if nobody says which programs matter.
+    pub is_asked: bool,
+    /// Which names it takes for those of elements.
+    pub names: Names,
+    /// Elements and attributes that it never reads, in words with spaces between them: nothing is lost with them.
+    pub never: &'static [&'static str],
+    pub read: fn(&File, &mut Effects) -> Reading<()>,
+}
 
 /// A URDF, and the mesh files that it names.
 pub struct File<'a> {

@@ -4,7 +4,6 @@
 //! A *reader* is a model of one program's way to read, one file a program, and is held to that program by
 //! `tests/figures/programs`. A reader takes any bytes.
 
-mod about;
 mod drake;
 mod effect;
 mod fault;
@@ -15,10 +14,12 @@ mod mujoco;
 mod number;
 mod part;
 mod pinocchio;
+mod prelude;
 mod program;
 mod pybullet;
 mod rapidxml;
 mod sdformat;
+mod space;
 mod strict;
 mod three;
 mod tinyxml;

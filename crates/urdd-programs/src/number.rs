@@ -56,13 +56,18 @@ fn decimal(text: &str) -> Read<'_> {
     if !has_digits {
         return None;
     }
-    if let Some(exponent) = text[end..].strip_prefix(['e', 'E']) {
-        let unsigned = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
-        if digits(unsigned) > 0 {
-            end += 1 + (exponent.len() - unsigned.len()) + digits(unsigned);
-        }
-    }
+    end += exponent(&text[end..], ['e', 'E']).len();
     Some((text[..end].parse().ok()?, &text[end..]))
+}
+
+/// The exponent that a text begins with: a mark, perhaps a sign, and digits; empty if it has none.
+fn exponent(text: &str, mark: [char; 2]) -> &str {
+    let Some(behind) = text.strip_prefix(mark) else { return "" };
+    let (_, unsigned) = signed(behind);
+    match unsigned.bytes().take_while(u8::is_ascii_digit).count() {
+        0 => "",
+        digits => &text[..text.len() - unsigned.len() + digits],
+    }
 }
 
 /// `inf`, `infinity`, `nan` and `nan(...)`, in any case.
@@ -98,17 +103,11 @@ fn hexadecimal(text: &str) -> Read<'_> {
     if digits == 0 {
         return None;
     }
-    let mut power = 0;
-    if let Some(exponent) = body[end..].strip_prefix(['p', 'P']) {
-        let unsigned = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
-        let length = unsigned.bytes().take_while(u8::is_ascii_digit).count();
-        if length > 0 {
-            let value: i32 = unsigned[..length].parse().unwrap_or(i32::MAX);
-            power = if exponent.starts_with('-') { -value } else { value };
-            end += 1 + (exponent.len() - unsigned.len()) + length;
-        }
-    }
-    Some((number / scale * f64::from(power).exp2(), &body[end..]))
+    let exponent = exponent(&body[end..], ['p', 'P']);
+    let (sign, digits) = signed(exponent.get(1..).unwrap_or_default());
+    let power: i32 = if digits.is_empty() { 0 } else { digits.parse().unwrap_or(i32::MAX) };
+    let power = sign * f64::from(power);
+    Some((number / scale * power.exp2(), &body[end + exponent.len()..]))
 }
 
 /// `float()` of Python: any white space around, `_` between digits, digits of any script.

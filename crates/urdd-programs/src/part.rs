@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use urdd_format::short;
 
+use crate::tree::Node;
+
 /// A part of a robot, such as `joint/elbow/limit`; empty for the whole file. It is made of names, and a long name is
 /// shortened where it enters: a part is short, however many effects have it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
@@ -17,9 +19,18 @@ impl Part {
         Part(format!("{kind}/{}", short::name(name)).into())
     }
 
-    /// A part of it.
     pub(crate) fn inside(&self, what: impl Display) -> Self {
         Part(format!("{}/{what}", self.0).into())
+    }
+
+    /// The visuals or collisions of a link whose part it is, and the part of each.
+    pub(crate) fn shapes<'t>(
+        &self,
+        link: Node<'t>,
+        kind: &'static str,
+    ) -> impl Iterator<Item = (Node<'t>, Part)> {
+        let part = move |(index, shape)| (shape, self.inside(format_args!("{kind}/{index}")));
+        link.named(kind).enumerate().map(part)
     }
 }
 

@@ -1,21 +1,10 @@
 //! Pinocchio 4.1.0: `buildModelFromUrdf`, then `buildGeomFromUrdf` for collisions and visuals. It reads by urdfdom 6, makes
 //! the model from what urdfdom has, and reads the file by a second parser for its geometry.
 
-use std::collections::{HashMap, HashSet};
-
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::{FORMAT, Fault};
-use crate::file::File;
-use crate::mesh::{Mesh, MeshFacts};
-use crate::number::istream;
-use crate::part::Part;
+use crate::prelude::*;
 use crate::rapidxml;
-use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
 use crate::urdfdom::{self, Joint, Link, Model, Release};
 
-/// Pinocchio.
 pub(crate) const ABOUT: About = About {
     id: "pinocchio",
     name: "Pinocchio",
@@ -24,7 +13,7 @@ pub(crate) const ABOUT: About = About {
     settings: &[],
     is_asked: true,
     names: Names::Exact,
-    never: &["mimic", "safety_controller", "calibration", "acceleration", "deceleration", "jerk"],
+    never: &["mimic safety_controller calibration", FURTHER],
     read,
 };
 
@@ -89,8 +78,8 @@ impl Reader<'_> {
                     return self.effects.crash(joint.node, Fault::Tree("the links are in a loop"));
                 }
                 if !reached.insert(link) {
-                    let fault = Fault::Tree("a link is the child of two joints");
-                    self.effects.read_as(joint.node, Part::of("link", link), fault, "two links");
+                    let part = Part::of("link", link);
+                    self.effects.read_as(joint.node, part, TWO_PARENTS, "two links");
                     continue;
                 }
             }
@@ -109,13 +98,12 @@ impl Reader<'_> {
 
     /// Links and joints that hang on no root.
     fn unreached(&mut self, model: &Model<'_>, reached: &HashSet<&str>) {
-        let fault = Fault::Tree("it is in a loop, which the root does not reach");
         for (name, link) in model.links.iter().filter(|(name, _)| !reached.contains(*name)) {
-            self.effects.drop(link.node, Part::of("link", name), fault.clone());
+            self.effects.drop(link.node, Part::of("link", name), UNREACHED);
         }
         for (name, joint) in &model.joints {
             if !reached.contains(joint.child) {
-                self.effects.drop(joint.node, Part::of("joint", name), fault.clone());
+                self.effects.drop(joint.node, Part::of("joint", name), UNREACHED);
             }
         }
     }
@@ -133,8 +121,7 @@ impl Reader<'_> {
                 continue;
             };
             if number(&value.value) < 0.0 {
-                let fault = Fault::range(attribute, &value.value, "must not be negative");
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::range(value, "must not be negative"));
             }
         }
         Ok(())
@@ -142,46 +129,29 @@ impl Reader<'_> {
 
     /// What it does not read of a joint, or otherwise.
     fn unread(&mut self, joint: &Joint<'_>, name: &str) {
-        for unread in ["mimic", "safety_controller", "calibration"] {
-            if let Some(found) = joint.node.child(unread) {
-                let part = Part::of("joint", name).inside(unread);
-                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
-            }
+        let part = Part::of("joint", name);
+        self.effects.unread_elements(joint.node, "mimic safety_controller calibration", &part);
+        if matches!(joint.kind, "planar" | "floating") {
+            self.effects.unread_elements(joint.node, "limit dynamics", &part);
         }
         let axis = joint.node.child("axis");
         let xyz = axis.map(|axis| axis.value("xyz").unwrap_or_default());
         let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
-        let (at, part) = (axis.unwrap_or(joint.node), Part::of("joint", name).inside("axis"));
+        let (at, part) = (axis.unwrap_or(joint.node), part.inside("axis"));
         match joint.kind {
-            "planar" => {
-                self.limits(joint, name);
-                if is_up(&numbers) {
-                    return;
-                }
+            "planar" if !is_up(&numbers) => {
                 let fault = Fault::Other("the plane of a planar joint is always that of x and y");
                 self.effects.read_as(at, part, fault, "0 0 1");
             }
             "revolute" | "continuous" | "prismatic" if !has_length(&numbers) => {
                 let text = xyz.unwrap_or_default();
-                let fault = Fault::range("xyz", text, "an axis has a length above 0");
+                let fault = Fault::range_of("xyz", text, "an axis has a length above 0");
                 self.effects.read_as(at, part, fault, "a joint that does not move");
             }
-            "floating" => self.limits(joint, name),
             _ => {}
         }
     }
 
-    /// Limits and dynamics of a joint that has none there.
-    fn limits(&mut self, joint: &Joint<'_>, name: &str) {
-        for unread in ["limit", "dynamics"] {
-            if let Some(found) = joint.node.child(unread) {
-                let part = Part::of("joint", name).inside(unread);
-                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
-            }
-        }
-    }
-
-    /// A link's visuals or collisions.
     fn shapes(
         &mut self,
         kind: &'static str,
@@ -190,20 +160,15 @@ impl Reader<'_> {
         materials: &HashMap<&str, Node<'_>>,
     ) -> Reading<()> {
         let (kept, is_all) = link.kept[usize::from(kind == "collision")];
+        let part = Part::of("link", name);
         if !is_all {
-            for (index, shape) in link.node.named(kind).take(kept).enumerate() {
-                let fault = Fault::Way("another one of the link is faulty");
-                self.effects.drop(
-                    shape,
-                    Part::of("link", name).inside(format_args!("{kind}/{index}")),
-                    fault,
-                );
+            for (shape, part) in part.shapes(link.node, kind).take(kept) {
+                self.effects.drop(shape, part, Fault::Way("another one of the link is faulty"));
             }
             return Ok(());
         }
-        let link_name = name;
         let [capsules, convex] = ["capsule", "convex"].map(|kind| Entries::of(link.node, kind));
-        for (index, shape) in link.node.named(kind).enumerate() {
+        for (shape, part) in part.shapes(link.node, kind) {
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             let Some(form) = form else { continue };
             if form.name() == "mesh" {
@@ -225,12 +190,7 @@ impl Reader<'_> {
                 self.scheme(image)?;
                 if !image.value.is_empty() && matches!(self.file.mesh(&image.value), Mesh::Missing)
                 {
-                    let fault = Fault::NotFound("texture");
-                    self.effects.drop(
-                        image,
-                        Part::of("link", link_name).inside(format_args!("visual/{index}/material")),
-                        fault,
-                    );
+                    self.effects.drop(image, part.inside("material"), Fault::NotFound("texture"));
                 }
             }
         }

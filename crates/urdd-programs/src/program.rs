@@ -1,8 +1,7 @@
 //! The programs.
 
-use crate::about::About;
 use crate::effect::Effects;
-use crate::file::File;
+use crate::file::{About, File};
 use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
 
 /// A program that reads URDFs.

@@ -5,7 +5,6 @@ use urdd_xml::Counted;
 
 use crate::tree::{Malformed, Parsed};
 
-/// Refuses what rapidxml does.
 pub(crate) fn check(file: Counted<'_>) -> Parsed<()> {
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());

@@ -16,7 +16,6 @@ pub(crate) enum Names {
     Written,
 }
 
-/// The text of a file.
 pub(crate) struct Text<'a> {
     pub text: Cow<'a, str>,
     /// The place in the file of each byte of the text, if they differ.
@@ -71,7 +70,6 @@ impl<'a> Text<'a> {
         tree
     }
 
-    /// Parses it.
     pub fn parse(&self, names: Names) -> Parsed<Tree<'_>> {
         match parse(&self.text, names) {
             Ok(tree) => Ok(self.placed(tree)),
@@ -93,14 +91,8 @@ pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
     for node in document.descendants() {
         indices.resize(node.id().get_usize() + 1, usize::MAX);
         let Some(element) = element(node, names, text) else { continue };
-        let index = tree.elements.len();
-        indices[node.id().get_usize()] = index;
         let above = node.parent().and_then(|parent| indices.get(parent.id().get_usize()));
-        match above.and_then(|&above| tree.elements.get_mut(above)) {
-            Some(above) => above.children.push(index),
-            None => tree.tops.push(index),
-        }
-        tree.elements.push(element);
+        indices[node.id().get_usize()] = tree.push(element, above.copied());
     }
     // Instructions may be beside the root.
     tree.tops.retain(|&top| tree.elements[top].name != INSTRUCTION);
@@ -194,8 +186,7 @@ fn element<'a>(node: Node<'_, 'a>, names: Names, text: &'a str) -> Option<Elemen
         },
         range: attribute.range(),
     });
-    let attributes = attributes.collect();
-    Some(Element { name, attributes, children: Vec::new(), text: None, tag: range })
+    Some(Element::new(name, attributes.collect(), range))
 }
 
 fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {

@@ -22,7 +22,6 @@ pub(crate) struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// Parses a file.
     pub fn of(file: Counted<'a>) -> Self {
         let mut making = Making::default();
         let parsed = making.file(file.bytes());
@@ -65,14 +64,10 @@ impl<'a> Making<'a> {
                 Event::Data(text) => self.inside(Some(text)),
                 Event::End => drop(self.open.pop()),
                 Event::Start { name, attributes, tag, is_empty } => {
-                    let (index, start) = (self.tree.elements.len(), tag.start);
+                    let start = tag.start;
                     self.inside(None);
-                    match self.open.last() {
-                        Some(&(open, _)) => self.tree.elements[open].children.push(index),
-                        None => self.tree.tops.push(index),
-                    }
-                    let (children, text) = (Vec::new(), None);
-                    self.tree.elements.push(Element { name, attributes, children, text, tag });
+                    let above = self.open.last().map(|(open, _)| *open);
+                    let index = self.tree.push(Element::new(name, attributes, tag), above);
                     if !is_empty {
                         self.open.push((index, false));
                         if self.open.len() > self.depths.len() {

@@ -8,7 +8,6 @@ use urdd_xml::Counted;
 use crate::number::is_space;
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
-/// Parses a file.
 pub(crate) fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
@@ -135,11 +134,8 @@ impl<'a> Parser<'a> {
                     encoding = attribute.value;
                 }
             } else {
-                let word = self
-                    .rest()
-                    .iter()
-                    .take_while(|&&byte| byte != b'>' && !is_space(char::from(byte)));
-                self.at += word.count();
+                let is_inside = |&&byte: &&u8| byte != b'>' && !is_space(char::from(byte));
+                self.at += self.rest().iter().take_while(is_inside).count();
             }
         }
         if self.encoding.is_none() {
@@ -159,20 +155,8 @@ impl<'a> Parser<'a> {
         let is_closed = self.attributes(start, &mut attributes)?;
         // What follows is not read.
         let is_repeated = repeated(&attributes).is_some();
-        let index = self.tree.elements.len();
-        match self.open.last() {
-            Some(&open) => self.tree.elements[open].children.push(index),
-            None => self.tree.tops.push(index),
-        }
-        let tag = start..self.at;
-        let name = String::from_utf8_lossy(name);
-        self.tree.elements.push(Element {
-            name,
-            attributes,
-            children: Vec::new(),
-            text: None,
-            tag,
-        });
+        let element = Element::new(String::from_utf8_lossy(name), attributes, start..self.at);
+        let index = self.tree.push(element, self.open.last().copied());
         if !is_closed && !is_repeated {
             self.open.push(index);
         }
@@ -201,9 +185,7 @@ impl<'a> Parser<'a> {
                     self.at += 1;
                     return Ok(false);
                 }
-                Some(_) => {
-                    found.push(self.attribute()?);
-                }
+                Some(_) => found.push(self.attribute()?),
             }
         }
     }

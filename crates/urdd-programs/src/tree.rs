@@ -33,6 +33,12 @@ pub(crate) struct Element<'a> {
     pub tag: Range<usize>,
 }
 
+impl<'a> Element<'a> {
+    pub fn new(name: Cow<'a, str>, attributes: Vec<Attribute<'a>>, tag: Range<usize>) -> Self {
+        Element { name, attributes, children: Vec::new(), text: None, tag }
+    }
+}
+
 /// An element of a tree.
 #[derive(Clone, Copy)]
 pub(crate) struct Node<'t> {
@@ -41,6 +47,17 @@ pub(crate) struct Node<'t> {
 }
 
 impl<'t> Tree<'t> {
+    /// Adds an element in another one, or in none. Returns its index.
+    pub fn push(&mut self, element: Element<'t>, above: Option<usize>) -> usize {
+        let index = self.elements.len();
+        match above.and_then(|above| self.elements.get_mut(above)) {
+            Some(above) => above.children.push(index),
+            None => self.tops.push(index),
+        }
+        self.elements.push(element);
+        index
+    }
+
     /// The elements that are in no other.
     pub fn tops(&'t self) -> impl Iterator<Item = Node<'t>> {
         self.tops.iter().map(move |&index| Node { tree: self, index })

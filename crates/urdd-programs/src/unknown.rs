@@ -12,42 +12,10 @@ use crate::tree::Node;
 use urdd_xml::vocabulary::{KNOWN, Known, of};
 
 /// Elements of programs and tools, with all that is in them; some stand where URDF has other elements, or look like them.
-const EXTENSIONS: &[&str] = &[
-    "transmission",
-    "gazebo",
-    "sensor",
-    "ros2_control",
-    "mujoco",
-    "bullet",
-    "contact",
-    "frame",
-    "frames",
-    "verbose",
-    "collision_checking",
-    "loop_joint",
-    "self_collision_checking",
-    "specular",
-    "plane",
-    "cdf",
-    "convex",
-    "deformable",
-    "reduced_deformable",
-    "audio_source",
-    "model",
-    "models",
-    "plugin",
-    "disable_collisions",
-    "chain",
-    "actuator",
-    "motor",
-    "user-data",
-    "concave",
-    "simulation",
-    "safety",
-    "cone",
-    "ellipsoid",
-    "type",
-];
+const EXTENSIONS: &str = "transmission gazebo sensor ros2_control mujoco bullet contact frame frames verbose \
+    collision_checking loop_joint self_collision_checking specular plane cdf convex deformable reduced_deformable \
+    audio_source model models plugin disable_collisions chain actuator motor user-data concave simulation safety cone \
+    ellipsoid type";
 
 /// Prefixes of such elements.
 const PREFIXES: &[&str] = &["xacro", "drake", "gazebo", "mujoco", "isaac", "newton", "xi"];
@@ -79,9 +47,10 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Adds it to what a program does that never reads some elements and attributes.
+    /// Adds it to what a program does that never reads some elements and attributes, in words with spaces between them.
     pub fn add(&self, never: &[&str], effects: &mut Effects) {
-        if !self.meant.iter().any(|one| never.contains(one)) {
+        let mut never = never.iter().flat_map(|words| words.split(' '));
+        if !never.any(|one| self.meant.contains(&one)) {
             effects.drop(self.at, &self.part, self.fault.clone());
         }
     }
@@ -149,8 +118,7 @@ impl Finder {
                 "collision" => &mut collisions,
                 _ => &mut 0,
             };
-            let part =
-                part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
+            let part = part_of(&place.part, kind.name, child, *count);
             *count += 1;
             self.inside.push(kind.name);
             let has_namespace = child.value("xmlns").is_some_and(|name| !name.is_empty());
@@ -189,9 +157,7 @@ impl Finder {
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
             if !is_default && (other.name, known.name) != ("material", "collision") {
                 let part = match other.name {
-                    "link" | "joint" => {
-                        part_of(&"robot".into(), name, node.value("name").unwrap_or_default(), 0)
-                    }
+                    "link" | "joint" => part_of(&"robot".into(), name, node, 0),
                     _ => place.owner.clone(),
                 };
                 self.add(node, &part, name, other.name);
@@ -280,15 +246,14 @@ impl Finder {
 /// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
 fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> Part {
     match (known.name, like) {
-        ("robot", "link" | "joint" | "material") => {
-            part_of(&"robot".into(), like, node.value("name").unwrap_or_default(), 0)
-        }
+        ("robot", "link" | "joint" | "material") => part_of(&"robot".into(), like, node, 0),
         _ => place.part.clone(),
     }
 }
 
 /// The part that an element is about; that of its parent, if it is none itself.
-fn part_of(parent: &Part, element: &str, name: &str, count: usize) -> Part {
+fn part_of(parent: &Part, element: &str, node: Node<'_>, count: usize) -> Part {
+    let name = node.value("name").unwrap_or_default();
     match element {
         "link" | "joint" => Part::of(element, name),
         "material" if **parent == *"robot" => Part::of("material", name),
@@ -337,7 +302,7 @@ fn has_prefix(name: &str) -> bool {
 }
 
 fn is_extension(name: &str) -> bool {
-    EXTENSIONS.contains(&name) || has_prefix(name)
+    EXTENSIONS.split(' ').any(|one| one == name) || has_prefix(name)
 }
 
 /// Whether a name is another with other letter case, a prefix, or one or two typing errors.

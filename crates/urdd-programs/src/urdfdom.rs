@@ -3,18 +3,12 @@
 
 mod joints;
 mod links;
-mod values;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::BTreeMap;
 
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::look::Look;
-use crate::tree::{Node, Tree};
-use crate::unknown::Names;
-use crate::{tinyxml, tinyxml1};
+use crate::prelude::*;
+use crate::tinyxml1;
+use crate::tree::Tree;
 
 /// ROS lyrical and rolling.
 pub(crate) const SIX: About = About {
@@ -26,33 +20,30 @@ pub(crate) const SIX: About = About {
     is_asked: true,
     names: Names::Exact,
     never: &[],
-    read: read_six,
+    read: |file, effects| model(parse(file, effects)?, Release::Six, effects).map(|_| ()),
 };
 
 /// ROS jazzy and kilted.
 pub(crate) const FOUR: About = About {
     id: "urdfdom4",
     name: "ROS jazzy (urdfdom 4)",
-    family: "ROS",
     version: "4.0.1",
     settings: &["jazzy", "kilted"],
-    is_asked: true,
-    names: Names::Exact,
-    never: &[],
-    read: read_four,
+    read: |file, effects| model(parse(file, effects)?, Release::Four, effects).map(|_| ()),
+    ..SIX
 };
 
-/// ROS noetic, humble and iron.
+/// ROS noetic, humble and iron. 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
 pub(crate) const THREE: About = About {
     id: "urdfdom3",
     name: "ROS humble (urdfdom 3)",
-    family: "ROS",
     version: "3.0.1",
     settings: &["humble", "noetic", "iron"],
-    is_asked: true,
-    names: Names::Exact,
-    never: &[],
-    read: read_three,
+    read: |file, effects| {
+        let tree = effects.parsed(tinyxml1::parse(file.counted))?;
+        model(&tree, Release::Four, effects).map(|_| ())
+    },
+    ..SIX
 };
 
 const NO_COLOR: &str = "the material has no colour and no texture";
@@ -66,14 +57,12 @@ pub(crate) enum Release {
     Six,
 }
 
-/// What it has of a link.
 pub(crate) struct Link<'t> {
     pub node: Node<'t>,
     /// How many visuals and collisions it reads, and whether these are all.
     pub kept: [(usize, bool); 2],
 }
 
-/// What it has of a joint.
 pub(crate) struct Joint<'t> {
     pub node: Node<'t>,
     pub kind: &'t str,
@@ -81,7 +70,6 @@ pub(crate) struct Joint<'t> {
     pub child: &'t str,
 }
 
-/// What it has of a robot.
 pub(crate) struct Model<'t> {
     pub robot: Node<'t>,
     pub links: BTreeMap<&'t str, Link<'t>>,
@@ -89,37 +77,17 @@ pub(crate) struct Model<'t> {
     pub joints: BTreeMap<&'t str, Joint<'t>>,
 }
 
-pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = parse(file, effects)?;
-    model(tree, Release::Six, effects).map(|_| ())
-}
-
-/// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
-pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = effects.parsed(tinyxml1::parse(file.counted))?;
-    model(&tree, Release::Four, effects).map(|_| ())
-}
-
-pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
-    let tree = parse(file, effects)?;
-    model(tree, Release::Four, effects).map(|_| ())
-}
-
-/// The XML.
 pub(crate) fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
     effects.parsed(file.document.within(tinyxml::MAX_DEPTH))
 }
 
-/// The robot.
 pub(crate) fn model<'t>(
     tree: &'t Tree<'t>,
     release: Release,
     effects: &mut Effects,
 ) -> Reading<Model<'t>> {
     let robot = effects.robot(tree)?;
-    if robot.attribute("name").is_none() {
-        return effects.refuse(robot, Fault::Missing("name"));
-    }
+    effects.needed(robot, "name")?;
     let minor = match robot.attribute("version") {
         None => 0,
         Some(written) => match version(&written.value) {
@@ -147,13 +115,8 @@ fn formats(effects: &mut Effects) -> Reading<()> {
         let is_named = effect.fault == Fault::Other(NO_COLOR) && is_format(&effect.part);
         is_named || is_format(&effect.fault.to_string())
     });
-    match found.map(|effect| effect.at) {
-        Some(at) => {
-            let why = "the message about it takes its `%s` or `%n` for a format";
-            effects.crash(at, Fault::Other(why))
-        }
-        None => Ok(()),
-    }
+    let Some(at) = found.map(|effect| effect.at) else { return Ok(()) };
+    effects.crash(at, Fault::Other("the message about it takes its `%s` or `%n` for a format"))
 }
 
 /// Two whole numbers with a point between them.
@@ -188,9 +151,8 @@ impl Reader<'_> {
                         Some(end) if end.attribute("link").is_some() => Fault::Empty("link"),
                         Some(_) => Fault::Missing("link"),
                     };
-                    return self
-                        .effects
-                        .refuse(joint.node.child(name).unwrap_or(joint.node), fault);
+                    let at = joint.node.child(name).unwrap_or(joint.node);
+                    return self.effects.refuse(at, fault);
                 }
             }
             for (name, link) in [ends[1], ends[0]] {
@@ -205,11 +167,45 @@ impl Reader<'_> {
         let mut roots: Vec<usize> = roots.map(|(_, link)| link.node.start()).collect();
         roots.sort_unstable();
         match roots[..] {
-            [] => self.effects.refuse(robot, Fault::Tree("no link is the root")),
+            [] => self.effects.refuse(robot, NO_ROOT),
             [_] => Ok(()),
-            [_, second, ..] => {
-                self.effects.refuse(second, Fault::Tree("two links have no joint above them"))
-            }
+            [_, second, ..] => self.effects.refuse(second, TWO_ROOTS),
         }
+    }
+}
+
+/// A part that may be faulty: where, and why.
+type PartRead<T> = Result<T, (usize, Fault)>;
+
+fn needed<'t>(node: Node<'t>, name: &'static str) -> PartRead<&'t Attribute<'t>> {
+    node.attribute(name).ok_or((node.start(), Fault::Missing(name)))
+}
+
+fn needed_element<'t>(node: Node<'t>, name: &'static str) -> PartRead<Node<'t>> {
+    node.child(name).ok_or((node.start(), Fault::MissingElement(name)))
+}
+
+/// A number without anything behind it.
+fn number(value: &Attribute<'_>) -> PartRead<f64> {
+    let read = whole(istream(&value.value));
+    read.ok_or_else(|| (value.at(), Fault::not_a_number(value)))
+}
+
+/// Numbers that may be left out.
+fn numbers(node: Node<'_>, names: &[&str]) -> PartRead<()> {
+    names
+        .iter()
+        .filter_map(|name| node.attribute(name))
+        .try_for_each(|value| number(value).map(|_| ()))
+}
+
+/// Numbers with spaces, and nothing else, between them.
+fn vector(value: &Attribute<'_>, count: usize) -> PartRead<Vec<f64>> {
+    let numbers: Option<Vec<f64>> =
+        pieces(&value.value).map(|piece| whole(istream(piece))).collect();
+    match numbers {
+        None => Err((value.at(), Fault::not_a_number(value))),
+        Some(numbers) if numbers.len() != count => Err((value.at(), Fault::count(value, count))),
+        Some(numbers) => Ok(numbers),
     }
 }

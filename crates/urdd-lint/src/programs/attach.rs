@@ -12,24 +12,19 @@ use urdd_findings::check::Check;
 use urdd_findings::code::Code;
 use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
-use urdd_format::report::{Consequence, Does, Fix, Place, Severity};
+use urdd_format::report::{Consequence, Fix, Place, Severity};
 
 use urdd_programs::Fault;
 
-use super::answers::deed;
 use super::asked::Asked;
-use super::faults::{Faulty, Said};
+use super::faults::{Faulty, Left};
 use super::fixes::fix;
-use super::left::Left;
 use super::seen::{Reach, sees};
-use super::severity::{is_refused, severity};
-use super::words::{doings, message};
 use crate::subject::Subject;
 
 /// What programs do because of the faults at the places of rules' findings.
 type Given = HashMap<(Code, Position), (Faulty, Option<Fix>)>;
 
-/// A finding of another rule.
 struct Known {
     code: Code,
     at: Position,
@@ -48,12 +43,11 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
     for faulty in of_one_body(subject, asked, faults) {
         let Some(offset) = asked.encoding.in_text(faulty.at) else { continue };
         let node = subject.element(offset);
-        let severity = severity(&faulty.said, asked.has_chosen);
+        let severity = faulty.severity(asked.has_chosen);
         match node.and_then(|node| known.of(subject, node, offset, &faulty)) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
-                let code =
-                    if faulty.said.iter().any(is_refused) { Code::LNT060 } else { Code::LNT061 };
+                let code = if faulty.is_refused() { Code::LNT060 } else { Code::LNT061 };
                 effects.entry(known.code).or_default().push(Effect {
                     at: known.at,
                     message: known.message.clone(),
@@ -80,12 +74,12 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
         }
         left.push(Left {
             offset,
-            message: message(&faulty, &asked.results),
+            message: faulty.message(&asked.results),
             severity,
             consequence: faulty.is_of_looks().then_some(Consequence::Appearance),
-            programs: does(&faulty.said),
+            programs: faulty.does(),
             fix: fix(subject, offset, &faulty.fault),
-            is_refused: faulty.said.iter().any(is_refused),
+            is_refused: faulty.is_refused(),
         });
     }
     for check in checks {
@@ -97,7 +91,7 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
 
 /// Gives all that programs do to the finding that a file is no XML, or not expanded: what they say of it beyond that is not
 /// known before it is mended.
-pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) -> Vec<Left> {
+pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) {
     let check = checks.iter_mut().find(|check| check.rule.code == code);
     let mut faults = asked.faults.iter().cloned();
     if let (Some(check), Some(mut first)) = (check, faults.next()) {
@@ -106,7 +100,6 @@ pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) -> Vec<Left> 
         let given = place.map(|at| ((code, at), (first, None)));
         give(check, &given.into_iter().collect(), asked);
     }
-    Vec::new()
 }
 
 /// The faults, with those of the mass and inertia of a link as one.
@@ -227,9 +220,7 @@ impl Index {
             .or_else(in_part)
             .or_else(|| best(self.firsts.clone(), Reach::File))
     }
-}
 
-impl Index {
     /// The first finding of each rule at an element, or at one directly in it. `at` gives the findings at one element. It is
     /// computed once for all elements inside.
     fn around(&self, above: Node, at: impl Fn(Node) -> Vec<usize>) -> Vec<usize> {
@@ -254,7 +245,7 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
     for finding in std::mem::take(&mut check.findings) {
         let own = finding.severity.unwrap_or(check.severity);
         let (groups, mut cut) = parted(finding, |place| {
-            let worst = of(place).map(|(one, _)| severity(&one.said, asked.has_chosen));
+            let worst = of(place).map(|(one, _)| one.severity(asked.has_chosen));
             worst.filter(|worst| *worst > own)
         });
         for (worst, mut group) in groups {
@@ -264,8 +255,8 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
             for place in group.places_mut() {
                 let Some((faulty, fix)) = of(place) else { continue };
                 let said = place.message.as_ref().unwrap_or(&message);
-                place.message = Some(format!("{said} ({})", doings(&faulty.said, &asked.results)));
-                place.programs = does(&faulty.said);
+                place.message = Some(format!("{said} ({})", faulty.doings(&asked.results)));
+                place.programs = faulty.does();
                 // The best is first.
                 place.fixes.splice(0..0, fix.clone());
             }
@@ -278,9 +269,4 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
             check.findings.push(group);
         }
     }
-}
-
-fn does(said: &[Said]) -> Vec<Does> {
-    let does = |one: &Said| Does { program: one.program.id().to_owned(), does: deed(one.deed) };
-    said.iter().map(does).collect()
 }

@@ -1,10 +1,18 @@
-//! What programs say, by the fault that they say it of.
+//! What programs say, by the fault that they say it of; how bad that is, and in words.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
-use urdd_programs::{Deed, Fault, Part, Program};
+use urdd_findings::programs::{kind, subject};
+use urdd_format::report::{Consequence, Does, Fix, ProgramResult, Severity};
+use urdd_programs::{Deed, Effect, Effects, Fault, Program};
 
-use super::answers::Answer;
+/// What a program does with a file.
+pub struct Answer {
+    pub program: Program,
+    /// Whether the settings name it.
+    pub is_chosen: bool,
+    pub effects: Effects,
+}
 
 /// A fault, by all programs that do something because of it.
 #[derive(Debug, Clone)]
@@ -23,11 +31,22 @@ pub struct Said {
     pub program: Program,
     /// Whether the settings name it.
     pub is_chosen: bool,
-    pub deed: Deed,
-    /// What is lost or read otherwise; empty for the whole file.
-    pub part: Part,
-    /// What it makes of the part.
-    pub makes: Option<String>,
+    pub effect: Effect,
+}
+
+/// A fault that no other rule finds, as LNT060 and LNT061 report it.
+#[derive(Debug, Clone)]
+pub struct Left {
+    /// Where it is in the text.
+    pub offset: usize,
+    pub message: String,
+    pub severity: Severity,
+    /// What it leads to, if that is not what the rule says.
+    pub consequence: Option<Consequence>,
+    pub programs: Vec<Does>,
+    pub fix: Option<Fix>,
+    /// Whether a program has no robot because of it.
+    pub is_refused: bool,
 }
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
@@ -36,18 +55,12 @@ pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
     let refusing = answers.iter().filter(|answer| !answer.effects.loads());
     let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
-    for answer in answers {
-        for effect in answer.effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
-            let said = Said {
-                program: answer.program,
-                is_chosen: answer.is_chosen,
-                deed: effect.deed,
-                part: effect.part,
-                makes: effect.makes,
-            };
-            let is_attribute = bytes.get(effect.at).is_some_and(|byte| *byte != b'<');
-            let here = by_place.entry(effect.at).or_default();
-            let new = Faulty { at: effect.at, fault: effect.fault, said: vec![said] };
+    for Answer { program, is_chosen, effects } in answers {
+        for effect in effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
+            let (at, fault) = (effect.at, effect.fault.clone());
+            let is_attribute = bytes.get(at).is_some_and(|byte| *byte != b'<');
+            let here = by_place.entry(at).or_default();
+            let new = Faulty { at, fault, said: vec![Said { program, is_chosen, effect }] };
             let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
             match here.iter_mut().find(is_same) {
                 Some(known) => known.add(new),
@@ -58,7 +71,7 @@ pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
     // What a program loses of a robot that it does not have says nothing.
     let is_something = |faulty: &Faulty| {
         let mut said = faulty.said.iter();
-        said.any(|said| said.deed >= Deed::Refuses || !refusing.contains(&said.program))
+        said.any(|said| said.is_refused() || !refusing.contains(&said.program))
     };
     by_place.into_values().flatten().filter(is_something).collect()
 }
@@ -66,13 +79,18 @@ pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
 impl Faulty {
     /// The worst that a program does because of it.
     fn worst(&self) -> Option<Deed> {
-        self.said.iter().map(|said| said.deed).max()
+        self.said.iter().map(|said| said.effect.deed).max()
+    }
+
+    /// Whether a program has no robot because of it.
+    pub fn is_refused(&self) -> bool {
+        self.said.iter().any(Said::is_refused)
     }
 
     /// Whether colours and textures are all that programs lose or read otherwise.
     pub fn is_of_looks(&self) -> bool {
         let is_look = |part: &str| part.starts_with("material/") || part.ends_with("/material");
-        self.said.iter().all(|said| is_look(&said.part))
+        self.said.iter().all(|said| is_look(&said.effect.part))
     }
 
     /// Adds what programs do because of the same fault. Of each program, the worst counts.
@@ -82,10 +100,88 @@ impl Faulty {
         }
         for said in other.said {
             match self.said.iter_mut().find(|known| known.program == said.program) {
-                Some(known) if known.deed < said.deed => *known = said,
+                Some(known) if known.effect.deed < said.effect.deed => *known = said,
                 Some(_) => {}
                 None => self.said.push(said),
             }
+        }
+    }
+
+    /// How bad it is. Where the settings name programs (`has_chosen`): an error if one of these refuses the file, a warning
+    /// if one reads it otherwise, an information if only others do. Else an error if ROS or two of the others refuse it, or a
+    /// warning.
+    pub fn severity(&self, has_chosen: bool) -> Severity {
+        if !has_chosen {
+            let refusing = self.said.iter().filter(|one| one.is_refused());
+            let families: HashSet<&str> = refusing.map(|one| one.program.family()).collect();
+            let is_error = families.contains("ROS") || families.len() > 1;
+            return if is_error { Severity::Error } else { Severity::Warning };
+        }
+        let mut chosen = self.said.iter().filter(|one| one.is_chosen).peekable();
+        match (chosen.peek().is_some(), chosen.any(Said::is_refused)) {
+            (_, true) => Severity::Error,
+            (true, false) => Severity::Warning,
+            (false, false) => Severity::Info,
+        }
+    }
+
+    /// What programs do, as places of findings have it.
+    pub fn does(&self) -> Vec<Does> {
+        let does =
+            |one: &Said| Does { program: one.program.id().to_owned(), does: one.effect.deed };
+        self.said.iter().map(does).collect()
+    }
+
+    /// What is wrong, what programs do, and what to do about it.
+    pub fn message(&self, programs: &[ProgramResult]) -> String {
+        format!("{}: {}; {}", self.fault, self.doings(programs), self.fault.advice())
+    }
+
+    /// What programs do: "ROS and Drake refuse the robot; MuJoCo leaves out the limit".
+    pub fn doings(&self, programs: &[ProgramResult]) -> String {
+        let mut groups: Vec<Vec<&Said>> = Vec::new();
+        for one in &self.said {
+            match groups.iter_mut().find(|group| group[0].is_like(one)) {
+                Some(group) => group.push(one),
+                None => groups.push(vec![one]),
+            }
+        }
+        groups.sort_by_key(|group| (std::cmp::Reverse(group[0].effect.deed), group[0].program));
+        let doing = |group: &Vec<&Said>| {
+            let is_one = |result: &ProgramResult| {
+                group.iter().any(|said| said.program.id() == result.program)
+            };
+            let (names, are_many) = subject(programs, is_one);
+            format!("{names} {}", group[0].words(are_many))
+        };
+        groups.iter().map(doing).collect::<Vec<_>>().join("; ")
+    }
+}
+
+impl Said {
+    /// Whether the program has no robot because of it.
+    fn is_refused(&self) -> bool {
+        self.effect.deed >= Deed::Refuses
+    }
+
+    /// Whether another program does the same.
+    fn is_like(&self, other: &Said) -> bool {
+        let (one, other) = (&self.effect, &other.effect);
+        (one.deed, &one.part, &one.makes) == (other.deed, &other.part, &other.makes)
+    }
+
+    fn words(&self, are_many: bool) -> String {
+        let (s, es) = if are_many { ("", "") } else { ("s", "es") };
+        // `joint/elbow/limit` is "the limit". Which joint it is, the place says.
+        let kind = kind(&self.effect.part);
+        let part = || format!("the {}", kind.replace('_', " "));
+        match (self.effect.deed, self.effect.makes.as_deref()) {
+            (Deed::Refuses, _) => format!("refuse{s} the robot"),
+            (Deed::Crashes, _) => format!("crash{es}"),
+            (Deed::Drops, _) if kind == "?" => format!("ignore{s} it"),
+            (Deed::Drops, _) => format!("leave{s} out {}", part()),
+            (Deed::Reads, Some(made)) if !made.is_empty() => format!("read{s} `{made}`"),
+            (Deed::Reads, _) => format!("read{s} {} otherwise", part()),
         }
     }
 }

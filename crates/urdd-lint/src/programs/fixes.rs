@@ -60,8 +60,7 @@ fn spaced<'a>(subject: &Subject<'a>, node: Node<'a, 'a>, attribute: &str) -> Opt
     if words.len() != count || !words.iter().all(is_plain) || mended == value {
         return None;
     }
-    let range = subject.value(node, attribute)?;
-    Some(subject.fix(format!("write `{mended}`"), range, mended))
+    Some(subject.fix(format!("write `{mended}`"), subject.value(node, attribute)?, mended))
 }
 
 /// A word of URDF that was written with other letters.
@@ -72,8 +71,7 @@ fn in_lower_case<'a>(subject: &Subject<'a>, node: Node<'a, 'a>, attribute: &str)
     if attribute != "type" || lower == value || !kinds.contains(&lower.as_str()) {
         return None;
     }
-    let range = subject.value(node, attribute)?;
-    Some(subject.fix(format!("write `{lower}`"), range, lower))
+    Some(subject.fix(format!("write `{lower}`"), subject.value(node, attribute)?, lower))
 }
 
 /// `1.0`, where the robot has nothing that came later.
@@ -86,8 +84,7 @@ fn version<'a>(subject: &Subject<'a>, node: Node<'a, 'a>) -> Option<Fix> {
     if elements.any(is_newer) {
         return None;
     }
-    let range = subject.value(node, "version")?;
-    Some(subject.fix("write `1.0`", range, "1.0".to_owned()))
+    Some(subject.fix("write `1.0`", subject.value(node, "version")?, "1.0".to_owned()))
 }
 
 /// Removes an element that says again what one of the same name beside it does.

@@ -1,6 +1,6 @@
 //! Which rules see which faults that programs name.
 
-use urdd_findings::code::Code;
+use urdd_findings::code::Code::{self, *};
 use urdd_programs::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 
 /// How far from the fault the finding of a rule may be.
@@ -16,111 +16,86 @@ pub enum Reach {
     File,
 }
 
+use Reach::{Beside, Element, File, Part};
+
+/// Rules, and how far from a fault they see it.
+type Seeing = (Reach, &'static [Code]);
+
+const OF_INERTIA: &[Code] = &[SRC003, SRC004, SRC005, LNT006, LNT008];
+const OF_FILES: &[Code] = &[LNT026, LNT027, LNT028, LNT029, LNT030];
+/// Whatever is missing.
+const OF_MISSING: Seeing = (Element, &[URD011, LNT015]);
+
 /// How far from a fault a rule sees it; `None` if it is about something else.
 pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
-    use Reach::{Beside, Element, File, Part};
+    let seeing = seeing(fault).iter().find(|(_, codes)| codes.contains(&code));
+    seeing.map(|(reach, _)| *reach)
+}
+
+/// The rules that see a fault. The first place of a rule counts.
+fn seeing(fault: &Fault) -> &'static [Seeing] {
     match fault {
-        Fault::Xml(_) | Fault::NotRobot => (code == Code::URD011).then_some(File),
-        Fault::Tree(_) => {
-            matches!(code, Code::URD004 | Code::URD005 | Code::URD006).then_some(File)
-        }
-        Fault::Inertia(_) if code == Code::URD011 => Some(Beside),
-        // No link has a mass.
-        Fault::Inertia(_) if code == Code::LNT006 => Some(File),
+        Fault::Xml(_) | Fault::NotRobot => &[(File, &[URD011])],
+        Fault::Tree(_) => &[(File, &[URD004, URD005, URD006])],
         // A mass that is next to nothing makes no density.
-        Fault::Inertia(_) if code == Code::LNT003 => {
-            [MASSLESS, MASSLESS_WITH_OTHERS].contains(fault).then_some(Part)
+        Fault::Inertia(_) if [MASSLESS, MASSLESS_WITH_OTHERS].contains(fault) => {
+            &[(Beside, &[URD011]), (File, &[LNT006]), (Part, &[LNT003]), (Part, OF_INERTIA)]
         }
-        Fault::Inertia(_) => of_inertia(code).then_some(Part),
+        // LNT006: no link has a mass.
+        Fault::Inertia(_) => &[(Beside, &[URD011]), (File, &[LNT006]), (Part, OF_INERTIA)],
         Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
-            of_missing(code, name)
+            seeing_missing(name)
         }
-        Fault::NotANumber { .. } | Fault::Count { .. } if of_inertia(code) => Some(Beside),
-        Fault::NotANumber { .. } | Fault::Count { .. } => (code == Code::URD011).then_some(Element),
-        Fault::Value { .. } => matches!(code, Code::URD011 | Code::URD012).then_some(Element),
-        Fault::Range { .. } => of_range(code).then_some(Element),
-        Fault::Type(_) => (code == Code::URD012).then_some(Beside),
-        Fault::Repeated(_) => {
-            matches!(code, Code::SRC008 | Code::LNT008 | Code::URD011).then_some(Beside)
+        Fault::NotANumber { .. } | Fault::Count { .. } => {
+            &[(Beside, OF_INERTIA), (Element, &[URD011])]
         }
-        Fault::NotUnique { .. } => {
-            matches!(code, Code::URD002 | Code::URD003 | Code::LNT015).then_some(Element)
+        Fault::Value { .. } => &[(Element, &[URD011, URD012])],
+        Fault::Range { .. } => &[
+            (Element, &[LNT012, LNT013, LNT023, LNT033, LNT048, URD010, URD011, SRC009]),
+            (Element, OF_INERTIA),
+        ],
+        Fault::Type(_) => &[(Beside, &[URD012])],
+        Fault::Repeated(_) => &[(Beside, &[SRC008, LNT008, URD011])],
+        Fault::NotUnique { .. } => &[(Element, &[URD002, URD003, LNT015])],
+        Fault::Unknown { .. } => &[
+            (Part, &[URD007, URD008]),
+            (File, &[LNT041, LNT048]),
+            (Element, &[LNT042, LNT043, URD011]),
+        ],
+        Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
+            &[(Beside, &[URD011, LNT008]), (Element, &[LNT040, LNT046, LNT047])]
         }
-        Fault::Unknown { .. } => of_unknown(code),
-        Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. }
-            if matches!(code, Code::URD011 | Code::LNT008) =>
-        {
-            Some(Beside)
+        Fault::Shape(_) => &[(Element, &[LNT040, LNT046, LNT047, URD011])],
+        Fault::Limits(_) => &[(Element, &[SRC001, LNT014])],
+        Fault::NotFound(_) => &[(Element, OF_FILES)],
+        Fault::Mesh(_) => {
+            &[(Beside, OF_FILES), (Beside, &[LNT020, LNT022, LNT023, LNT024, LNT034, LNT035])]
         }
-        Fault::Shape(_) | Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
-            of_unknown_to_urdf(code).then_some(Element)
-        }
-        Fault::Limits(_) => matches!(code, Code::SRC001 | Code::LNT014).then_some(Element),
-        Fault::NotFound(_) => of_files(code).then_some(Element),
-        Fault::Mesh(_) => of_meshes(code).then_some(Beside),
-        Fault::Name { .. } => (code == Code::LNT015).then_some(File),
-        Fault::Version(_) => (code == Code::URD011).then_some(Element),
-        Fault::Other(_) if matches!(code, Code::URD009 | Code::URD010) => Some(Part),
+        Fault::Name { .. } => &[(File, &[LNT015])],
+        Fault::Version(_) => &[(Element, &[URD011])],
         Fault::Other(_) => {
-            matches!(code, Code::LNT008 | Code::URD011 | Code::URD012 | Code::LNT046)
-                .then_some(Beside)
+            &[(Part, &[URD009, URD010]), (Beside, &[LNT008, URD011, URD012, LNT046])]
         }
-        Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_) => None,
+        Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_) => &[],
     }
 }
 
-fn of_inertia(code: Code) -> bool {
-    matches!(code, Code::SRC003 | Code::SRC004 | Code::SRC005 | Code::LNT006 | Code::LNT008)
-}
-
-fn of_missing(code: Code, name: &str) -> Option<Reach> {
-    match (code, name) {
+/// The rules that see that an element or attribute is missing.
+fn seeing_missing(name: &str) -> &'static [Seeing] {
+    match name {
         // The root, in Gazebo, where no link has a mass.
-        (Code::LNT006, "inertial") => Some(Reach::File),
-        (Code::LNT006 | Code::LNT008, "inertial" | "mass" | "inertia" | "value") => {
-            Some(Reach::Part)
+        "inertial" => &[(File, &[LNT006]), (Part, &[LNT008]), OF_MISSING],
+        "mass" | "inertia" | "value" => &[(Part, &[LNT006, LNT008]), OF_MISSING],
+        name if name.len() == 3 && name.starts_with('i') => {
+            &[(Part, &[LNT006, LNT008]), OF_MISSING]
         }
-        (Code::LNT006 | Code::LNT008, name) if name.len() == 3 && name.starts_with('i') => {
-            Some(Reach::Part)
+        "limit" | "lower" | "upper" | "effort" | "velocity" => {
+            &[(Part, &[SRC006, LNT017]), OF_MISSING]
         }
-        (Code::SRC006 | Code::LNT017, "limit" | "lower" | "upper" | "effort" | "velocity") => {
-            Some(Reach::Part)
-        }
-        (Code::LNT016, "axis" | "xyz") => Some(Reach::Part),
-        (Code::URD008, "joint") | (Code::URD007, "link") => Some(Reach::Element),
-        (Code::URD011 | Code::LNT015, _) => Some(Reach::Element),
-        (code, "filename") if of_files(code) => Some(Reach::Element),
-        _ => None,
+        "axis" | "xyz" => &[(Part, &[LNT016]), OF_MISSING],
+        "joint" => &[(Element, &[URD008]), OF_MISSING],
+        "link" => &[(Element, &[URD007]), OF_MISSING],
+        "filename" => &[(Element, OF_FILES), OF_MISSING],
+        _ => &[OF_MISSING],
     }
-}
-
-fn of_range(code: Code) -> bool {
-    let of_lint =
-        matches!(code, Code::LNT012 | Code::LNT013 | Code::LNT023 | Code::LNT033 | Code::LNT048);
-    of_lint || of_inertia(code) || matches!(code, Code::URD010 | Code::URD011 | Code::SRC009)
-}
-
-fn of_unknown(code: Code) -> Option<Reach> {
-    match code {
-        Code::URD007 | Code::URD008 => Some(Reach::Part),
-        Code::LNT041 | Code::LNT048 => Some(Reach::File),
-        Code::LNT042 | Code::LNT043 | Code::URD011 => Some(Reach::Element),
-        _ => None,
-    }
-}
-
-fn of_unknown_to_urdf(code: Code) -> bool {
-    matches!(code, Code::LNT040 | Code::LNT046 | Code::LNT047 | Code::URD011)
-}
-
-fn of_files(code: Code) -> bool {
-    matches!(code, Code::LNT026 | Code::LNT027 | Code::LNT028 | Code::LNT029 | Code::LNT030)
-}
-
-fn of_meshes(code: Code) -> bool {
-    of_files(code)
-        || matches!(
-            code,
-            Code::LNT020 | Code::LNT022 | Code::LNT023 | Code::LNT024 | Code::LNT034 | Code::LNT035
-        )
 }

@@ -20,10 +20,7 @@ declare_lint! {
 const PYBULLET: (f64, f64) = (0.0, -1.0);
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for joint in urdf.joints_of(&["continuous"]) {
-        let Some(limit) = child(joint, "limit") else {
-            continue;
-        };
+    for (_, limit) in urdf.limits_of(&["continuous"]) {
         // A limit that is no number is URD011's.
         let [lower, upper] = ["lower", "upper"].map(|one| number(limit, one));
         let is_read = lower.is_some() == limit.has_attribute("lower")

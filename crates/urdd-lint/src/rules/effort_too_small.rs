@@ -88,8 +88,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 
 /// The links that Gazebo turns gravity off for.
 fn weightless<'a>(urdf: &Subject<'a>) -> BTreeSet<&'a str> {
-    let gazebo = children(urdf.root).filter(|(name, _)| *name == "gazebo");
-    let links = gazebo.filter_map(|(_, node)| {
+    let links = named(urdf.root, "gazebo").filter_map(|node| {
         let text = child(node, "turnGravityOff")?.text()?.trim();
         matches!(text, "true" | "True" | "1").then(|| node.attribute("reference"))?
     });

@@ -23,9 +23,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let world = world(urdf);
     let all = urdf.links.iter().map(|node| (node, false));
     for (node, is_joint) in all.chain(urdf.joints.iter().map(|node| (node, true))) {
-        let Some(name) = node.attribute("name") else {
-            continue;
-        };
+        let Some(name) = node.attribute("name") else { continue };
         let is_reserved = name.len() >= 4 && name.starts_with("__") && name.ends_with("__");
         let wrong = if name.is_empty() {
             "the name is empty"
@@ -46,8 +44,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let message = format!("{wrong}; choose another name");
-        urdf.at_attribute(*node, "name", message).report(findings);
+        urdf.at_attribute(*node, "name", format!("{wrong}; choose another name")).report(findings);
     }
     Some(())
 }

@@ -6,7 +6,7 @@ pub(super) use std::path::Path;
 pub(super) use nalgebra::{Point3, Vector3};
 pub(super) use urdd_xml::Node;
 
-pub(super) use crate::elements::{ONE_DOF, WITH_AXIS, child, number, numbers};
+pub(super) use crate::elements::{ONE_DOF, WITH_AXIS, child, named, number, numbers};
 pub(super) use crate::geometry::{bounds, diagonal};
 pub(super) use crate::hull::Hull;
 pub(super) use crate::inertial::Inertial;
@@ -14,7 +14,7 @@ pub(super) use crate::rule::declare_lint;
 pub(super) use crate::srdf;
 pub(super) use crate::subject::Subject;
 pub(super) use crate::textures::textures;
-pub(super) use crate::unknown::{Unknown, What};
+pub(super) use crate::unknown::What;
 pub(super) use urdd_findings::description::Severity;
 pub(super) use urdd_findings::finding::{Finding, Findings};
 pub(super) use urdd_format::meshes::GeometryKind;

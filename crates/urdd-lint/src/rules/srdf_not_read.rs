@@ -25,22 +25,8 @@ declare_lint! {
 /// An element of an SRDF, where it is, the attributes it needs, and what may be in it.
 type Known = (&'static str, &'static [&'static str], &'static [&'static str]);
 
-const ROBOT: Known = (
-    "robot",
-    &[],
-    &[
-        "disable_collisions",
-        "disable_default_collisions",
-        "enable_collisions",
-        "end_effector",
-        "group",
-        "group_state",
-        "joint_property",
-        "link_sphere_approximation",
-        "passive_joint",
-        "virtual_joint",
-    ],
-);
+const ROBOT: &str = "robot";
+/// Those in the robot.
 const ELEMENTS: [Known; 10] = [
     ("disable_collisions", &["link1", "link2"], &[]),
     ("disable_default_collisions", &["link"], &[]),
@@ -80,7 +66,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         let root = document.root_element();
         let mut reader = Reader::new(&srdf.shown, &document, findings);
-        if root.tag_name().name() != "robot" {
+        if root.tag_name().name() != ROBOT {
             let message = "MoveIt refuses the SRDF: its outermost element is not `<robot>`";
             let at = reader.lines.position(root.range().start);
             of_file(message.to_owned(), at).report(reader.findings);
@@ -95,7 +81,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             );
             reader.say(root, "name", message);
         }
-        reader.inside(root, ROBOT);
+        reader.inside(root, ROBOT, &ELEMENTS.map(|(name, ..)| name));
     }
     Some(())
 }
@@ -110,8 +96,8 @@ struct Reader<'d, 'f> {
 
 impl<'d, 'f> Reader<'d, 'f> {
     fn new(file: &'d str, document: &'d Document<'d>, findings: &'f mut Findings) -> Self {
-        let groups = children(document.root_element()).filter(|(name, _)| *name == "group");
-        let groups = groups.filter_map(|(_, group)| group.attribute("name"));
+        let groups = named(document.root_element(), "group");
+        let groups = groups.filter_map(|group| group.attribute("name"));
         Reader {
             file,
             lines: LineIndex::new(document.input_text()),
@@ -128,14 +114,15 @@ impl<'d, 'f> Reader<'d, 'f> {
     }
 
     /// What is in an element that MoveIt reads.
-    fn inside(&mut self, node: Node<'d, 'd>, (of, _, allowed): Known) {
+    fn inside(&mut self, node: Node<'d, 'd>, of: &str, allowed: &[&str]) {
         for (name, child) in children(node) {
             let inner = INNER.iter().find(|(above, known)| *above == of && known.0 == name);
-            let top = ELEMENTS.iter().find(|known| of == ROBOT.0 && known.0 == name);
-            if let Some(known) = inner.map(|(_, known)| known).or(top) {
+            let top = ELEMENTS.iter().find(|known| known.0 == name);
+            let known = inner.map(|(_, known)| known).or(top.filter(|_| of == ROBOT));
+            if let Some(known) = known {
                 self.element(child, *known, of);
-                self.inside(child, if of == ROBOT.0 { *known } else { (known.0, &[], &[]) });
-            } else if ROBOT.2.contains(&name) {
+                self.inside(child, known.0, if of == ROBOT { known.2 } else { &[] });
+            } else if top.is_some() {
                 let message = format!(
                     "MoveIt ignores `<{name}>` in `<{of}>`; put it directly into `<robot>`"
                 );

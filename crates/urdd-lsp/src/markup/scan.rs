@@ -1,22 +1,35 @@
 //! Reads elements.
 
-use super::element::{Attribute, Element};
+use std::ops::Range;
+
+/// An attribute.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attribute {
+    /// The bytes of its name.
+    pub name: Range<usize>,
+    /// The bytes of its value, without quotes; empty and behind the name if there is none.
+    pub value: Range<usize>,
+}
+
+/// An element.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Element {
+    /// The bytes of its name; empty after a lone `<`.
+    pub name: Range<usize>,
+    /// From `<` to the end of the start tag.
+    pub tag: Range<usize>,
+    /// The end of the element, with its end tag.
+    pub end: usize,
+    pub attributes: Vec<Attribute>,
+    /// Index of the element that contains it.
+    pub parent: Option<usize>,
+    /// Whether the start tag has its `>`.
+    pub is_finished: bool,
+}
 
 /// Elements that contain others: one whose start tag is not finished still contains what follows.
-const CONTAINERS: &[&str] = &[
-    "robot",
-    "link",
-    "joint",
-    "visual",
-    "collision",
-    "inertial",
-    "geometry",
-    "material",
-    "transmission",
-    "gazebo",
-    "ros2_control",
-    "actuator",
-];
+const CONTAINERS: &str = "robot link joint visual collision inertial geometry material transmission gazebo \
+    ros2_control actuator";
 
 pub(super) fn scan(text: &str) -> Vec<Element> {
     let mut scan = Scan { text, elements: Vec::new(), open: Vec::new() };
@@ -87,7 +100,7 @@ impl Scan<'_> {
             let rest = rest.trim_start();
             if rest.is_empty() || rest.starts_with('<') {
                 // Not finished: what follows is about something else.
-                is_empty = !CONTAINERS.contains(&&self.text[name.clone()]);
+                is_empty = !CONTAINERS.split(' ').any(|one| *one == self.text[name.clone()]);
                 break;
             }
             at += blank;

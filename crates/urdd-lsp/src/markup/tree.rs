@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::element::{Attribute, Element};
-use super::scan::scan;
+use super::scan::{Attribute, Element, scan};
 
 /// The elements of a text, in the order in which they begin.
 #[derive(Debug)]
@@ -42,7 +41,6 @@ impl Markup {
         std::iter::successors(Some(element), |one| self.elements[*one].parent)
     }
 
-    /// Whether an element contains another.
     pub fn has_children(&self, element: usize) -> bool {
         let next = self.elements.get(element + 1);
         next.is_some_and(|next| next.parent == Some(element))

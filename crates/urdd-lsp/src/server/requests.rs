@@ -11,8 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::open_document::Document;
-use super::state::{Event, Server};
+use super::state::{Document, Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::code_actions::code_actions;
 use crate::completion::completion;
@@ -53,8 +52,7 @@ impl Server {
             }
             "textDocument/codeAction" => self.code_actions(id, params),
             _ => {
-                let message = format!("there is no method {method}");
-                self.refuse(id, ErrorCode::MethodNotFound, message);
+                self.refuse(id, ErrorCode::MethodNotFound, format!("there is no method {method}"));
             }
         }
     }
@@ -116,8 +114,7 @@ impl Server {
     /// Answers at once that a request was cancelled. What is computed for it is dropped.
     pub(super) fn cancel(&mut self, id: RequestId) {
         if self.pending.remove(&id) {
-            let message = "cancelled by the editor".to_owned();
-            self.refuse(id, ErrorCode::RequestCanceled, message);
+            self.refuse(id, ErrorCode::RequestCanceled, "cancelled by the editor".to_owned());
         }
     }
 

@@ -1,27 +1,28 @@
-//! The loop: messages of the editor, and what threads have computed.
+//! The first messages, and then the loop: messages of the editor, and what threads have computed.
 
 use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, select, unbounded};
-use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
+use crossbeam_channel::{Receiver, Sender, select, unbounded};
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response};
 use serde_json::{Value, json};
 
-use super::ended::Ended;
-use super::handshake;
-use super::state::{Event, Server};
+use super::state::{Ended, Event, Process, Server};
+use crate::capabilities::{Client, initialize_result};
+use crate::options::Options;
 use crate::pool::Pool;
+use crate::uri;
 
 /// How often the server looks whether the editor still runs.
 const LOOK_FOR_PARENT: Duration = Duration::from_secs(2);
 /// The request for what the user has set.
 const CONFIGURATION: &str = "urdd configuration";
 
-/// Serves one editor.
 pub(crate) fn run(connection: Connection) -> Ended {
     let Connection { sender, receiver } = connection;
     let (events, computed) = unbounded();
-    let begun = match handshake::initialize(&sender, &receiver) {
+    let begun = match initialize(&sender, &receiver) {
         Ok(begun) => begun,
         Err(ended) => return ended,
     };
@@ -153,5 +154,68 @@ impl Server {
                 }
             }
         }
+    }
+}
+
+/// What the editor said of itself.
+struct Begun {
+    client: Client,
+    options: Options,
+    root: Option<PathBuf>,
+    parent: Option<Process>,
+}
+
+/// Answers the editor's first message.
+///
+/// # Errors
+/// If the editor ends before.
+fn initialize(sender: &Sender<Message>, messages: &Receiver<Message>) -> Result<Begun, Ended> {
+    loop {
+        let request = match messages.recv() {
+            Ok(Message::Request(request)) => request,
+            Ok(Message::Notification(notification)) if notification.method == "exit" => {
+                return Err(Ended::Exit);
+            }
+            Ok(_) => continue,
+            Err(_) => return Err(Ended::Closed),
+        };
+        let refuse = |code: ErrorCode, message: String| {
+            let response = Response::new_err(request.id.clone(), code as i32, message);
+            let _ = sender.send(response.into());
+        };
+        if request.method != "initialize" {
+            let message = "the first request has to be `initialize`".to_owned();
+            refuse(ErrorCode::ServerNotInitialized, message);
+            continue;
+        }
+        if !request.params["capabilities"].is_object() {
+            let message = "the parameters of `initialize` have no object `capabilities`".to_owned();
+            refuse(ErrorCode::InvalidParams, message);
+            continue;
+        }
+        let begun = begun(&request.params);
+        let response = Response::new_ok(request.id, initialize_result(&begun.client));
+        let _ = sender.send(response.into());
+        return Ok(begun);
+    }
+}
+
+/// Only what is used is read: what else an editor says may have any form.
+fn begun(params: &Value) -> Begun {
+    let folders = params["workspaceFolders"].as_array();
+    let mut roots =
+        folders.into_iter().flatten().filter_map(|folder| uri::path(folder["uri"].as_str()?));
+    // Older editors name one folder.
+    let root = roots.next().or_else(|| uri::path(params["rootUri"].as_str()?));
+    let mut options = Options::default();
+    if let Some(value) = params.get("initializationOptions") {
+        options.update(value, root.as_deref());
+    }
+    let parent = params["processId"].as_u64().and_then(|id| u32::try_from(id).ok());
+    Begun {
+        client: Client::new(&params["capabilities"]),
+        options,
+        root,
+        parent: parent.and_then(Process::find),
     }
 }

@@ -1,11 +1,7 @@
 //! Springs, bushings and constraints that are Drake's own. What they need is refused if it is missing.
 
-use std::collections::HashSet;
-
 use super::{Links, Reader};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::tree::Node;
+use crate::prelude::*;
 
 /// What an element has to name.
 #[derive(Clone, Copy)]
@@ -131,8 +127,7 @@ impl Reader<'_> {
                     return self.negative(written);
                 }
                 Positive if numbers.iter().any(|number| *number <= 0.0) => {
-                    let fault = Fault::range("value", &written.value, "must be above 0");
-                    return self.effects.refuse(written, fault);
+                    return self.effects.refuse(written, Fault::range(written, "must be above 0"));
                 }
                 _ => {}
             }

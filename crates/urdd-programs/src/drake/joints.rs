@@ -1,14 +1,8 @@
 //! How Drake reads joints, mimics and transmissions, and what it makes a tree of.
 
-use std::collections::{HashMap, HashSet};
-
 use super::{Links, Reader, WORLD};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
-/// A joint that Drake has.
 struct Joint<'t> {
     node: Node<'t>,
     freedoms: usize,
@@ -17,7 +11,6 @@ struct Joint<'t> {
     is_driven: bool,
 }
 
-/// The joints of a robot.
 struct Model<'l, 't> {
     links: &'l Links<'t>,
     joints: HashMap<&'t str, Joint<'t>>,
@@ -61,13 +54,9 @@ impl Reader<'_> {
             let idle = model.joints.get(name).filter(|joint| !joint.is_driven);
             let limit = idle.and_then(|joint| joint.node.child("limit"));
             if let Some(effort) = limit.and_then(|limit| limit.attribute("effort")) {
+                let part = Part::of("joint", name).inside("limit");
                 let fault = Fault::Way("`effort` is read only for a joint with a transmission");
-                self.effects.read_as(
-                    effort,
-                    Part::of("joint", name).inside("limit"),
-                    fault,
-                    "no motor",
-                );
+                self.effects.read_as(effort, part, fault, "no motor");
             }
         }
         Ok(())
@@ -115,12 +104,7 @@ impl Reader<'_> {
             };
             self.effects.read_as(child, &part, fault, "a joint of the world");
         }
-        for unread in ["safety_controller", "calibration"] {
-            if let Some(found) = node.child(unread) {
-                let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, part.inside(unread), fault);
-            }
-        }
+        self.effects.unread_elements(node, "safety_controller calibration", &part);
         let effort = self.motion(node, &kind.value, &part)?;
         if parent.value == child.value {
             return self.effects.refuse(child, Fault::Tree("a joint has one link on both sides"));
@@ -150,8 +134,7 @@ impl Reader<'_> {
             let frame = format!("{}_{end}", name.value);
             if !model.frames.insert(frame) {
                 let rule = "a link or frame is called so with `_parent` or `_child` behind it";
-                let fault = Fault::Name { kind: "joint", name: (&*name.value).into(), rule };
-                return self.effects.refuse(name, fault);
+                return self.effects.refuse(name, Fault::name("joint", &name.value, rule));
             }
         }
         Ok(())
@@ -170,8 +153,7 @@ impl Reader<'_> {
         };
         let squares = self.numbers(xyz, 3, part)?.iter().map(|number| number * number).sum::<f64>();
         if squares.sqrt() < 1e-8 || squares.is_infinite() {
-            let fault = Fault::range("xyz", &xyz.value, "an axis needs a length");
-            return self.effects.refuse(xyz, fault);
+            return self.effects.refuse(xyz, Fault::range(xyz, "an axis needs a length"));
         }
         Ok(())
     }
@@ -222,7 +204,7 @@ impl Reader<'_> {
         if let (Some(lower), Some(upper)) = (lower, upper)
             && lower > upper
         {
-            return self.effects.refuse(limit, Fault::Limits("`lower` is above `upper`"));
+            return self.effects.refuse(limit, CROSSED);
         }
         for (name, value) in [("lower", lower), ("upper", upper)] {
             if value.is_none() && kind != "continuous" {
@@ -257,8 +239,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
-        let fault = Fault::range(&value.name, &value.value, "must not be negative");
-        self.effects.refuse(value, fault)
+        self.effects.refuse(value, Fault::range(value, "must not be negative"))
     }
 
     fn mimic<'t>(&mut self, node: Node<'t>, model: &Model<'_, 't>) -> Reading<()> {
@@ -269,7 +250,7 @@ impl Reader<'_> {
             return self.effects.refuse(of, Fault::unknown("joint", &of.value));
         };
         if of.value == name {
-            return self.effects.refuse(of, Fault::Other("the joint mimics itself"));
+            return self.effects.refuse(of, MIMICS_ITSELF);
         }
         let part = Part::of("joint", name).inside("mimic");
         self.number(mimic, "multiplier", &part)?;
@@ -330,8 +311,8 @@ impl Reader<'_> {
             return self.effects.refuse(of, fault);
         }
         if !actuators.insert(&actuator_name.value) {
-            let fault = Fault::not_unique("actuator", &actuator_name.value);
-            return self.effects.refuse(actuator_name, fault);
+            let name = actuator_name;
+            return self.effects.refuse(name, Fault::not_unique("actuator", &name.value));
         }
         joint.is_driven = true;
         let extensions: [(&str, &[&'static str]); 3] = [

@@ -2,23 +2,11 @@
 //! begins with, refuses every mesh that it does not find, and has collisions of few formats of meshes.
 
 mod forces;
-mod inertia;
 mod joints;
 mod shapes;
 
-use std::collections::{HashMap, HashSet};
+use crate::prelude::*;
 
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::number::{is_space, istream};
-use crate::part::Part;
-use crate::tinyxml;
-use crate::tree::{Attribute, Node};
-use crate::unknown::Names;
-
-/// Drake.
 pub(crate) const ABOUT: About = About {
     id: "drake",
     name: "Drake",
@@ -27,15 +15,7 @@ pub(crate) const ABOUT: About = About {
     settings: &[],
     is_asked: true,
     names: Names::Exact,
-    never: &[
-        "safety_controller",
-        "calibration",
-        "acceleration",
-        "deceleration",
-        "jerk",
-        "version",
-        "quat_xyzw",
-    ],
+    never: &["safety_controller calibration version quat_xyzw", FURTHER],
     read,
 };
 
@@ -62,7 +42,6 @@ struct Reader<'r> {
     materials: HashMap<String, Material>,
 }
 
-/// A material with a name.
 struct Material {
     rgba: Vec<f64>,
     texture: Option<String>,
@@ -81,8 +60,7 @@ impl Reader<'_> {
         match &*name.value {
             "" => self.effects.refuse(name, Fault::Empty("name")),
             "WorldModelInstance" | "DefaultModelInstance" if kind == "robot" => {
-                let fault = Fault::Name { kind, name: (&*name.value).into(), rule };
-                self.effects.refuse(name, fault)
+                self.effects.refuse(name, Fault::name(kind, &name.value, rule))
             }
             name => Ok(name),
         }
@@ -101,8 +79,7 @@ impl Reader<'_> {
                 let fault = Fault::Way("a link `world` is the world of the program");
                 self.effects.read_as(link, &part, fault, "the world");
                 if let Some(inertial) = inertial {
-                    let fault = Fault::NeverRead("inertial".into());
-                    self.effects.drop(inertial, part.inside("inertial"), fault);
+                    self.effects.unread(inertial, part.inside("inertial"), "inertial");
                 }
             } else {
                 if let Some(inertial) = inertial {
@@ -113,12 +90,46 @@ impl Reader<'_> {
                 }
             }
             for kind in ["visual", "collision"] {
-                for (index, shape) in link.named(kind).enumerate() {
-                    self.shape(shape, &part.inside(format_args!("{kind}/{index}")))?;
+                for (shape, part) in part.shapes(link, kind) {
+                    self.shape(shape, &part)?;
                 }
             }
         }
         Ok(links)
+    }
+
+    /// An inertial. One that no body can have is a solid sphere of water of its mass, or of 1 kg.
+    fn inertial(&mut self, inertial: Node<'_>, part: &Part) -> Reading<()> {
+        self.pose(inertial, part)?;
+        let mut written = None;
+        if let Some(node) = inertial.child("mass") {
+            written = self.number(node, "value", part)?;
+        }
+        let mass = written.unwrap_or_default();
+        let mut tensor = [0.0; 6];
+        if let Some(node) = inertial.child("inertia") {
+            let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
+            for (name, value) in names.into_iter().zip(&mut tensor) {
+                *value = self.number(node, name, part)?.unwrap_or_default();
+            }
+        }
+        let fault = if mass < 0.0 {
+            Fault::Other("the mass is negative")
+        } else if !can_be(tensor) {
+            Fault::Inertia(
+                "no body has this inertia: two moments are less than the third, or one is negative",
+            )
+        } else if mass == 0.0 && tensor != [0.0; 6] {
+            Fault::Inertia("the mass is 0 or missing, and the inertia is not 0")
+        } else {
+            if written.is_none() {
+                self.effects.read_as(inertial, part, Fault::MissingElement("mass"), "no mass");
+            }
+            return Ok(());
+        };
+        let mass = if mass > 0.0 { mass } else { 1.0 };
+        self.effects.read_as(inertial, part, fault, format!("a sphere of water of {mass} kg"));
+        Ok(())
     }
 
     fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
@@ -216,7 +227,7 @@ impl Reader<'_> {
             self.vector(origin, name, 3, part)?;
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
-            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
+            self.effects.unread(quaternion, part, "quat_xyzw");
         }
         Ok(())
     }
@@ -239,8 +250,7 @@ impl Reader<'_> {
 
     /// As many numbers as the text begins with: what follows them is left out.
     fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &Part) -> Reading<Vec<f64>> {
-        let text = &*value.value;
-        let (mut numbers, mut rest) = (Vec::new(), text);
+        let (mut numbers, mut rest) = (Vec::new(), &*value.value);
         while let Some((number, behind)) = istream(rest) {
             numbers.push(number);
             rest = behind;
@@ -248,16 +258,53 @@ impl Reader<'_> {
         let is_only_numbers = rest.trim_start_matches(is_space).is_empty();
         if numbers.len() != count {
             let fault = match is_only_numbers && !numbers.is_empty() {
-                true => Fault::count(&value.name, count, text),
-                false => Fault::not_a_number(&value.name, text),
+                true => Fault::count(value, count),
+                false => Fault::not_a_number(value),
             };
             return self.effects.refuse(value, fault);
         }
         if !is_only_numbers {
-            let fault = Fault::not_a_number(&value.name, text);
             let read: Vec<String> = numbers.iter().map(f64::to_string).collect();
-            self.effects.read_as(value, part, fault, read.join(" "));
+            self.effects.read_as(value, part, Fault::not_a_number(value), read.join(" "));
         }
         Ok(numbers)
     }
+}
+
+/// Whether a body can have moments of inertia xx, yy, zz, xy, xz, yz.
+fn can_be(tensor: [f64; 6]) -> bool {
+    let moments = principal(tensor);
+    let half = tensor[..3].iter().sum::<f64>() / 2.0;
+    let near = 16.0 * f64::EPSILON * half.max(1.0);
+    moments[0] >= -near && moments[0] + moments[1] + near >= moments[2]
+}
+
+/// The principal moments, the smallest first, by Jacobi's rotations.
+fn principal([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 3] {
+    let mut of = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    const TURNS: usize = 30;
+    for turn in 0..TURNS {
+        let (p, q) = [(0, 1), (0, 2), (1, 2)][turn % 3];
+        if of[p][q] == 0.0 {
+            continue;
+        }
+        let theta = (of[q][q] - of[p][p]) / (2.0 * of[p][q]);
+        let tangent = theta.signum() / (theta.abs() + theta.hypot(1.0));
+        let cosine = 1.0 / tangent.hypot(1.0);
+        let sine = tangent * cosine;
+        let change = tangent * of[p][q];
+        of[p][p] -= change;
+        of[q][q] += change;
+        of[p][q] = 0.0;
+        of[q][p] = 0.0;
+        let r = 3 - p - q;
+        let (rp, rq) = (of[r][p], of[r][q]);
+        of[r][p] = cosine * rp - sine * rq;
+        of[r][q] = sine * rp + cosine * rq;
+        of[p][r] = of[r][p];
+        of[q][r] = of[r][q];
+    }
+    let mut moments = [of[0][0], of[1][1], of[2][2]];
+    moments.sort_unstable_by(f64::total_cmp);
+    moments
 }

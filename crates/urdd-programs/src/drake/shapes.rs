@@ -3,12 +3,7 @@
 use std::sync::Arc;
 
 use super::Reader;
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::mesh::{Mesh, MeshFacts};
-use crate::number::is_space;
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// The shapes in the order in which Drake looks for them, and their sizes.
 const SHAPES: [(&str, &[&str]); 7] = [
@@ -27,10 +22,7 @@ impl Reader<'_> {
         self.pose(shape, part)?;
         let known = SHAPES.iter().find_map(|(name, sizes)| Some((geometry.child(name)?, *sizes)));
         let Some((form, sizes)) = known else {
-            return match geometry.children().next() {
-                Some(other) => self.effects.refuse(other, Fault::Shape(other.name().into())),
-                None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
-            };
+            return self.effects.shapeless(geometry);
         };
         for name in sizes {
             let value = self.effects.needed(form, name)?;
@@ -38,8 +30,7 @@ impl Reader<'_> {
             let numbers = self.numbers(value, count, part)?;
             let may_be_zero = form.name() == "sphere";
             if numbers.iter().any(|&size| size < 0.0 || (size == 0.0 && !may_be_zero)) {
-                let fault = Fault::range(name, &value.value, "a size must be above 0");
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::range(value, "a size must be above 0"));
             }
         }
         if shape.name() == "visual" {
@@ -59,15 +50,11 @@ impl Reader<'_> {
     fn color(&mut self, visual: Node<'_>, part: &Part) -> Reading<()> {
         let Some(material) = self.first(visual, "material", part) else { return Ok(()) };
         let Some((at, rgba)) = self.material(material, false)? else { return Ok(()) };
-        match rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
-            true => Ok(()),
-            false => {
-                let text: Vec<String> = rgba.iter().map(f64::to_string).collect();
-                let fault =
-                    Fault::range("rgba", &text.join(" "), "a colour is of numbers from 0 to 1");
-                self.effects.refuse(at, fault)
-            }
+        if rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
+            return Ok(());
         }
+        let text: Vec<String> = rgba.iter().map(f64::to_string).collect();
+        self.effects.refuse(at, Fault::range_of("rgba", &text.join(" "), COLOR_RULE))
     }
 
     fn mesh(&mut self, mesh: Node<'_>, part: &Part, is_collision: bool) -> Reading<()> {
@@ -78,8 +65,7 @@ impl Reader<'_> {
             let count = if scale.value.contains(' ') { 3 } else { 1 };
             let numbers = self.numbers(scale, count, part)?;
             if numbers.iter().any(|number| number.abs() < 1e-8) {
-                let fault = Fault::range("scale", &scale.value, "a scale must not be 0");
-                return self.effects.refuse(scale, fault);
+                return self.effects.refuse(scale, Fault::range(scale, "a scale must not be 0"));
             }
         }
         match is_collision {

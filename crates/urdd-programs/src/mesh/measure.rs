@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-/// A triangle's corners.
+use crate::space::{dot, less};
+
 pub(super) type Triangle = [[f64; 3]; 3];
 
 /// Measures of a mesh, in its own units. All are 0 without points.
@@ -106,14 +107,6 @@ pub(super) fn has_repeated(points: impl Iterator<Item = [f64; 3]>) -> bool {
 #[allow(clippy::cast_possible_truncation)]
 fn single(point: [f64; 3]) -> [f64; 3] {
     point.map(|axis| f64::from(axis as f32))
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -8,14 +8,10 @@ use crate::number::{strtod, whole};
 pub struct ObjFacts {
     /// How many lines `v` with three numbers it has.
     pub vertices: usize,
-    /// Whether a line `v` has fewer numbers, or something else.
-    pub has_bad_vertex: bool,
     /// How many lines `f` it has.
     pub faces: usize,
     /// How many triangles the faces make.
     pub triangles: usize,
-    /// How many faces have three different vertices or more.
-    pub proper_faces: usize,
     /// Whether a face has an index that is 0, no number, or of no vertex.
     pub has_bad_index: bool,
     /// Whether some corners of faces have a normal, and others none.
@@ -80,7 +76,6 @@ impl Reader {
         }
         self.vertices.push(point);
         self.facts.vertices += usize::from(count == 3);
-        self.facts.has_bad_vertex |= count < 3;
     }
 
     fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
@@ -98,9 +93,6 @@ impl Reader {
             .iter()
             .fold(self.highest, |highest, index| highest.max(index.saturating_add(1)));
         self.facts.triangles += corners.len().saturating_sub(2);
-        let second = corners.iter().find(|corner| **corner != corners[0]);
-        let third = corners.iter().find(|corner| **corner != corners[0] && Some(*corner) != second);
-        self.facts.proper_faces += usize::from(third.is_some());
         if self.facts.shapes == 1 {
             let sides = corners.windows(2).skip(1);
             self.first.extend(sides.map(|side| [corners[0], side[0], side[1]]));

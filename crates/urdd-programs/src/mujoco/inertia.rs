@@ -1,48 +1,8 @@
 //! Masses and tensors of bodies, with the limits that MuJoCo has for them.
 
-/// The least eigenvalue of a tensor.
+use crate::space::{Matrix, Pose, Vector, centre, moved, sum, turned};
+
 pub const LEAST_EIGENVALUE: f64 = 1e-14;
-
-pub type Vector = [f64; 3];
-pub type Matrix = [[f64; 3]; 3];
-
-const IDENTITY: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-/// A place and a turn.
-#[derive(Clone, Copy)]
-pub struct Pose {
-    pub xyz: Vector,
-    pub turn: Matrix,
-}
-
-impl Default for Pose {
-    fn default() -> Pose {
-        Pose { xyz: [0.0; 3], turn: IDENTITY }
-    }
-}
-
-impl Pose {
-    /// Of an `<origin>`. Angles that are not finite are 0.
-    pub fn new(xyz: Vector, rpy: Vector) -> Pose {
-        let [(sr, cr), (sp, cp), (sy, cy)] =
-            rpy.map(|angle| if angle.is_finite() { angle.sin_cos() } else { (0.0, 1.0) });
-        let turn = [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ];
-        Pose { xyz, turn }
-    }
-
-    /// The pose of something that has a pose in this one.
-    pub fn then(&self, inner: &Pose) -> Pose {
-        Pose { xyz: self.place(inner.xyz), turn: product(&self.turn, &inner.turn) }
-    }
-
-    fn place(&self, point: Vector) -> Vector {
-        [0, 1, 2].map(|row| self.xyz[row] + dot(self.turn[row], point))
-    }
-}
 
 /// Mass, centre, tensor about the centre, and its eigenvalues from the largest to the smallest.
 #[derive(Clone, Default)]
@@ -73,19 +33,10 @@ impl Body {
     /// Two bodies as one.
     pub fn with(&self, other: &Body, epsilon: f64) -> Body {
         let mass = self.mass + other.mass;
-        let centre = [0, 1, 2]
-            .map(|axis| (self.mass * self.centre[axis] + other.mass * other.centre[axis]) / mass);
-        let mut tensor = [[0.0; 3]; 3];
-        for body in [self, other] {
-            let arm = [0, 1, 2].map(|axis| body.centre[axis] - centre[axis]);
-            for row in 0..3 {
-                for column in 0..3 {
-                    let square = if row == column { dot(arm, arm) } else { 0.0 };
-                    tensor[row][column] +=
-                        body.tensor[row][column] + body.mass * (square - arm[row] * arm[column]);
-                }
-            }
-        }
+        let centre = centre([self.mass, other.mass], [self.centre, other.centre]);
+        let [own, others] =
+            [self, other].map(|body| moved(&body.tensor, body.mass, body.centre, centre));
+        let tensor = sum(&own, &others);
         Body { mass, centre, tensor, moments: eigenvalues(&tensor, epsilon) }
     }
 }
@@ -132,22 +83,4 @@ pub fn eigenvalues(matrix: &Matrix, epsilon: f64) -> Vector {
     let mut values = [0, 1, 2].map(|axis| turned[axis][axis]);
     values.sort_by(|a, b| b.total_cmp(a));
     values
-}
-
-/// A tensor about other axes.
-fn turned(tensor: &Matrix, turn: &Matrix) -> Matrix {
-    product(&product(turn, tensor), &transposed(turn))
-}
-
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    let b = transposed(b);
-    a.map(|row| b.map(|column| dot(row, column)))
-}
-
-fn transposed(a: &Matrix) -> Matrix {
-    [0, 1, 2].map(|column| a.map(|row| row[column]))
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -1,13 +1,8 @@
 //! Joints.
 
-use std::collections::{HashMap, HashSet};
-
-use super::inertia::Pose;
 use super::reader::{Reader, Release};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::Node;
+use crate::prelude::*;
+use crate::space::Pose;
 
 /// A joint, as the tree asks for it.
 pub(super) struct Joint<'t> {
@@ -35,12 +30,8 @@ impl Reader<'_> {
         node: Node<'t>,
         names: &mut HashSet<&'t str>,
     ) -> Reading<Joint<'t>> {
-        const KINDS: [&str; 7] =
-            ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
-        let Some(kind) = node.attribute("type") else {
-            return self.effects.refuse(node, Fault::Missing("type"));
-        };
-        if !KINDS.contains(&&*kind.value) {
+        let kind = self.effects.needed(node, "type")?;
+        if !JOINT_TYPES.contains(&&*kind.value) && kind.value != "spherical" {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
         }
         let name = self.text(node, "name")?;
@@ -71,15 +62,9 @@ impl Reader<'_> {
         self.limit(&joint, &part)?;
         if joint.kind == "planar" {
             let fault = Fault::Way("a planar joint becomes three joints");
-            let makes = format!("{name}_TX, {name}_TY and {name}_RZ");
-            self.effects.read_as(kind, &part, fault, makes);
+            self.effects.read_as(kind, &part, fault, format!("{name}_TX, {name}_TY and {name}_RZ"));
         }
-        for unread in ["safety_controller", "calibration"] {
-            if let Some(found) = node.child(unread) {
-                let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, part.inside(unread), fault);
-            }
-        }
+        self.effects.unread_elements(node, "safety_controller calibration", &part);
         Ok(joint)
     }
 
@@ -102,8 +87,7 @@ impl Reader<'_> {
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         let Some(limit) = self.only(joint.node, "limit")? else {
             if is_limited {
-                let fault = Fault::MissingElement("limit");
-                self.effects.read_as(joint.node, part, fault, "no limit");
+                self.effects.read_as(joint.node, part, Fault::MissingElement("limit"), "no limit");
             }
             return Ok(());
         };
@@ -133,12 +117,8 @@ impl Reader<'_> {
             _ => {}
         }
         self.effort(joint, limit, &part)?;
-        for unread in ["velocity", "acceleration", "deceleration", "jerk"] {
-            if let Some(found) = limit.attribute(unread) {
-                let part = part.inside(unread);
-                self.effects.drop(found, part, Fault::NeverRead(unread.into()));
-            }
-        }
+        self.effects.unread_attributes(limit, "velocity", &part);
+        self.effects.unread_attributes(limit, FURTHER, &part);
         Ok(())
     }
 
@@ -146,12 +126,12 @@ impl Reader<'_> {
         let Some(effort) = self.number(limit, "effort", part)? else { return Ok(()) };
         let Some(value) = limit.attribute("effort") else { return Ok(()) };
         if matches!(joint.kind, "floating" | "spherical") {
-            self.effects.drop(value, part.inside("effort"), Fault::NeverRead("effort".into()));
+            self.effects.unread(value, part.inside("effort"), "effort");
         } else if effort == 0.0 || effort.is_nan() {
             let fault = Fault::Way("an `effort` of 0 limits nothing");
             self.effects.read_as(value, part, fault, "no limit");
         } else if effort < 0.0 {
-            let fault = Fault::range("effort", &value.value, "its sign does not count");
+            let fault = Fault::range(value, "its sign does not count");
             self.effects.read_as(value, part, fault, (-effort).to_string());
         }
         Ok(())
@@ -164,23 +144,20 @@ impl Reader<'_> {
             scalar.entry(joint.name).or_insert(joint.is_scalar());
         }
         for joint in joints.iter().filter(|joint| joint.moves()) {
-            let part = Part::of("joint", joint.name).inside("mimic");
+            let part = Part::of("joint", joint.name);
             if self.release == Release::Three {
-                if let Some(mimic) = joint.node.child("mimic") {
-                    self.effects.drop(mimic, part, Fault::NeverRead("mimic".into()));
-                }
+                self.effects.unread_elements(joint.node, "mimic", &part);
                 continue;
             }
+            let part = part.inside("mimic");
             let Some(mimic) = self.only(joint.node, "mimic")? else { continue };
             let leader = self.text(mimic, "joint")?;
             self.number(mimic, "multiplier", &part)?;
             self.number(mimic, "offset", &part)?;
             if !joint.is_scalar() {
-                let fault = Fault::value("type", joint.kind);
-                self.effects.drop(mimic, part, fault);
+                self.effects.drop(mimic, part, Fault::value("type", joint.kind));
             } else if leader == joint.name {
-                let fault = Fault::Other("the joint mimics itself");
-                return self.effects.refuse(mimic, fault);
+                return self.effects.refuse(mimic, MIMICS_ITSELF);
             } else if scalar.get(leader) != Some(&true) {
                 let fault = Fault::unknown("revolute, continuous or prismatic joint", leader);
                 self.effects.drop(mimic, part, fault);

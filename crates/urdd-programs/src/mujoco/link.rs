@@ -1,11 +1,9 @@
 //! Links: inertials, visuals and collisions.
 
-use super::inertia::{Body, LEAST_EIGENVALUE, Matrix, Pose, eigenvalues};
+use super::inertia::{Body, LEAST_EIGENVALUE, eigenvalues};
 use super::reader::{LEAST, Reader, Release};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::Node;
+use crate::prelude::*;
+use crate::space::{Matrix, Pose};
 
 /// The density of collisions, kg per cubic metre.
 const DENSITY: f64 = 1000.0;
@@ -33,17 +31,15 @@ impl Reader<'_> {
             None => None,
         };
         let mut solids = Vec::new();
-        for (index, visual) in link.named("visual").enumerate() {
+        for (visual, part) in part.shapes(link, "visual") {
             self.own_material(visual)?;
-            if self.settings.has_visuals {
-                solids.push(self.geom(visual, &part.inside(format_args!("visual/{index}")))?);
-            } else {
-                let fault = Fault::NeverRead("visual".into());
-                self.effects.drop(visual, part.inside(format_args!("visual/{index}")), fault);
+            match self.settings.has_visuals {
+                true => solids.push(self.geom(visual, &part)?),
+                false => self.effects.unread(visual, part, "visual"),
             }
         }
-        for (index, collision) in link.named("collision").enumerate() {
-            solids.push(self.geom(collision, &part.inside(format_args!("collision/{index}")))?);
+        for (collision, part) in part.shapes(link, "collision") {
+            solids.push(self.geom(collision, &part)?);
         }
         let body = match own {
             Some(body) if !self.settings.ignores_inertials || solids.is_empty() => body,
@@ -71,7 +67,7 @@ impl Reader<'_> {
         if self.release == Release::Three && pose.turn != Pose::default().turn {
             let rpy = inertial.child("origin").and_then(|origin| origin.attribute("rpy"));
             let at = rpy.map_or(inertial.start(), |rpy| rpy.range.start);
-            self.effects.drop(at, part.inside("origin"), Fault::NeverRead("rpy".into()));
+            self.effects.unread(at, part.inside("origin"), "rpy");
             pose.turn = Pose::default().turn;
         }
         let mass = self.needed(inertial, "mass")?;
@@ -155,7 +151,6 @@ impl Reader<'_> {
         Ok(sum.unwrap_or_default())
     }
 
-    /// A collision.
     fn geom(&mut self, node: Node<'_>, part: &Part) -> Reading<(Solid, Pose)> {
         let geometry = self.needed(node, "geometry")?;
         let mut found = None;
@@ -165,10 +160,7 @@ impl Reader<'_> {
             }
         }
         let Some(shape) = found else {
-            return match geometry.children().next() {
-                Some(other) => self.effects.refuse(other, Fault::Shape(other.name().into())),
-                None => self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape")),
-            };
+            return self.effects.shapeless(geometry);
         };
         let solid = match shape.name() {
             "box" => {
@@ -206,22 +198,19 @@ impl Reader<'_> {
         let sizes = self.needed_numbers(shape, name)?;
         match shape.attribute(name) {
             Some(value) if !sizes.iter().all(|size| *size > 0.0) => {
-                let fault = Fault::range(name, &value.value, "must be above 0");
-                self.effects.refuse(value, fault)
+                self.effects.refuse(value, Fault::range(value, "must be above 0"))
             }
             _ => Ok(sizes),
         }
     }
 
-    /// An `<origin>`.
     pub fn origin(&mut self, node: Node<'_>, part: &Part) -> Reading<Pose> {
         let Some(origin) = self.only(node, "origin")? else { return Ok(Pose::default()) };
         let part = part.inside("origin");
         let xyz = self.numbers(origin, "xyz", &part)?.unwrap_or_default();
         let rpy = self.numbers(origin, "rpy", &part)?.unwrap_or_default();
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
-            let fault = Fault::NeverRead("quat_xyzw".into());
-            self.effects.drop(quaternion, part, fault);
+            self.effects.unread(quaternion, part, "quat_xyzw");
         }
         Ok(Pose::new(xyz, rpy))
     }

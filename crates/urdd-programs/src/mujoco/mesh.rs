@@ -2,24 +2,16 @@
 
 use super::link::Solid;
 use super::reader::{Reader, Release};
-use crate::effect::Reading;
-use crate::fault::{FORMAT, Fault};
-use crate::mesh::{Mesh, MeshFacts};
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// The most triangles of an STL file.
 const MAX_TRIANGLES: usize = 200_000;
-/// The largest coordinate.
 const MAX_COORDINATE: f64 = (1 << 30) as f64;
-/// The least volume.
 const LEAST_VOLUME: f64 = 1e-15;
 
 impl Reader<'_> {
     pub fn mesh(&mut self, shape: Node<'_>, part: &Part) -> Reading<Solid> {
-        let Some(filename) = shape.attribute("filename") else {
-            return self.effects.refuse(shape, Fault::Missing("filename"));
-        };
+        let filename = self.effects.needed(shape, "filename")?;
         let scale = self.scale(shape)?;
         let name = &*filename.value;
         if name.is_empty() {

@@ -6,24 +6,13 @@ mod joint;
 mod link;
 mod mesh;
 mod reader;
-mod settings;
-mod value;
 
-use std::collections::{HashMap, HashSet};
-
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::part::Part;
-use crate::tinyxml;
-use crate::tree::Node;
-use crate::unknown::Names;
-use inertia::{Body, Pose};
+use crate::prelude::*;
+use crate::space::Pose;
+use inertia::Body;
 use joint::Joint;
 use reader::{LEAST, Reader, Release, Settings};
 
-/// MuJoCo 4.
 pub(crate) const FOUR: About = About {
     id: "mujoco",
     name: "MuJoCo 4",
@@ -32,47 +21,25 @@ pub(crate) const FOUR: About = About {
     settings: &[],
     is_asked: true,
     names: Names::Exact,
-    never: NEVER_READ.split_at(1).1,
-    read: read_four,
+    never: &[NEVER_READ, FURTHER],
+    read: |file, effects| read(file, effects, Release::Four),
 };
 
-/// MuJoCo 3.3.
 pub(crate) const THREE: About = About {
     id: "mujoco33",
     name: "MuJoCo 3.3",
-    family: "MuJoCo",
     version: "3.3.7",
     settings: &["mujoco3.3"],
     is_asked: false,
-    names: Names::Exact,
-    never: NEVER_READ,
-    read: read_three,
+    never: &[NEVER_READ, FURTHER, "mimic"],
+    read: |file, effects| read(file, effects, Release::Three),
+    ..FOUR
 };
 
-/// What 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is refused.
-const NEVER_READ: &[&str] = &[
-    "mimic",
-    "safety_controller",
-    "calibration",
-    "velocity",
-    "acceleration",
-    "deceleration",
-    "jerk",
-    "version",
-    "quat_xyzw",
-    "texture",
-    "visual",
-    "material",
-    "color",
-    "geometry",
-    "box",
-    "cylinder",
-    "sphere",
-    "capsule",
-    "mesh",
-];
+/// Only visuals can lose a shape, as a collision without one is refused.
+const NEVER_READ: &str = "safety_controller calibration velocity version quat_xyzw texture visual material color \
+    geometry box cylinder sphere capsule mesh";
 
-/// A link in the tree.
 struct Link<'t> {
     node: Node<'t>,
     name: &'t str,
@@ -80,14 +47,6 @@ struct Link<'t> {
     above: Option<(usize, Node<'t>)>,
     parent: Option<usize>,
     children: Vec<usize>,
-}
-
-pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
-    read(file, effects, Release::Four)
-}
-
-pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
-    read(file, effects, Release::Three)
 }
 
 fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
@@ -161,8 +120,7 @@ impl Reader<'_> {
     /// Says of a name whether Python can read it.
     fn readable(&mut self, node: Node<'_>, kind: &'static str, name: &str) {
         if name.contains('\u{fffd}') && std::str::from_utf8(self.file.bytes).is_err() {
-            let rule = "it is not UTF-8: Python cannot list names";
-            let fault = Fault::Name { kind, name: name.into(), rule };
+            let fault = Fault::name(kind, name, "it is not UTF-8: Python cannot list names");
             self.effects.read_as(node, "robot/?", fault, "names that Python cannot read");
         }
     }
@@ -182,9 +140,7 @@ impl Reader<'_> {
             }
             let [parent, child] = ends;
             if links[child].above.is_some() {
-                return self
-                    .effects
-                    .refuse(joint, Fault::Tree("a link is the child of two joints"));
+                return self.effects.refuse(joint, TWO_PARENTS);
             }
             (links[child].above, links[child].parent) = (Some((number, joint)), Some(parent));
             links[parent].children.push(child);
@@ -241,7 +197,7 @@ impl Reader<'_> {
             let fault = Fault::Way("a link that no joint moves is a part of the world");
             self.effects.drop(inertial, Part::of("link", link.name).inside("inertial"), fault);
         }
-        if let Some((_, joint)) = link.above.filter(|_| self.settings.fuses) {
+        if let Some((_, joint)) = link.above.filter(|_| !self.settings.keeps_fixed) {
             let part = Part::of("joint", joint.value("name").unwrap_or_default());
             let fault = Fault::Way("links that are fixed to each other become one body");
             self.effects.read_as(joint, part, fault, "one body");

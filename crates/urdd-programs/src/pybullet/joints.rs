@@ -1,17 +1,8 @@
 //! How PyBullet reads joints, and what it makes a tree of.
 
-use std::collections::{HashMap, HashSet};
-
 use super::{Links, MOST_LINKS, Reader, atof, pieces};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
-const KINDS: [&str; 7] =
-    ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
-
-/// A joint, for the tree.
 struct Joint<'t> {
     node: Node<'t>,
     name: &'t str,
@@ -44,7 +35,7 @@ impl Reader<'_> {
         let Some(kind) = node.attribute("type") else {
             return self.effects.crash(node, Fault::Missing("type"));
         };
-        if !KINDS.contains(&&*kind.value) {
+        if !JOINT_TYPES.contains(&&*kind.value) && kind.value != "spherical" {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
         }
         let axis = node.child("axis");
@@ -63,19 +54,13 @@ impl Reader<'_> {
         if let Some(dynamics) = node.child("dynamics") {
             let values = ["damping", "friction"].map(|name| dynamics.attribute(name));
             if values.iter().all(Option::is_none) {
-                let fault = Fault::Other("`<dynamics>` has neither damping nor friction");
-                return self.effects.refuse(dynamics, fault);
+                return self.effects.refuse(dynamics, NO_DYNAMICS);
             }
             for value in values.into_iter().flatten() {
                 self.number(value, &part.inside("dynamics"));
             }
         }
-        for unread in ["mimic", "calibration", "safety_controller"] {
-            if let Some(found) = node.child(unread) {
-                let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, part.inside(unread), fault);
-            }
-        }
+        self.effects.unread_elements(node, "mimic calibration safety_controller", &part);
         Ok(Joint { node, name, parent, child })
     }
 
@@ -103,7 +88,7 @@ impl Reader<'_> {
         };
         let pieces = pieces(&xyz.value);
         if pieces.len() < 3 {
-            return self.effects.refuse(xyz, Fault::count("xyz", 3, &xyz.value));
+            return self.effects.refuse(xyz, Fault::count(xyz, 3));
         }
         if kind == "spherical" {
             self.effects.drop(axis, part, Fault::Way("a spherical joint has no axis"));
@@ -111,8 +96,7 @@ impl Reader<'_> {
         }
         self.vector(xyz, part);
         if pieces[..3].iter().all(|piece| atof(piece) == 0.0) {
-            let fault = Fault::range("xyz", &xyz.value, "an axis needs a length");
-            self.effects.read_as(xyz, part, fault, "nan");
+            self.effects.read_as(xyz, part, Fault::range(xyz, "an axis needs a length"), "nan");
         }
         Ok(())
     }
@@ -134,7 +118,7 @@ impl Reader<'_> {
         };
         if needs_limit && end(values[0], 0.0) > end(values[1], -1.0) {
             let fault = match values[1] {
-                Some(_) => Fault::Limits("`lower` is above `upper`"),
+                Some(_) => CROSSED,
                 None => Fault::Missing("upper"),
             };
             self.effects.read_as(limit, part, fault, "no limit");
@@ -152,12 +136,9 @@ impl Reader<'_> {
         let (root, node) = match (roots.next(), roots.next()) {
             (Some(root), None) => *root,
             (_, Some((_, second))) => {
-                let fault = Fault::Tree("two links have no joint above them");
-                return self.effects.crash(*second, fault);
+                return self.effects.crash(*second, TWO_ROOTS);
             }
-            (None, None) => {
-                return self.effects.refuse(robot, Fault::Tree("no link is the root"));
-            }
+            (None, None) => return self.effects.refuse(robot, NO_ROOT),
         };
         if root.is_empty() {
             return self.effects.crash(node, Fault::Empty("name"));
@@ -166,8 +147,7 @@ impl Reader<'_> {
         while let Some(link) = open.pop() {
             for joint in below.get(link).into_iter().flatten() {
                 if !reached.insert(joint.child) {
-                    let fault = Fault::Tree("a link is the child of two joints");
-                    return self.effects.crash(joint.node, fault);
+                    return self.effects.crash(joint.node, TWO_PARENTS);
                 }
                 open.push(joint.child);
             }
@@ -189,17 +169,16 @@ impl Reader<'_> {
         joints: &[Joint<'_>],
         reached: &HashSet<&str>,
     ) -> Reading<()> {
-        let fault = Fault::Tree("it is in a loop, which the root does not reach");
         let lost = links.all.iter().filter(|(name, _)| !reached.contains(name));
         let last = links.all.iter().rposition(|(name, _)| reached.contains(name));
         for (name, node) in lost {
             if last.is_some_and(|last| last > reached.len().max(2)) {
-                return self.effects.crash(*node, fault);
+                return self.effects.crash(*node, UNREACHED);
             }
-            self.effects.drop(*node, Part::of("link", name), fault.clone());
+            self.effects.drop(*node, Part::of("link", name), UNREACHED);
         }
         for joint in joints.iter().filter(|joint| !reached.contains(joint.child)) {
-            self.effects.drop(joint.node, Part::of("joint", joint.name), fault.clone());
+            self.effects.drop(joint.node, Part::of("joint", joint.name), UNREACHED);
         }
         Ok(())
     }

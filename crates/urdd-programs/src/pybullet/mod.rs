@@ -2,31 +2,22 @@
 //! number, and never reads mimics, calibrations, safety controllers and, by default, tensors of inertia.
 
 mod joints;
-mod lines;
 mod shapes;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 use urdd_xml::{Counted, Kind};
 
-use self::lines::Lines;
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::number::{self, is_space, strtod};
-use crate::part::Part;
+use crate::number;
+use crate::prelude::*;
 use crate::tinyxml::{Document, OLD_MAX_DEPTH};
-use crate::tree::{Attribute, BEYOND, Malformed, Node};
-use crate::unknown::Names;
+use crate::tree::{BEYOND, Malformed};
 
 /// Names up to this long do no harm. All are copied into 1,024 bytes, and the process ends soon above.
 const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("link", 2100)];
 /// A robot of more links, its root aside, can be asked for nothing.
 const MOST_LINKS: usize = 127;
 
-/// `PyBullet`.
 pub(crate) const ABOUT: About = About {
     id: "pybullet",
     name: "PyBullet",
@@ -36,22 +27,9 @@ pub(crate) const ABOUT: About = About {
     is_asked: true,
     names: Names::Exact,
     never: &[
-        "mimic",
-        "safety_controller",
-        "calibration",
-        "acceleration",
-        "deceleration",
-        "jerk",
-        "version",
-        "quat_xyzw",
-        "texture",
-        "inertia",
-        "ixx",
-        "ixy",
-        "ixz",
-        "iyy",
-        "iyz",
-        "izz",
+        "mimic safety_controller calibration version quat_xyzw texture",
+        FURTHER,
+        "inertia ixx ixy ixz iyy iyz izz",
     ],
     read,
 };
@@ -86,6 +64,47 @@ fn read_lines(file: &File, lines: &Lines<'_>, effects: &mut Effects) -> Reading<
     let tree = effects.parsed(parsed)?;
     let robot = effects.robot(tree)?;
     Reader { file, effects, materials: HashMap::new() }.robot(robot)
+}
+
+/// The longest line, bytes.
+const LONGEST: usize = 8191;
+
+/// A file in lines, as PyBullet reads it. A longer one is broken, what follows a carriage return is lost, and a NUL ends a line.
+struct Lines<'a> {
+    bytes: Cow<'a, [u8]>,
+    /// Where each piece of a line begins in `bytes`, and in the file; none if nothing was changed.
+    pieces: Vec<(usize, usize)>,
+}
+
+impl Lines<'_> {
+    fn of(file: &[u8]) -> Lines<'_> {
+        let is_plain = file.split(|&byte| byte == b'\n').all(|line| {
+            let end = line.iter().position(|&byte| byte == b'\r').unwrap_or(line.len());
+            line.len() <= LONGEST && !line.contains(&0) && end + 1 >= line.len()
+        });
+        if is_plain {
+            return Lines { bytes: file.into(), pieces: Vec::new() };
+        }
+        let (mut bytes, mut pieces, mut start) = (Vec::with_capacity(file.len()), Vec::new(), 0);
+        for line in file.split(|&byte| byte == b'\n' || byte == 0) {
+            for piece in line.chunks(LONGEST) {
+                pieces.push((bytes.len(), start));
+                let end = piece.iter().position(|&byte| byte == b'\r').unwrap_or(piece.len());
+                bytes.extend_from_slice(&piece[..end]);
+                bytes.push(b'\n');
+                start += piece.len();
+            }
+            start += 1;
+        }
+        Lines { bytes: bytes.into(), pieces }
+    }
+
+    /// The place in the file of a place in the lines.
+    fn place(&self, at: usize) -> usize {
+        let after = self.pieces.partition_point(|(begin, _)| *begin <= at);
+        let piece = after.checked_sub(1).and_then(|index| self.pieces.get(index));
+        piece.map_or(at, |(begin, start)| start + (at - begin))
+    }
 }
 
 struct Reader<'r> {
@@ -149,21 +168,19 @@ impl Reader<'_> {
         let name = &*self.effects.needed(node, "name")?.value;
         let longest = LONGEST_NAMES.iter().find(|(one, _)| *one == kind);
         if longest.is_some_and(|(_, longest)| name.len() > *longest) {
-            let fault = Fault::Name { kind, name: name.into(), rule: "the name is too long" };
-            return self.effects.crash(node, fault);
+            return self.effects.crash(node, Fault::name(kind, name, "the name is too long"));
         }
         Ok(name)
     }
 
     fn material(&mut self, material: Node<'_>, part: &Part) {
         if let Some(texture) = material.child("texture") {
-            self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
+            self.effects.unread(texture, part, "texture");
         }
         if let Some(rgba) = material.child("color").and_then(|color| color.attribute("rgba"))
             && pieces(&rgba.value).len() != 4
         {
-            let fault = Fault::count("rgba", 4, &rgba.value);
-            self.effects.read_as(rgba, part, fault, "0 0 0 0");
+            self.effects.read_as(rgba, part, Fault::count(rgba, 4), "0 0 0 0");
         }
     }
 
@@ -174,8 +191,7 @@ impl Reader<'_> {
             None if name == "world" => {}
             None if name.contains("%s") || name.contains("%n") => {
                 let rule = "a warning about its missing inertial takes it for a format";
-                let fault = Fault::Name { kind: "link", name: name.into(), rule };
-                return self.effects.crash(link, fault);
+                return self.effects.crash(link, Fault::name("link", name, rule));
             }
             None => {
                 let fault = Fault::Way("the link has no `<inertial>`");
@@ -183,14 +199,14 @@ impl Reader<'_> {
             }
         }
         for kind in ["visual", "collision"] {
-            for (index, shape) in link.named(kind).enumerate() {
-                self.shape(shape, &part.inside(format_args!("{kind}/{index}")))?;
+            for (shape, part) in part.shapes(link, kind) {
+                self.shape(shape, &part)?;
             }
         }
         // PyBullet's own elements.
         let contact = link.child("contact");
         for of in contact.into_iter().flat_map(Node::children) {
-            if CONTACT.contains(&of.name()) {
+            if CONTACT.split(' ').any(|one| one == of.name()) {
                 self.effects.needed(of, "value")?;
             }
         }
@@ -221,41 +237,33 @@ impl Reader<'_> {
             self.vector(value, part);
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
-            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
+            self.effects.unread(quaternion, part, "quat_xyzw");
         }
     }
 
     /// Three numbers. Fewer are none at all, and what follows is left out.
     fn vector(&mut self, value: &Attribute<'_>, part: &Part) {
         let pieces = pieces(&value.value);
-        let fault = || Fault::count(&value.name, 3, &value.value);
         if pieces.len() < 3 {
-            self.effects.read_as(value, part, fault(), "0 0 0");
+            self.effects.read_as(value, part, Fault::count(value, 3), "0 0 0");
         } else if pieces.len() > 3 || pieces.iter().any(|piece| !is_whole(piece)) {
             let read: Vec<String> =
                 pieces[..3].iter().map(|piece| atof(piece).to_string()).collect();
-            self.effects.read_as(value, part, fault(), read.join(" "));
+            self.effects.read_as(value, part, Fault::count(value, 3), read.join(" "));
         }
     }
 
     fn number(&mut self, value: &Attribute<'_>, part: &Part) {
         if !is_whole(&value.value) {
-            let fault = Fault::not_a_number(&value.name, &value.value);
-            self.effects.read_as(value, part, fault, atof(&value.value).to_string());
+            let read = atof(&value.value).to_string();
+            self.effects.read_as(value, part, Fault::not_a_number(value), read);
         }
     }
 }
 
 /// What needs a value in a link's `<contact>`.
-const CONTACT: [&str; 7] = [
-    "inertia_scaling",
-    "lateral_friction",
-    "rolling_friction",
-    "restitution",
-    "spinning_friction",
-    "stiffness",
-    "damping",
-];
+const CONTACT: &str = "inertia_scaling lateral_friction rolling_friction restitution \
+    spinning_friction stiffness damping";
 
 /// Whether a visual's material is one, and not only the name of one.
 fn is_defined(material: Node<'_>) -> bool {

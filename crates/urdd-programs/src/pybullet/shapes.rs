@@ -1,12 +1,8 @@
 //! How PyBullet reads visuals and collisions.
 
 use super::{Reader, atof, is_defined, pieces, rgba};
-use crate::effect::Reading;
-use crate::fault::{FORMAT, Fault};
 use crate::look::is_same;
-use crate::mesh::{Mesh, MeshFacts};
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// In how many folders above the file it looks for a mesh; they are all in truth.
 const FOLDERS: usize = 8;
@@ -16,7 +12,7 @@ impl Reader<'_> {
         self.pose(shape, part);
         let geometry = self.effects.needed_element(shape, "geometry")?;
         let Some(form) = geometry.children().next() else {
-            return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
+            return self.effects.refuse(geometry, NO_SHAPE);
         };
         let needed: &[&'static str] = match form.name() {
             "sphere" => &["radius"],
@@ -49,8 +45,7 @@ impl Reader<'_> {
         let own = if is_defined(material) { rgba(material) } else { first };
         if !is_same(own, last) {
             // All of a name have the last colour.
-            let fault = Fault::not_unique("material", name);
-            self.effects.read_as(material, part, fault, last);
+            self.effects.read_as(material, part, Fault::not_unique("material", name), last);
         }
         Ok(())
     }
@@ -60,8 +55,8 @@ impl Reader<'_> {
             match pieces(&scale.value).len() {
                 0..3 => {
                     let one = atof(&scale.value);
-                    let fault = Fault::count("scale", 3, &scale.value);
-                    self.effects.read_as(scale, part, fault, format!("{one} {one} {one}"));
+                    let read = format!("{one} {one} {one}");
+                    self.effects.read_as(scale, part, Fault::count(scale, 3), read);
                 }
                 _ => self.vector(scale, part),
             }

@@ -1,29 +1,10 @@
 //! `<gazebo>` elements, as libsdformat reads them.
 
-use std::collections::HashSet;
+use super::tree::Release;
+use crate::prelude::*;
 
-use super::release::Release;
-use crate::effect::{At, Effects, Reading};
-use crate::fault::Fault;
-use crate::number::strtod;
-use crate::tree::Node;
-
-/// Elements that have a number.
-const NUMBERS: [&str; 13] = [
-    "mu1",
-    "mu2",
-    "kp",
-    "kd",
-    "maxVel",
-    "minDepth",
-    "dampingFactor",
-    "laserRetro",
-    "springReference",
-    "springStiffness",
-    "stopCfm",
-    "stopErp",
-    "fudgeFactor",
-];
+const NUMBERS: &str = "mu1 mu2 kp kd maxVel minDepth dampingFactor laserRetro springReference \
+    springStiffness stopCfm stopErp fudgeFactor";
 
 /// What is wrong in an element, if what it refers to is kept.
 pub(super) struct Suspect<'t> {
@@ -64,15 +45,16 @@ pub(super) fn read<'t>(
             let is_true = matches!(&*text.to_ascii_lowercase(), "true" | "yes" | "1");
             let number = match name {
                 "maxContacts" => Some(stoi(text)),
-                _ if NUMBERS.contains(&name) => Some(stod(text)),
+                _ if NUMBERS.split(' ').any(|one| one == name) => Some(stod(text)),
                 _ => None,
             };
             let fault = match (name, number) {
                 (_, Some(None)) => {
-                    return effects.crash(element, Fault::not_a_number(name, text));
+                    let fault = Fault::NotANumber { attribute: name.into(), text: text.into() };
+                    return effects.crash(element, fault);
                 }
                 ("mu1" | "mu2", Some(Some(number))) if number < 0.0 => {
-                    Some(Fault::range(name, text, "must not be negative"))
+                    Some(Fault::range_of(name, text, "must not be negative"))
                 }
                 ("preserveFixedJoint" | "disableFixedJointLumping", _) if is_true => {
                     found.kept_joints.insert(reference);

@@ -2,15 +2,8 @@
 
 use std::f64::consts::PI;
 
-pub(super) type Vector = [f64; 3];
-type Matrix = [[f64; 3]; 3];
-
-/// Where something is: its position, and roll, pitch and yaw.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Pose {
-    pub xyz: Vector,
-    pub rpy: Vector,
-}
+use crate::prelude::*;
+use crate::space::{Matrix, Pose, Vector, centre, moved, sum, transposed, turned};
 
 /// The inertia of a link.
 #[derive(Clone, Copy, Default)]
@@ -24,22 +17,15 @@ pub(super) struct Inertia {
 impl Inertia {
     /// Adds that of a link which is at a pose. If both have no mass, the centre of mass is not a number.
     pub fn add(&mut self, other: &Inertia, at: &Pose) {
-        let mass = self.mass + other.mass;
-        let (own, joint) = (rotation(self.pose.rpy), rotation(at.rpy));
-        let turned = apply(&joint, other.pose.xyz);
-        let center: Vector = std::array::from_fn(|axis| turned[axis] + at.xyz[axis]);
-        let common: Vector = std::array::from_fn(|axis| {
-            (self.mass * self.pose.xyz[axis] + other.mass * center[axis]) / mass
-        });
-        let first = about(&rotated(&own, &self.moments), self.mass, self.pose.xyz, common);
-        let axes = multiplied(&joint, &rotation(other.pose.rpy));
-        let second = about(&rotated(&axes, &other.moments), other.mass, center, common);
-        let sum = std::array::from_fn(|row| {
-            std::array::from_fn(|column| first[row][column] + second[row][column])
-        });
-        self.moments = rotated(&transposed(&own), &sum);
+        let placed = at.then(&other.pose);
+        let common = centre([self.mass, other.mass], [self.pose.xyz, placed.xyz]);
+        let first = turned(&self.moments, &self.pose.turn);
+        let first = moved(&first, self.mass, self.pose.xyz, common);
+        let second = turned(&other.moments, &placed.turn);
+        let second = moved(&second, other.mass, placed.xyz, common);
+        self.moments = turned(&sum(&first, &second), &transposed(&self.pose.turn));
         self.pose.xyz = common;
-        self.mass = mass;
+        self.mass += other.mass;
     }
 
     /// `MassMatrix3::IsValid` of ign-math.
@@ -90,41 +76,37 @@ fn tolerance(moments: Vector) -> f64 {
     10.0 * f64::EPSILON * 0.5 * moments.iter().sum::<f64>().abs()
 }
 
-/// Moments about a centre of mass, moved to another point.
-fn about(moments: &Matrix, mass: f64, center: Vector, point: Vector) -> Matrix {
-    let offset: Vector = std::array::from_fn(|axis| center[axis] - point[axis]);
-    let square: f64 = offset.iter().map(|part| part * part).sum();
-    std::array::from_fn(|row| {
-        std::array::from_fn(|column| {
-            let own = if row == column { square } else { 0.0 };
-            moments[row][column] + mass * (own - offset[row] * offset[column])
-        })
-    })
+/// The inertia that urdfdom has of a link; without mass if it is faulty.
+pub(super) fn inertia_of(link: Node<'_>) -> Option<Inertia> {
+    let inertial = link.child("inertial")?;
+    let of = |element: &str, name: &str| number(inertial.child(element)?.value(name)?);
+    let mut found = Inertia::default();
+    let (Some(pose), Some(mass)) = (pose(inertial), of("mass", "value")) else {
+        return Some(found);
+    };
+    (found.pose, found.mass) = (pose, mass);
+    let all = MOMENTS.map(|name| of("inertia", name));
+    if let [Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)] = all {
+        found.moments = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    }
+    Some(found)
 }
 
-fn rotation([roll, pitch, yaw]: Vector) -> Matrix {
-    let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
-    [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
+/// The pose of an element, if it has no fault.
+pub(super) fn pose(parent: Node<'_>) -> Option<Pose> {
+    let Some(origin) = parent.child("origin") else { return Some(Pose::default()) };
+    let read = |value: Option<&Attribute<'_>>| match value {
+        Some(value) => vector(&value.value),
+        None => Some(Vector::default()),
+    };
+    Some(Pose::new(read(origin.attribute("xyz"))?, read(origin.attribute("rpy"))?))
 }
 
-fn apply(matrix: &Matrix, vector: Vector) -> Vector {
-    matrix.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
+pub(super) fn number(text: &str) -> Option<f64> {
+    whole(istream(text))
 }
 
-fn transposed(matrix: &Matrix) -> Matrix {
-    std::array::from_fn(|row| std::array::from_fn(|column| matrix[column][row]))
-}
-
-fn multiplied(first: &Matrix, second: &Matrix) -> Matrix {
-    let columns = transposed(second);
-    first.map(|row| columns.map(|column| row.iter().zip(column).map(|(a, b)| a * b).sum()))
-}
-
-/// A tensor in other axes.
-fn rotated(axes: &Matrix, tensor: &Matrix) -> Matrix {
-    multiplied(&multiplied(axes, tensor), &transposed(axes))
+pub(super) fn vector(text: &str) -> Option<Vector> {
+    let numbers: Option<Vec<f64>> = pieces(text).map(number).collect();
+    numbers?.try_into().ok()
 }

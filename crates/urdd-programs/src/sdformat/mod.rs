@@ -4,29 +4,15 @@
 mod gazebo;
 mod inertia;
 mod names;
-mod release;
 mod tree;
-mod values;
 mod xml;
 
-use std::collections::HashSet;
-
 use self::gazebo::{Extensions, stod};
-use self::release::Release;
-use self::tree::{Body, Joint, Tree};
-use self::values::{number, vector};
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::{FOLLOWS_NONE, Fault};
-use crate::file::File;
-use crate::number::pieces;
-use crate::part::Part;
-use crate::tinyxml;
-use crate::tree::Node;
-use crate::unknown::Names;
+use self::inertia::{number, vector};
+use self::tree::{Body, Joint, Release, Tree};
+use crate::prelude::*;
 use crate::urdfdom::{self, Model};
 
-/// Gazebo Fortress.
 pub(crate) const FORTRESS: About = About {
     id: "sdformat",
     name: "Gazebo Fortress",
@@ -35,18 +21,17 @@ pub(crate) const FORTRESS: About = About {
     settings: &["gazebo", "fortress"],
     is_asked: true,
     names: Names::Exact,
-    never: NEVER,
-    read: read_twelve,
+    never: &[NEVER, "mimic"],
+    read: |file, effects| read(file, Release::Twelve, effects),
 };
 
-/// Gazebo Harmonic.
 pub(crate) const HARMONIC: About = About {
     id: "sdformat14",
     name: "Gazebo Harmonic",
     version: "14.9.0",
     settings: &["gazebo", "harmonic"],
-    never: NEVER.split_at(1).1,
-    read: read_fourteen,
+    never: &[NEVER],
+    read: |file, effects| read(file, Release::Fourteen, effects),
     ..FORTRESS
 };
 
@@ -59,25 +44,8 @@ pub(crate) const JETTY: About = About {
     ..HARMONIC
 };
 
-/// What 12 never reads, and 14 but for the first.
-const NEVER: &[&str] = &[
-    "mimic",
-    "safety_controller",
-    "calibration",
-    "acceleration",
-    "deceleration",
-    "jerk",
-    "texture",
-    "quat_xyzw",
-];
-
-fn read_twelve(file: &File, effects: &mut Effects) -> Reading<()> {
-    read(file, Release::Twelve, effects)
-}
-
-fn read_fourteen(file: &File, effects: &mut Effects) -> Reading<()> {
-    read(file, Release::Fourteen, effects)
-}
+const NEVER: &str =
+    "safety_controller calibration acceleration deceleration jerk texture quat_xyzw";
 
 fn read(file: &File, release: Release, effects: &mut Effects) -> Reading<()> {
     let tree = effects.parsed(file.document.within(tinyxml::OLD_MAX_DEPTH))?;
@@ -128,6 +96,8 @@ fn suspects(links: &Tree<'_>, extensions: &Extensions<'_>, effects: &mut Effects
     Ok(())
 }
 
+const NOT_WRITABLE: &str = "the number is too large or too small";
+
 /// The pose of the robot, which other programs never read.
 fn origin(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
     let Some(origin) = robot.child("origin") else { return Ok(()) };
@@ -138,14 +108,13 @@ fn origin(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
             match stod(piece) {
                 Some(number) => numbers.push(number),
                 None if is_number => {
-                    let rule = "the number is too large or too small";
-                    return effects.crash(value, Fault::range(&value.name, &value.value, rule));
+                    return effects.crash(value, Fault::range(value, NOT_WRITABLE));
                 }
                 None => break,
             }
         }
         if numbers.len() == 3 && !numbers.iter().all(|number| number.is_finite()) {
-            return effects.refuse(value, Fault::not_a_number(&value.name, &value.value));
+            return effects.refuse(value, Fault::not_a_number(value));
         }
     }
     Ok(())
@@ -155,17 +124,15 @@ fn origin(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
 fn never_read(model: &Model<'_>, release: Release, effects: &mut Effects) {
     for (name, joint) in &model.joints {
         let has_mimic = release == Release::Fourteen && joint.kind != "fixed";
-        for element in ["mimic", "safety_controller", "calibration"] {
-            let node = joint.node.child(element);
-            if let Some(node) = node.filter(|_| element != "mimic" || !has_mimic) {
-                let part = Part::of("joint", name).inside(element);
-                effects.drop(node, part, Fault::NeverRead(element.into()));
-            }
+        let part = Part::of("joint", name);
+        if !has_mimic {
+            effects.unread_elements(joint.node, "mimic", &part);
         }
+        effects.unread_elements(joint.node, "safety_controller calibration", &part);
     }
     let texture = |material: Node<'_>, part: Part, effects: &mut Effects| {
         if let Some(texture) = material.child("texture") {
-            effects.drop(texture, part, Fault::NeverRead("texture".into()));
+            effects.unread(texture, part, "texture");
         }
     };
     for material in model.robot.named("material") {
@@ -173,9 +140,9 @@ fn never_read(model: &Model<'_>, release: Release, effects: &mut Effects) {
         texture(material, Part::of("material", name), effects);
     }
     for (name, link) in &model.links {
-        for (index, visual) in link.node.named("visual").enumerate() {
-            let part = Part::of("link", name).inside(format_args!("visual/{index}/material"));
-            visual.named("material").for_each(|one| texture(one, part.clone(), effects));
+        for (visual, part) in Part::of("link", name).shapes(link.node, "visual") {
+            let material = part.inside("material");
+            visual.named("material").for_each(|one| texture(one, material.clone(), effects));
         }
     }
 }
@@ -225,13 +192,11 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
         let value = |name| limit.attribute(name).and_then(|one| number(&one.value));
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         if is_limited && value("lower").unwrap_or(0.0) > value("upper").unwrap_or(0.0) {
-            let fault = Fault::Limits("`lower` is above `upper`");
-            effects.read_as(limit, &part, fault, "one in the place of the other");
+            effects.read_as(limit, &part, CROSSED, "one in the place of the other");
         }
         for one in ["effort", "velocity"].into_iter().filter_map(|name| limit.attribute(name)) {
             if number(&one.value).is_some_and(|number| number < 0.0) {
-                let fault = Fault::range(&one.name, &one.value, "must not be negative");
-                effects.read_as(one, &part, fault, "no limit");
+                effects.read_as(one, &part, Fault::range(one, "must not be negative"), "no limit");
             }
         }
     }
@@ -242,10 +207,7 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
     if length.into_iter().map(|part| part * part).sum::<f64>().sqrt() <= f64::from(1e-6_f32) {
         return match xyz {
             None => effects.refuse(axis, Fault::Missing("xyz")),
-            Some(xyz) => {
-                let rule = "an axis has no length 0";
-                effects.refuse(xyz, Fault::range("xyz", &xyz.value, rule))
-            }
+            Some(xyz) => effects.refuse(xyz, Fault::range(xyz, "an axis has no length 0")),
         };
     }
     Ok(())
@@ -293,8 +255,7 @@ fn shapes(body: &Body<'_>, release: Release, effects: &mut Effects) -> Reading<(
     if let Some(inertial) = body.node.child("inertial").filter(|_| body.is_made) {
         writable(inertial.child("origin"), &["xyz"], effects)?;
         writable(inertial.child("mass"), &["value"], effects)?;
-        let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-        writable(inertial.child("inertia"), &names, effects)?;
+        writable(inertial.child("inertia"), &MOMENTS, effects)?;
     }
     for (kind, count) in ["visual", "collision"].into_iter().zip(body.kept) {
         for shape in body.node.named(kind).take(count) {
@@ -326,8 +287,7 @@ fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) -> Re
     for value in attributes {
         let mut numbers = pieces(&value.value).filter_map(number);
         if !numbers.all(fits) {
-            let rule = "the number is too large or too small";
-            return effects.refuse(value, Fault::range(&value.name, &value.value, rule));
+            return effects.refuse(value, Fault::range(value, NOT_WRITABLE));
         }
     }
     Ok(())

@@ -1,13 +1,7 @@
 //! Names that SDF cannot have, or that are of nothing.
 
-use std::collections::HashSet;
-
-use super::release::Release;
-use super::tree::Tree;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::Node;
+use super::tree::{Release, Tree};
+use crate::prelude::*;
 
 /// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
 pub(super) fn check(
@@ -32,8 +26,7 @@ pub(super) fn check(
                 Release::Twelve => "white space around it is cut off, `true` is 1 and `false` 0",
                 Release::Fourteen => "white space around it is cut off",
             };
-            let fault = Fault::Name { kind, name: name.into(), rule };
-            effects.read_as(node, Part::of(kind, name), fault, read);
+            effects.read_as(node, Part::of(kind, name), Fault::name(kind, name, rule), read);
         }
         if !names.insert(read) {
             return effects.refuse(node, Fault::not_unique("link or joint", name));
@@ -75,19 +68,10 @@ fn joint(
     release: Release,
     effects: &mut Effects,
 ) -> Reading<()> {
-    const KINDS: [&str; 9] = [
-        "ball",
-        "continuous",
-        "fixed",
-        "gearbox",
-        "prismatic",
-        "revolute",
-        "revolute2",
-        "screw",
-        "universal",
-    ];
+    const KINDS: &str =
+        "ball continuous fixed gearbox prismatic revolute revolute2 screw universal";
     if let Some(kind) = node.attribute("type")
-        && !KINDS.iter().any(|known| known.eq_ignore_ascii_case(&kind.value))
+        && !KINDS.split(' ').any(|known| known.eq_ignore_ascii_case(&kind.value))
     {
         return effects.refuse(kind, Fault::value("type", &kind.value));
     }
@@ -127,13 +111,12 @@ fn one(
         return effects.refuse(at, scoped(kind, name));
     }
     if is_reserved {
-        let rule = "the name is one of SDF's own";
-        return effects.refuse(at, Fault::Name { kind, name: name.into(), rule });
+        return effects.refuse(at, Fault::name(kind, name, "the name is one of SDF's own"));
     }
     Ok(())
 }
 
 /// Why a name of a kind of thing is refused that has `::` in it.
 pub(super) fn scoped(kind: &'static str, name: &str) -> Fault {
-    Fault::Name { kind, name: name.into(), rule: "SDF has `::` between names" }
+    Fault::name(kind, name, "SDF has `::` between names")
 }

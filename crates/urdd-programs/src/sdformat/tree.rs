@@ -1,20 +1,44 @@
-//! The links and joints of a robot as libsdformat makes them: fixed joints are left out, and their links become part of
+//! The releases that are told apart, and the links and joints of a robot as libsdformat makes them: fixed joints are left out, and their links become part of
 //! the link above; links without mass are left out, with all below.
-
-use std::collections::{HashMap, HashSet};
 
 use urdd_format::short::Short;
 
-use super::inertia::{Inertia, Pose};
-use super::release::Release;
-use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
-use crate::part::Part;
-use crate::tree::Node;
+use super::inertia::{Inertia, inertia_of, pose};
+use crate::prelude::*;
+use crate::space::Pose;
 use crate::urdfdom::Model;
 
-/// The least mass of a link.
+/// The least mass of a link, kg.
 const MIN_MASS: f64 = 1e-6;
+
+/// Which libsdformat.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Release {
+    /// 12.3.0.
+    Twelve,
+    /// 14.1 and later. It reads mimics, and what it writes is SDF 1.11, whose names have no `::`. As in 12.7, links and
+    /// joints that are merged stay as frames, which need names and a link; and a link without mass that is merged does not
+    /// take those below with it.
+    Fourteen,
+}
+
+impl Release {
+    /// A name as it is read.
+    pub fn read(self, text: &str) -> &str {
+        let text = text.trim_matches(is_space);
+        match text {
+            _ if self == Release::Fourteen => text,
+            _ if text.eq_ignore_ascii_case("true") => "1",
+            _ if text.eq_ignore_ascii_case("false") => "0",
+            _ => text,
+        }
+    }
+
+    /// Whether a name is one that SDF keeps for itself.
+    pub fn keeps(self, name: &str) -> bool {
+        self == Release::Fourteen && name.contains("::")
+    }
+}
 
 /// A link, and the joint above it.
 pub(super) struct Body<'t> {
@@ -67,7 +91,7 @@ impl<'t> Tree<'t> {
                 name,
                 node: link.node,
                 kept: link.kept.map(|(count, _)| count),
-                inertia: super::values::inertia_of(link.node),
+                inertia: inertia_of(link.node),
                 joint: None,
                 owner: tree.bodies.len(),
                 is_made: false,
@@ -83,7 +107,7 @@ impl<'t> Tree<'t> {
                 node: joint.node,
                 kind: joint.kind,
                 parent,
-                origin: super::values::pose(joint.node).unwrap_or_default(),
+                origin: pose(joint.node).unwrap_or_default(),
                 is_merged: joint.kind == "fixed" && !kept_joints.contains(name),
             });
         }
@@ -165,9 +189,7 @@ impl<'t> Tree<'t> {
     pub fn spoiler(&self, owner: usize) -> Node<'t> {
         let merged = (0..self.bodies.len()).filter(|body| self.bodies[*body].owner == owner);
         let mut nodes = std::iter::once(owner).chain(merged).map(|body| self.bodies[body].node);
-        let spoils = |node: &Node<'t>| {
-            super::values::inertia_of(*node).is_some_and(|inertia| !inertia.is_valid())
-        };
+        let spoils = |node: &Node<'t>| inertia_of(*node).is_some_and(|inertia| !inertia.is_valid());
         nodes.find(spoils).unwrap_or(self.bodies[owner].node)
     }
 

@@ -1,8 +1,7 @@
 //! What TinyXML 2.6.2, in urdfdom 3, refuses of a file that tinyxml2 has read and written again.
 
-use crate::effect::{At, Effects, Reading};
-use crate::fault::Fault;
-use crate::tree::{Attribute, Tree};
+use crate::prelude::*;
+use crate::tree::Tree;
 
 const NOT_UTF8: Fault = Fault::Xml("the file is not UTF-8, which it says or has by default");
 

@@ -1,12 +1,7 @@
 //! How it reads joints. Of what repeats, the last counts.
 
-use std::collections::HashMap;
-
 use super::{Joint, Reader, name_of, named};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 impl<'t> Reader<'_, 't> {
     pub(super) fn joint(
@@ -42,8 +37,7 @@ impl<'t> Reader<'_, 't> {
         self.limit(node, &part);
         for unread in ["dynamics", "calibration", "safety_controller"] {
             if let Some(found) = named(node, unread).next() {
-                let fault = Fault::NeverRead(unread.into());
-                self.effects.drop(found, part.inside(unread), fault);
+                self.effects.unread(found, part.inside(unread), unread);
             }
         }
         Ok(Joint { node, child: link, mimic })
@@ -60,8 +54,7 @@ impl<'t> Reader<'_, 't> {
     fn limit(&mut self, joint: Node<'t>, part: &Part) {
         let (kind, part) = (joint.attribute("type"), part.inside("limit"));
         let text = kind.map_or("", |kind| &*kind.value);
-        let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
-        if !known.contains(&text) {
+        if !JOINT_TYPES.contains(&text) {
             let at = kind.map_or(joint.start(), |kind| kind.range.start);
             let part = Part::of("joint", name_of(joint));
             self.effects.read_as(at, part, Fault::value("type", text), "fixed");
@@ -69,17 +62,11 @@ impl<'t> Reader<'_, 't> {
         let is_limited = matches!(text, "revolute" | "prismatic");
         let mut limits = named(joint, "limit").peekable();
         if limits.peek().is_none() && is_limited {
-            let fault = Fault::MissingElement("limit");
-            self.effects.read_as(joint, &part, fault, "locked at 0");
+            self.effects.read_as(joint, &part, Fault::MissingElement("limit"), "locked at 0");
         }
         for limit in limits {
             self.numbers(limit, &["lower", "upper", "effort", "velocity"], &part, "NaN");
-            for unread in ["acceleration", "deceleration", "jerk"] {
-                if let Some(unread) = limit.attribute(unread) {
-                    let fault = Fault::NeverRead((&*unread.name).into());
-                    self.effects.drop(unread, part.inside(&*unread.name), fault);
-                }
-            }
+            self.effects.unread_attributes(limit, FURTHER, &part);
         }
     }
 
@@ -92,8 +79,7 @@ impl<'t> Reader<'_, 't> {
                 last.insert(child, joint.node).filter(|one| !one.is_like(joint.node))
             {
                 let part = Part::of("joint", name_of(other)).inside("child");
-                let fault = Fault::Tree("a link is the child of two joints");
-                self.effects.drop(joint.node, part, fault);
+                self.effects.drop(joint.node, part, TWO_PARENTS);
             }
         }
     }
@@ -130,9 +116,8 @@ impl<'t> Reader<'_, 't> {
             }
             if let Some(again) = at.filter(|&joint| met[joint] == start + 1) {
                 let place = joints[again].mimic.unwrap_or(joints[again].node);
-                return self
-                    .effects
-                    .refuse(place, Fault::Other("joints mimic each other in a loop"));
+                let fault = Fault::Other("joints mimic each other in a loop");
+                return self.effects.refuse(place, fault);
             }
             way.into_iter().for_each(|joint| met[joint] = DONE);
         }

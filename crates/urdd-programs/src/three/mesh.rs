@@ -1,10 +1,8 @@
 //! The meshes that it shows.
 
 use super::Reader;
-use crate::fault::{BEGINS_LATE, FORMAT, Fault};
-use crate::mesh::{ColladaFacts, Mesh, MeshFacts};
-use crate::part::Part;
-use crate::tree::Node;
+use crate::mesh::ColladaFacts;
+use crate::prelude::*;
 
 impl<'t> Reader<'_, 't> {
     pub(super) fn mesh(&mut self, mesh: Node<'t>, part: &Part) {

@@ -4,21 +4,11 @@
 mod joints;
 mod mesh;
 
-use std::collections::{HashMap, HashSet};
-
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
-use crate::file::File;
-use crate::look::Look;
-use crate::mesh::Mesh;
 use crate::number::parse_float;
-use crate::part::Part;
+use crate::prelude::*;
 use crate::strict::{Names, Text};
-use crate::tree::{Attribute, Node};
 use crate::unknown::Names as ElementNames;
 
-/// three.js.
 pub(crate) const ABOUT: About = About {
     id: "urdf_loader",
     name: "three.js (urdf-loader)",
@@ -28,17 +18,8 @@ pub(crate) const ABOUT: About = About {
     is_asked: true,
     names: ElementNames::AnyCase,
     never: &[
-        "collision",
-        "dynamics",
-        "damping",
-        "friction",
-        "safety_controller",
-        "calibration",
-        "acceleration",
-        "deceleration",
-        "jerk",
-        "version",
-        "quat_xyzw",
+        "collision dynamics damping friction safety_controller calibration version quat_xyzw",
+        FURTHER,
     ],
     read,
 };
@@ -68,7 +49,6 @@ struct Reader<'r, 't> {
     whites: HashSet<&'t str>,
 }
 
-/// A joint.
 struct Joint<'t> {
     node: Node<'t>,
     child: Option<&'t str>,
@@ -102,16 +82,14 @@ impl<'t> Reader<'_, 't> {
             let name = name_of(link);
             if name.contains(['"', '\n', '\r', '\u{c}']) {
                 let rule = "a name cannot have a quote or an end of a line";
-                let fault = Fault::Name { kind: "link", name: name.into(), rule };
-                return self.effects.refuse(link, fault);
+                return self.effects.refuse(link, Fault::name("link", name, rule));
             }
             self.link(link, &Part::of("link", name))?;
             let is_root = !children.contains(name) || name.contains('\\');
             if let Some(root) = root.filter(|_| is_root) {
-                let fault = Fault::Tree("two links have no joint above them");
-                let part = Part::of("link", name_of(root));
-                self.effects.drop(link, part, fault.clone());
-                self.effects.read_as(link, Part::of("link", name), fault, "one with the others");
+                self.effects.drop(link, Part::of("link", name_of(root)), TWO_ROOTS);
+                let part = Part::of("link", name);
+                self.effects.read_as(link, part, TWO_ROOTS, "one with the others");
             }
             root = if is_root { Some(link) } else { root };
             if links.insert(name, link).is_some_and(|other| !other.is_like(link)) {
@@ -139,9 +117,8 @@ impl<'t> Reader<'_, 't> {
         let number = parse_float(&value.value);
         let is_whole = value.value.trim().parse().is_ok_and(|whole: f64| whole == number);
         if !is_whole || !number.is_finite() {
-            let fault = Fault::not_a_number(&value.name, &value.value);
             let makes = if number.is_nan() { none.to_owned() } else { number.to_string() };
-            self.effects.read_as(value, part, fault, makes);
+            self.effects.read_as(value, part, Fault::not_a_number(value), makes);
         }
         number
     }
@@ -176,8 +153,8 @@ impl<'t> Reader<'_, 't> {
         if found != count || !is_whole {
             // Between two white spaces is an empty piece.
             let fault = match are_numbers {
-                true => Fault::count(&value.name, count, &value.value),
-                false => Fault::not_a_number(&value.name, &value.value),
+                true => Fault::count(value, count),
+                false => Fault::not_a_number(value),
             };
             let read: Vec<String> = read.iter().map(f64::to_string).collect();
             self.effects.read_as(value, part, fault, read.join(" "));
@@ -195,7 +172,7 @@ impl<'t> Reader<'_, 't> {
             }
         }
         if let Some(unread) = origin.attribute("quat_xyzw") {
-            self.effects.drop(unread, part, Fault::NeverRead("quat_xyzw".into()));
+            self.effects.unread(unread, part, "quat_xyzw");
         }
     }
 
@@ -206,8 +183,7 @@ impl<'t> Reader<'_, 't> {
         let Some(last) = all.last() else { return Some(first) };
         let is_empty = first.attributes().is_empty() && first.children().next().is_none();
         if !is_empty && !last.is_like(first) {
-            let fault = Fault::Repeated(name.into());
-            self.effects.read_as(last, part.inside(name), fault, "the last");
+            self.effects.read_as(last, part.inside(name), Fault::Repeated(name.into()), "the last");
         }
         Some(last)
     }
@@ -223,8 +199,7 @@ impl<'t> Reader<'_, 't> {
             match texture.attribute("filename").filter(|name| !name.value.is_empty()) {
                 None => self.effects.drop(texture, part, Fault::Empty("filename")),
                 Some(name) if matches!(self.file.mesh(&name.value), Mesh::Missing) => {
-                    let fault = Fault::NotFound("texture");
-                    self.effects.drop(name, part, fault);
+                    self.effects.drop(name, part, Fault::NotFound("texture"));
                 }
                 Some(_) => {}
             }
@@ -240,16 +215,15 @@ impl<'t> Reader<'_, 't> {
                 self.numbers(mass, &["value"], &part, "0");
             }
             for inertia in named(inertial, "inertia") {
-                let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-                self.numbers(inertia, &names, &part, "0");
+                self.numbers(inertia, &MOMENTS, &part, "0");
             }
         }
         for (index, visual) in named(link, "visual").enumerate() {
             self.visual(visual, &part.inside(format_args!("visual/{index}")))?;
         }
         for (index, collision) in named(link, "collision").enumerate() {
-            let fault = Fault::NeverRead("collision".into());
-            self.effects.drop(collision, part.inside(format_args!("collision/{index}")), fault);
+            let part = part.inside(format_args!("collision/{index}"));
+            self.effects.unread(collision, part, "collision");
         }
         Ok(())
     }
@@ -274,7 +248,7 @@ impl<'t> Reader<'_, 't> {
         }
         for geometry in named(visual, "geometry") {
             let Some(form) = geometry.children().next() else {
-                return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
+                return self.effects.refuse(geometry, NO_SHAPE);
             };
             self.shape(form, part);
             self.own_colours(visual, form, part);

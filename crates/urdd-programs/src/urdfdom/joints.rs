@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{PartRead, needed, number, numbers, vector};
-use super::{Joint, Reader};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::part::Part;
-use crate::tree::Node;
+use super::{Joint, PartRead, Reader, needed, number, numbers, vector};
+use crate::prelude::*;
 
 impl Reader<'_> {
     pub(super) fn joints<'t>(&mut self, robot: Node<'t>) -> Reading<BTreeMap<&'t str, Joint<'t>>> {
@@ -29,8 +25,7 @@ impl Reader<'_> {
         self.pose(node)?;
         let end = |name| node.child(name).and_then(|end| end.value("link")).unwrap_or_default();
         let kind = needed(node, "type")?;
-        let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
-        if !known.contains(&&*kind.value) {
+        if !JOINT_TYPES.contains(&&*kind.value) {
             return Err((kind.range.start, Fault::value("type", &kind.value)));
         }
         if let Some(axis) =
@@ -65,8 +60,7 @@ impl Reader<'_> {
         }
         if let Some(dynamics) = node.child("dynamics") {
             if ["damping", "friction"].iter().all(|name| dynamics.attribute(name).is_none()) {
-                let fault = Fault::Other("`<dynamics>` has neither damping nor friction");
-                return Err((dynamics.start(), fault));
+                return Err((dynamics.start(), NO_DYNAMICS));
             }
             numbers(dynamics, &["damping", "friction"])?;
         }
@@ -75,16 +69,12 @@ impl Reader<'_> {
     }
 
     fn limit(&mut self, limit: Node<'_>, is_limited: bool, part: &Part) -> PartRead<()> {
-        const FURTHER: [&str; 3] = ["acceleration", "deceleration", "jerk"];
         numbers(limit, &["lower", "upper"])?;
         if self.minor < 2 {
             for name in ["effort", "velocity"] {
                 number(needed(limit, name)?)?;
             }
-            for unread in FURTHER.iter().filter_map(|name| limit.attribute(name)) {
-                let part = part.inside(&*unread.name);
-                self.effects.drop(unread, part, Fault::NeverRead((&*unread.name).into()));
-            }
+            self.effects.unread_attributes(limit, FURTHER, part);
             return Ok(());
         }
         let mut ends = [None; 2];
@@ -97,14 +87,12 @@ impl Reader<'_> {
         if let [Some(lower), Some(upper)] = ends
             && lower > upper
         {
-            return Err((limit.start(), Fault::Limits("`lower` is above `upper`")));
+            return Err((limit.start(), CROSSED));
         }
-        for value in
-            ["effort", "velocity"].iter().chain(&FURTHER).filter_map(|name| limit.attribute(name))
-        {
+        let names = ["effort", "velocity"].into_iter().chain(FURTHER.split(' '));
+        for value in names.filter_map(|name| limit.attribute(name)) {
             if number(value)? < 0.0 {
-                let fault = Fault::range(&value.name, &value.value, "must not be negative");
-                return Err((value.range.start, fault));
+                return Err((value.at(), Fault::range(value, "must not be negative")));
             }
         }
         Ok(())

@@ -2,14 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::values::{PartRead, needed, needed_element, number, vector};
-use super::{Link, NO_COLOR, Reader};
-use crate::effect::Reading;
-use crate::fault::Fault;
-use crate::look::Look;
-use crate::number::{istream, pieces, whole};
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use super::{Link, NO_COLOR, PartRead, Reader, needed, needed_element, number, vector};
+use crate::prelude::*;
 
 impl Reader<'_> {
     pub(super) fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
@@ -19,8 +13,7 @@ impl Reader<'_> {
             if material.attribute("name").is_none() {
                 self.effects.drop(material, part, Fault::Missing("name"));
             } else if !self.color(material, &part) {
-                let fault = Fault::Other(NO_COLOR);
-                self.effects.read_as(material, part, fault, "black");
+                self.effects.read_as(material, part, Fault::Other(NO_COLOR), "black");
             }
             if self.materials.insert(name.to_owned(), Look::of(material)).is_some() {
                 return self.effects.refuse(material, Fault::not_unique("material", name));
@@ -40,25 +33,16 @@ impl Reader<'_> {
         let Some(rgba) = color else { return texture };
         let numbers =
             pieces(&rgba.value).map(|piece| whole(istream(piece))).collect::<Option<Vec<f64>>>();
-        match numbers {
-            None => {
-                let fault = Fault::not_a_number("rgba", &rgba.value);
-                self.effects.read_as(rgba, part, fault, "black");
-                texture
-            }
+        let (fault, has_look) = match numbers {
+            None => (Fault::not_a_number(rgba), texture),
             Some(numbers) if numbers.iter().any(|number| !(0.0..=1.0).contains(number)) => {
-                let fault = Fault::range("rgba", &rgba.value, "a colour is of numbers from 0 to 1");
-                self.effects.read_as(rgba, part, fault, "black");
-                texture
+                (Fault::range(rgba, COLOR_RULE), texture)
             }
-            Some(numbers) => {
-                if numbers.len() != 4 {
-                    let fault = Fault::count("rgba", 4, &rgba.value);
-                    self.effects.read_as(rgba, part, fault, "black");
-                }
-                true
-            }
-        }
+            Some(numbers) if numbers.len() != 4 => (Fault::count(rgba, 4), true),
+            Some(_) => return true,
+        };
+        self.effects.read_as(rgba, part, fault, "black");
+        has_look
     }
 
     pub(super) fn links<'t>(&mut self, robot: Node<'t>) -> Reading<BTreeMap<&'t str, Link<'t>>> {
@@ -94,8 +78,7 @@ impl Reader<'_> {
         }
         let mut kept = [(0, true); 2];
         for (kind, kept) in ["visual", "collision"].into_iter().zip(&mut kept) {
-            for (index, node) in link.named(kind).enumerate() {
-                let part = Part::of("link", name).inside(format_args!("{kind}/{index}"));
+            for (node, part) in Part::of("link", name).shapes(link, kind) {
                 if bad.is_none() {
                     bad = self.shape(node, &part).err();
                 }
@@ -116,7 +99,7 @@ impl Reader<'_> {
         let mass = needed_element(inertial, "mass")?;
         number(needed(mass, "value")?)?;
         let inertia = needed_element(inertial, "inertia")?;
-        for name in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"] {
+        for name in MOMENTS {
             number(needed(inertia, name)?)?;
         }
         Ok(())
@@ -151,7 +134,7 @@ impl Reader<'_> {
 
     fn geometry(&mut self, geometry: Node<'_>) -> PartRead<()> {
         let Some(form) = geometry.children().next() else {
-            return Err((geometry.start(), Fault::Other("`<geometry>` has no shape")));
+            return Err((geometry.start(), NO_SHAPE));
         };
         let sizes: &[&'static str] = match form.name() {
             "sphere" => &["radius"],
@@ -184,10 +167,7 @@ impl Reader<'_> {
 
     fn positive(&self, size: &Attribute<'_>, values: &[f64]) -> PartRead<()> {
         match self.minor >= 2 && !values.iter().all(|value| *value > 0.0) {
-            true => {
-                let rule = "URDF 1.2 has only sizes above 0";
-                Err((size.range.start, Fault::range(&size.name, &size.value, rule)))
-            }
+            true => Err((size.at(), Fault::range(size, "URDF 1.2 has only sizes above 0"))),
             false => Ok(()),
         }
     }
@@ -201,10 +181,7 @@ impl Reader<'_> {
         if let (Some(_), Some(second)) = (rpy, quaternion)
             && self.minor > 0
         {
-            return Err((
-                second.range.start,
-                Fault::Other("`<origin>` has both `rpy` and `quat_xyzw`"),
-            ));
+            return Err((second.at(), Fault::Other("`<origin>` has both `rpy` and `quat_xyzw`")));
         }
         if let Some(rpy) = rpy {
             vector(rpy, 3)?;

@@ -1,26 +1,15 @@
 //! urdf-usd-converter 0.3.4, with which Isaac Sim and Newton import URDF. It is strict about XML, names and numbers
 //! anywhere in the file. Links that have nothing in them, at the end of fixed joints, have no joint in USD.
 
-mod joint;
 mod parse;
 mod tree;
 
-use std::collections::HashMap;
+use tree::{Joint, last};
 
-use joint::{Joint, last};
-
-use crate::about::About;
-use crate::effect::{Effects, Reading};
-use crate::fault::{BEGINS_LATE, FORMAT, Fault};
-use crate::file::File;
-use crate::look::Look;
-use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
-use crate::part::Part;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 use crate::unknown::Names as ElementNames;
 
-/// Isaac Sim and Newton.
 pub(crate) const ABOUT: About = About {
     id: "usd",
     name: "Isaac and Newton (urdf-usd-converter)",
@@ -29,7 +18,7 @@ pub(crate) const ABOUT: About = About {
     settings: &["isaac", "newton"],
     is_asked: true,
     names: ElementNames::Expanded,
-    never: &["acceleration", "deceleration", "jerk", "version", "quat_xyzw"],
+    never: &["version quat_xyzw", FURTHER],
     read,
 };
 
@@ -84,15 +73,12 @@ impl<'t> Reader<'_, 't> {
         const LONGEST: usize = 248;
         let Some(attribute) = robot.attribute("name") else { return Ok(()) };
         let name = &*attribute.value;
+        let fault = Fault::name("robot", name, "it is the name of a file, too");
         if name.contains('\\') {
-            let rule = "it is the name of a file, too";
-            let fault = Fault::Name { kind: "robot", name: name.into(), rule };
-            self.effects.drop(attribute, "robot/?", fault);
+            self.effects.drop(attribute, "robot/?", fault.clone());
         }
         let has_slash = name.starts_with('/') || name.ends_with('/');
         if name.len() > LONGEST || has_slash || name.contains(char::is_control) {
-            let rule = "it is the name of a file, too";
-            let fault = Fault::Name { kind: "robot", name: name.into(), rule };
             return self.effects.refuse(attribute, fault);
         }
         Ok(())
@@ -115,13 +101,13 @@ impl<'t> Reader<'_, 't> {
     }
 
     /// Of elements that repeat it reads the last, also if it is empty.
-    fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &Part) {
-        for name in names {
+    fn repeated(&mut self, node: Node<'t>, names: &str, part: &Part) {
+        for name in names.split(' ') {
             let mut all = node.named(name);
             let first = all.next().filter(|first| !first.is_empty());
             let emptied = first.and(all.last()).filter(|last| last.is_empty());
             if let Some(second) = node.repeated(name).or(emptied) {
-                let fault = Fault::Repeated((*name).into());
+                let fault = Fault::Repeated(name.into());
                 self.effects.read_as(second, part.inside(name), fault, "the last");
             }
         }
@@ -164,37 +150,19 @@ impl<'t> Reader<'_, 't> {
 
     /// What is read otherwise of a joint.
     fn joint(&mut self, node: Node<'t>, kind: &str, part: &Part) {
-        let names = [
-            "origin",
-            "parent",
-            "child",
-            "axis",
-            "limit",
-            "dynamics",
-            "calibration",
-            "safety_controller",
-            "mimic",
-        ];
-        self.repeated(node, &names, part);
+        const PARTS: &str =
+            "origin parent child axis limit dynamics calibration safety_controller mimic";
+        self.repeated(node, PARTS, part);
         self.pose(node, part);
         let part = part.inside("limit");
         match last(node, "limit") {
             None if matches!(kind, "revolute" | "prismatic") => {
-                let fault = Fault::MissingElement("limit");
-                self.effects.read_as(node, part, fault, "locked at 0");
+                self.effects.read_as(node, part, Fault::MissingElement("limit"), "locked at 0");
             }
             Some(limit) if kind == "planar" => {
-                let fault = Fault::Way("a planar joint has no limit in USD");
-                self.effects.drop(limit, part, fault);
+                self.effects.drop(limit, part, Fault::Way("a planar joint has no limit in USD"));
             }
-            Some(limit) => {
-                for name in ["acceleration", "deceleration", "jerk"] {
-                    if let Some(unread) = limit.attribute(name) {
-                        let fault = Fault::NeverRead(name.into());
-                        self.effects.drop(unread, part.inside(name), fault);
-                    }
-                }
-            }
+            Some(limit) => self.effects.unread_attributes(limit, FURTHER, &part),
             None => {}
         }
     }
@@ -202,17 +170,16 @@ impl<'t> Reader<'_, 't> {
     fn pose(&mut self, parent: Node<'t>, part: &Part) {
         let origin = last(parent, "origin");
         if let Some(unread) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
-            let fault = Fault::NeverRead("quat_xyzw".into());
-            self.effects.drop(unread, part.inside("origin"), fault);
+            self.effects.unread(unread, part.inside("origin"), "quat_xyzw");
         }
     }
 
     /// The materials of a link's visuals: the first of a name is that of all.
     fn materials_of(&mut self, link: Node<'t>) -> Reading<()> {
         let name = link.value("name").unwrap_or_default();
-        for (index, visual) in link.named("visual").enumerate() {
+        for (visual, part) in Part::of("link", name).shapes(link, "visual") {
             let Some(material) = last(visual, "material") else { continue };
-            let part = Part::of("link", name).inside(format_args!("visual/{index}/material"));
+            let part = part.inside("material");
             let name = material.value("name").unwrap_or_default();
             let has_look = ["color", "texture"].iter().any(|look| material.child(look).is_some());
             if let Some((_, first)) = self.materials.get(name).filter(|_| !name.is_empty()) {
@@ -234,41 +201,35 @@ impl<'t> Reader<'_, 't> {
         if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
             let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);
             if !opacity.is_nan() && !(0.0..=1.0).contains(&opacity) {
-                let fault = Fault::range("rgba", &rgba.value, "opacity is from 0 to 1");
-                return self.effects.refuse(rgba, fault);
+                return self.effects.refuse(rgba, Fault::range(rgba, "opacity is from 0 to 1"));
             }
         }
         let texture = last(material, "texture").and_then(|texture| texture.attribute("filename"));
         let Some(texture) = texture.filter(|name| !name.value.is_empty()) else { return Ok(()) };
         let name = &*texture.value;
         if let Some(color) = last(material, "color") {
-            self.effects.drop(
-                color,
-                part,
-                Fault::Other("the texture is in the place of the colour"),
-            );
+            let fault = Fault::Other("the texture is in the place of the colour");
+            self.effects.drop(color, part, fault);
         }
         if is_elsewhere(name) || matches!(name, "." | "..") || name.ends_with('/') {
             let fault = Fault::Other("the name of the texture is not that of a file");
             return self.effects.refuse(texture, fault);
         }
         if matches!(self.file.mesh(name), Mesh::Missing) {
-            let fault = Fault::NotFound("texture");
-            self.effects.drop(texture, part, fault);
+            self.effects.drop(texture, part, Fault::NotFound("texture"));
         }
         Ok(())
     }
 
     fn link(&mut self, link: Node<'t>) -> Reading<()> {
         let part = Part::of("link", link.value("name").unwrap_or_default());
-        self.repeated(link, &["inertial"], &part);
+        self.repeated(link, "inertial", &part);
         if let Some(inertial) = last(link, "inertial") {
             self.inertial(inertial, &part.inside("inertial"))?;
         }
         for kind in ["visual", "collision"] {
-            for (index, shape) in link.named(kind).enumerate() {
-                let part = part.inside(format_args!("{kind}/{index}"));
-                self.repeated(shape, &["origin", "geometry", "material"], &part);
+            for (shape, part) in part.shapes(link, kind) {
+                self.repeated(shape, "origin geometry material", &part);
                 self.pose(shape, &part);
                 self.shape(shape, &part)?;
             }
@@ -277,7 +238,7 @@ impl<'t> Reader<'_, 't> {
     }
 
     fn inertial(&mut self, inertial: Node<'t>, part: &Part) -> Reading<()> {
-        self.repeated(inertial, &["origin", "mass", "inertia"], part);
+        self.repeated(inertial, "origin mass inertia", part);
         self.pose(inertial, part);
         let has = |name| inertial.child(name).is_some();
         if !["origin", "mass", "inertia"].into_iter().any(has) {
@@ -286,13 +247,12 @@ impl<'t> Reader<'_, 't> {
         // The principal axes of what is not finite are not found, but for some tensors that are not turned.
         let Some(inertia) = last(inertial, "inertia") else { return Ok(()) };
         let names: &[&str] = match has("origin") {
-            true => &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
+            true => &MOMENTS,
             false => &["ixz"],
         };
         for value in names.iter().filter_map(|name| inertia.attribute(name)) {
             if python(&value.value).is_some_and(|number| !number.is_finite()) {
-                let fault = Fault::range(&value.name, &value.value, "must be finite");
-                return self.effects.refuse(value, fault);
+                return self.effects.refuse(value, Fault::range(value, "must be finite"));
             }
         }
         Ok(())
@@ -308,10 +268,7 @@ impl<'t> Reader<'_, 't> {
         else {
             match geometry.children().next() {
                 Some(form) => self.effects.drop(form, part, Fault::Shape(form.name().into())),
-                None => {
-                    let fault = Fault::Other("`<geometry>` has no shape");
-                    self.effects.drop(geometry, part, fault);
-                }
+                None => self.effects.drop(geometry, part, NO_SHAPE),
             }
             return Ok(());
         };

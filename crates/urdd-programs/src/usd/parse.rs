@@ -2,10 +2,8 @@
 
 use std::borrow::Cow;
 
-use crate::effect::{Effects, Reading};
-use crate::fault::Fault;
 use crate::number::python;
-use crate::tree::{Attribute, Node};
+use crate::prelude::*;
 
 /// Elements in each other, at which Python's stack ends.
 const MAX_DEPTH: usize = 993;
@@ -98,10 +96,10 @@ fn element(node: Node<'_>, above: Option<&str>, effects: &mut Effects) -> Readin
         is_needed(effects, "name")?;
     }
     if let Some(("joint", _)) = kind {
-        const KINDS: [&str; 6] =
-            ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
         is_needed(effects, "type")?;
-        if let Some(kind) = node.attribute("type").filter(|kind| !KINDS.contains(&&*kind.value)) {
+        if let Some(kind) =
+            node.attribute("type").filter(|kind| !JOINT_TYPES.contains(&&*kind.value))
+        {
             return effects.refuse(kind, Fault::value("type", &kind.value));
         }
     }
@@ -144,8 +142,7 @@ fn axes(joint: Node<'_>, effects: &mut Effects) -> Reading<()> {
     for xyz in axes.filter(|_| joint.value("type") != Some("fixed")) {
         let numbers = xyz.value.split_whitespace().map(python);
         if numbers.fold(0, |zeros, number| zeros + usize::from(number == Some(0.0))) == 3 {
-            let fault = Fault::range("xyz", &xyz.value, "an axis has no length 0");
-            return effects.refuse(xyz, fault);
+            return effects.refuse(xyz, Fault::range(xyz, "an axis has no length 0"));
         }
     }
     Ok(())
@@ -154,8 +151,7 @@ fn axes(joint: Node<'_>, effects: &mut Effects) -> Reading<()> {
 fn scalars(node: Node<'_>, names: &[&str], effects: &mut Effects) -> Reading<()> {
     for value in names.iter().filter_map(|name| node.attribute(name)) {
         if python(&value.value).is_none() {
-            let fault = Fault::not_a_number(&value.name, &value.value);
-            return effects.refuse(value, fault);
+            return effects.refuse(value, Fault::not_a_number(value));
         }
     }
     Ok(())
@@ -170,10 +166,8 @@ fn vector(value: Option<&Attribute<'_>>, count: usize, effects: &mut Effects) ->
         are_numbers &= python(piece).is_some();
     }
     match are_numbers {
-        _ if found != count => {
-            effects.refuse(value, Fault::count(&value.name, count, &value.value))
-        }
-        false => effects.refuse(value, Fault::not_a_number(&value.name, &value.value)),
+        _ if found != count => effects.refuse(value, Fault::count(value, count)),
+        false => effects.refuse(value, Fault::not_a_number(value)),
         true => Ok(()),
     }
 }

@@ -1,13 +1,20 @@
-//! Which links and joints are written.
+//! A joint, how elements are chosen, and which links and joints are written.
 
-use std::collections::{HashMap, HashSet};
-
-use super::joint::{Joint, last};
-use crate::effect::{Effects, Reading};
-use crate::fault::{Fault, MERGED};
 use crate::number::python;
-use crate::part::Part;
-use crate::tree::Node;
+use crate::prelude::*;
+
+pub(super) struct Joint<'t> {
+    pub node: Node<'t>,
+    pub name: &'t str,
+    pub kind: &'t str,
+    pub parent: &'t str,
+    pub child: &'t str,
+}
+
+/// The last element of a name, which is the one that counts.
+pub(super) fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
+    node.named(name).last()
+}
 
 /// Links in a row, at which Python's stack ends.
 const MAX_LINKS: usize = 495;
@@ -31,7 +38,7 @@ pub(super) fn find<'t>(
         _ => joints.iter().map(|joint| joint.parent).find(|parent| !children.contains(parent)),
     };
     let Some(root) = root else {
-        return effects.refuse(robot, Fault::Tree("no link is the root"));
+        return effects.refuse(robot, NO_ROOT);
     };
     let driven = driven(joints);
     let mut tree = Tree { links, below, driven, merged: HashSet::new(), bodies: HashSet::new() };

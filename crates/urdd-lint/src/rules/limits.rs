@@ -1,0 +1,129 @@
+use super::prelude::*;
+use urdd_format::readable::number as shown;
+
+declare_lint! {
+    /// The effort or velocity of a joint's limit is negative, or one of them is 0.
+    ///
+    /// Pinocchio refuses the whole robot if one of them is negative, on joints that follow another one too. With
+    /// effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
+    /// parameterization fails. MuJoCo takes 0 as "no limit".
+    ///
+    /// Write what the motor can do, in N or N m, and in m/s or rad/s. Where both are 0, SRC009 says so.
+    LNT013 "absurd-velocity-or-effort", Warning, WrongMotion, since "1.1.0" => absurd_velocity_or_effort;
+
+    /// A `<limit>` has no effort or no velocity, or a revolute or prismatic joint has no `<limit>`.
+    ///
+    /// urdfdom, so all of ROS and Pinocchio, refuses the whole file. A `<limit>` needs both on joints of any type, and a joint
+    /// that follows another needs a `<limit>`: `Could not parse limit element`, `did not specify limits`. MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
+    ///
+    /// Write what is missing: what the motor can do, in N or N m, and in m/s or rad/s.
+    LNT017 "limit-incomplete", Error, Format, since "1.1.0" => limit_incomplete;
+
+    /// The limits of a revolute joint look like degrees.
+    ///
+    /// URDF's angles are radians, and every program takes them as such: with `upper="90"` the joint turns 14 times around
+    /// before it stops. Planners and random sampling then use poses that the robot cannot take.
+    ///
+    /// Divide by 57.2958 (180/π). A joint without limits is `continuous`.
+    LNT010 "limits-look-like-degrees", Warning, WrongMotion, since "1.1.0" => limits_look_like_degrees;
+
+    /// The limits of a joint leave out 0.
+    ///
+    /// Most programs begin with every joint at 0, which this joint cannot take. MuJoCo pushes it into its range from the
+    /// first step: without any load it was at 1.2 rad/s after 0.4 s. MoveIt refuses 0 as a start, and RViz shows a pose
+    /// that the robot does not have.
+    ///
+    /// Give programs a start within the limits, such as a `<group_state>` of the SRDF, a keyframe of MuJoCo, or
+    /// `initial_value` of ros2_control. A joint that is still being designed can have its 0 within the limits.
+    LNT011 "zero-outside-limits", Info, WrongMotion, since "1.1.0" => zero_outside_limits
+}
+
+fn absurd_velocity_or_effort(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for (joint, limit) in urdf.limits_of(&ONE_DOF) {
+        let bound = |name| number(limit, name).unwrap_or(0.0);
+        let is_free = joint.attribute("type") == Some("continuous");
+        // PyBullet takes a lower limit above the upper one as "free", and SRC tells others.
+        let is_still = !is_free && bound("lower") >= bound("upper");
+        let may_be_0 = is_still || child(joint, "mimic").is_some();
+        for (name, other) in [("velocity", "effort"), ("effort", "velocity")] {
+            let other = number(limit, other);
+            let wrong = match number(limit, name) {
+                Some(value) if value < 0.0 => "is negative",
+                Some(0.0) if !may_be_0 && other.is_some_and(|other| other != 0.0) => {
+                    "is 0: programs that keep to it do not move the joint"
+                }
+                _ => continue,
+            };
+            let message = format!("`{name}` {wrong}; write what the motor can do");
+            urdf.at_attribute(limit, name, message).report(findings);
+        }
+    }
+    Some(())
+}
+
+fn limit_incomplete(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for joint in &urdf.joints {
+        let Some(limit) = child(*joint, "limit") else {
+            if matches!(joint.attribute("type"), Some("revolute" | "prismatic")) {
+                let message = "the joint has no `<limit>`; write it, with effort and velocity";
+                urdf.at(*joint, message).report(findings);
+            }
+            continue;
+        };
+        let mut missing = vec!["effort", "velocity"];
+        missing.retain(|name| !limit.has_attribute(*name));
+        if !missing.is_empty() {
+            let what = if missing.len() == 1 { "it" } else { "both" };
+            let message = format!("`<limit>` has no {}; write {what}", missing.join(" and no "));
+            urdf.at(limit, message).report(findings);
+        }
+    }
+    Some(())
+}
+
+/// Sizes of the larger bound that are degrees. No revolute joint of 1,758 URDFs has one.
+const FROM: f64 = 25.0;
+const TO: f64 = 720.0;
+/// Bounds on both sides that mean "unlimited".
+const UNLIMITED: [f64; 3] = [50.0, 100.0, 500.0];
+
+fn limits_look_like_degrees(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for (_, limit) in urdf.limits_of(&["revolute"]) {
+        let (Some(lower), Some(upper)) = (number(limit, "lower"), number(limit, "upper")) else {
+            continue;
+        };
+        let size = lower.abs().max(upper.abs());
+        let is_unlimited = lower == -upper && UNLIMITED.contains(&size);
+        if !(FROM..=TO).contains(&size) || is_unlimited {
+            continue;
+        }
+        let radians = [lower, upper].map(|angle| shown(angle.to_radians(), 5));
+        let message = format!(
+            "the limits look like degrees, and are taken as radians; write lower=\"{}\" upper=\"{}\"",
+            radians[0], radians[1]
+        );
+        urdf.at(limit, message).actual(format!("{lower} to {upper}")).report(findings);
+    }
+    Some(())
+}
+
+/// A rounded 0 is within the limits, rad or m.
+const MARGIN: f64 = 1e-6;
+
+fn zero_outside_limits(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for (joint, limit) in urdf.limits_of(&["revolute", "prismatic"]) {
+        let bound = |name| number(limit, name).unwrap_or(0.0);
+        let (lower, upper) = (bound("lower"), bound("upper"));
+        // SRC001 finds crossed limits.
+        let is_within = lower > upper || (lower <= MARGIN && upper >= -MARGIN);
+        if is_within || child(joint, "mimic").is_some() {
+            continue;
+        }
+        let message = format!(
+            "0 is outside of the limits {lower} to {upper}, and most programs start there; give them another \
+            start"
+        );
+        urdf.at(limit, message).report(findings);
+    }
+    Some(())
+}
