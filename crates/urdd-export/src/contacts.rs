@@ -2,11 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::error::ExportError;
-use super::layout::Layout;
-use super::options::PairOptions;
-use super::pairs::{Contacts, LinkPair, pairs};
-use super::reasons::Judged;
+use crate::pairs::pairs;
+use crate::{Contacts, ExportError, Judged, Layout, LinkPair, ModelOptions};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
@@ -32,17 +29,21 @@ impl Basis {
         }
     }
 
-    /// Every pair of links with shapes, sorted by index, as a link-level format represents them, with contacts.
+    /// Every pair of links with shapes, sorted by index, as a format of pairs of links, or of pieces, represents them; the
+    /// former with contacts.
     pub fn link_pairs(
         &self,
         robot: &Robot,
         layout: &Layout,
         links: &[String],
-        options: &PairOptions,
+        options: &ModelOptions,
+        of_pieces: bool,
     ) -> Result<Vec<LinkPair>, ExportError> {
-        let reasons = options.reasons.as_deref();
-        let mut pairs = pairs(self.skips(), layout, links, reasons, options.keep_pairs)?;
-        count(robot, layout, self, &mut pairs)?;
+        let (reasons, keeps) = (options.reasons.as_deref(), options.keep_pairs && !of_pieces);
+        let mut pairs = pairs(self.skips(), layout, links, reasons, keeps)?;
+        if !of_pieces {
+            count(robot, layout, self, &mut pairs)?;
+        }
         Ok(pairs)
     }
 }

@@ -2,11 +2,7 @@
 
 use thiserror::Error;
 
-use super::counts::ShapeCounts;
-use super::format::Format;
-use super::pairs::{Contacts, LinkPair};
-use super::ros::{Limited, Ros};
-use super::shapes::Shapes;
+use crate::{Contacts, Format, Limited, LinkPair, Ros, ShapeCounts, Shapes};
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;

@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::actuator_kind::ActuatorKind;
-use super::error::{ExportError, Note};
-use super::options::MjcfOptions;
-use super::subject::Subject;
+use crate::{ActuatorKind, ExportError, ModelOptions, Note, Subject};
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::unit_axis;
@@ -35,7 +32,7 @@ pub(super) fn gains(
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Option<Gains>>, String), ExportError> {
     let given = || subject.given.as_ref().and_then(|setup| setup.gains.bandwidth);
-    let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
+    let bandwidth = bandwidth.or_else(given).unwrap_or(ModelOptions::BANDWIDTH);
     let frequency = TAU * bandwidth;
     let several = subject.view.joints.iter().filter(|joint| joint.num_dofs() > 1);
     notes.extend(several.map(|joint| Note::joint(&joint.name, SEVERAL)));

@@ -4,11 +4,9 @@ use std::collections::BTreeSet;
 
 use urdd_xml::Node;
 
-use super::error::{ExportError, unknown};
-use super::nested::{contains_itself, within};
-use super::setup::{Members, Setup};
-use super::srdf_document::{Srdf, SrdfError};
-use super::structure::Structure;
+use crate::error::unknown;
+use crate::setup::{contains_itself, within};
+use crate::{ExportError, Members, Setup, Srdf, SrdfError, Structure};
 use urdd_robot::Robot;
 
 /// A group of joints that a planner moves together.

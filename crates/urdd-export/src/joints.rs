@@ -2,9 +2,8 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::error::Note;
-use super::pose;
-use super::subject::Subject;
+use crate::layout::origin;
+use crate::{Note, Subject};
 use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
@@ -69,7 +68,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
         (None, _) => Isometry3::identity(),
     };
     Joint {
-        origin: Some(pose::origin(&(view.origin.motion() * motion))),
+        origin: Some(origin(&(view.origin.motion() * motion))),
         unknown_elements: joint.unknown_elements,
         ..Joint::new(joint.name, JointType::Fixed, joint.parent.link, joint.child.link)
     }

@@ -5,10 +5,8 @@ use std::fmt::Display;
 
 use rayon::prelude::*;
 
-use super::error::ExportError;
 use super::pairs::ascending;
-use super::shapes::{Shape, Solid};
-use super::structure::Structure;
+use crate::{ExportError, Shape, Solid, Structure};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};

@@ -1,9 +1,6 @@
 //! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
 
-use super::error::ExportError;
-use super::output::Export;
-use super::pairs::LinkPair;
-use super::subject::Subject;
+use crate::{Export, ExportError, LinkPair, Subject};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::RobotError;
 use urdd_xml::writer::Element;

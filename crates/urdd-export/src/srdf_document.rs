@@ -6,7 +6,7 @@ use std::fmt::Display;
 use thiserror::Error;
 use urdd_xml::{Document, Node};
 
-use super::error::ExportError;
+use crate::ExportError;
 use urdd_directory::position::LineIndex;
 use urdd_robot::RobotError;
 use urdd_xml::Kind;

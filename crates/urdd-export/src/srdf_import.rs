@@ -6,7 +6,7 @@ use urdd_xml::Node;
 
 use super::error::unknown;
 use super::pairs::{ascending, last_edits};
-use super::srdf_document::{LeftOut, Srdf, SrdfError};
+use crate::{LeftOut, Srdf, SrdfError};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::error::unknown;
-use super::srdf_document::{LeftOut, Srdf, SrdfError, elements};
+use crate::srdf_document::elements;
+use crate::{LeftOut, Srdf, SrdfError};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::{Robot, RobotError};
 

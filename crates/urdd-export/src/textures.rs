@@ -9,10 +9,8 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::error::{ExportError, Note};
-use super::format::Format;
 use super::mujoco_png::for_mujoco;
-use super::subject::Subject;
+use crate::{ExportError, Format, Note, Subject};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::{Part, Texture};
 

@@ -3,27 +3,23 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
-use urdd_xml::{Document, Node};
 
-use super::error::{ExportError, Note};
 use super::inertia::{for_drake, held};
 use super::joints::without_quaternion;
-use super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::options::MeshOptions;
-use super::other_attributes;
-use super::output::Files;
-use super::shapes::{Shape, Solid, thick};
-use super::source_visuals::Painted;
-use super::subject::Subject;
+use crate::meshes::{Look, looks};
+use crate::shapes::thick;
+use crate::{
+    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Painted, Shape, Solid, Subject,
+};
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Origin, Visual};
 use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::{number, numbers};
-use urdd_xml::other_parts::Owner;
+use urdd_xml::other_parts::{OtherPart, Owner};
 use urdd_xml::writer::Element;
-use urdd_xml::{Kind, is_character};
+use urdd_xml::{Document, Kind, Node, is_character};
 
 /// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +48,7 @@ pub(super) fn empty_robot(subject: &Subject) -> Element {
     let mut robot = Element::new("robot")
         .with("name", subject.urdf.name.as_str())
         .with_some("version", sound(subject.urdf.version.as_deref()));
-    other_attributes::add(subject, &Owner::Robot, &mut robot);
+    add_attributes(subject, &Owner::Robot, &mut robot);
     robot
 }
 
@@ -84,7 +80,7 @@ pub(super) fn links(
                 changed.entry(said).or_default().push(link.name.clone());
             }
         }
-        other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
+        add_attributes(subject, &Owner::Link(link.name.clone()), &mut element);
         let is_mesh = |of: &&Visual| matches!(of.geometry, Some(Source::Mesh(_)));
         let of_looks = link.visual.iter().filter(|of| primitives.is_empty() || is_mesh(of));
         let mut names = of_looks.map(|visual| geometry.name(visual.name.as_deref()));
@@ -355,4 +351,23 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
 /// URDF's word for a type of joint.
 pub(super) fn type_name(joint_type: JointType) -> String {
     joint_type.as_str().to_ascii_lowercase()
+}
+
+/// Whether a URDF has a part: an attribute, but for those of shapes and materials, which are the file's own.
+pub(super) fn is_kept(part: &OtherPart) -> bool {
+    let own = ["visual", "collision", "material"];
+    part.is_attribute
+        && !part.name.contains(':')
+        && !own.iter().any(|own| part.path.starts_with(own))
+}
+
+/// Adds the attributes of the robot, a link or a joint to its element.
+pub(super) fn add_attributes(subject: &Subject, owner: &Owner, element: &mut Element) {
+    let parts = subject.other_parts.get(owner).into_iter().flatten();
+    for part in parts.filter(|part| is_kept(part)) {
+        let mut path = part.path.split('/').filter(|tag| !tag.is_empty());
+        if let Some(at) = path.try_fold(&mut *element, |at, tag| at.child_mut(tag)) {
+            at.set(&part.name, Some(&part.value));
+        }
+    }
 }

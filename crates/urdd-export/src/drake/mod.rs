@@ -7,17 +7,10 @@ mod transmissions;
 
 use std::collections::BTreeMap;
 
-use super::error::{ExportError, Note};
-use super::format::Format;
-use super::options::DrakeOptions;
-use super::other_attributes;
-use super::output::Export;
-use super::parts::Taken;
-use super::structure::Structure;
-use super::subject::Subject;
 use super::urdf_elements::{
-    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
+    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
 };
+use crate::{DrakeOptions, Export, ExportError, Format, Note, Structure, Subject, Taken};
 use joints::Driven;
 pub(super) use joints::is_free;
 use urdd_format::urdf::UrdfModule;
@@ -42,7 +35,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     }
     robot.extend(joints.links.into_iter().map(|link| Element::new("link").with("name", link)));
     for (mut element, joint) in joints.elements {
-        other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
+        add_attributes(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }

@@ -1,11 +1,7 @@
 //! The package of a file for Drake: its `package.xml`, and a model directive that adds it to a scene.
 
-use super::super::error::ExportError;
 use super::super::names::check_package;
-use super::super::options::DrakeOptions;
-use super::super::output::Files;
-use super::super::subject::Subject;
-use super::super::yaml::Yaml;
+use crate::{DrakeOptions, ExportError, Files, Subject, Yaml};
 use urdd_xml::writer::Element;
 
 /// The files, if a package is asked for.

@@ -4,10 +4,8 @@ use std::collections::HashSet;
 
 use urdd_xml::Node;
 
-use super::super::error::Note;
-use super::super::parts::Taken;
-use super::super::structure::Structure;
 use super::joints::Driven;
+use crate::{Note, Structure, Taken};
 use urdd_xml::Kind;
 use urdd_xml::writer::Element;
 

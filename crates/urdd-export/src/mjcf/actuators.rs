@@ -2,11 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::{ExportError, Note};
 use super::super::gains::gains;
 use super::super::names::{ANOTHER, check_names};
-use super::super::subject::Subject;
+use crate::{ActuatorKind, ExportError, Note, Subject};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 

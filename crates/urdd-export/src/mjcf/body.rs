@@ -4,13 +4,12 @@ use std::collections::HashSet;
 
 use nalgebra::Isometry3;
 
-use super::super::error::{ExportError, Note};
-use super::super::flat::FlatShapes;
-use super::super::meshes::{Looks, MeshFiles, MeshFormat, looks};
-use super::super::options::MjcfOptions;
-use super::super::shapes::{Shape, Solid, thick};
-use super::super::subject::Subject;
-use super::{frames, inertia, joint, surface};
+use super::{inertia, joint, surface};
+use crate::meshes::{Looks, looks};
+use crate::shapes::thick;
+use crate::{
+    ExportError, FlatShapes, MeshFiles, MeshFormat, MjcfOptions, Note, Shape, Solid, Subject,
+};
 use urdd_geometry::primitives::Primitive;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
@@ -51,9 +50,9 @@ impl<'a> Bodies<'a> {
             subject,
             options,
             shapes,
-            looks: looks(subject, &options.meshes, &mut notes)?,
+            looks: looks(subject, &options.model.meshes, &mut notes)?,
             flat: FlatShapes::new(subject)?,
-            files: MeshFiles::new(subject, &options.meshes),
+            files: MeshFiles::new(subject, &options.model.meshes),
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
@@ -102,7 +101,7 @@ impl<'a> Bodies<'a> {
     fn frame(&self, link: usize, base_height: f64) -> Element {
         let name = self.subject.links[link].as_str();
         let body = match self.subject.is_frame(link) {
-            true => frames::named(name),
+            true => site_named(name),
             false => Element::new("body").with("name", name),
         };
         let Some(joint) = self.subject.tree.parent_joint[link] else {
@@ -133,7 +132,7 @@ impl<'a> Bodies<'a> {
             element.push(Element::new("freejoint").with("name", name));
         }
         element.extend(joints);
-        element.extend(frames::site(subject, self.options.sensors, link));
+        element.extend(site(subject, self.options.sensors, link));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
@@ -241,4 +240,29 @@ fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
     let position = pose.translation.vector;
     let q = pose.rotation.quaternion();
     element.with("pos", numbers(position.as_slice())).with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+}
+
+/// The site of a link, if its frame is that of a tool, or of an IMU with sensors.
+fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
+    let setup = subject.given.as_ref()?;
+    let is_imu = sensors && setup.imus.value.contains(&link);
+    (is_imu || setup.tools.value.contains(&link)).then(|| site_named(&subject.links[link]))
+}
+
+/// The site of a frame of that name.
+fn site_named(frame: &str) -> Element {
+    Element::new("site").with("name", frame).with("group", "4")
+}
+
+/// A gyroscope and an accelerometer at each IMU.
+pub(super) fn sensors(subject: &Subject) -> Element {
+    let mut sensors = Element::new("sensor");
+    for &link in subject.given.iter().flat_map(|setup| &setup.imus.value) {
+        let site = subject.links[link].as_str();
+        for kind in ["gyro", "accelerometer"] {
+            let sensor = Element::new(kind).with("name", format!("{site}/{kind}"));
+            sensors.push(sensor.with("site", site));
+        }
+    }
+    sensors
 }

@@ -1,8 +1,6 @@
 //! Joints of a body.
 
-use super::super::error::Note;
-use super::super::parts::Moves;
-use super::super::subject::Subject;
+use crate::{Moves, Note, Subject};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_xml::number::{number, numbers};

@@ -2,12 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::ExportError;
 use super::super::names::{ANOTHER, check_names};
 use super::super::order::Walk;
-use super::super::stand::Stand;
-use super::super::subject::Subject;
+use crate::{ActuatorKind, ExportError, Stand, Subject};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::numbers;

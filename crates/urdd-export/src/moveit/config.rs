@@ -1,12 +1,9 @@
 //! What the files of a package have in common.
 
-use super::super::error::ExportError;
 use super::super::groups::joints_of;
 use super::super::names::FileNames;
-use super::super::options::MoveitOptions;
-use super::super::setup::{Members, Setup};
-use super::super::subject::Subject;
 use super::hardware::Hardware;
+use crate::{ExportError, Members, MoveitOptions, Setup, Subject};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::urdf::Limit;
 

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::super::setup::{Members, Setup};
-use super::super::subject::Subject;
 use super::super::urdf_elements::ros2_control;
+use crate::{Members, Setup, Subject};
 use urdd_format::urdf::JointType;
 use urdd_xml::Node;
 use urdd_xml::element::children;

@@ -1,11 +1,9 @@
 //! The SRDF: groups, states, end effectors, the virtual joint, passive joints, and pairs.
 
-use super::super::error::{ExportError, Note};
 use super::super::names::{ANOTHER, check_names};
-use super::super::parts::Taken;
-use super::super::setup::Members;
 use super::super::srdf;
 use super::config::Config;
+use crate::{ExportError, Members, Note, Taken};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 

@@ -2,17 +2,15 @@
 
 use nalgebra::Isometry3;
 
-use super::super::error::{ExportError, Note};
 use super::super::inertia::{held, mean};
-use super::super::meshes::{MeshFiles, MeshFormat, looks};
-use super::super::options::MeshOptions;
-use super::super::output::Files;
-use super::super::parts::Taken;
-use super::super::shapes::{Shape, Solid, thick};
-use super::super::subject::Subject;
 use super::super::urdf_elements::INERTIA;
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
+use crate::meshes::looks;
+use crate::shapes::thick;
+use crate::{
+    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Shape, Solid, Subject, Taken,
+};
 use urdd_document::robot::Inertial;
 use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;

@@ -22,14 +22,10 @@ mod said;
 pub mod samples;
 #[doc(hidden)]
 pub mod surface;
-pub(super) mod urdf;
 
 use rayon::prelude::*;
 
-use super::error::ExportError;
-use super::options::{SphereBudget, SphereOptions};
-use super::shapes::Shapes;
-use super::subject::Subject;
+use crate::{ExportError, Shapes, SphereBudget, SphereOptions, Subject};
 use fit::Limits;
 use frame::Point;
 pub use judge::SphereRates;

@@ -4,15 +4,12 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::{ExportError, Note};
-use super::super::gains::Gains;
-use super::super::subject::Subject;
 use super::custom::elements;
-use super::filters::Filters;
+use super::names::Filters;
 use super::names::{Paths, last};
 use super::prim::Prim;
-use super::value::{float, floats, wxyz};
+use super::prim::{float, floats, wxyz};
+use crate::{ActuatorKind, ExportError, Gains, Note, Subject};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{JointType, Limit};
 use urdd_kinematics::rotation::{planar_basis, unit_axis};

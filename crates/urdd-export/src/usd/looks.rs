@@ -4,13 +4,13 @@
 
 use std::collections::HashMap;
 
-use super::super::meshes::{Look, Looks, MeshFiles};
-use super::super::source_visuals::Painted;
 use super::names::{VISUAL_PRIMITIVES, VISUALS};
 use super::prim::Prim;
-use super::primitive::primitive;
+use super::prim::{array, asset, float};
+use super::surface::primitive;
 use super::surface::{coordinates, material, set};
-use super::value::{array, asset, float};
+use crate::meshes::{Look, Looks};
+use crate::{MeshFiles, Painted};
 use urdd_geometry::Mesh;
 
 /// The longest mesh that is in the file itself, bytes of text.

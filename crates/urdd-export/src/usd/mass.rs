@@ -1,10 +1,9 @@
 //! Masses and inertias of links. USD takes 0 for what is not said, and computes it from shapes: each link says its own.
 
-use super::super::error::Note;
 use super::super::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
-use super::super::subject::Subject;
 use super::prim::Prim;
-use super::value::{float, floats, wxyz};
+use super::prim::{float, floats, wxyz};
+use crate::{Note, Subject};
 use nalgebra::UnitQuaternion;
 
 /// What a link without mass has, kg and kg m²: a ball of 5 cm has these moments.

@@ -1,18 +1,14 @@
 //! Collision geometry: convex meshes, boxes and spheres, which are not rendered.
 
-use super::super::error::{ExportError, Note};
-use super::super::flat::FlatShapes;
-use super::super::meshes::MeshFiles;
 use super::super::mjcf::surface::is_flat;
-use super::super::shapes::{Shape, Solid};
-use super::super::subject::Subject;
-use super::filters::Filters;
 use super::looks::LONGEST;
+use super::names::Filters;
 use super::names::{COLLISIONS, Paths, path_of_shape};
 use super::prim::Prim;
-use super::primitive::primitive;
+use super::prim::asset;
+use super::surface::primitive;
 use super::surface::set;
-use super::value::asset;
+use crate::{ExportError, FlatShapes, MeshFiles, Note, Shape, Solid, Subject};
 
 /// Adds the shapes to the links, in link order. They have the material of that path.
 pub(super) fn add(
