@@ -3,8 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
+use crate::inertia::tensor;
 use crate::{ActuatorKind, ExportError, ModelOptions, Note, Subject};
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
@@ -136,8 +137,7 @@ fn about(
     axis: Vector3<f64>,
     origin: Vector3<f64>,
 ) -> f64 {
-    let [xx, xy, xz, yy, yz, zz] = inertial.inertia.unwrap_or_default();
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let tensor = tensor(inertial.inertia.unwrap_or_default());
     let turned = pose.rotation * Rotation3::from_matrix_unchecked(inertial.origin.rotation());
     let own = turned.inverse() * axis;
     let centre = pose * Point3::from(inertial.origin.xyz);

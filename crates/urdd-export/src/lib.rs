@@ -71,11 +71,7 @@ mod source_shapes;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
-mod srdf_document;
-mod srdf_import;
-mod srdf_merge;
 mod stand;
-mod states_import;
 mod structure;
 mod subject;
 mod textures;
@@ -94,7 +90,7 @@ pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
 pub use format::Format;
-pub use groups::{JointGroup, joint_groups_of_srdf};
+pub use groups::JointGroup;
 pub use options::{
     ActuatorKind, BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
     ModelOptions, MoveitOptions, Options, SAMPLES, SPHERES, SphereBudget, SphereOptions,
@@ -107,10 +103,10 @@ pub use ros::{Limited, Ros};
 pub use setup::{Setup, SetupError};
 pub use shapes::{ShapeCounts, Shapes};
 pub use spheres::SphereRates;
-pub use srdf_document::SrdfError;
-pub use srdf_import::{ImportedSkips, import_srdf};
-pub use srdf_merge::{MergedSrdf, merge_srdf};
-pub use states_import::{ImportedStates, import_states};
+pub use srdf::groups::joint_groups_of_srdf;
+pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states};
+pub use srdf::merge::{MergedSrdf, merge_srdf};
+pub use srdf::read::SrdfError;
 
 // What most files use.
 use gains::Gains;
@@ -123,7 +119,7 @@ use parts::{Moves, Taken};
 use reasons::Judged;
 use setup::{JointGains, Members};
 use shapes::{Shape, Solid};
-use srdf_document::{LeftOut, Srdf};
+use srdf::read::{LeftOut, Srdf};
 use stand::Stand;
 use structure::Structure;
 use subject::Subject;

@@ -247,6 +247,12 @@ impl<'a> Subject<'a> {
         Ok(joints.map(|joint| dofs.get(joint.name.as_str()).copied()).collect())
     }
 
+    /// The values of the DOFs of a configuration, by name.
+    pub fn values(&self, configuration: &[f64]) -> Result<HashMap<&str, f64>, RobotError> {
+        let dofs = self.robot.dof_names()?.iter().map(String::as_str);
+        Ok(dofs.zip(configuration.iter().copied()).collect())
+    }
+
     /// The pairs that need no collision check.
     pub fn disabled(&self) -> impl Iterator<Item = &LinkPair> {
         self.pairs.iter().filter(|pair| pair.disabled)

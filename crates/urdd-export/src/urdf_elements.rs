@@ -6,6 +6,7 @@ use nalgebra::Isometry3;
 
 use super::inertia::{for_drake, held};
 use super::joints::without_quaternion;
+use crate::layout::origin;
 use crate::meshes::{Look, looks};
 use crate::shapes::thick;
 use crate::{
@@ -15,7 +16,6 @@ use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Origin, Visual};
 use urdd_geometry::primitives::Primitive;
-use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::other_parts::{OtherPart, Owner};
 use urdd_xml::writer::Element;
@@ -292,12 +292,9 @@ fn element_of_primitive(primitive: Primitive, as_said: Geometry) -> Element {
 
 /// The origin of a primitive. A sphere needs no rotation.
 fn placed(pose: &Isometry3<f64>, primitive: &Primitive) -> Element {
-    let origin = Element::new("origin").with("xyz", numbers(pose.translation.vector.as_slice()));
-    if matches!(primitive, Primitive::Sphere { .. }) {
-        return origin;
-    }
-    let rotation = pose.rotation.to_rotation_matrix();
-    origin.with("rpy", numbers(&to_rpy(rotation.matrix())))
+    let origin = origin(pose);
+    let is_turned = !matches!(primitive, Primitive::Sphere { .. });
+    element_of_origin(&Origin { rpy: origin.rpy.filter(|_| is_turned), ..origin })
 }
 
 /// A joint element; `tag` and `kind` are the program's names of the element and the joint type.
@@ -311,8 +308,8 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
     if let Some(axis) = &joint.axis {
         element.push(Element::new("axis").with_some("xyz", axis.xyz.map(|xyz| numbers(&xyz))));
     }
-    if let Some(of) = &joint.limit {
-        let values = [
+    element.extend(joint.limit.as_ref().map(|of| {
+        Element::new("limit").with_numbers([
             ("lower", of.lower),
             ("upper", of.upper),
             ("effort", of.effort),
@@ -320,13 +317,12 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
             ("acceleration", of.acceleration),
             ("deceleration", of.deceleration),
             ("jerk", of.jerk),
-        ];
-        element.push(Element::new("limit").with_numbers(values));
-    }
-    if let Some(of) = &joint.dynamics {
+        ])
+    }));
+    element.extend(joint.dynamics.as_ref().map(|of| {
         let values = [("damping", of.damping), ("friction", of.friction)];
-        element.push(Element::new("dynamics").with_numbers(values));
-    }
+        Element::new("dynamics").with_numbers(values)
+    }));
     if let Some(of) = &joint.mimic {
         let values = [("multiplier", of.multiplier), ("offset", of.offset)];
         let mimic = Element::new("mimic").with("joint", of.joint.as_str());

@@ -4,8 +4,8 @@
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
 use super::root::place;
-use crate::layout::Place;
-use crate::layout::origin;
+use crate::inertia::tensor;
+use crate::layout::{Place, origin};
 use crate::{ExportError, Layout, Note, Structure};
 use urdd_document::robot::Inertial as View;
 use urdd_format::urdf::{Inertia, Inertial, JointType, Mass, UrdfModule};
@@ -118,9 +118,9 @@ fn lump(bodies: &[(Isometry3<f64>, &View)]) -> Option<Inertial> {
         Vector3::zeros()
     };
     let mut sum = Matrix3::zeros();
-    for (mass, place, [xx, xy, xz, yy, yz, zz]) in &placed {
+    for (mass, place, inertia) in &placed {
         let turn = place.rotation.to_rotation_matrix();
-        let own = Matrix3::new(*xx, *xy, *xz, *xy, *yy, *yz, *xz, *yz, *zz);
+        let own = tensor(*inertia);
         let arm = at(place) - centre;
         let steiner = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
         sum += turn * own * turn.transpose() + steiner * *mass;

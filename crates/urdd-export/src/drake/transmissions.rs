@@ -2,11 +2,10 @@
 
 use std::collections::HashSet;
 
-use urdd_xml::Node;
+use urdd_xml::{Kind, Node};
 
 use super::joints::Driven;
 use crate::{Note, Structure, Taken};
-use urdd_xml::Kind;
 use urdd_xml::writer::Element;
 
 /// Elements directly under `robot`, without those that Drake rejects.

@@ -85,11 +85,8 @@ impl<'a> Bodies<'a> {
             }
             elements[link] = Some(element);
         }
-        if !self.invisible.is_empty() {
-            self.invisible.dedup();
-            let links = std::mem::take(&mut self.invisible);
-            self.notes.push(Note::Links { links, what: INVISIBLE });
-        }
+        self.invisible.dedup();
+        self.notes.extend(Note::links(std::mem::take(&mut self.invisible), INVISIBLE));
         Ok(match elements[root].take() {
             Some(element) if self.subject.is_world(root) => element,
             Some(element) => world.holding(element),

@@ -1,7 +1,5 @@
 //! Keyframes: the named configurations of the URDD, as MuJoCo's positions and controls.
 
-use std::collections::HashMap;
-
 use super::super::names::{ANOTHER, check_names};
 use super::super::order::Walk;
 use crate::{ActuatorKind, ExportError, Stand, Subject};
@@ -46,9 +44,7 @@ fn keyframe(
     configuration: &[f64],
     stand: &Stand,
 ) -> Result<Element, ExportError> {
-    let dofs = subject.robot.dof_names()?.iter();
-    let values: HashMap<&str, f64> =
-        dofs.map(String::as_str).zip(configuration.iter().copied()).collect();
+    let values = subject.values(configuration)?;
     let value = |dof: &str| values.get(dof).copied().unwrap_or(0.0);
     let mut positions = Vec::new();
     let mut controls = Vec::new();

@@ -14,25 +14,14 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let subject = config.subject;
     let groups = &config.setup.groups;
     let ends = &config.setup.end_effectors;
-    let configurations = config.configurations.iter();
-    check_names(
-        subject.format,
-        "group",
-        groups.iter().map(|group| group.value.name.as_str()),
-        ANOTHER,
-    )?;
-    check_names(
-        subject.format,
-        "end effector",
-        ends.iter().map(|end| end.value.name.as_str()),
-        ANOTHER,
-    )?;
-    check_names(
-        subject.format,
-        "configuration",
-        configurations.map(|named| named.name.as_str()),
-        ANOTHER,
-    )?;
+    let names: [(&str, Vec<&str>); 3] = [
+        ("group", groups.iter().map(|group| group.value.name.as_str()).collect()),
+        ("end effector", ends.iter().map(|end| end.value.name.as_str()).collect()),
+        ("configuration", config.configurations.iter().map(|it| it.name.as_str()).collect()),
+    ];
+    for (what, names) in names {
+        check_names(subject.format, what, names.into_iter(), ANOTHER)?;
+    }
     if groups.is_empty() {
         notes.push(Note::Robot(NO_GROUPS));
     }

@@ -101,11 +101,8 @@ pub(super) fn links(
         touch(&mut element, &names);
         elements.push(element);
     }
-    for (links, what) in [(massless, MASSLESS), (impossible, IMPOSSIBLE)] {
-        if !links.is_empty() {
-            notes.push(Note::Links { links, what });
-        }
-    }
+    notes.extend(Note::links(massless, MASSLESS));
+    notes.extend(Note::links(impossible, IMPOSSIBLE));
     for (name, joint) in &joints.links {
         elements.push(empty(name, Some(joint)).holding(light()));
     }

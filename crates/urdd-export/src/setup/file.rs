@@ -44,11 +44,9 @@ pub(super) struct File {
 }
 
 #[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub(super) struct BaseTable {
-    #[serde(default)]
     pub floating: bool,
-    #[serde(default)]
     pub poses: BTreeMap<Name, Spanned<Vec<f64>>>,
 }
 

@@ -3,8 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::guesser::Chains;
-use super::guesser::{FINGER, Guesser, joints, with_side};
+use super::guesser::{Chains, FINGER, Guesser, joints, with_side};
 use super::words::{self, Part};
 use super::{Curobo, EndEffector, Gains, Guess, Members, Setup};
 use crate::{ExportError, Structure};

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use super::super::error::unknown;
-use super::file::SetupError;
-use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, wrong};
+use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, SetupError, wrong};
 use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
-use super::{Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup};
-use super::{contains_itself, within};
+use super::{
+    Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup, contains_itself, within,
+};
 use crate::Structure;
 use crate::options::BANDWIDTH;
 use urdd_directory::layout::setup_beside;

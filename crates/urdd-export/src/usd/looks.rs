@@ -5,10 +5,8 @@
 use std::collections::HashMap;
 
 use super::names::{VISUAL_PRIMITIVES, VISUALS};
-use super::prim::Prim;
-use super::prim::{array, asset, float};
-use super::surface::primitive;
-use super::surface::{coordinates, material, set};
+use super::prim::{Prim, array, asset, float};
+use super::surface::{coordinates, material, primitive, set};
 use crate::meshes::{Look, Looks};
 use crate::{MeshFiles, Painted};
 use urdd_geometry::Mesh;

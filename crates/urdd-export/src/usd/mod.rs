@@ -79,7 +79,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         what += &said;
         drives = Some(gains);
     }
-    let values = joints::values(subject, &zero)?;
+    let values = subject.values(&zero)?;
     if values.values().any(|value| *value != 0.0) {
         notes.push(Note::Robot(ELSEWHERE));
     }

@@ -2,12 +2,9 @@
 
 use super::super::mjcf::surface::is_flat;
 use super::looks::LONGEST;
-use super::names::Filters;
-use super::names::{COLLISIONS, Paths, path_of_shape};
-use super::prim::Prim;
-use super::prim::asset;
-use super::surface::primitive;
-use super::surface::set;
+use super::names::{COLLISIONS, Filters, Paths, path_of_shape};
+use super::prim::{Prim, asset};
+use super::surface::{primitive, set};
 use crate::{ExportError, FlatShapes, MeshFiles, Note, Shape, Solid, Subject};
 
 /// Adds the shapes to the links, in link order. They have the material of that path.

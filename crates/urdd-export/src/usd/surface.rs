@@ -3,8 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use super::super::shapes::thick;
-use super::prim::Prim;
-use super::prim::{array, doubles, float, floats, wxyz};
+use super::prim::{Prim, array, doubles, float, floats, wxyz};
 use urdd_geometry::Mesh;
 use urdd_geometry::primitives::Primitive;
 use urdd_geometry::read::Texture;

@@ -1,4 +1,10 @@
-//! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
+//! SRDF: the pairs of links that MoveIt does not check. Groups and other elements are read here; the package of MoveIt
+//! writes them.
+
+pub(super) mod groups;
+pub(super) mod import;
+pub(super) mod merge;
+pub(super) mod read;
 
 use crate::{Export, ExportError, LinkPair, Subject};
 use urdd_format::link_shapes_simple_skips::SkipReason;
