@@ -49,7 +49,6 @@ mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
 mod moveit;
-mod mujoco_png;
 #[doc(hidden)]
 pub mod names;
 mod options;
@@ -89,12 +88,12 @@ pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
-pub use format::Format;
+pub use format::{ActuatorKind, Format};
 pub use groups::JointGroup;
 pub use options::{
-    ActuatorKind, BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions,
-    ModelOptions, MoveitOptions, Options, SAMPLES, SPHERES, SphereBudget, SphereOptions,
-    TOTAL_SPHERES, UsdOptions,
+    BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, SAMPLES, SPHERES, SphereBudget, SphereOptions, TOTAL_SPHERES,
+    UsdOptions,
 };
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;

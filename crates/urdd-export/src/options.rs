@@ -3,7 +3,7 @@
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
 
-use crate::{Fit, Format, Ros, Setup, Shapes};
+use crate::{ActuatorKind, Fit, Format, Ros, Setup, Shapes};
 
 /// [`SphereBudget::PerLink`].
 pub const SPHERES: Range = Range::whole("spheres", 1, 10_000);
@@ -101,10 +101,10 @@ impl Options {
             }
             Err(of) => {
                 match of.budget {
-                    SphereBudget::Auto => 0.0,
-                    SphereBudget::PerLink(count) => SPHERES.check(count as f64)?,
-                    SphereBudget::Total(count) => TOTAL_SPHERES.check(count as f64)?,
-                };
+                    SphereBudget::Auto => {}
+                    SphereBudget::PerLink(count) => _ = SPHERES.check(count as f64)?,
+                    SphereBudget::Total(count) => _ = TOTAL_SPHERES.check(count as f64)?,
+                }
                 SAMPLES.check(of.samples as f64)?;
                 &of.meshes
             }
@@ -187,38 +187,6 @@ impl SphereBudget {
         let total = total.map(|count| SphereBudget::Total(count.into()));
         let per_link = per_link.map(|count| SphereBudget::PerLink(count.into()));
         total.or(per_link).unwrap_or_default()
-    }
-}
-
-/// What an actuator is told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ActuatorKind {
-    /// A position, rad or m.
-    Position,
-    /// A velocity, rad/s or m/s.
-    Velocity,
-    /// A torque or a force, N m or N.
-    Motor,
-}
-
-impl ActuatorKind {
-    /// All kinds.
-    pub const ALL: &[ActuatorKind] =
-        &[ActuatorKind::Position, ActuatorKind::Velocity, ActuatorKind::Motor];
-
-    /// Its word for users, which is MuJoCo's too.
-    pub fn word(self) -> &'static str {
-        match self {
-            ActuatorKind::Position => "position",
-            ActuatorKind::Velocity => "velocity",
-            ActuatorKind::Motor => "motor",
-        }
-    }
-
-    /// The kind of a word.
-    pub fn named(word: &str) -> Option<ActuatorKind> {
-        ActuatorKind::ALL.iter().copied().find(|kind| kind.word() == word)
     }
 }
 

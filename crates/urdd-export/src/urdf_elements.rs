@@ -273,20 +273,23 @@ fn collision(
 }
 
 fn element_of_primitive(primitive: Primitive, as_said: Geometry) -> Element {
-    let (primitive, capsule) = match as_said {
-        Geometry::Plain => (primitive, "capsule"),
-        Geometry::Drake => (thick(primitive), "drake:capsule"),
+    let (tag, sizes) = match as_said {
+        Geometry::Plain => sizes(primitive),
+        Geometry::Drake => sizes(thick(primitive)),
     };
-    let long = |tag, radius, half: f64| {
-        Element::new(tag).with("radius", number(radius)).with("length", number(2.0 * half))
-    };
+    let is_drakes = as_said == Geometry::Drake && tag == "capsule";
+    let element = Element::new(if is_drakes { "drake:capsule" } else { tag });
+    sizes.into_iter().fold(element, |element, (key, size)| element.with(key, size))
+}
+
+/// A primitive's word in URDF and SDF, and its sizes.
+pub(super) fn sizes(primitive: Primitive) -> (&'static str, Vec<(&'static str, String)>) {
+    let long = |radius, half: f64| vec![("radius", number(radius)), ("length", number(2.0 * half))];
     match primitive {
-        Primitive::Box(half) => {
-            Element::new("box").with("size", numbers(&half.map(|half| 2.0 * half)))
-        }
-        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
-        Primitive::Capsule { radius, half } => long(capsule, radius, half),
-        Primitive::Sphere { radius } => Element::new("sphere").with("radius", number(radius)),
+        Primitive::Box(half) => ("box", vec![("size", numbers(&half.map(|half| 2.0 * half)))]),
+        Primitive::Cylinder { radius, half } => ("cylinder", long(radius, half)),
+        Primitive::Capsule { radius, half } => ("capsule", long(radius, half)),
+        Primitive::Sphere { radius } => ("sphere", vec![("radius", number(radius))]),
     }
 }
 

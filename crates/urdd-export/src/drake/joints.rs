@@ -4,9 +4,9 @@
 //! becomes three prismatic joints and a ball joint, with massless links between them. Drake aborts if a lower limit
 //! exceeds its upper limit, and applies the limits of a continuous joint.
 
-use super::super::joints::joints as resolved;
-use super::super::names::check_unique;
-use super::super::urdf_elements::{element_of_joint, type_name};
+use crate::joints::joints as resolved;
+use crate::names::check_unique;
+use crate::urdf_elements::{element_of_joint, type_name};
 use crate::{ExportError, Moves, Note, Structure, Subject};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Axis, Joint, JointType, LinkName, Origin};

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::gains::gains;
-use super::super::names::{ANOTHER, check_names};
+use crate::gains::gains;
+use crate::names::{ANOTHER, check_names};
 use crate::{ActuatorKind, ExportError, Note, Subject};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;

@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::inertia::{ROUNDING, tensor};
+use crate::inertia::{ROUNDING, tensor};
 use crate::{Note, Subject};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;

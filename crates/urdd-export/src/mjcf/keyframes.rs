@@ -1,7 +1,7 @@
 //! Keyframes: the named configurations of the URDD, as MuJoCo's positions and controls.
 
-use super::super::names::{ANOTHER, check_names};
-use super::super::order::Walk;
+use crate::names::{ANOTHER, check_names};
+use crate::order::Walk;
 use crate::{ActuatorKind, ExportError, Stand, Subject};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;

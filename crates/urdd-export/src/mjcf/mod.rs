@@ -11,7 +11,6 @@ pub(super) mod actuators;
 mod body;
 #[doc(hidden)]
 pub mod inertia;
-mod joint;
 mod keyframes;
 #[doc(hidden)]
 pub mod surface;

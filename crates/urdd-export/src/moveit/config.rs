@@ -1,8 +1,8 @@
 //! What the files of a package have in common.
 
-use super::super::groups::joints_of;
-use super::super::names::FileNames;
 use super::hardware::Hardware;
+use crate::groups::joints_of;
+use crate::names::FileNames;
 use crate::{ExportError, Members, MoveitOptions, Setup, Subject};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::urdf::Limit;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::super::urdf_elements::ros2_control;
+use crate::urdf_elements::ros2_control;
 use crate::{Members, Setup, Subject};
 use urdd_format::urdf::JointType;
 use urdd_xml::Node;

@@ -1,8 +1,8 @@
 //! The SRDF: groups, states, end effectors, the virtual joint, passive joints, and pairs.
 
-use super::super::names::{ANOTHER, check_names};
-use super::super::srdf;
 use super::config::Config;
+use crate::names::{ANOTHER, check_names};
+use crate::srdf;
 use crate::{ExportError, Members, Note, Taken};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;

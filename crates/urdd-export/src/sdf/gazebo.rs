@@ -3,8 +3,8 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::super::urdf_elements::document;
 use super::foreign::Mended;
+use crate::urdf_elements::document;
 use crate::{Note, Subject, Taken};
 use urdd_xml::element::wrapped;
 use urdd_xml::number::number;

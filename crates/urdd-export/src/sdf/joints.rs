@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::joints::joints as resolved;
 use super::gazebo::{Gazebo, Place};
+use crate::joints::joints as resolved;
 use crate::{Moves, Note, Subject, Taken};
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};

@@ -2,12 +2,12 @@
 
 use nalgebra::Isometry3;
 
-use super::super::inertia::{held, mean};
-use super::super::urdf_elements::INERTIA;
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
+use crate::inertia::{held, mean};
 use crate::meshes::looks;
 use crate::shapes::thick;
+use crate::urdf_elements::{INERTIA, sizes};
 use crate::{
     ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Shape, Solid, Subject, Taken,
 };
@@ -211,21 +211,9 @@ fn collision(
 }
 
 fn element_of_primitive(primitive: Primitive) -> Element {
-    let long = |tag, radius, half: f64| {
-        let radius = Element::text("radius", &number(radius));
-        Element::new(tag).holding(radius).holding(Element::text("length", &number(2.0 * half)))
-    };
-    match thick(primitive) {
-        Primitive::Box(half) => {
-            let size = numbers(&half.map(|half| 2.0 * half));
-            Element::new("box").holding(Element::text("size", &size))
-        }
-        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
-        Primitive::Capsule { radius, half } => long("capsule", radius, half),
-        Primitive::Sphere { radius } => {
-            Element::new("sphere").holding(Element::text("radius", &number(radius)))
-        }
-    }
+    let (tag, sizes) = sizes(thick(primitive));
+    let sizes = sizes.into_iter().map(|(key, size)| Element::text(key, &size));
+    sizes.fold(Element::new(tag), Element::holding)
 }
 
 fn placed(pose: &Isometry3<f64>) -> Element {

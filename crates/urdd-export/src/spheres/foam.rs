@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::urdf;
 use super::said::{self, Stand};
 use super::{Model, model::Sphere};
 use crate::subject::by_link;
+use crate::urdf;
 use crate::{Export, ExportError, SphereOptions, Subject};
 use urdd_format::escape;
 use urdd_robot::{LinkShape, Solid};

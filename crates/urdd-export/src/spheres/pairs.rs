@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Isometry3;
 
-use super::super::pairs::Decision;
+use crate::pairs::Decision;
 use crate::{ExportError, Subject};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;

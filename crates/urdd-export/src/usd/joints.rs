@@ -106,8 +106,10 @@ impl Joints<'_> {
         let motion = self.motion(index, notes);
         let (kind, frames) = match &motion {
             Motion::Fixed(position) => {
-                let is_of_one = joint.num_dofs() == 1;
-                let own = is_of_one.then(|| moved(joint, *position)).unwrap_or_default();
+                let own = match joint.num_dofs() {
+                    1 => moved(joint, *position),
+                    _ => Isometry3::identity(),
+                };
                 ("PhysicsFixedJoint", [origin * own, Isometry3::identity()])
             }
             Motion::One { kind, axis, .. } => (*kind, turned(&origin, &aligned(axis).1)),

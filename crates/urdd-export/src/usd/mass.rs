@@ -1,7 +1,7 @@
 //! Masses and inertias of links. USD takes 0 for what is not said, and computes it from shapes: each link says its own.
 
-use super::super::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
 use super::prim::{Prim, float, floats, wxyz};
+use crate::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
 use crate::{Note, Subject};
 use nalgebra::UnitQuaternion;
 

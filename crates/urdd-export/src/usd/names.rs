@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::super::pairs::ascending;
+use crate::pairs::ascending;
 use crate::{Subject, Taken};
 
 /// The paths of a robot's prims.
@@ -102,7 +102,11 @@ pub fn mend(name: &str) -> String {
     mended
 }
 
-/// What pairs ask for.
+/// Pairs that need no collision check: of two bodies, or, where a person keeps pairs of which the URDD checks some pieces,
+/// of two of their shapes. MuJoCo, by which Newton simulates, has 32 bits for pairs of shapes, which do not suffice for
+/// most robots; pairs of bodies it leaves out exactly.
+///
+/// The two bodies of a joint are not checked unless the joint says so: a joint whose links the URDD checks does.
 #[derive(Default)]
 pub(super) struct Filters {
     /// For the path of a link or a shape, those that it is not checked with.

@@ -1,10 +1,10 @@
 //! Collision geometry: convex meshes, boxes and spheres, which are not rendered.
 
-use super::super::mjcf::surface::is_flat;
 use super::looks::LONGEST;
 use super::names::{COLLISIONS, Filters, Paths, path_of_shape};
 use super::prim::{Prim, asset};
 use super::surface::{primitive, set};
+use crate::mjcf::surface::is_flat;
 use crate::{ExportError, FlatShapes, MeshFiles, Note, Shape, Solid, Subject};
 
 /// Adds the shapes to the links, in link order. They have the material of that path.

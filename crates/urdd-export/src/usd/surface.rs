@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use super::super::shapes::thick;
 use super::prim::{Prim, array, doubles, float, floats, wxyz};
+use crate::shapes::thick;
 use urdd_geometry::Mesh;
 use urdd_geometry::primitives::Primitive;
 use urdd_geometry::read::Texture;
