@@ -56,8 +56,7 @@ mod order;
 mod output;
 #[doc(hidden)]
 pub mod pairs;
-#[doc(hidden)]
-pub mod parts;
+mod parts;
 mod reasons;
 mod ros;
 mod sdf;
@@ -76,8 +75,7 @@ mod subject;
 mod textures;
 mod urdf;
 mod urdf_elements;
-#[doc(hidden)]
-pub mod usd;
+mod usd;
 mod xacro;
 #[doc(hidden)]
 pub mod yaml;
@@ -136,7 +134,7 @@ pub fn base_pose(
     configuration: &[f64],
 ) -> Result<Option<[f64; 7]>, ExportError> {
     options.check()?;
-    let subject = Subject::without_pairs(robot, options)?;
+    let subject = Subject::new(robot, options, false)?;
     if !subject.has_free_base() {
         return Ok(None);
     }
@@ -150,7 +148,7 @@ pub fn base_pose(
 /// [`ExportError`].
 pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
     options.check()?;
-    let mut subject = Subject::new(robot, options)?;
+    let mut subject = Subject::new(robot, options, true)?;
     subject.lost = carried::lost(&subject);
     let mut made = match options {
         Options::Srdf(_) => srdf::export(&subject),

@@ -14,8 +14,8 @@ use super::names;
 use super::parts::JointNames;
 use super::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
 use crate::{
-    ActuatorKind, ExportError, Format, JointGains, Judged, Layout, LinkPair, ModelOptions, Note,
-    Options, Setup, Shape, Shapes, Structure,
+    ActuatorKind, ExportError, Format, JointGains, Judged, Layout, LinkPair, Note, Options, Setup,
+    Shape, Shapes, Structure,
 };
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
@@ -65,23 +65,16 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
-        let has_pairs = !matches!(options, Options::Urdf(_));
-        Self::with(robot, options, options.model().filter(|_| has_pairs))
-    }
-
-    /// The same without pairs, which take long to judge.
-    pub fn without_pairs(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
-        Self::with(robot, options, None)
-    }
-
-    fn with(
+    /// Pairs take long to judge.
+    pub fn new(
         robot: &'a Robot,
         options: &'a Options,
-        wanted: Option<&'a ModelOptions>,
+        with_pairs: bool,
     ) -> Result<Self, ExportError> {
+        let model = options.model();
+        let wanted = model.filter(|_| with_pairs && !matches!(options, Options::Urdf(_)));
+        let links_asked = model.map(|model| &model.links);
         let (format, shapes, given) = (options.format(), options.shapes(), options.setup());
-        let links_asked = options.model().map(|model| &model.links);
         let described = robot.description()?;
         let own = Structure::of(&described)?;
         if let Some(setup) = given {
@@ -145,7 +138,7 @@ impl<'a> Subject<'a> {
             Some((of, basis)) => basis.link_pairs(robot, &layout, &links, of, of_pieces)?,
             None => Vec::new(),
         };
-        let is_floating = options.model().is_some_and(|model| model.floating_base)
+        let is_floating = model.is_some_and(|model| model.floating_base)
             || given.as_ref().is_some_and(|setup| setup.floating.value);
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();

@@ -22,6 +22,7 @@ const FRAME: &str = "Drake gives it to the frame of a joint";
 const FLOATING: &str = "Drake allows floating joints only at the world; it is exported as three prismatic joints and a ball joint, with massless links between them";
 
 /// The elements that represent the joints.
+#[derive(Default)]
 pub(super) struct DrakeJoints<'a> {
     /// The names of added links.
     pub links: Vec<String>,
@@ -46,12 +47,7 @@ pub(super) fn joints<'a>(
     subject: &'a Subject,
     notes: &mut Vec<Note>,
 ) -> Result<DrakeJoints<'a>, ExportError> {
-    let mut made = DrakeJoints {
-        links: Vec::new(),
-        frames: Vec::new(),
-        elements: Vec::new(),
-        driven: Driven::default(),
-    };
+    let mut made = DrakeJoints::default();
     let mut names = Vec::new();
     let sources = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.names.parts);
     let each = resolved(subject, notes).into_iter().zip(sources).enumerate();

@@ -9,17 +9,12 @@ use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
 /// The actuators, and a sentence about them.
-pub(super) struct Actuators {
-    pub element: Element,
-    pub said: String,
-}
-
 pub(super) fn actuators(
     subject: &Subject,
     bandwidth: Option<f64>,
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
-) -> Result<Actuators, ExportError> {
+) -> Result<(Element, String), ExportError> {
     let (gains, said) = gains(subject, bandwidth, kind, notes)?;
     let mut element = Element::new("actuator");
     let mut names = names(subject)?;
@@ -56,7 +51,7 @@ pub(super) fn actuators(
             .with_some("forcerange", force.map(|force| numbers(&force)));
         element.push(actuator);
     }
-    Ok(Actuators { element, said })
+    Ok((element, said))
 }
 
 /// The names of actuators, by joint: as a person set, or that of the joint.

@@ -56,9 +56,10 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push_filled(contact(subject));
     let mut what = format!("Geoms for collision: {}.", subject.shapes);
     if let Some(kind) = options.model.actuators {
-        let actuators = actuators::actuators(subject, options.model.bandwidth, kind, &mut notes)?;
-        what += &actuators.said;
-        root.push_filled(actuators.element);
+        let (actuators, said) =
+            actuators::actuators(subject, options.model.bandwidth, kind, &mut notes)?;
+        what += &said;
+        root.push_filled(actuators);
     }
     if options.sensors {
         root.push_filled(body::sensors(subject));

@@ -70,23 +70,23 @@ pub(super) fn links(
                 }
             },
         );
+        let mut add =
+            |what: String, pose: Option<Element>, geometry: Element, rgba: Option<[f64; 4]>| {
+                let mut visual = Element::new("visual").with("name", taken.free(what));
+                visual.extend(pose);
+                visual.push(Element::new("geometry").holding(geometry));
+                visual.extend(rgba.map(material));
+                gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
+                element.push(visual);
+            };
         for (place, look) in looks.into_iter().enumerate() {
             let rgba = look.part.color;
             let (path, _) = files.add_look(link, place, look)?;
-            let name = taken.free(format!("visual_{place}"));
-            let mut visual = Element::new("visual").with("name", name);
-            visual.push(Element::new("geometry").holding(mesh(&path)));
-            visual.extend(rgba.map(material));
-            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
-            element.push(visual);
+            add(format!("visual_{place}"), None, mesh(&path), rgba);
         }
         for (place, of) in primitives.into_iter().enumerate() {
-            let name = taken.free(format!("primitive_{place}"));
-            let mut visual = Element::new("visual").with("name", name).holding(placed(&of.pose));
-            visual.push(Element::new("geometry").holding(element_of_primitive(of.primitive)));
-            visual.extend(of.color.map(material));
-            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
-            element.push(visual);
+            let pose = Some(placed(&of.pose));
+            add(format!("primitive_{place}"), pose, element_of_primitive(of.primitive), of.color);
         }
         let mut names = Vec::new();
         for shape in shapes {

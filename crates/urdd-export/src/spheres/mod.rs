@@ -156,7 +156,7 @@ fn fitted(
     let mut to_balance = Vec::new();
     if let Some(default) = known.first() {
         let region = if near { Region::NearDefault } else { Region::Bounds };
-        let (first, count) = (Numbers::GROW, numbers.grow);
+        let (first, count) = (Numbers::GROW, numbers.measure);
         to_balance = sampler.samples(region, first, count, Ask::Any)?;
         to_balance.insert(0, default.clone());
     }

@@ -55,10 +55,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         }
         prim.apply("PhysicsRigidBodyAPI");
         surface::place(&mut prim, &(up * pose), None);
-        if let Some(targets) = filters.targets.get(&paths.links[link]) {
-            prim.apply("PhysicsFilteredPairsAPI");
-            prim.relate("physics:filteredPairs", targets);
-        }
+        filters.apply(&paths.links[link], &mut prim);
         links.push(prim);
     }
     mass::add(subject, &mut links, &mut notes);

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use super::prim::Prim;
 use crate::pairs::ascending;
 use crate::{Subject, Taken};
 
@@ -110,7 +111,7 @@ pub fn mend(name: &str) -> String {
 #[derive(Default)]
 pub(super) struct Filters {
     /// For the path of a link or a shape, those that it is not checked with.
-    pub targets: BTreeMap<String, Vec<String>>,
+    targets: BTreeMap<String, Vec<String>>,
     /// The joints whose links are checked with each other, at least in part.
     pub checked: HashSet<usize>,
 }
@@ -137,6 +138,14 @@ impl Filters {
             }
         }
         filters
+    }
+
+    /// Says on the prim of a path what it is not checked with.
+    pub fn apply(&self, path: &str, prim: &mut Prim) {
+        if let Some(targets) = self.targets.get(path) {
+            prim.apply("PhysicsFilteredPairsAPI");
+            prim.relate("physics:filteredPairs", targets);
+        }
     }
 
     fn add(&mut self, from: String, to: String) {

@@ -70,6 +70,12 @@ impl Prim {
         self.properties.push(format!("rel {relationship} = {value}"));
     }
 
+    /// Gives it the material of a path, by `material:binding` or another relationship.
+    pub fn bind(&mut self, relationship: &str, material: &String) {
+        self.apply("MaterialBindingAPI");
+        self.relate(relationship, std::slice::from_ref(material));
+    }
+
     pub fn push(&mut self, child: Prim) {
         self.children.push(child);
     }

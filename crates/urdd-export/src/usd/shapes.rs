@@ -28,13 +28,9 @@ pub(super) fn add(
             let piece = shape.number;
             let mut prim = shape_prim(link, shape, &flat, files, notes)?;
             prim.apply("PhysicsCollisionAPI");
-            if let Some(targets) = filters.targets.get(&path_of_shape(&paths.links[link], piece)) {
-                prim.apply("PhysicsFilteredPairsAPI");
-                prim.relate("physics:filteredPairs", targets);
-            }
+            filters.apply(&path_of_shape(&paths.links[link], piece), &mut prim);
             if let Some(material) = material {
-                prim.apply("MaterialBindingAPI");
-                prim.relate("material:binding:physics", std::slice::from_ref(material));
+                prim.bind("material:binding:physics", material);
             }
             holder.push(prim);
         }
