@@ -2,9 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::order;
-use super::urdf_elements::is_kept;
-use crate::{Export, ExportError, Format, Note, Subject};
+use crate::urdf_elements::is_kept;
+use crate::{Export, ExportError, Format, Note, Subject, order};
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
 use urdd_format::carried::{self, Part, table};
 use urdd_format::urdf::{Joint, JointType, Limit, Link};

@@ -57,7 +57,6 @@ mod output;
 #[doc(hidden)]
 pub mod pairs;
 mod parts;
-mod reasons;
 mod ros;
 mod sdf;
 #[doc(hidden)]
@@ -113,7 +112,6 @@ use mjcf::surface::FlatShapes;
 use output::Files;
 use pairs::LinkPair;
 use parts::{Moves, Taken};
-use reasons::Judged;
 use setup::{JointGains, Members};
 use shapes::{Shape, Solid};
 use srdf::read::{LeftOut, Srdf};

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::Isometry3;
 
-use super::names::FileNames;
-use super::simplify::simplify_all;
-use super::textures::{Image, Images};
+use crate::names::FileNames;
+use crate::simplify::simplify_all;
+use crate::textures::{Image, Images};
 use crate::{ExportError, Format, MeshOptions, Note, Shapes, Subject};
 use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;

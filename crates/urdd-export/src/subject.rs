@@ -7,15 +7,14 @@ use std::ops::Deref;
 
 use nalgebra::Isometry3;
 
-use super::arrange::{self, Arranged};
-use super::contacts::{Basis, num_samples};
-use super::fit::fit;
-use super::names;
-use super::parts::JointNames;
-use super::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
+use crate::arrange::{self, Arranged};
+use crate::contacts::{Basis, Judged, num_samples};
+use crate::fit::fit;
+use crate::parts::JointNames;
+use crate::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
 use crate::{
-    ActuatorKind, ExportError, Format, JointGains, Judged, Layout, LinkPair, Note, Options, Setup,
-    Shape, Shapes, Structure,
+    ActuatorKind, ExportError, Format, JointGains, Layout, LinkPair, Note, Options, Setup, Shape,
+    Shapes, Structure, names,
 };
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;

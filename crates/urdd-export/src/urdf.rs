@@ -2,13 +2,14 @@
 
 use std::borrow::Cow;
 
-use super::joints::joints;
-use super::urdf_elements::{
+use crate::joints::joints;
+use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, element_of_joint, empty_robot, links,
     push_unknown, ros2_control, type_name,
 };
-use super::xacro;
-use crate::{Export, ExportError, Files, Format, MeshOptions, ModelOptions, Note, Shape, Subject};
+use crate::{
+    Export, ExportError, Files, Format, MeshOptions, ModelOptions, Note, Shape, Subject, xacro,
+};
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 

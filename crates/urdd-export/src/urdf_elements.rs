@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
-use super::inertia::{for_drake, held};
-use super::joints::without_quaternion;
+use crate::inertia::{for_drake, held};
+use crate::joints::without_quaternion;
 use crate::layout::origin;
 use crate::meshes::{Look, looks};
 use crate::shapes::thick;

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use joints::Driven;
 
-use super::urdf_elements::{
+use crate::names::check_package;
+use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
 };
-use crate::names::check_package;
 use crate::{
     DrakeOptions, Export, ExportError, Files, Format, Note, Structure, Subject, Taken, Yaml,
 };

@@ -1,7 +1,6 @@
 //! Controllers: those that MoveIt sends trajectories to, and those of ros2_control that follow them.
 
-use super::config::Config;
-use super::hardware::Command;
+use super::config::{Command, Config};
 use crate::yaml::{head, quoted};
 use crate::{ExportError, Limited, Note, Ros, Taken, Yaml};
 

@@ -4,16 +4,14 @@
 
 mod config;
 mod controllers;
-mod hardware;
 mod package;
 mod planning;
 mod semantic;
 
 use config::Config;
 
-use super::names::check_package;
-use super::{urdf, xacro};
-use crate::{Export, ExportError, MoveitOptions, Note, Subject};
+use crate::names::check_package;
+use crate::{Export, ExportError, MoveitOptions, Note, Subject, urdf, xacro};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 

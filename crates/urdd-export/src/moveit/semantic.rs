@@ -2,8 +2,7 @@
 
 use super::config::Config;
 use crate::names::{ANOTHER, check_names};
-use crate::srdf;
-use crate::{ExportError, Members, Note, Taken};
+use crate::{ExportError, Members, Note, Taken, srdf};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 

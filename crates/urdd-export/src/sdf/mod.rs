@@ -9,8 +9,7 @@ mod gazebo;
 mod joints;
 mod links;
 
-use super::drake;
-use crate::{Export, ExportError, ModelOptions, Note, Subject};
+use crate::{Export, ExportError, ModelOptions, Note, Subject, drake};
 use gazebo::{Gazebo, Place};
 use urdd_xml::writer::Element;
 

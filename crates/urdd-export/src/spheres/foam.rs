@@ -5,8 +5,7 @@ use serde_json::{Map, Value, json};
 use super::said::{self, Stand};
 use super::{Model, model::Sphere};
 use crate::subject::by_link;
-use crate::urdf;
-use crate::{Export, ExportError, SphereOptions, Subject};
+use crate::{Export, ExportError, SphereOptions, Subject, urdf};
 use urdd_format::escape;
 use urdd_robot::{LinkShape, Solid};
 

@@ -6,8 +6,7 @@ use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use super::measure::{Measured, Numbers};
 use super::model::{Sphere, distance};
 use super::{Model, Point};
-use crate::Note;
-use crate::Subject;
+use crate::{Note, Subject};
 use urdd_format::escape;
 use urdd_format::rate::interval;
 

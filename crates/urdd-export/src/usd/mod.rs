@@ -15,7 +15,7 @@ mod surface;
 
 use nalgebra::Isometry3;
 
-use super::gains::gains;
+use crate::gains::gains;
 use crate::meshes::looks;
 use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject, UsdOptions};
 use joints::Joints;
