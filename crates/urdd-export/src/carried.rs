@@ -2,12 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::error::{ExportError, Note};
-use super::format::Format;
-use super::order;
-use super::other_attributes::is_kept;
-use super::output::Export;
-use super::subject::Subject;
+use crate::urdf_elements::is_kept;
+use crate::{Export, ExportError, Format, Note, Subject, order};
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
 use urdd_format::carried::{self, Part, table};
 use urdd_format::urdf::{Joint, JointType, Limit, Link};

@@ -6,17 +6,11 @@ use thiserror::Error;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
-use super::actuator_kind::ActuatorKind;
-use super::fit::Fit;
-use super::format::Format;
-use super::options::{
-    CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions, UsdOptions,
+use crate::{
+    ActuatorKind, Detail, DrakeOptions, Fit, Format, LinkOptions, MeshOptions, MjcfOptions,
+    ModelOptions, MoveitOptions, Options, Ros, Setup, Shapes, SphereBudget, SphereOptions,
+    UsdOptions,
 };
-use super::ros::Ros;
-use super::setup::Setup;
-use super::shapes::Shapes;
 
 /// What a person chose, by the names that options have in Python; the command line has `robot_file` as `--config`.
 /// The fields are documented where they go: in the options of each format.
@@ -138,42 +132,22 @@ impl Choices {
                 return Err(Misfit { option, of });
             }
         }
+        let model = self.model(format);
         Ok(match format {
-            Format::Srdf => Options::Srdf(self.pairs()),
-            Format::Urdf => Options::Urdf(UrdfOptions {
-                shapes: self.shapes,
-                meshes: self.meshes(),
-                links: self.links(),
-            }),
-            Format::Drake => Options::Drake(DrakeOptions {
-                model: self.model(),
-                package: self.package.clone(),
-                file: self.file(),
-            }),
-            Format::Mjcf => Options::Mjcf(MjcfOptions {
-                shapes: self.shapes,
-                reasons: self.reasons.clone(),
-                meshes: self.meshes(),
-                floating_base: self.floating_base,
-                actuators: self.actuators,
-                bandwidth: self.bandwidth,
-                sensors: self.sensors,
-                scene_of: self.file().filter(|_| self.scene),
-                links: self.links(),
-                setup: self.setup.clone(),
-            }),
-            Format::Curobo => Options::Curobo(CuroboOptions {
-                spheres: self.spheres(),
-                robot_file: self.robot_file.clone(),
-                setup: self.setup.clone(),
-            }),
-            Format::Foam => Options::Foam(self.spheres()),
-            Format::Spherized => Options::Spherized(SpherizedOptions {
-                spheres: self.spheres(),
-                meshes: self.meshes(),
-            }),
+            Format::Srdf => Options::Srdf(model),
+            Format::Urdf => Options::Urdf(model),
+            Format::Sdf => Options::Sdf(model),
+            Format::Usd => Options::Usd(UsdOptions { model, file: self.file() }),
+            Format::Drake => {
+                let (package, file) = (self.package.clone(), self.file());
+                Options::Drake(DrakeOptions { model, package, file })
+            }
+            Format::Mjcf => {
+                let scene_of = self.file().filter(|_| self.scene);
+                Options::Mjcf(MjcfOptions { model, sensors: self.sensors, scene_of })
+            }
             Format::Moveit => {
-                let mut model = self.model();
+                let mut model = model;
                 let package = self.package.clone().or_else(|| self.package_of_output());
                 if let (Some(package), None) = (&package, &self.mesh_folder) {
                     model.meshes.folder = format!("package://{package}/meshes");
@@ -182,49 +156,52 @@ impl Choices {
                 let ros = self.ros.unwrap_or_default();
                 Options::Moveit(MoveitOptions { model, package, ros })
             }
-            Format::Sdf => {
-                Options::Sdf(SdfOptions { model: self.model(), floating_base: self.floating_base })
-            }
-            Format::Usd => Options::Usd(UsdOptions {
-                pairs: self.pairs(),
-                meshes: self.meshes(),
-                floating_base: self.floating_base,
-                actuators: self.actuators,
-                bandwidth: self.bandwidth,
-                file: self.file(),
-                setup: self.setup.clone(),
-            }),
+            Format::Curobo => Options::Curobo(self.spheres(format)),
+            Format::Foam => Options::Foam(self.spheres(format)),
+            Format::Spherized => Options::Spherized(self.spheres(format)),
         })
     }
 
-    fn model(&self) -> ModelOptions {
-        ModelOptions { pairs: self.pairs(), meshes: self.meshes(), setup: self.setup.clone() }
+    fn model(&self, format: Format) -> ModelOptions {
+        let has_setup = !matches!(format, Format::Srdf | Format::Urdf);
+        let has_actuators = matches!(format, Format::Mjcf | Format::Usd);
+        ModelOptions {
+            shapes: self.shapes,
+            reasons: self.reasons.clone(),
+            keep_pairs: self.keep_pairs,
+            links: LinkOptions {
+                merge_fixed: self.merge_fixed,
+                root: self.root.clone(),
+                fit: self.fit,
+            },
+            meshes: self.meshes(format != Format::Srdf),
+            floating_base: self.floating_base,
+            actuators: self.actuators,
+            bandwidth: self.bandwidth.filter(|_| has_actuators),
+            setup: self.setup.clone().filter(|_| has_setup),
+        }
     }
 
-    fn pairs(&self) -> PairOptions {
-        let reasons = self.reasons.clone();
-        let (shapes, keep_pairs) = (self.shapes, self.keep_pairs);
-        PairOptions { shapes, reasons, keep_pairs, links: self.links() }
-    }
-
-    fn links(&self) -> LinkOptions {
-        LinkOptions { merge_fixed: self.merge_fixed, root: self.root.clone(), fit: self.fit }
-    }
-
-    fn meshes(&self) -> MeshOptions {
-        let stem = self.output.as_ref().map(|file| file.file_stem().unwrap_or_default());
-        let named = || stem.map(|stem| format!("{}_meshes", stem.to_string_lossy()));
-        let folder = self.mesh_folder.clone().or_else(named);
-        MeshOptions { visuals: self.visuals, folder: folder.unwrap_or_else(|| "meshes".to_owned()) }
-    }
-
-    fn spheres(&self) -> SphereOptions {
+    fn spheres(&self, format: Format) -> SphereOptions {
         SphereOptions {
             shapes: self.shapes,
             reasons: self.reasons.clone(),
             budget: self.spheres,
             cover: self.cover,
             samples: self.samples,
+            meshes: self.meshes(format == Format::Spherized),
+            robot_file: self.robot_file.clone(),
+            setup: self.setup.clone().filter(|_| format == Format::Curobo),
+        }
+    }
+
+    fn meshes(&self, has_visuals: bool) -> MeshOptions {
+        let stem = self.output.as_ref().map(|file| file.file_stem().unwrap_or_default());
+        let named = || stem.map(|stem| format!("{}_meshes", stem.to_string_lossy()));
+        let folder = self.mesh_folder.clone().or_else(named);
+        MeshOptions {
+            visuals: self.visuals.filter(|_| has_visuals),
+            folder: folder.unwrap_or_else(|| "meshes".to_owned()),
         }
     }
 

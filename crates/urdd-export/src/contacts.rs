@@ -1,13 +1,18 @@
-//! Counts contacts of the shapes that a link-level format treats differently from the URDD.
+//! By what pairs of shapes are judged, and contacts of those that a link-level format treats differently from the URDD.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::fmt::Display;
 
-use super::error::ExportError;
-use super::layout::Layout;
-use super::options::PairOptions;
-use super::pairs::{Contacts, LinkPair, pairs};
-use super::reasons::Judged;
-use urdd_format::link_shapes_simple_skips::SkipReason;
+use rayon::prelude::*;
+
+use crate::pairs::{ascending, pairs};
+use crate::{Contacts, ExportError, Layout, LinkPair, ModelOptions, Shape, Solid, Structure};
+use urdd_document::rigid_groups::RigidGroups;
+use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
+use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
+use urdd_geometry::decompose::{self, decompose};
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::primitives::Prism;
 use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// Number of sampled configurations to evaluate if the URDD does not record its own.
@@ -32,17 +37,21 @@ impl Basis {
         }
     }
 
-    /// Every pair of links with shapes, sorted by index, as a link-level format represents them, with contacts.
+    /// Every pair of links with shapes, sorted by index, as a format of pairs of links, or of pieces, represents them; the
+    /// former with contacts.
     pub fn link_pairs(
         &self,
         robot: &Robot,
         layout: &Layout,
         links: &[String],
-        options: &PairOptions,
+        options: &ModelOptions,
+        of_pieces: bool,
     ) -> Result<Vec<LinkPair>, ExportError> {
-        let reasons = options.reasons.as_deref();
-        let mut pairs = pairs(self.skips(), layout, links, reasons, options.keep_pairs)?;
-        count(robot, layout, self, &mut pairs)?;
+        let (reasons, keeps) = (options.reasons.as_deref(), options.keep_pairs && !of_pieces);
+        let mut pairs = pairs(self.skips(), layout, links, reasons, keeps)?;
+        if !of_pieces {
+            count(robot, layout, self, &mut pairs)?;
+        }
         Ok(pairs)
     }
 }
@@ -109,4 +118,129 @@ fn count(
         }
     }
     Ok(())
+}
+
+/// The most shapes, or pieces of them, of which pairs are judged: time grows with their square.
+const MOST_SHAPES: usize = 1_000;
+
+/// A robot's shapes that no URDD has judged, with their reasons: by the same samples and reasons (SPEC 8.6).
+pub(super) struct Judged {
+    pub skips: Skips,
+    bodies: Vec<PlacedShape<ConvexShape>>,
+    /// Each body is all points that are at most this far from its shape, m.
+    radii: Vec<f64>,
+    sampled: Motion,
+}
+
+impl Judged {
+    /// Judges shapes, by link, in so many samples. A mesh that is not convex counts as its hull, or as its convex pieces,
+    /// which then have numbers of their own.
+    pub fn new(
+        robot: &Robot,
+        structure: &Structure,
+        shapes: &[Vec<Shape>],
+        as_hulls: bool,
+        samples: u32,
+    ) -> Result<Self, ExportError> {
+        let within = |count: usize| match count > MOST_SHAPES {
+            true => Err(ExportError::TooManyShapes { count, most: MOST_SHAPES }),
+            false => Ok(()),
+        };
+        within(shapes.iter().map(Vec::len).sum())?;
+        let (mut places, mut bodies, mut radii) = (Vec::new(), Vec::new(), Vec::new());
+        for (link, shapes) in shapes.iter().enumerate() {
+            let of_link = shapes.iter().flat_map(|shape| cores(shape, as_hulls));
+            for (place, (number, points, radius)) in of_link.enumerate() {
+                let shape = ConvexShape::of_points(&points).map_err(unusable)?;
+                bodies.push(PlacedShape { body: link, shape });
+                places.push((link, if as_hulls { number } else { place }));
+                radii.push(radius);
+            }
+            // A mesh may have become several.
+            within(bodies.len())?;
+        }
+        let groups = RigidGroups::new(&structure.view, &structure.tree).of_link;
+        let space = robot.configurations()?;
+        let poses = |configuration: Vec<f64>| robot.link_poses(&configuration);
+        let random = (0..u64::from(samples)).into_par_iter().map(|k| poses(space.random(k)));
+        let random = random.collect::<Result<Vec<_>, RobotError>>()?;
+        let sampled = Motion::new(&random, &groups).map_err(unusable)?;
+        let default = Motion::new(&[poses(space.zero())?], &groups).map_err(unusable)?;
+        // Whether a distance is of contact is all that is asked.
+        let range = |i: usize, j: usize| Some([0.0, CONTACT + radii[i] + radii[j]]);
+        let over = |motion: &Motion| {
+            let found = pair_ranges(&bodies, motion, range);
+            found.ok_or_else(|| unusable("a link has no pose"))
+        };
+        let (seen, at_default) = (over(&sampled)?, over(&default)?);
+        let joined: HashSet<[usize; 2]> =
+            structure.tree.joint_links.iter().map(|&(a, b)| ascending(a, b)).collect();
+        let reason = |i: usize, j: usize| {
+            let [a, b] = [bodies[i].body, bodies[j].body];
+            let between = |distance: f64| distance - radii[i] - radii[j];
+            let pair = SeenPair {
+                is_same_link: a == b,
+                is_joined: joined.contains(&ascending(a, b)),
+                range: [between(seen.min[i][j]), between(seen.max[i][j])],
+                at_default: between(at_default.min[i][j]),
+            };
+            pair.reason()
+        };
+        let all = 0..bodies.len();
+        let reasons: Vec<Vec<SkipReason>> =
+            all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect();
+        let skips = robot.skips(ShapeKind::Hulls)?.of_reasons(places, reasons);
+        Ok(Judged { skips, bodies, radii, sampled })
+    }
+
+    /// For each pair of bodies with wanted pairs of shapes, in how many samples any of these touches. Shapes have their
+    /// link and their number.
+    pub fn contacts(
+        &self,
+        wanted: impl Fn([(usize, usize); 2]) -> bool + Sync,
+        body: impl Fn(usize) -> usize + Sync,
+    ) -> HashMap<[usize; 2], usize> {
+        let places = self.skips.places();
+        let pairs = (0..places.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+        let pairs: Vec<[usize; 2]> =
+            pairs.filter(|pair| wanted(pair.map(|shape| places[shape]))).collect();
+        let touches = |[i, j]: [usize; 2]| {
+            let distances = pair_distances(&self.bodies[i], &self.bodies[j], &self.sampled);
+            let reach = self.radii[i] + self.radii[j];
+            let touches = distances.unwrap_or_default().into_iter().map(|it| it <= reach);
+            (ascending(body(places[i].0), body(places[j].0)), touches.collect::<Vec<bool>>())
+        };
+        let mut by_links: HashMap<[usize; 2], Vec<bool>> = HashMap::new();
+        for (links, touches) in pairs.into_par_iter().map(touches).collect::<Vec<_>>() {
+            let known = by_links.entry(links).or_insert_with(|| vec![false; touches.len()]);
+            known.iter_mut().zip(touches).for_each(|(known, one): (_, bool)| *known |= one);
+        }
+        let count = |touches: Vec<bool>| touches.into_iter().filter(|one| *one).count();
+        by_links.into_iter().map(|(links, touches)| (links, count(touches))).collect()
+    }
+}
+
+fn unusable(error: impl Display) -> ExportError {
+    ExportError::Unmeasurable(error.to_string())
+}
+
+/// The convex bodies of a shape: its number, points, and how far around them it reaches.
+fn cores(shape: &Shape, as_hulls: bool) -> Vec<(usize, Vec<[f64; 3]>, f64)> {
+    let (points, radius) = match &shape.solid {
+        Solid::Mesh(mesh) if !as_hulls => {
+            let pieces = decompose(mesh, &decompose::Settings::default()).pieces;
+            let pieces = pieces.into_iter().map(|piece| piece.vertices);
+            return pieces.map(|points| (shape.number, points, 0.0)).collect();
+        }
+        Solid::Mesh(mesh) | Solid::Convex(mesh) => {
+            let hull = ConvexHull::new(&mesh.vertices);
+            (hull.map_or_else(|_| mesh.vertices.clone(), |hull| hull.into_mesh().vertices), 0.0)
+        }
+        Solid::Primitive(pose, primitive) => {
+            let (own, radius) = primitive.core(Prism::Inside);
+            let placed = own.into_iter().map(|point| (pose * nalgebra::Point3::from(point)).into());
+            (placed.collect(), radius)
+        }
+    };
+    vec![(shape.number, points, radius)]
 }

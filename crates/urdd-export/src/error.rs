@@ -2,11 +2,7 @@
 
 use thiserror::Error;
 
-use super::counts::ShapeCounts;
-use super::format::Format;
-use super::pairs::{Contacts, LinkPair};
-use super::ros::{Limited, Ros};
-use super::shapes::Shapes;
+use crate::{Contacts, Format, Limited, LinkPair, Ros, ShapeCounts, Shapes};
 use urdd_directory::account::Overdrawn;
 use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;
@@ -338,7 +334,11 @@ impl Note {
     /// A note on links, by their indices, if there are any.
     pub(super) fn of_links(links: Vec<usize>, all: &[Link], what: &'static str) -> Option<Note> {
         let name = |link: usize| all.get(link).map(|link| link.name.clone());
-        let links: Vec<String> = links.into_iter().filter_map(name).collect();
+        Note::links(links.into_iter().filter_map(name).collect(), what)
+    }
+
+    /// A note on links, by their names, if there are any.
+    pub(super) fn links(links: Vec<String>, what: &'static str) -> Option<Note> {
         (!links.is_empty()).then_some(Note::Links { links, what })
     }
 

@@ -9,9 +9,7 @@ use urdd_geometry::enclosing::Enclosing;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::primitives::Primitive;
 
-use super::counts::ShapeCounts;
-use super::error::Note;
-use super::shapes::{Shape, Solid};
+use crate::{Note, Shape, ShapeCounts, Solid};
 
 /// What a primitive in the place of a convex mesh may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,12 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
-use super::actuator_kind::ActuatorKind;
-use super::error::{ExportError, Note};
-use super::options::MjcfOptions;
-use super::subject::Subject;
+use crate::inertia::tensor;
+use crate::{ActuatorKind, ExportError, ModelOptions, Note, Subject};
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::unit_axis;
@@ -35,7 +33,7 @@ pub(super) fn gains(
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Option<Gains>>, String), ExportError> {
     let given = || subject.given.as_ref().and_then(|setup| setup.gains.bandwidth);
-    let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
+    let bandwidth = bandwidth.or_else(given).unwrap_or(ModelOptions::BANDWIDTH);
     let frequency = TAU * bandwidth;
     let several = subject.view.joints.iter().filter(|joint| joint.num_dofs() > 1);
     notes.extend(several.map(|joint| Note::joint(&joint.name, SEVERAL)));
@@ -139,8 +137,7 @@ fn about(
     axis: Vector3<f64>,
     origin: Vector3<f64>,
 ) -> f64 {
-    let [xx, xy, xz, yy, yz, zz] = inertial.inertia.unwrap_or_default();
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let tensor = tensor(inertial.inertia.unwrap_or_default());
     let turned = pose.rotation * Rotation3::from_matrix_unchecked(inertial.origin.rotation());
     let own = turned.inverse() * axis;
     let centre = pose * Point3::from(inertial.origin.xyz);

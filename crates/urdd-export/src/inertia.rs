@@ -15,7 +15,7 @@ const FOUND: f64 = 1e-7;
 /// `None` for one that no body has. Moments of 0 stay, unless `positive` is asked for.
 pub fn held(inertia: [f64; 6], positive: bool) -> Option<[f64; 6]> {
     let [xx, xy, xz, yy, yz, zz] = inertia;
-    let moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
+    let moments = tensor(inertia).symmetric_eigenvalues();
     let most = moments.amax();
     let least = moments.min();
     let room = moments.sum() - 2.0 * moments.max();
@@ -35,6 +35,11 @@ pub fn held(inertia: [f64; 6], positive: bool) -> Option<[f64; 6]> {
     }
     let more = 2.0 * FOUND * most;
     Some([xx + more, xy, xz, yy + more, yz, zz + more])
+}
+
+/// The tensor of xx, xy, xz, yy, yz, zz.
+pub(super) fn tensor([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
 /// The mean of the moments of inertia.

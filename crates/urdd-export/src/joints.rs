@@ -2,9 +2,8 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::error::Note;
-use super::pose;
-use super::subject::Subject;
+use crate::layout::origin;
+use crate::{Note, Subject};
 use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
@@ -57,8 +56,16 @@ fn mimic(source: Option<&Mimic>, driver: &View, resolved: &Resolved) -> Mimic {
 
 /// Replaces a joint of one DOF by a fixed joint at `position`.
 fn standing(joint: Joint, view: &View, position: f64) -> Joint {
-    let axis = unit_axis(view.axis);
-    let motion = match (axis, view.joint_type) {
+    Joint {
+        origin: Some(origin(&(view.origin.motion() * moved(view, position)))),
+        unknown_elements: joint.unknown_elements,
+        ..Joint::new(joint.name, JointType::Fixed, joint.parent.link, joint.child.link)
+    }
+}
+
+/// The pose of a joint of one DOF at a position, in its frame.
+pub(super) fn moved(joint: &View, position: f64) -> Isometry3<f64> {
+    match (unit_axis(joint.axis), joint.joint_type) {
         (Some(axis), JointType::Prismatic) => {
             Isometry3::from(Translation3::from(axis.into_inner() * position))
         }
@@ -67,11 +74,6 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
             UnitQuaternion::from_axis_angle(&axis, position),
         ),
         (None, _) => Isometry3::identity(),
-    };
-    Joint {
-        origin: Some(pose::origin(&(view.origin.motion() * motion))),
-        unknown_elements: joint.unknown_elements,
-        ..Joint::new(joint.name, JointType::Fixed, joint.parent.link, joint.child.link)
     }
 }
 

@@ -5,8 +5,10 @@ use std::ops::Range;
 
 use nalgebra::Isometry3;
 
-use super::shapes::{Shape, Solid};
+use crate::{Shape, Solid};
+use urdd_format::urdf::Origin;
 use urdd_geometry::Mesh;
+use urdd_kinematics::rotation::to_rpy;
 
 /// A place in a link.
 #[derive(Debug, Clone, Copy)]
@@ -153,5 +155,13 @@ impl Layout {
     pub fn root_at(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
         let place = self.frames.get(self.root);
         place.map_or(Isometry3::identity(), |place| poses[place.link] * place.pose)
+    }
+}
+
+pub(super) fn origin(pose: &Isometry3<f64>) -> Origin {
+    Origin {
+        xyz: Some(pose.translation.vector.into()),
+        rpy: Some(to_rpy(pose.rotation.to_rotation_matrix().matrix())),
+        quat_xyzw: None,
     }
 }

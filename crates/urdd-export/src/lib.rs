@@ -31,17 +31,13 @@
 //! ```
 
 // Hidden modules are public for `tests/`.
-mod actuator_kind;
 mod arrange;
-mod capsules;
 mod carried;
 mod choices;
 mod contacts;
-mod counts;
 mod drake;
 mod error;
 mod fit;
-mod flat;
 mod format;
 mod gains;
 mod groups;
@@ -53,21 +49,14 @@ mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
 mod moveit;
-mod mujoco_png;
 #[doc(hidden)]
 pub mod names;
-mod nested;
 mod options;
 mod order;
-mod other_attributes;
 mod output;
 #[doc(hidden)]
 pub mod pairs;
-#[doc(hidden)]
-pub mod parts;
-mod pose;
-mod ranges;
-mod reasons;
+mod parts;
 mod ros;
 mod sdf;
 #[doc(hidden)]
@@ -76,56 +65,60 @@ mod shapes;
 #[doc(hidden)]
 pub mod simplify;
 mod source_shapes;
-mod source_visuals;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
-mod srdf_document;
-mod srdf_import;
-mod srdf_merge;
 mod stand;
-mod states_import;
 mod structure;
 mod subject;
-mod template;
 mod textures;
 mod urdf;
 mod urdf_elements;
-#[doc(hidden)]
-pub mod usd;
+mod usd;
 mod xacro;
 #[doc(hidden)]
 pub mod yaml;
 
 use urdd_robot::Robot;
 
-pub use actuator_kind::ActuatorKind;
 pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
-pub use counts::ShapeCounts;
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
-pub use format::Format;
-pub use groups::{JointGroup, joint_groups_of_srdf};
+pub use format::{ActuatorKind, Format};
+pub use groups::JointGroup;
 pub use options::{
-    CuroboOptions, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
-    UrdfOptions, UsdOptions,
+    BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, SAMPLES, SPHERES, SphereBudget, SphereOptions, TOTAL_SPHERES,
+    UsdOptions,
 };
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;
 pub use pairs::Contacts;
-pub use ranges::{BANDWIDTH, SAMPLES, SPHERES, TOTAL_SPHERES};
 pub use ros::{Limited, Ros};
 pub use setup::{Setup, SetupError};
-pub use shapes::Shapes;
+pub use shapes::{ShapeCounts, Shapes};
 pub use spheres::SphereRates;
-pub use srdf_document::SrdfError;
-pub use srdf_import::{ImportedSkips, import_srdf};
-pub use srdf_merge::{MergedSrdf, merge_srdf};
-pub use states_import::{ImportedStates, import_states};
+pub use srdf::groups::joint_groups_of_srdf;
+pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states};
+pub use srdf::merge::{MergedSrdf, merge_srdf};
+pub use srdf::read::SrdfError;
 
+// What most files use.
+use gains::Gains;
+use layout::Layout;
+use meshes::{MeshFiles, MeshFormat, Painted};
+use mjcf::surface::FlatShapes;
+use output::Files;
+use pairs::LinkPair;
+use parts::{Moves, Taken};
+use setup::{JointGains, Members};
+use shapes::{Shape, Solid};
+use srdf::read::{LeftOut, Srdf};
+use stand::Stand;
+use structure::Structure;
 use subject::Subject;
+use yaml::Yaml;
 
 /// Where a free base is in a configuration, as keyframes of MJCF have it: x, y, z in m, and the quaternion w, x, y, z. In a
 /// named configuration, where the setup says; otherwise on the floor. `None` where the base is fixed.
@@ -139,7 +132,7 @@ pub fn base_pose(
     configuration: &[f64],
 ) -> Result<Option<[f64; 7]>, ExportError> {
     options.check()?;
-    let subject = Subject::without_pairs(robot, options)?;
+    let subject = Subject::new(robot, options, false)?;
     if !subject.has_free_base() {
         return Ok(None);
     }
@@ -153,7 +146,7 @@ pub fn base_pose(
 /// [`ExportError`].
 pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
     options.check()?;
-    let mut subject = Subject::new(robot, options)?;
+    let mut subject = Subject::new(robot, options, true)?;
     subject.lost = carried::lost(&subject);
     let mut made = match options {
         Options::Srdf(_) => srdf::export(&subject),
@@ -162,7 +155,7 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Options::Mjcf(of) => mjcf::export(&subject, of),
         Options::Curobo(of) => spheres::curobo::export(&subject, of),
         Options::Foam(of) => spheres::foam::export(&subject, of),
-        Options::Spherized(of) => spheres::urdf::export(&subject, of),
+        Options::Spherized(of) => spheres::foam::spherized(&subject, of),
         Options::Moveit(of) => moveit::export(&subject, of),
         Options::Sdf(of) => sdf::export(&subject, of),
         Options::Usd(of) => usd::export(&subject, of),

@@ -2,8 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::error::ExportError;
-use super::format::Format;
+use crate::{ExportError, Format};
 use urdd_directory::path::is_device;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;

@@ -1,35 +1,47 @@
-//! Options of exports, by format.
+//! Options of exports, by format, and their ranges for all languages.
 
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
 
-use super::actuator_kind::ActuatorKind;
-use super::fit::Fit;
-use super::format::Format;
-use super::ros::Ros;
-use super::setup::Setup;
-use super::shapes::Shapes;
+use crate::{ActuatorKind, Fit, Format, Ros, Setup, Shapes};
+
+/// [`SphereBudget::PerLink`].
+pub const SPHERES: Range = Range::whole("spheres", 1, 10_000);
+
+/// [`SphereBudget::Total`].
+pub const TOTAL_SPHERES: Range = Range::whole("total_spheres", 1, 65_535);
+
+/// [`SphereOptions::samples`].
+pub const SAMPLES: Range = Range::whole("samples", 100, 1_000_000);
+
+/// [`ModelOptions::bandwidth`], in an `export.toml` too.
+pub const BANDWIDTH: Range = Range::real("bandwidth", 0.01, 1000.0, "Hz");
+
+/// [`Detail`].
+const VISUALS: Range =
+    Range::above_zero("visuals", "(a part between 0 and 1, or a whole number of triangles)");
 
 /// A format and its options. [`Choices::options`](super::Choices::options) makes it of what a person chose.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Options {
     /// [`Format::Srdf`].
-    Srdf(PairOptions),
+    Srdf(ModelOptions),
     /// [`Format::Urdf`].
-    Urdf(UrdfOptions),
+    Urdf(ModelOptions),
     /// [`Format::Drake`].
     Drake(DrakeOptions),
     /// [`Format::Mjcf`].
     Mjcf(MjcfOptions),
     /// [`Format::Curobo`].
-    Curobo(CuroboOptions),
+    Curobo(SphereOptions),
     /// [`Format::Foam`].
     Foam(SphereOptions),
     /// [`Format::Spherized`].
-    Spherized(SpherizedOptions),
+    Spherized(SphereOptions),
     /// [`Format::Moveit`].
     Moveit(MoveitOptions),
     /// [`Format::Sdf`].
-    Sdf(SdfOptions),
+    Sdf(ModelOptions),
     /// [`Format::Usd`].
     Usd(UsdOptions),
 }
@@ -37,57 +49,67 @@ pub enum Options {
 impl Options {
     /// The format.
     pub fn format(&self) -> Format {
-        self.common().0
-    }
-
-    /// Whether the root link was asked to move freely.
-    pub(super) fn is_floating(&self) -> bool {
         match self {
-            Options::Mjcf(of) => of.floating_base,
-            Options::Sdf(of) => of.floating_base,
-            Options::Usd(of) => of.floating_base,
-            _ => false,
+            Options::Srdf(_) => Format::Srdf,
+            Options::Urdf(_) => Format::Urdf,
+            Options::Drake(_) => Format::Drake,
+            Options::Mjcf(_) => Format::Mjcf,
+            Options::Curobo(_) => Format::Curobo,
+            Options::Foam(_) => Format::Foam,
+            Options::Spherized(_) => Format::Spherized,
+            Options::Moveit(_) => Format::Moveit,
+            Options::Sdf(_) => Format::Sdf,
+            Options::Usd(_) => Format::Usd,
         }
     }
 
-    /// The pairs that the format has.
-    pub(super) fn pairs(&self) -> Option<Pairs<'_>> {
-        Some(match self {
-            Options::Srdf(of) | Options::Usd(UsdOptions { pairs: of, .. }) => Pairs::OfLinks(of),
-            Options::Drake(DrakeOptions { model, .. })
+    /// The options of a format with a whole robot, or those of one of spheres.
+    fn either(&self) -> Result<&ModelOptions, &SphereOptions> {
+        match self {
+            Options::Srdf(model)
+            | Options::Urdf(model)
+            | Options::Drake(DrakeOptions { model, .. })
+            | Options::Mjcf(MjcfOptions { model, .. })
             | Options::Moveit(MoveitOptions { model, .. })
-            | Options::Sdf(SdfOptions { model, .. }) => Pairs::OfLinks(&model.pairs),
-            Options::Mjcf(of) => Pairs::OfPieces(of.reasons.as_deref()),
-            Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
-                return None;
+            | Options::Sdf(model)
+            | Options::Usd(UsdOptions { model, .. }) => Ok(model),
+            Options::Curobo(of) | Options::Foam(of) | Options::Spherized(of) => Err(of),
+        }
+    }
+
+    /// The options of a format with a whole robot; `None` for formats of spheres.
+    pub(super) fn model(&self) -> Option<&ModelOptions> {
+        self.either().ok()
+    }
+
+    /// The shapes that approximate links.
+    pub(super) fn shapes(&self) -> Shapes {
+        self.either().map_or_else(|of| of.shapes, |of| of.shapes)
+    }
+
+    /// What the URDD does not say.
+    pub(super) fn setup(&self) -> Option<&Setup> {
+        self.either().map_or_else(|of| of.setup.as_ref(), |of| of.setup.as_ref())
+    }
+
+    /// Checks that each option is in its range.
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        let meshes = match self.either() {
+            Ok(of) => {
+                of.bandwidth.map_or(Ok(0.0), |given| BANDWIDTH.check(given))?;
+                &of.meshes
             }
-        })
-    }
-
-    /// What is done to links; `None` for formats of spheres.
-    pub(super) fn links(&self) -> Option<&LinkOptions> {
-        match (self.pairs(), self) {
-            (Some(Pairs::OfLinks(of)), _) => Some(&of.links),
-            (_, Options::Urdf(of)) => Some(&of.links),
-            (_, Options::Mjcf(of)) => Some(&of.links),
-            _ => None,
-        }
-    }
-
-    /// The format, the shapes that approximate links, and what the URDD does not say.
-    pub(super) fn common(&self) -> (Format, Shapes, Option<&Setup>) {
-        match self {
-            Options::Srdf(of) => (Format::Srdf, of.shapes, None),
-            Options::Urdf(of) => (Format::Urdf, of.shapes, None),
-            Options::Drake(of) => (Format::Drake, of.model.pairs.shapes, of.model.setup.as_ref()),
-            Options::Mjcf(of) => (Format::Mjcf, of.shapes, of.setup.as_ref()),
-            Options::Curobo(of) => (Format::Curobo, of.spheres.shapes, of.setup.as_ref()),
-            Options::Foam(of) => (Format::Foam, of.shapes, None),
-            Options::Spherized(of) => (Format::Spherized, of.spheres.shapes, None),
-            Options::Moveit(of) => (Format::Moveit, of.model.pairs.shapes, of.model.setup.as_ref()),
-            Options::Sdf(of) => (Format::Sdf, of.model.pairs.shapes, of.model.setup.as_ref()),
-            Options::Usd(of) => (Format::Usd, of.pairs.shapes, of.setup.as_ref()),
-        }
+            Err(of) => {
+                match of.budget {
+                    SphereBudget::Auto => {}
+                    SphereBudget::PerLink(count) => _ = SPHERES.check(count as f64)?,
+                    SphereBudget::Total(count) => _ = TOTAL_SPHERES.check(count as f64)?,
+                }
+                SAMPLES.check(of.samples as f64)?;
+                &of.meshes
+            }
+        };
+        meshes.visuals.map_or(Ok(()), Detail::check)
     }
 }
 
@@ -101,29 +123,6 @@ pub struct LinkOptions {
     pub root: Option<String>,
     /// What primitives in the place of convex meshes may cost; `None` for the meshes.
     pub fit: Option<Fit>,
-}
-
-/// Options of formats that list pairs of links that need no check: all options of SRDF.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PairOptions {
-    /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
-    pub shapes: Shapes,
-    /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
-    pub reasons: Option<Vec<SkippedReason>>,
-    /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
-    /// pair is disabled, since pieces that are always in contact would collide in every configuration.
-    pub keep_pairs: bool,
-    /// What is done to links and shapes.
-    pub links: LinkOptions,
-}
-
-/// The pairs that a format has.
-#[derive(Clone, Copy)]
-pub(super) enum Pairs<'a> {
-    /// Of links.
-    OfLinks(&'a PairOptions),
-    /// Of pieces: exactly those of the URDD, or for these reasons.
-    OfPieces(Option<&'a [SkippedReason]>),
 }
 
 /// Options of mesh files.
@@ -147,20 +146,27 @@ pub enum Detail {
     Triangles(usize),
 }
 
-/// Options of spheres: all options of Foam's format.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SphereOptions {
-    /// The shapes that the spheres approximate: pieces or hulls.
-    pub shapes: Shapes,
-    /// The reasons for which pairs are ignored; `None` for those of the URDD. The user's edits apply in either case.
-    pub reasons: Option<Vec<SkippedReason>>,
-    /// Number of spheres.
-    pub budget: SphereBudget,
-    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
-    /// the shapes.
-    pub cover: bool,
-    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
-    pub samples: usize,
+impl Detail {
+    /// A part of all triangles, or a number of them.
+    ///
+    /// # Errors
+    /// If it is neither.
+    pub fn new(given: f64) -> Result<Detail, OutOfRange> {
+        match VISUALS.check(given)? {
+            ratio if ratio < 1.0 => Ok(Detail::Ratio(ratio)),
+            count if count.fract() == 0.0 => Ok(Detail::Triangles(count as usize)),
+            given => Err(OutOfRange { range: VISUALS, given }),
+        }
+    }
+
+    fn check(self) -> Result<(), OutOfRange> {
+        let (given, is_wrong) = match self {
+            Detail::Full => return Ok(()),
+            Detail::Ratio(ratio) => (ratio, !(ratio > 0.0 && ratio < 1.0)),
+            Detail::Triangles(count) => (count as f64, count == 0),
+        };
+        if is_wrong { Err(OutOfRange { range: VISUALS, given }) } else { Ok(()) }
+    }
 }
 
 /// Number of spheres.
@@ -184,26 +190,36 @@ impl SphereBudget {
     }
 }
 
-/// Options of URDF.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UrdfOptions {
-    /// The collision geometry.
-    pub shapes: Shapes,
-    /// The mesh files.
-    pub meshes: MeshOptions,
-    /// The tree of links.
-    pub links: LinkOptions,
-}
-
-/// Options of formats that have a whole robot, with pairs of links.
+/// Options of formats that have a whole robot: all options of SRDF, URDF and SDF. What a format has no place for is not
+/// read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelOptions {
-    /// The shapes, and the pairs that are disabled.
-    pub pairs: PairOptions,
-    /// The mesh files.
+    /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
+    pub shapes: Shapes,
+    /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
+    pub reasons: Option<Vec<SkippedReason>>,
+    /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
+    /// pair is disabled, since pieces that are always in contact would collide in every configuration. MJCF has pairs of
+    /// pieces in any case, and USD then has.
+    pub keep_pairs: bool,
+    /// What is done to links and shapes.
+    pub links: LinkOptions,
+    /// The files of meshes and textures.
     pub meshes: MeshOptions,
+    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
+    pub floating_base: bool,
+    /// What actuators and drives of joints of one DOF are told; `None` for none.
+    pub actuators: Option<ActuatorKind>,
+    /// The frequency below which a joint follows its actuator, Hz. Gains are computed from it and from inertias. `None`
+    /// for that of `setup`, or [`ModelOptions::BANDWIDTH`].
+    pub bandwidth: Option<f64>,
     /// What the URDD does not say.
     pub setup: Option<Setup>,
+}
+
+impl ModelOptions {
+    /// The bandwidth of actuators where none is given, Hz.
+    pub const BANDWIDTH: f64 = 10.0;
 }
 
 /// Options of URDF for Drake.
@@ -220,53 +236,13 @@ pub struct DrakeOptions {
 /// Options of MJCF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MjcfOptions {
-    /// The shapes that approximate links: the geoms, and the shapes of the pairs.
-    pub shapes: Shapes,
-    /// The reasons for which pairs are excluded; `None` for those of the URDD. The user's edits apply in either case.
-    pub reasons: Option<Vec<SkippedReason>>,
-    /// The mesh files.
-    pub meshes: MeshOptions,
-    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
-    pub floating_base: bool,
-    /// The actuators of the joints of one DOF; `None` for no actuators.
-    pub actuators: Option<ActuatorKind>,
-    /// The frequency below which a joint follows its actuator, Hz. Gains are computed from it and from inertias. `None`
-    /// for that of `setup`, or [`MjcfOptions::BANDWIDTH`].
-    pub bandwidth: Option<f64>,
-    /// Whether the IMU frames of `setup` get a gyroscope and an accelerometer.
+    /// The robot.
+    pub model: ModelOptions,
+    /// Whether the IMU frames of the setup get a gyroscope and an accelerometer.
     pub sensors: bool,
     /// The name of the file, for a scene with floor and light beside it that includes it: `NAME_scene.xml` for
     /// `NAME.xml`. `None` for no scene.
     pub scene_of: Option<String>,
-    /// The tree of links.
-    pub links: LinkOptions,
-    /// What the URDD does not say.
-    pub setup: Option<Setup>,
-}
-
-impl MjcfOptions {
-    /// The bandwidth of actuators where none is given, Hz.
-    pub const BANDWIDTH: f64 = 10.0;
-}
-
-/// Options of cuRobo's YAML.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CuroboOptions {
-    /// The spheres.
-    pub spheres: SphereOptions,
-    /// The path of a URDF, for the whole robot file. Otherwise, only what belongs to spheres is written.
-    pub robot_file: Option<String>,
-    /// What the URDD does not say. The robot file needs it: without it, it is guessed.
-    pub setup: Option<Setup>,
-}
-
-/// Options of URDF with spheres.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpherizedOptions {
-    /// The spheres.
-    pub spheres: SphereOptions,
-    /// The mesh files of visual geometry.
-    pub meshes: MeshOptions,
 }
 
 /// Options of MoveIt's configuration. Without a setup, it is guessed.
@@ -280,30 +256,33 @@ pub struct MoveitOptions {
     pub ros: Ros,
 }
 
-/// Options of SDF.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SdfOptions {
-    /// The robot.
-    pub model: ModelOptions,
-    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless the setup says that it moves.
-    pub floating_base: bool,
-}
-
 /// Options of USD.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UsdOptions {
-    /// The shapes, and the pairs that are filtered. With [`keep_pairs`](PairOptions::keep_pairs), pairs of pieces are.
-    pub pairs: PairOptions,
-    /// The files of meshes and textures.
-    pub meshes: MeshOptions,
-    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
-    pub floating_base: bool,
-    /// What the drives of joints of one DOF are told; `None` for no drives.
-    pub actuators: Option<ActuatorKind>,
-    /// As [`MjcfOptions::bandwidth`].
-    pub bandwidth: Option<f64>,
+    /// The robot.
+    pub model: ModelOptions,
     /// The name of the file: that of a binary one is refused.
     pub file: Option<String>,
-    /// What the URDD does not say.
+}
+
+/// Options of formats of spheres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereOptions {
+    /// The shapes that the spheres approximate: pieces or hulls.
+    pub shapes: Shapes,
+    /// The reasons for which pairs are ignored; `None` for those of the URDD. The user's edits apply in either case.
+    pub reasons: Option<Vec<SkippedReason>>,
+    /// Number of spheres.
+    pub budget: SphereBudget,
+    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
+    /// the shapes.
+    pub cover: bool,
+    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
+    pub samples: usize,
+    /// URDF: the mesh files of visual geometry.
+    pub meshes: MeshOptions,
+    /// cuRobo: the path of a URDF, for the whole robot file. Otherwise, only what belongs to spheres is written.
+    pub robot_file: Option<String>,
+    /// What the URDD does not say. The robot file needs it: without it, it is guessed.
     pub setup: Option<Setup>,
 }

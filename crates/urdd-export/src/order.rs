@@ -9,14 +9,10 @@ use std::collections::VecDeque;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
-use super::drake;
-use super::error::{ExportError, Note};
-use super::format::Format;
-use super::mjcf::actuators;
-use super::parts::JointNames;
-use super::structure::Structure;
-use super::subject::Subject;
-use super::usd::names::names_of_joints;
+use crate::mjcf::actuators;
+use crate::parts::JointNames;
+use crate::usd::names::names_of_joints;
+use crate::{ExportError, Format, Note, Structure, Subject, drake};
 use urdd_format::urdf::{JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 use urdd_robot::Robot;

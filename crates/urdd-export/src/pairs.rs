@@ -5,11 +5,11 @@
 //! `Default` if one is in contact in the default configuration, and `Never` only if none ever was.
 //!
 //! If the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A link-level format
-//! disables it, or keeps it on request ([`PairOptions::keep_pairs`](super::options::PairOptions::keep_pairs)). Either is wrong for some of the shapes.
+//! disables it, or keeps it on request ([`ModelOptions::keep_pairs`](crate::ModelOptions::keep_pairs)). Either is wrong for some of the shapes.
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::layout::Layout;
+use crate::Layout;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};

@@ -5,8 +5,7 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
-use super::format::Format;
-use super::structure::Structure;
+use crate::{Format, Structure};
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::{planar_basis, unit_axis};

@@ -8,8 +8,7 @@ use meshoptimizer_rs::{
 };
 use rayon::prelude::*;
 
-use super::error::Note;
-use super::options::Detail;
+use crate::{Detail, Note};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
 

@@ -1,18 +1,16 @@
 //! The collision elements of the source as an export writes them, and what it says of them.
 
+use nalgebra::{Point3, Vector3};
+
+use crate::{Format, Note, Shape, ShapeCounts, Shapes, Solid};
 use urdd_document::usable_geometry::UsableGeometry;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::primitives::Primitive;
 use urdd_robot::{Robot, RobotError, ShapeKind, SourceShape};
-
-use super::capsules;
-use super::counts::ShapeCounts;
-use super::error::Note;
-use super::format::Format;
-use super::shapes::{Shape, Shapes, Solid};
 
 /// How much of its hull's volume a mesh may lack, or have twice, and still count as convex.
 const CONVEX: f64 = 1e-3;
@@ -52,7 +50,7 @@ impl SourceShapes {
             }
         }
         if has_capsules(format) {
-            by_link.iter_mut().for_each(capsules::join);
+            by_link.iter_mut().for_each(join_capsules);
         }
         lost.sort_unstable();
         lost.dedup();
@@ -152,4 +150,45 @@ fn solid_of<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Option<Solid> {
     let is_convex =
         hull.is_ok_and(|volume| (volume - mesh.signed_volume()).abs() <= CONVEX * volume);
     Some(if is_convex { Solid::Convex(mesh) } else { Solid::Mesh(mesh) })
+}
+
+/// How far a sphere may be from where it belongs, and its radius from that of the cylinder, in radii: what printing and
+/// reading a URDF leaves.
+const NEAR: f64 = 1e-6;
+
+/// How far a sphere may be from its cylinder in the list of elements: a link may have many thousands.
+const NEARBY: usize = 100;
+
+/// Makes one capsule of each cylinder with a sphere of its radius on both ends, in any order.
+fn join_capsules(shapes: &mut Vec<Shape>) {
+    let mut taken = vec![false; shapes.len()];
+    for place in 0..shapes.len() {
+        if let Some((ends, capsule)) = capsule(shapes, &taken, place) {
+            ends.iter().for_each(|end| taken[*end] = true);
+            shapes[place].solid = capsule;
+        }
+    }
+    let mut taken = taken.into_iter();
+    shapes.retain(|_| taken.next() != Some(true));
+}
+
+/// The places of the two spheres, and the capsule.
+fn capsule(shapes: &[Shape], taken: &[bool], place: usize) -> Option<([usize; 2], Solid)> {
+    let Solid::Primitive(pose, Primitive::Cylinder { radius, half }) = shapes[place].solid else {
+        return None;
+    };
+    let near = place.saturating_sub(NEARBY)..shapes.len().min(place + NEARBY);
+    let find = |z: f64| {
+        let end = pose * Point3::from(Vector3::z() * z);
+        near.clone().find(|other| match shapes[*other].solid {
+            Solid::Primitive(at, Primitive::Sphere { radius: own }) if !taken[*other] => {
+                let away = (at.translation.vector - end.coords).norm();
+                away.max((own - radius).abs()) <= NEAR * radius
+            }
+            _ => false,
+        })
+    };
+    let ends = [find(half)?, find(-half)?];
+    let joined = Solid::Primitive(pose, Primitive::Capsule { radius, half });
+    (ends[0] != ends[1]).then_some((ends, joined))
 }

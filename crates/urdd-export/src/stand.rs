@@ -2,9 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion};
 
-use super::error::ExportError;
-use super::shapes::{Shape, Solid};
-use super::subject::Subject;
+use crate::{ExportError, Shape, Solid, Subject};
 
 /// Where the robot stands.
 pub(super) struct Stand {

@@ -1,6 +1,6 @@
 //! The joints of a robot as a tree.
 
-use super::error::ExportError;
+use crate::ExportError;
 use urdd_document::mimics::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
 use urdd_document::tree::Tree;

@@ -7,22 +7,15 @@ use std::ops::Deref;
 
 use nalgebra::Isometry3;
 
-use super::actuator_kind::ActuatorKind;
-use super::arrange::{self, Arranged};
-use super::contacts::{Basis, num_samples};
-use super::error::{ExportError, Note};
-use super::fit::fit;
-use super::format::Format;
-use super::layout::Layout;
-use super::names;
-use super::options::{Options, Pairs};
-use super::pairs::{LinkPair, pairs};
-use super::parts::JointNames;
-use super::reasons::Judged;
-use super::setup::{JointGains, Setup};
-use super::shapes::{Shape, Shapes};
-use super::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
-use super::structure::Structure;
+use crate::arrange::{self, Arranged};
+use crate::contacts::{Basis, Judged, num_samples};
+use crate::fit::fit;
+use crate::parts::JointNames;
+use crate::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
+use crate::{
+    ActuatorKind, ExportError, Format, JointGains, Layout, LinkPair, Note, Options, Setup, Shape,
+    Shapes, Structure, names,
+};
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
@@ -71,27 +64,22 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
-        Self::with(robot, options, options.pairs())
-    }
-
-    /// The same without pairs, which take long to judge.
-    pub fn without_pairs(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
-        Self::with(robot, options, None)
-    }
-
-    fn with(
+    /// Pairs take long to judge.
+    pub fn new(
         robot: &'a Robot,
         options: &'a Options,
-        wanted: Option<Pairs<'a>>,
+        with_pairs: bool,
     ) -> Result<Self, ExportError> {
-        let (format, shapes, given) = options.common();
+        let model = options.model();
+        let wanted = model.filter(|_| with_pairs && !matches!(options, Options::Urdf(_)));
+        let links_asked = model.map(|model| &model.links);
+        let (format, shapes, given) = (options.format(), options.shapes(), options.setup());
         let described = robot.description()?;
         let own = Structure::of(&described)?;
         if let Some(setup) = given {
             own.check(&setup.of)?;
         }
-        let made = Arranged::new(described.clone(), options.links())?;
+        let made = Arranged::new(described.clone(), links_asked)?;
         names::check(format, &made.structure.view, &made.structure.tree)?;
         let Arranged { urdf, structure, mut layout, notes: mut arranged } = made;
         let given = given.map(|setup| match layout.is_empty() {
@@ -107,7 +95,7 @@ impl<'a> Subject<'a> {
             }
             Shapes::Kind(_) => (None, source_shapes::notes(robot, &described, shapes, format)?),
         };
-        if let Some(costs) = options.links().and_then(|links| links.fit) {
+        if let Some(costs) = links_asked.and_then(|links| links.fit) {
             let mut by_link = match (own_shapes.take(), shapes) {
                 (None, Shapes::Kind(kind)) => by_link(&described, robot.shapes(kind)?),
                 (own, _) => own.unwrap_or_default(),
@@ -144,17 +132,13 @@ impl<'a> Subject<'a> {
             );
             layout.number(places);
         }
-        let pairs = match (wanted, &basis) {
-            (Some(Pairs::OfLinks(of)), Some(basis)) => {
-                basis.link_pairs(robot, &layout, &links, of)?
-            }
-            (Some(Pairs::OfPieces(reasons)), Some(basis)) => {
-                pairs(basis.skips(), &layout, &links, reasons, false)?
-            }
-            _ => Vec::new(),
+        let of_pieces = format == Format::Mjcf;
+        let pairs = match wanted.zip(basis.as_ref()) {
+            Some((of, basis)) => basis.link_pairs(robot, &layout, &links, of, of_pieces)?,
+            None => Vec::new(),
         };
-        let is_floating =
-            options.is_floating() || given.as_ref().is_some_and(|setup| setup.floating.value);
+        let is_floating = model.is_some_and(|model| model.floating_base)
+            || given.as_ref().is_some_and(|setup| setup.floating.value);
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();
         Ok(Subject {
@@ -253,6 +237,12 @@ impl<'a> Subject<'a> {
         let dofs: HashMap<&str, usize> = dofs.collect();
         let joints = self.view.joints.iter();
         Ok(joints.map(|joint| dofs.get(joint.name.as_str()).copied()).collect())
+    }
+
+    /// The values of the DOFs of a configuration, by name.
+    pub fn values(&self, configuration: &[f64]) -> Result<HashMap<&str, f64>, RobotError> {
+        let dofs = self.robot.dof_names()?.iter().map(String::as_str);
+        Ok(dofs.zip(configuration.iter().copied()).collect())
     }
 
     /// The pairs that need no collision check.

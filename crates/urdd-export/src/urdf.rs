@@ -2,23 +2,18 @@
 
 use std::borrow::Cow;
 
-use super::error::{ExportError, Note};
-use super::format::Format;
-use super::joints::joints;
-use super::options::{MeshOptions, UrdfOptions};
-use super::other_attributes;
-use super::output::{Export, Files};
-use super::shapes::Shape;
-use super::subject::Subject;
-use super::urdf_elements::{
-    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, empty_robot, links, push_unknown,
-    ros2_control, type_name,
+use crate::joints::joints;
+use crate::urdf_elements::{
+    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, element_of_joint, empty_robot, links,
+    push_unknown, ros2_control, type_name,
 };
-use super::xacro;
+use crate::{
+    Export, ExportError, Files, Format, MeshOptions, ModelOptions, Note, Shape, Subject, xacro,
+};
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 
-pub(super) fn export(subject: &Subject, options: &UrdfOptions) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
     let (robot, files) = robot(subject, &options.meshes, subject.shapes_by_link()?, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.shapes);
@@ -43,7 +38,7 @@ pub(super) fn robot(
     }
     for joint in joints(subject, notes) {
         let mut element = element_of_joint(&joint, "joint", &type_name(joint.joint_type));
-        other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
+        add_attributes(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &unknown(subject, &joint.unknown_elements), IN_JOINT);
         robot.push(element);
     }

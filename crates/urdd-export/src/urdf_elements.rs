@@ -3,27 +3,23 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
-use urdd_xml::{Document, Node};
 
-use super::error::{ExportError, Note};
-use super::inertia::{for_drake, held};
-use super::joints::without_quaternion;
-use super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::options::MeshOptions;
-use super::other_attributes;
-use super::output::Files;
-use super::shapes::{Shape, Solid, thick};
-use super::source_visuals::Painted;
-use super::subject::Subject;
+use crate::inertia::{for_drake, held};
+use crate::joints::without_quaternion;
+use crate::layout::origin;
+use crate::meshes::{Look, looks};
+use crate::shapes::thick;
+use crate::{
+    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Painted, Shape, Solid, Subject,
+};
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Origin, Visual};
 use urdd_geometry::primitives::Primitive;
-use urdd_kinematics::rotation::to_rpy;
 use urdd_xml::number::{number, numbers};
-use urdd_xml::other_parts::Owner;
+use urdd_xml::other_parts::{OtherPart, Owner};
 use urdd_xml::writer::Element;
-use urdd_xml::{Kind, is_character};
+use urdd_xml::{Document, Kind, Node, is_character};
 
 /// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +48,7 @@ pub(super) fn empty_robot(subject: &Subject) -> Element {
     let mut robot = Element::new("robot")
         .with("name", subject.urdf.name.as_str())
         .with_some("version", sound(subject.urdf.version.as_deref()));
-    other_attributes::add(subject, &Owner::Robot, &mut robot);
+    add_attributes(subject, &Owner::Robot, &mut robot);
     robot
 }
 
@@ -84,7 +80,7 @@ pub(super) fn links(
                 changed.entry(said).or_default().push(link.name.clone());
             }
         }
-        other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
+        add_attributes(subject, &Owner::Link(link.name.clone()), &mut element);
         let is_mesh = |of: &&Visual| matches!(of.geometry, Some(Source::Mesh(_)));
         let of_looks = link.visual.iter().filter(|of| primitives.is_empty() || is_mesh(of));
         let mut names = of_looks.map(|visual| geometry.name(visual.name.as_deref()));
@@ -277,31 +273,31 @@ fn collision(
 }
 
 fn element_of_primitive(primitive: Primitive, as_said: Geometry) -> Element {
-    let (primitive, capsule) = match as_said {
-        Geometry::Plain => (primitive, "capsule"),
-        Geometry::Drake => (thick(primitive), "drake:capsule"),
+    let (tag, sizes) = match as_said {
+        Geometry::Plain => sizes(primitive),
+        Geometry::Drake => sizes(thick(primitive)),
     };
-    let long = |tag, radius, half: f64| {
-        Element::new(tag).with("radius", number(radius)).with("length", number(2.0 * half))
-    };
+    let is_drakes = as_said == Geometry::Drake && tag == "capsule";
+    let element = Element::new(if is_drakes { "drake:capsule" } else { tag });
+    sizes.into_iter().fold(element, |element, (key, size)| element.with(key, size))
+}
+
+/// A primitive's word in URDF and SDF, and its sizes.
+pub(super) fn sizes(primitive: Primitive) -> (&'static str, Vec<(&'static str, String)>) {
+    let long = |radius, half: f64| vec![("radius", number(radius)), ("length", number(2.0 * half))];
     match primitive {
-        Primitive::Box(half) => {
-            Element::new("box").with("size", numbers(&half.map(|half| 2.0 * half)))
-        }
-        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
-        Primitive::Capsule { radius, half } => long(capsule, radius, half),
-        Primitive::Sphere { radius } => Element::new("sphere").with("radius", number(radius)),
+        Primitive::Box(half) => ("box", vec![("size", numbers(&half.map(|half| 2.0 * half)))]),
+        Primitive::Cylinder { radius, half } => ("cylinder", long(radius, half)),
+        Primitive::Capsule { radius, half } => ("capsule", long(radius, half)),
+        Primitive::Sphere { radius } => ("sphere", vec![("radius", number(radius))]),
     }
 }
 
 /// The origin of a primitive. A sphere needs no rotation.
 fn placed(pose: &Isometry3<f64>, primitive: &Primitive) -> Element {
-    let origin = Element::new("origin").with("xyz", numbers(pose.translation.vector.as_slice()));
-    if matches!(primitive, Primitive::Sphere { .. }) {
-        return origin;
-    }
-    let rotation = pose.rotation.to_rotation_matrix();
-    origin.with("rpy", numbers(&to_rpy(rotation.matrix())))
+    let origin = origin(pose);
+    let is_turned = !matches!(primitive, Primitive::Sphere { .. });
+    element_of_origin(&Origin { rpy: origin.rpy.filter(|_| is_turned), ..origin })
 }
 
 /// A joint element; `tag` and `kind` are the program's names of the element and the joint type.
@@ -315,8 +311,8 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
     if let Some(axis) = &joint.axis {
         element.push(Element::new("axis").with_some("xyz", axis.xyz.map(|xyz| numbers(&xyz))));
     }
-    if let Some(of) = &joint.limit {
-        let values = [
+    element.extend(joint.limit.as_ref().map(|of| {
+        Element::new("limit").with_numbers([
             ("lower", of.lower),
             ("upper", of.upper),
             ("effort", of.effort),
@@ -324,13 +320,12 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
             ("acceleration", of.acceleration),
             ("deceleration", of.deceleration),
             ("jerk", of.jerk),
-        ];
-        element.push(Element::new("limit").with_numbers(values));
-    }
-    if let Some(of) = &joint.dynamics {
+        ])
+    }));
+    element.extend(joint.dynamics.as_ref().map(|of| {
         let values = [("damping", of.damping), ("friction", of.friction)];
-        element.push(Element::new("dynamics").with_numbers(values));
-    }
+        Element::new("dynamics").with_numbers(values)
+    }));
     if let Some(of) = &joint.mimic {
         let values = [("multiplier", of.multiplier), ("offset", of.offset)];
         let mimic = Element::new("mimic").with("joint", of.joint.as_str());
@@ -355,4 +350,23 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
 /// URDF's word for a type of joint.
 pub(super) fn type_name(joint_type: JointType) -> String {
     joint_type.as_str().to_ascii_lowercase()
+}
+
+/// Whether a URDF has a part: an attribute, but for those of shapes and materials, which are the file's own.
+pub(super) fn is_kept(part: &OtherPart) -> bool {
+    let own = ["visual", "collision", "material"];
+    part.is_attribute
+        && !part.name.contains(':')
+        && !own.iter().any(|own| part.path.starts_with(own))
+}
+
+/// Adds the attributes of the robot, a link or a joint to its element.
+pub(super) fn add_attributes(subject: &Subject, owner: &Owner, element: &mut Element) {
+    let parts = subject.other_parts.get(owner).into_iter().flatten();
+    for part in parts.filter(|part| is_kept(part)) {
+        let mut path = part.path.split('/').filter(|tag| !tag.is_empty());
+        if let Some(at) = path.try_fold(&mut *element, |at, tag| at.child_mut(tag)) {
+            at.set(&part.name, Some(&part.value));
+        }
+    }
 }

@@ -1,7 +1,6 @@
 //! Texts and elements that xacro gives back as they are: MoveIt's launch file expands the URDF and the SRDF by it.
 
-use urdd_xml::Kind;
-use urdd_xml::Node;
+use urdd_xml::{Kind, Node};
 
 use urdd_xml::writer::escaped;
 

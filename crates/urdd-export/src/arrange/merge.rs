@@ -1,13 +1,14 @@
 //! One body for links that are fixed to each other: that nearest to the root. Nothing becomes part of a root called `world`,
 //! which has neither mass nor shapes in programs.
 
-use super::lump::lump;
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+
 use super::root::place;
-use crate::error::{ExportError, Note};
-use crate::layout::{Layout, Place};
-use crate::pose::origin;
-use crate::structure::Structure;
-use urdd_format::urdf::{JointType, UrdfModule};
+use crate::inertia::tensor;
+use crate::layout::{Place, origin};
+use crate::{ExportError, Layout, Note, Structure};
+use urdd_document::robot::Inertial as View;
+use urdd_format::urdf::{Inertia, Inertial, JointType, Mass, UrdfModule};
 
 const NEGATIVE: &str = "its mass is negative; in the link that it is joined with, it counts as 0 kg, and its moments of inertia stay";
 
@@ -99,4 +100,43 @@ fn record(layout: &mut Layout, places: &[Place], root: usize) {
     for (link, place) in places.iter().enumerate() {
         layout.is_frame[link] |= place.link != link;
     }
+}
+
+/// The mass, centre and moments of inertia of bodies at these poses: masses add up, and moments about the common centre by
+/// the parallel axis theorem. A mass below 0 counts as 0, whose centre is nowhere. `None` if a number is not finite.
+fn lump(bodies: &[(Isometry3<f64>, &View)]) -> Option<Inertial> {
+    let placed = bodies.iter().map(|(pose, of)| {
+        let place = pose * of.origin.motion();
+        (of.mass.unwrap_or(0.0).max(0.0), place, of.inertia.unwrap_or_default())
+    });
+    let placed: Vec<_> = placed.collect();
+    let total: f64 = placed.iter().map(|(mass, ..)| mass).sum();
+    let at = |place: &Isometry3<f64>| (place * Point3::origin()).coords;
+    let centre: Vector3<f64> = if total > 0.0 {
+        placed.iter().map(|(mass, place, _)| at(place) * (mass / total)).sum()
+    } else {
+        Vector3::zeros()
+    };
+    let mut sum = Matrix3::zeros();
+    for (mass, place, inertia) in &placed {
+        let turn = place.rotation.to_rotation_matrix();
+        let own = tensor(*inertia);
+        let arm = at(place) - centre;
+        let steiner = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
+        sum += turn * own * turn.transpose() + steiner * *mass;
+    }
+    let inertia = |row: usize, column: usize| Some(sum[(row, column)]);
+    let is_finite = total.is_finite() && centre.iter().chain(&sum).all(|value| value.is_finite());
+    is_finite.then(|| Inertial {
+        origin: Some(origin(&Isometry3::from_parts(centre.into(), Default::default()))),
+        mass: Some(Mass { value: total }),
+        inertia: Some(Inertia {
+            ixx: inertia(0, 0),
+            ixy: inertia(0, 1),
+            ixz: inertia(0, 2),
+            iyy: inertia(1, 1),
+            iyz: inertia(1, 2),
+            izz: inertia(2, 2),
+        }),
+    })
 }

@@ -4,16 +4,11 @@
 //! Links and joints keep names, order and values. A frame of the source that no body has is a link without mass and shapes
 //! on a fixed joint, which formats with frames write as one.
 
-mod groups;
-mod lump;
 mod merge;
 mod root;
 
-use super::error::{ExportError, Note, unknown};
-use super::layout::Layout;
-use super::options::LinkOptions;
-use super::structure::Structure;
-pub(super) use groups::setup;
+use crate::error::unknown;
+use crate::{ExportError, Layout, LinkOptions, Members, Note, Setup, Structure};
 use urdd_format::urdf::UrdfModule;
 
 /// A robot as it is exported.
@@ -48,4 +43,40 @@ impl Arranged {
         }
         Ok(made)
     }
+}
+
+const CHAIN: &str = "its chain runs another way now; it is a group of joints, for which MoveIt solves no inverse kinematics";
+
+/// What is said of the robot of a URDD, of another tree of it.
+pub(crate) fn setup(
+    setup: &Setup,
+    source: &Structure,
+    now: &Structure,
+    layout: &Layout,
+    notes: &mut Vec<Note>,
+) -> Setup {
+    let mut setup = setup.clone();
+    let links = setup.tools.value.iter_mut().chain(&mut setup.imus.value);
+    let links = links.chain(setup.end_effectors.iter_mut().map(|end| &mut end.value.parent_link));
+    links.for_each(|link| *link = layout.frame(*link));
+    for group in &mut setup.groups {
+        let Members::Chain { base, tip } = group.value.members else {
+            continue;
+        };
+        let moving = |of: &Structure, base: usize, tip: usize| {
+            let mut joints = of.between(base, tip);
+            joints.retain(|joint| of.view.joints[*joint].num_dofs() > 0);
+            joints
+        };
+        let mut joints = moving(source, base, tip);
+        let (base, tip) = (layout.body(base), layout.frame(tip));
+        group.value.members = if moving(now, base, tip) == joints {
+            Members::Chain { base, tip }
+        } else {
+            notes.push(Note::Group { group: group.value.name.clone(), what: CHAIN });
+            joints.sort_unstable();
+            Members::Joints(joints)
+        };
+    }
+    setup
 }

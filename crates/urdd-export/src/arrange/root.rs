@@ -4,13 +4,9 @@
 
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-use crate::error::{ExportError, Note};
-use crate::layout::{Layout, Place};
-use crate::parts::Taken;
-use crate::pose::origin;
-use crate::structure::Structure;
-use urdd_document::robot::Joint as View;
-use urdd_document::robot::Link as ViewOfLink;
+use crate::layout::{Place, origin};
+use crate::{ExportError, Layout, Note, Structure, Taken};
+use urdd_document::robot::{Joint as View, Link as ViewOfLink};
 use urdd_format::urdf::{Axis, Joint, JointType, Link, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 

@@ -4,13 +4,10 @@
 //! becomes three prismatic joints and a ball joint, with massless links between them. Drake aborts if a lower limit
 //! exceeds its upper limit, and applies the limits of a continuous joint.
 
-use super::super::error::{ExportError, Note};
-use super::super::joints::joints as resolved;
-use super::super::names::check_unique;
-use super::super::parts::Moves;
-use super::super::structure::Structure;
-use super::super::subject::Subject;
-use super::super::urdf_elements::{element_of_joint, type_name};
+use crate::joints::joints as resolved;
+use crate::names::check_unique;
+use crate::urdf_elements::{element_of_joint, type_name};
+use crate::{ExportError, Moves, Note, Structure, Subject};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Axis, Joint, JointType, LinkName, Origin};
 use urdd_xml::number::numbers;
@@ -25,6 +22,7 @@ const FRAME: &str = "Drake gives it to the frame of a joint";
 const FLOATING: &str = "Drake allows floating joints only at the world; it is exported as three prismatic joints and a ball joint, with massless links between them";
 
 /// The elements that represent the joints.
+#[derive(Default)]
 pub(super) struct DrakeJoints<'a> {
     /// The names of added links.
     pub links: Vec<String>,
@@ -49,12 +47,7 @@ pub(super) fn joints<'a>(
     subject: &'a Subject,
     notes: &mut Vec<Note>,
 ) -> Result<DrakeJoints<'a>, ExportError> {
-    let mut made = DrakeJoints {
-        links: Vec::new(),
-        frames: Vec::new(),
-        elements: Vec::new(),
-        driven: Driven::default(),
-    };
+    let mut made = DrakeJoints::default();
     let mut names = Vec::new();
     let sources = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.names.parts);
     let each = resolved(subject, notes).into_iter().zip(sources).enumerate();

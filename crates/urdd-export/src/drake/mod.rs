@@ -2,23 +2,19 @@
 //! collision filter groups.
 
 mod joints;
-mod package;
 mod transmissions;
 
 use std::collections::BTreeMap;
 
-use super::error::{ExportError, Note};
-use super::format::Format;
-use super::options::DrakeOptions;
-use super::other_attributes;
-use super::output::Export;
-use super::parts::Taken;
-use super::structure::Structure;
-use super::subject::Subject;
-use super::urdf_elements::{
-    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
-};
 use joints::Driven;
+
+use crate::names::check_package;
+use crate::urdf_elements::{
+    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
+};
+use crate::{
+    DrakeOptions, Export, ExportError, Files, Format, Note, Structure, Subject, Taken, Yaml,
+};
 pub(super) use joints::is_free;
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::other_parts::Owner;
@@ -42,7 +38,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     }
     robot.extend(joints.links.into_iter().map(|link| Element::new("link").with("name", link)));
     for (mut element, joint) in joints.elements {
-        other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
+        add_attributes(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }
@@ -59,7 +55,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     }
     notes.extend(subject.notes());
     let what = format!("Collision geometry, and pairs that are filtered: {}.", subject.shapes);
-    files.extend(package::files(subject, options)?);
+    files.extend(package_files(subject, options)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }
@@ -114,4 +110,42 @@ pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
         group
     };
     partners.into_iter().map(group).collect()
+}
+
+/// The files, if a package is asked for.
+fn package_files(subject: &Subject, options: &DrakeOptions) -> Result<Files, ExportError> {
+    let (Some(package), Some(file)) = (&options.package, &options.file) else {
+        return Ok(Files::new());
+    };
+    check_package(package)?;
+    let description =
+        Element::new("package").with("format", "3").holding(Element::text("name", package));
+    let robot = &subject.urdf.name;
+    let mut model = vec![
+        ("name".to_owned(), Yaml::text(robot)),
+        ("file".to_owned(), Yaml::text(&format!("package://{package}/{file}"))),
+    ];
+    if let Some(named) = subject.robot.named_configurations()?.first() {
+        let dofs = subject.dofs()?.into_iter().zip(&subject.view.joints);
+        let positions = dofs.filter_map(|(dof, joint)| {
+            let position = Yaml::numbers(&[named.configuration[dof?]]);
+            Some((joint.name.as_str(), position))
+        });
+        model.push(("default_joint_positions".to_owned(), Yaml::named(positions)));
+    }
+    let mut directives = vec![Yaml::map([("add_model", Yaml::Map(model))])];
+    let root = subject.tree.root;
+    if !subject.is_floating && !subject.is_world(root) {
+        let weld = Yaml::map([
+            ("parent", Yaml::plain("world")),
+            ("child", Yaml::text(&format!("{robot}::{}", subject.links[root]))),
+        ]);
+        directives.push(Yaml::map([("add_weld", weld)]));
+    }
+    let directives = Yaml::map([("directives", Yaml::List(directives))]);
+    let stem = file.strip_suffix(".urdf").unwrap_or(file);
+    Ok(vec![
+        ("package.xml".to_owned(), description.document(&[]).into_bytes()),
+        (format!("{stem}.dmd.yaml"), directives.document(&subject.origin()?).into_bytes()),
+    ])
 }

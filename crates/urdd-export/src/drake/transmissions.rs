@@ -2,13 +2,10 @@
 
 use std::collections::HashSet;
 
-use urdd_xml::Node;
+use urdd_xml::{Kind, Node};
 
-use super::super::error::Note;
-use super::super::parts::Taken;
-use super::super::structure::Structure;
 use super::joints::Driven;
-use urdd_xml::Kind;
+use crate::{Note, Structure, Taken};
 use urdd_xml::writer::Element;
 
 /// Elements directly under `robot`, without those that Drake rejects.

@@ -2,26 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::{ExportError, Note};
-use super::super::gains::gains;
-use super::super::names::{ANOTHER, check_names};
-use super::super::subject::Subject;
+use crate::gains::gains;
+use crate::names::{ANOTHER, check_names};
+use crate::{ActuatorKind, ExportError, Note, Subject};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
 /// The actuators, and a sentence about them.
-pub(super) struct Actuators {
-    pub element: Element,
-    pub said: String,
-}
-
 pub(super) fn actuators(
     subject: &Subject,
     bandwidth: Option<f64>,
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
-) -> Result<Actuators, ExportError> {
+) -> Result<(Element, String), ExportError> {
     let (gains, said) = gains(subject, bandwidth, kind, notes)?;
     let mut element = Element::new("actuator");
     let mut names = names(subject)?;
@@ -58,7 +51,7 @@ pub(super) fn actuators(
             .with_some("forcerange", force.map(|force| numbers(&force)));
         element.push(actuator);
     }
-    Ok(Actuators { element, said })
+    Ok((element, said))
 }
 
 /// The names of actuators, by joint: as a person set, or that of the joint.

@@ -4,15 +4,16 @@ use std::collections::HashSet;
 
 use nalgebra::Isometry3;
 
-use super::super::error::{ExportError, Note};
-use super::super::flat::FlatShapes;
-use super::super::meshes::{Looks, MeshFiles, MeshFormat, looks};
-use super::super::options::MjcfOptions;
-use super::super::shapes::{Shape, Solid, thick};
-use super::super::subject::Subject;
-use super::{frames, inertia, joint, surface};
+use super::{inertia, surface};
+use crate::meshes::{Looks, looks};
+use crate::shapes::thick;
+use crate::{
+    ExportError, FlatShapes, MeshFiles, MeshFormat, MjcfOptions, Moves, Note, Shape, Solid, Subject,
+};
+use urdd_document::robot::Joint;
+use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_geometry::primitives::Primitive;
-use urdd_xml::number::numbers;
+use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
 /// The name of the free joint of a floating base.
@@ -51,9 +52,9 @@ impl<'a> Bodies<'a> {
             subject,
             options,
             shapes,
-            looks: looks(subject, &options.meshes, &mut notes)?,
+            looks: looks(subject, &options.model.meshes, &mut notes)?,
             flat: FlatShapes::new(subject)?,
-            files: MeshFiles::new(subject, &options.meshes),
+            files: MeshFiles::new(subject, &options.model.meshes),
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
@@ -86,11 +87,8 @@ impl<'a> Bodies<'a> {
             }
             elements[link] = Some(element);
         }
-        if !self.invisible.is_empty() {
-            self.invisible.dedup();
-            let links = std::mem::take(&mut self.invisible);
-            self.notes.push(Note::Links { links, what: INVISIBLE });
-        }
+        self.invisible.dedup();
+        self.notes.extend(Note::links(std::mem::take(&mut self.invisible), INVISIBLE));
         Ok(match elements[root].take() {
             Some(element) if self.subject.is_world(root) => element,
             Some(element) => world.holding(element),
@@ -102,7 +100,7 @@ impl<'a> Bodies<'a> {
     fn frame(&self, link: usize, base_height: f64) -> Element {
         let name = self.subject.links[link].as_str();
         let body = match self.subject.is_frame(link) {
-            true => frames::named(name),
+            true => site_named(name),
             false => Element::new("body").with("name", name),
         };
         let Some(joint) = self.subject.tree.parent_joint[link] else {
@@ -121,7 +119,7 @@ impl<'a> Bodies<'a> {
         let subject = self.subject;
         let mut joints = Vec::new();
         if let Some(joint) = subject.tree.parent_joint[link] {
-            joints = joint::joints(subject, joint, &mut self.notes);
+            joints = joints_of(subject, joint, &mut self.notes);
         }
         if let Some(inertial) = self.inertials[link].take()
             && !self.subject.is_world(link)
@@ -133,7 +131,7 @@ impl<'a> Bodies<'a> {
             element.push(Element::new("freejoint").with("name", name));
         }
         element.extend(joints);
-        element.extend(frames::site(subject, self.options.sensors, link));
+        element.extend(site(subject, self.options.sensors, link));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
@@ -241,4 +239,94 @@ fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
     let position = pose.translation.vector;
     let q = pose.rotation.quaternion();
     element.with("pos", numbers(position.as_slice())).with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+}
+
+/// The site of a link, if its frame is that of a tool, or of an IMU with sensors.
+fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
+    let setup = subject.given.as_ref()?;
+    let is_imu = sensors && setup.imus.value.contains(&link);
+    (is_imu || setup.tools.value.contains(&link)).then(|| site_named(&subject.links[link]))
+}
+
+/// The site of a frame of that name.
+fn site_named(frame: &str) -> Element {
+    Element::new("site").with("name", frame).with("group", "4")
+}
+
+/// A gyroscope and an accelerometer at each IMU.
+pub(super) fn sensors(subject: &Subject) -> Element {
+    let mut sensors = Element::new("sensor");
+    for &link in subject.given.iter().flat_map(|setup| &setup.imus.value) {
+        let site = subject.links[link].as_str();
+        for kind in ["gyro", "accelerometer"] {
+            let sensor = Element::new(kind).with("name", format!("{site}/{kind}"));
+            sensors.push(sensor.with("site", site));
+        }
+    }
+    sensors
+}
+
+const LOCKED: &str = "its limits are equal, which MuJoCo refuses; an equality constraint holds it there, and it has no actuator";
+
+const CROSSED: &str =
+    "its lower limit is not below its upper one, which MuJoCo refuses; it has no range";
+
+/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
+fn joints_of(subject: &Subject, index: usize, notes: &mut Vec<Note>) -> Vec<Element> {
+    let (joint, source) = (&subject.view.joints[index], &subject.urdf.joints[index]);
+    let of_one = |kind, notes| {
+        // The inertia of the motor, kg m² or kg.
+        let armature = subject.gains(index).armature;
+        let is_locked = subject.locked_at(index).is_some();
+        let element = of_one(joint, source, is_locked, kind, notes);
+        vec![element.with_some("armature", armature.map(number))]
+    };
+    match joint.joint_type {
+        JointType::Revolute | JointType::Continuous => of_one("hinge", notes),
+        JointType::Prismatic => of_one("slide", notes),
+        _ => subject.names.parts[index].iter().map(of_part).collect(),
+    }
+}
+
+fn of_part((name, moves): &(String, Moves)) -> Element {
+    let (kind, axis) = match moves {
+        Moves::Slides(axis) => ("slide", Some(axis)),
+        Moves::Turns(axis) => ("hinge", Some(axis)),
+        Moves::Ball => ("ball", None),
+    };
+    Element::new("joint")
+        .with("name", name.as_str())
+        .with("type", kind)
+        .with_some("axis", axis.map(|axis| numbers(axis.as_slice())))
+}
+
+fn of_one(
+    joint: &Joint,
+    source: &Source,
+    is_locked: bool,
+    kind: &'static str,
+    notes: &mut Vec<Note>,
+) -> Element {
+    let mut element = Element::new("joint")
+        .with("name", joint.name.as_str())
+        .with("type", kind)
+        .with("axis", numbers(&joint.axis));
+    match joint.position_limits() {
+        Some((lower, upper)) if lower < upper => {
+            element = element.with("range", numbers(&[lower, upper]));
+        }
+        Some(_) if is_locked => notes.push(Note::joint(&joint.name, LOCKED)),
+        Some(_) => notes.push(Note::joint(&joint.name, CROSSED)),
+        None => {}
+    }
+    if let Some(effort) = joint.limit.and_then(|limit| limit.effort)
+        && effort > 0.0
+    {
+        element = element.with("actuatorfrcrange", numbers(&[-effort, effort]));
+    }
+    let dynamics = source.dynamics.as_ref();
+    let positive = |value: Option<f64>| value.filter(|value| *value > 0.0).map(number);
+    element
+        .with_some("damping", positive(dynamics.and_then(|d| d.damping)))
+        .with_some("frictionloss", positive(dynamics.and_then(|d| d.friction)))
 }

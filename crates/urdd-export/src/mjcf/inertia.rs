@@ -6,9 +6,8 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::error::Note;
-use super::super::inertia::ROUNDING;
-use super::super::subject::Subject;
+use crate::inertia::{ROUNDING, tensor};
+use crate::{Note, Subject};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;
 use urdd_xml::number::{number, numbers};
@@ -87,8 +86,7 @@ pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass
     if given < 0.0 {
         *said = Some(NEGATIVE);
     }
-    let [xx, xy, xz, yy, yz, zz] = inertial.inertia.unwrap_or_default();
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let tensor = tensor(inertial.inertia.unwrap_or_default());
     let rotation = inertial.origin.rotation();
     let turned = rotation * tensor * rotation.transpose();
     let mut eigen = ((turned + turned.transpose()) / 2.0).symmetric_eigen();

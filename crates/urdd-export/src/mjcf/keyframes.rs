@@ -1,13 +1,8 @@
 //! Keyframes: the named configurations of the URDD, as MuJoCo's positions and controls.
 
-use std::collections::HashMap;
-
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::ExportError;
-use super::super::names::{ANOTHER, check_names};
-use super::super::order::Walk;
-use super::super::stand::Stand;
-use super::super::subject::Subject;
+use crate::names::{ANOTHER, check_names};
+use crate::order::Walk;
+use crate::{ActuatorKind, ExportError, Stand, Subject};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::numbers;
@@ -49,9 +44,7 @@ fn keyframe(
     configuration: &[f64],
     stand: &Stand,
 ) -> Result<Element, ExportError> {
-    let dofs = subject.robot.dof_names()?.iter();
-    let values: HashMap<&str, f64> =
-        dofs.map(String::as_str).zip(configuration.iter().copied()).collect();
+    let values = subject.values(configuration)?;
     let value = |dof: &str| values.get(dof).copied().unwrap_or(0.0);
     let mut positions = Vec::new();
     let mut controls = Vec::new();

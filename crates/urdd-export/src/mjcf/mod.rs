@@ -2,31 +2,26 @@
 //!
 //! A floating joint becomes three slide joints and a ball joint, regardless of its parent, so that its position is
 //! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
-//! world, unless [`floating_base`](super::options::MjcfOptions::floating_base) asks for a free joint. Mimic joints become
+//! world, unless [`floating_base`](crate::ModelOptions::floating_base) asks for a free joint. Mimic joints become
 //! equality constraints with chains resolved, which MuJoCo enforces only in simulation: a caller that sets positions must
 //! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
 //! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
 
 pub(super) mod actuators;
 mod body;
-mod frames;
 #[doc(hidden)]
 pub mod inertia;
-mod joint;
 mod keyframes;
-mod scene;
 #[doc(hidden)]
 pub mod surface;
 
-use super::error::{ExportError, Note};
-use super::options::MjcfOptions;
-use super::output::Export;
-use super::stand::Stand;
-use super::subject::Subject;
 use body::{Bodies, geom_name};
+
+use crate::output::fill;
+use crate::{Export, ExportError, Files, MjcfOptions, Note, Stand, Subject};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_xml::number::{number, numbers};
-use urdd_xml::writer::Element;
+use urdd_xml::writer::{Element, escaped, head};
 
 const SEVERAL: &str =
     "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely";
@@ -49,7 +44,7 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push(compiler);
     let flag = Element::new("flag").with("filterparent", "disable");
     let mut option = Element::new("option").holding(flag);
-    if options.actuators.is_some() {
+    if options.model.actuators.is_some() {
         // The damping of actuators is integrated implicitly: it is stable for light links too.
         option = option.with("integrator", "implicitfast");
     }
@@ -60,18 +55,19 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push_filled(equality(subject, &mut notes));
     root.push_filled(contact(subject));
     let mut what = format!("Geoms for collision: {}.", subject.shapes);
-    if let Some(kind) = options.actuators {
-        let actuators = actuators::actuators(subject, options.bandwidth, kind, &mut notes)?;
-        what += &actuators.said;
-        root.push_filled(actuators.element);
+    if let Some(kind) = options.model.actuators {
+        let (actuators, said) =
+            actuators::actuators(subject, options.model.bandwidth, kind, &mut notes)?;
+        what += &said;
+        root.push_filled(actuators);
     }
     if options.sensors {
-        root.push_filled(frames::sensors(subject));
+        root.push_filled(body::sensors(subject));
     }
-    root.push_filled(keyframes::keyframes(subject, options.actuators, &stand)?);
+    root.push_filled(keyframes::keyframes(subject, options.model.actuators, &stand)?);
     let mut files = bodies.files.into_files();
     if let Some(file) = &options.scene_of {
-        files.extend(scene::scene(subject, file, &stand)?);
+        files.extend(scene(subject, file, &stand)?);
     }
     let text = root.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
@@ -150,4 +146,18 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
         equality.push(element.with("polycoef", coefficients));
     }
     equality
+}
+
+/// Names of our geoms have a slash: none is called as the floor.
+const SCENE: &str = include_str!("scene.xml.in");
+
+/// The scene that includes a file.
+fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportError> {
+    let stem = file.strip_suffix(".xml").unwrap_or(file);
+    let floor = number(stand.floor);
+    let what = format!("The floor is at z = {floor} m.");
+    let values =
+        [("ROBOT", escaped(&subject.urdf.name)), ("FILE", escaped(file)), ("FLOOR", floor)];
+    let text = head(&subject.comments(what, &[])?) + &fill(SCENE, &values);
+    Ok(vec![(format!("{stem}_scene.xml"), text.into_bytes())])
 }

@@ -1,11 +1,8 @@
 //! Controllers: those that MoveIt sends trajectories to, and those of ros2_control that follow them.
 
-use super::super::error::{ExportError, Note};
-use super::super::parts::Taken;
-use super::super::ros::{Limited, Ros};
-use super::super::yaml::{Yaml, head, quoted};
-use super::config::Config;
-use super::hardware::Command;
+use super::config::{Command, Config};
+use crate::yaml::{head, quoted};
+use crate::{ExportError, Limited, Note, Ros, Taken, Yaml};
 
 /// How MoveIt executes trajectories.
 const EXECUTION: &str = include_str!("moveit_controllers.yaml.in");

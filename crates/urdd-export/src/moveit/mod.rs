@@ -4,20 +4,16 @@
 
 mod config;
 mod controllers;
-mod hardware;
-mod mock;
 mod package;
 mod planning;
 mod semantic;
 
-use super::error::{ExportError, Note};
-use super::names::check_package;
-use super::options::MoveitOptions;
-use super::output::Export;
-use super::subject::Subject;
-use super::urdf;
-use super::xacro;
 use config::Config;
+
+use crate::names::check_package;
+use crate::{Export, ExportError, MoveitOptions, Note, Subject, urdf, xacro};
+use urdd_xml::number::number;
+use urdd_xml::writer::Element;
 
 const REPLACED: &str = "the hardware of the source's `<ros2_control>` is not in the package: `mock_components/GenericSystem` is in its place, with the same command interfaces; to drive the robot, put the source's into the URDF of `config`";
 
@@ -28,7 +24,7 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     let config = Config::new(subject, options, &setup)?;
     let shapes = subject.shapes_by_link()?;
     let (mut robot, meshes) = urdf::robot(subject, &options.model.meshes, shapes, &mut notes)?;
-    robot.push(mock::hardware(&config));
+    robot.push(mock_hardware(&config));
     if config.hardware.is_of_source {
         notes.push(Note::Robot(REPLACED));
     }
@@ -52,4 +48,28 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     }));
     files.sort();
     Ok(Export { path: Some(format!("config/{name}.srdf")), ..Export::of(text, files, notes) })
+}
+
+/// Simulated hardware that does what it is told, for the launch file. A joint that takes velocities tells them, and stays
+/// where it is: `calculate_dynamics` takes joints for others whose names have theirs in them.
+fn mock_hardware(config: &Config) -> Element {
+    let plugin = Element::text("plugin", "mock_components/GenericSystem");
+    let mut hardware = Element::new("ros2_control")
+        .with("name", "mock_hardware")
+        .with("type", "system")
+        .holding(Element::new("hardware").holding(plugin));
+    let configuration = config.configurations.first();
+    let configuration = configuration.map_or(&config.default, |named| &named.configuration);
+    for joint in config.controlled().into_iter().flat_map(|(_, joints)| joints) {
+        let mut element = Element::new("joint").with("name", config.joint(joint));
+        for command in config.hardware.commands(joint) {
+            element.push(Element::new("command_interface").with("name", command.word()));
+        }
+        let initial = number(config.position(configuration, joint));
+        let initial = Element::text("param", &initial).with("name", "initial_value");
+        element.push(Element::new("state_interface").with("name", "position").holding(initial));
+        element.push(Element::new("state_interface").with("name", "velocity"));
+        hardware.push(element);
+    }
+    hardware
 }

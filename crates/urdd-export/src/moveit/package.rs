@@ -1,10 +1,10 @@
 //! The package: its description, how it is installed, a launch file, and what RViz shows.
 
-use super::super::ros::Ros;
-use super::super::template::fill;
-use super::super::yaml::quoted;
 use super::config::Config;
 use super::controllers::{self, Controller};
+use crate::Ros;
+use crate::output::fill;
+use crate::yaml::quoted;
 use urdd_xml::writer::escaped;
 
 const PACKAGE: &str = include_str!("package.xml.in");

@@ -1,9 +1,8 @@
 //! Limits, solvers of inverse kinematics, and planners.
 
-use super::super::error::ExportError;
-use super::super::ros::Ros;
-use super::super::yaml::{Yaml, head};
 use super::config::Config;
+use crate::yaml::head;
+use crate::{ExportError, Ros, Yaml};
 
 /// Plugins and adapters, by the names that a distribution's MoveIt has for them.
 fn pipeline(ros: Ros) -> &'static str {

@@ -1,11 +1,8 @@
 //! The SRDF: groups, states, end effectors, the virtual joint, passive joints, and pairs.
 
-use super::super::error::{ExportError, Note};
-use super::super::names::{ANOTHER, check_names};
-use super::super::parts::Taken;
-use super::super::setup::Members;
-use super::super::srdf;
 use super::config::Config;
+use crate::names::{ANOTHER, check_names};
+use crate::{ExportError, Members, Note, Taken, srdf};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 
@@ -16,25 +13,14 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let subject = config.subject;
     let groups = &config.setup.groups;
     let ends = &config.setup.end_effectors;
-    let configurations = config.configurations.iter();
-    check_names(
-        subject.format,
-        "group",
-        groups.iter().map(|group| group.value.name.as_str()),
-        ANOTHER,
-    )?;
-    check_names(
-        subject.format,
-        "end effector",
-        ends.iter().map(|end| end.value.name.as_str()),
-        ANOTHER,
-    )?;
-    check_names(
-        subject.format,
-        "configuration",
-        configurations.map(|named| named.name.as_str()),
-        ANOTHER,
-    )?;
+    let names: [(&str, Vec<&str>); 3] = [
+        ("group", groups.iter().map(|group| group.value.name.as_str()).collect()),
+        ("end effector", ends.iter().map(|end| end.value.name.as_str()).collect()),
+        ("configuration", config.configurations.iter().map(|it| it.name.as_str()).collect()),
+    ];
+    for (what, names) in names {
+        check_names(subject.format, what, names.into_iter(), ANOTHER)?;
+    }
     if groups.is_empty() {
         notes.push(Note::Robot(NO_GROUPS));
     }

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::super::format::Format;
-use super::super::names::one;
+use crate::Format;
+use crate::names::one;
 use urdd_xml::writer::Element;
 
 /// Elements that SDF gives a name.

@@ -3,11 +3,9 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::super::error::Note;
-use super::super::parts::Taken;
-use super::super::subject::Subject;
-use super::super::urdf_elements::document;
 use super::foreign::Mended;
+use crate::urdf_elements::document;
+use crate::{Note, Subject, Taken};
 use urdd_xml::element::wrapped;
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;

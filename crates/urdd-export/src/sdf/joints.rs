@@ -4,11 +4,9 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::error::Note;
-use super::super::joints::joints as resolved;
-use super::super::parts::{Moves, Taken};
-use super::super::subject::Subject;
 use super::gazebo::{Gazebo, Place};
+use crate::joints::joints as resolved;
+use crate::{Moves, Note, Subject, Taken};
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};

@@ -2,17 +2,15 @@
 
 use nalgebra::Isometry3;
 
-use super::super::error::{ExportError, Note};
-use super::super::inertia::{held, mean};
-use super::super::meshes::{MeshFiles, MeshFormat, looks};
-use super::super::options::MeshOptions;
-use super::super::output::Files;
-use super::super::parts::Taken;
-use super::super::shapes::{Shape, Solid, thick};
-use super::super::subject::Subject;
-use super::super::urdf_elements::INERTIA;
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
+use crate::inertia::{held, mean};
+use crate::meshes::looks;
+use crate::shapes::thick;
+use crate::urdf_elements::{INERTIA, sizes};
+use crate::{
+    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Shape, Solid, Subject, Taken,
+};
 use urdd_document::robot::Inertial;
 use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
@@ -72,23 +70,23 @@ pub(super) fn links(
                 }
             },
         );
+        let mut add =
+            |what: String, pose: Option<Element>, geometry: Element, rgba: Option<[f64; 4]>| {
+                let mut visual = Element::new("visual").with("name", taken.free(what));
+                visual.extend(pose);
+                visual.push(Element::new("geometry").holding(geometry));
+                visual.extend(rgba.map(material));
+                gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
+                element.push(visual);
+            };
         for (place, look) in looks.into_iter().enumerate() {
             let rgba = look.part.color;
             let (path, _) = files.add_look(link, place, look)?;
-            let name = taken.free(format!("visual_{place}"));
-            let mut visual = Element::new("visual").with("name", name);
-            visual.push(Element::new("geometry").holding(mesh(&path)));
-            visual.extend(rgba.map(material));
-            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
-            element.push(visual);
+            add(format!("visual_{place}"), None, mesh(&path), rgba);
         }
         for (place, of) in primitives.into_iter().enumerate() {
-            let name = taken.free(format!("primitive_{place}"));
-            let mut visual = Element::new("visual").with("name", name).holding(placed(&of.pose));
-            visual.push(Element::new("geometry").holding(element_of_primitive(of.primitive)));
-            visual.extend(of.color.map(material));
-            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
-            element.push(visual);
+            let pose = Some(placed(&of.pose));
+            add(format!("primitive_{place}"), pose, element_of_primitive(of.primitive), of.color);
         }
         let mut names = Vec::new();
         for shape in shapes {
@@ -103,11 +101,8 @@ pub(super) fn links(
         touch(&mut element, &names);
         elements.push(element);
     }
-    for (links, what) in [(massless, MASSLESS), (impossible, IMPOSSIBLE)] {
-        if !links.is_empty() {
-            notes.push(Note::Links { links, what });
-        }
-    }
+    notes.extend(Note::links(massless, MASSLESS));
+    notes.extend(Note::links(impossible, IMPOSSIBLE));
     for (name, joint) in &joints.links {
         elements.push(empty(name, Some(joint)).holding(light()));
     }
@@ -216,21 +211,9 @@ fn collision(
 }
 
 fn element_of_primitive(primitive: Primitive) -> Element {
-    let long = |tag, radius, half: f64| {
-        let radius = Element::text("radius", &number(radius));
-        Element::new(tag).holding(radius).holding(Element::text("length", &number(2.0 * half)))
-    };
-    match thick(primitive) {
-        Primitive::Box(half) => {
-            let size = numbers(&half.map(|half| 2.0 * half));
-            Element::new("box").holding(Element::text("size", &size))
-        }
-        Primitive::Cylinder { radius, half } => long("cylinder", radius, half),
-        Primitive::Capsule { radius, half } => long("capsule", radius, half),
-        Primitive::Sphere { radius } => {
-            Element::new("sphere").holding(Element::text("radius", &number(radius)))
-        }
-    }
+    let (tag, sizes) = sizes(thick(primitive));
+    let sizes = sizes.into_iter().map(|(key, size)| Element::text(key, &size));
+    sizes.fold(Element::new(tag), Element::holding)
 }
 
 fn placed(pose: &Isometry3<f64>) -> Element {

@@ -9,18 +9,14 @@ mod gazebo;
 mod joints;
 mod links;
 
-use super::drake;
-use super::error::{ExportError, Note};
-use super::options::SdfOptions;
-use super::output::Export;
-use super::subject::Subject;
+use crate::{Export, ExportError, ModelOptions, Note, Subject, drake};
 use gazebo::{Gazebo, Place};
 use urdd_xml::writer::Element;
 
 const GAZEBO: &str = "Gazebo knows no pairs that need no check; the links do not collide with each other there (`<self_collide>` is off). Drake reads the pairs";
 const WORLD: &str = "the root link is called `world`, which is SDF's own and has neither mass nor shapes; its own are left out";
 
-pub(super) fn export(subject: &Subject, options: &SdfOptions) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
     let mut model = Element::new("model").with("name", model_name(subject));
     let root = subject.tree.root;
@@ -29,8 +25,7 @@ pub(super) fn export(subject: &Subject, options: &SdfOptions) -> Result<Export, 
     let mut taken = subject.names.taken.clone();
     gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
     let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
-    let (links, files) =
-        links::links(subject, &options.model.meshes, &joints, &gazebo, &mut notes)?;
+    let (links, files) = links::links(subject, &options.meshes, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
             notes.push(Note::Robot(WORLD));

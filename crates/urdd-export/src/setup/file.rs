@@ -3,9 +3,13 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use thiserror::Error;
 use toml::Spanned;
 
 use super::JointGains;
+use crate::ExportError;
+use urdd_directory::position::Position;
+use urdd_robot::RobotError;
 
 pub(super) type Name = Spanned<String>;
 
@@ -40,11 +44,9 @@ pub(super) struct File {
 }
 
 #[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub(super) struct BaseTable {
-    #[serde(default)]
     pub floating: bool,
-    #[serde(default)]
     pub poses: BTreeMap<Name, Spanned<Vec<f64>>>,
 }
 
@@ -102,4 +104,37 @@ pub(super) struct CuroboTable {
     pub ee_link: Option<Name>,
     pub retract: Option<Name>,
     pub locked: BTreeMap<Name, Spanned<f64>>,
+}
+
+/// Errors of a file with what exports need.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// The content is wrong.
+    #[error("{}{}: {reason}", .file.escape_debug(), .at.map_or(String::new(), |at| format!(":{at}")))]
+    Content {
+        /// The file.
+        file: String,
+        /// The place.
+        at: Option<Position>,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The file cannot be read.
+    #[error("{}: {reason}", .file.escape_debug())]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// A query on the robot failed.
+    #[error(transparent)]
+    Robot(#[from] ExportError),
+}
+
+impl From<RobotError> for SetupError {
+    fn from(error: RobotError) -> Self {
+        SetupError::Robot(error.into())
+    }
 }

@@ -3,12 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::chains::Chains;
-use super::guesser::{FINGER, Guesser, joints, with_side};
+use super::guesser::{Chains, FINGER, Guesser, joints, with_side};
 use super::words::{self, Part};
 use super::{Curobo, EndEffector, Gains, Guess, Members, Setup};
-use crate::error::ExportError;
-use crate::structure::Structure;
+use crate::{ExportError, Structure};
 use urdd_format::urdf::JointType;
 use urdd_robot::Robot;
 

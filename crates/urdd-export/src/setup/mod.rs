@@ -3,8 +3,6 @@
 //! It is guessed from the structure of the robot (`guess`), written for a person to change (`write`), and
 //! read from `NAME.export.toml` beside the URDD `NAME` (`read`). Every name in it is checked when it is read.
 
-mod chains;
-mod error;
 mod file;
 mod gains;
 mod guess;
@@ -16,9 +14,8 @@ mod write;
 
 use std::collections::BTreeMap;
 
-pub use error::SetupError;
-
-use crate::actuator_kind::ActuatorKind;
+use crate::ActuatorKind;
+pub use file::SetupError;
 
 /// What exports need and a URDD does not say.
 ///
@@ -130,4 +127,33 @@ pub(super) struct Curobo {
     pub locked: BTreeMap<usize, f64>,
     /// The named configuration to which plans retract; the default configuration otherwise.
     pub retract: Option<String>,
+}
+
+/// A group and all groups in it, each once; `None` if it contains itself. `inner` has the groups that are directly in one
+/// of the `count` groups.
+pub(super) fn within<'a>(
+    group: usize,
+    count: usize,
+    inner: impl Fn(usize) -> &'a [usize],
+) -> Option<Vec<usize>> {
+    let mut found = vec![group];
+    let mut is_seen = vec![false; count];
+    let mut next = 0;
+    while let Some(&at) = found.get(next) {
+        next += 1;
+        for other in inner(at) {
+            if *other == group {
+                return None;
+            }
+            if !std::mem::replace(&mut is_seen[*other], true) {
+                found.push(*other);
+            }
+        }
+    }
+    Some(found)
+}
+
+/// What is wrong with a group that contains itself.
+pub(super) fn contains_itself(group: &str) -> String {
+    format!("the group `{}` contains itself", group.escape_debug())
 }

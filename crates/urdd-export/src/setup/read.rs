@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use super::super::error::unknown;
-use super::super::nested::{contains_itself, within};
-use super::error::SetupError;
-use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, wrong};
+use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, SetupError, wrong};
 use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
-use super::{Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup};
-use crate::ranges::BANDWIDTH;
-use crate::structure::Structure;
+use super::{
+    Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup, contains_itself, within,
+};
+use crate::Structure;
+use crate::error::unknown;
+use crate::options::BANDWIDTH;
 use urdd_directory::layout::setup_beside;
 use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::position::LineIndex;

@@ -3,12 +3,9 @@
 use std::fmt::Write;
 
 use super::{Guess, Members, Setup};
-use crate::actuator_kind::ActuatorKind;
-use crate::error::ExportError;
-use crate::options::MjcfOptions;
-use crate::structure::Structure;
-use crate::template::fill;
+use crate::output::fill;
 use crate::yaml::{quoted, real};
+use crate::{ActuatorKind, ExportError, ModelOptions, Structure};
 use urdd_format::escape;
 use urdd_robot::Robot;
 
@@ -84,7 +81,7 @@ impl Setup {
         let locked: Vec<String> =
             curobo.locked.iter().map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
         let locked = (!locked.is_empty()).then(|| format!("{{ {} }}", locked.join(", ")));
-        let bandwidth = self.gains.bandwidth.unwrap_or(MjcfOptions::BANDWIDTH);
+        let bandwidth = self.gains.bandwidth.unwrap_or(ModelOptions::BANDWIDTH);
         let mut floating =
             format!("{}floating = {}", guess(&self.floating.why), self.floating.value);
         for (name, pose) in &self.base_poses {

@@ -1,20 +1,15 @@
 //! cuRobo: the spheres of each link, and the other entries by link of its robot file. The keys are those of
 //! `robot_cfg: kinematics:`. cuRobo also reads `collision_spheres` from a separate file. With
-//! [`CuroboOptions::robot_file`], the whole robot file.
+//! [`SphereOptions::robot_file`], the whole robot file.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use nalgebra::Point3;
 
-use super::super::error::{ExportError, Note};
-use super::super::options::CuroboOptions;
-use super::super::output::Export;
-use super::super::parts::Taken;
-use super::super::setup::Setup;
-use super::super::subject::Subject;
-use super::super::yaml::{Yaml, entries};
 use super::model::Sphere;
 use super::{Model, said};
+use crate::yaml::entries;
+use crate::{Export, ExportError, Note, Setup, SphereOptions, Subject, Taken, Yaml};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_xml::number::number;
 
@@ -29,11 +24,11 @@ const JERK: f64 = 500.0;
 
 pub(in super::super) fn export(
     subject: &Subject,
-    options: &CuroboOptions,
+    options: &SphereOptions,
 ) -> Result<Export, ExportError> {
-    let model = Model::new(subject, &options.spheres)?;
+    let model = Model::new(subject, options)?;
     let mut lines = subject.origin()?;
-    lines.extend(model.said(&subject.links, options.spheres.cover));
+    lines.extend(model.said(&subject.links, options.cover));
     lines.push(BUFFERS.to_owned());
     let mut notes: Vec<Note> = said::note(&model, subject).into_iter().collect();
     let spheres = by_link(subject, &model);

@@ -2,13 +2,12 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::error::ExportError;
-use super::super::options::SphereOptions;
-use super::super::output::Export;
-use super::super::subject::Subject;
 use super::said::{self, Stand};
-use super::{Model, Sphere};
+use super::{Model, model::Sphere};
+use crate::subject::by_link;
+use crate::{Export, ExportError, SphereOptions, Subject, urdf};
 use urdd_format::escape;
+use urdd_robot::{LinkShape, Solid};
 
 pub(in super::super) fn export(
     subject: &Subject,
@@ -39,4 +38,27 @@ pub(in super::super) fn export(
     let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
     let text = escape::json(&text).into_owned();
     Ok(Export::of(text, Vec::new(), said::note(&model, subject).into_iter().collect()))
+}
+
+/// URDF with the spheres as collision geometry.
+pub(in super::super) fn spherized(
+    subject: &Subject,
+    options: &SphereOptions,
+) -> Result<Export, ExportError> {
+    let model = Model::new(subject, options)?;
+    let mut shapes: Vec<LinkShape> = Vec::new();
+    for (link, spheres) in &model.links {
+        let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
+            link: *link,
+            piece,
+            solid: Solid::Sphere { centre: sphere.centre, radius: sphere.radius },
+        });
+        shapes.extend(spheres);
+    }
+    let shapes = by_link(&subject.described, shapes);
+    let mut notes = said::note(&model, subject).into_iter().collect();
+    let (robot, files) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
+    let said = model.said(&subject.links, options.cover).join(" ");
+    let text = robot.document(&subject.comments(said, &notes)?);
+    Ok(Export::of(text, files, notes))
 }

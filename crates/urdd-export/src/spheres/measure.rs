@@ -10,7 +10,7 @@ use urdd_robot::{Robot, RobotError};
 /// own statistics and skips.
 pub(super) struct Numbers {
     pub fit: usize,
-    pub grow: usize,
+    /// For balancing the two rates, and for counting them.
     pub measure: usize,
 }
 
@@ -40,16 +40,12 @@ impl Numbers {
         let most = (POSES / pairs.links.len().max(1)).min(LOOKS / pairs.checked.len().max(1))
             / (many * many);
         let most = most.max(LEAST);
-        Numbers {
-            fit: wanted.saturating_add(wanted / 2).min(most),
-            grow: wanted.min(most),
-            measure: wanted.min(most),
-        }
+        Numbers { fit: wanted.saturating_add(wanted / 2).min(most), measure: wanted.min(most) }
     }
 }
 
 /// The results of an evaluation.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Measured {
     /// Rates in configurations throughout the bounds; `None` if no pair is checked.
     pub rates: Option<SphereRates>,
@@ -86,8 +82,7 @@ pub(super) fn measure(
     numbers: &Numbers,
     near: bool,
 ) -> Result<Measured, RobotError> {
-    let mut measured =
-        Measured { rates: None, near_default: None, default: [false; 2], faults: Vec::new() };
+    let mut measured = Measured::default();
     if pairs.checked.is_empty() {
         return Ok(measured);
     }

@@ -22,14 +22,10 @@ mod said;
 pub mod samples;
 #[doc(hidden)]
 pub mod surface;
-pub(super) mod urdf;
 
 use rayon::prelude::*;
 
-use super::error::ExportError;
-use super::options::{SphereBudget, SphereOptions};
-use super::shapes::Shapes;
-use super::subject::Subject;
+use crate::{ExportError, Shapes, SphereBudget, SphereOptions, Subject};
 use fit::Limits;
 use frame::Point;
 pub use judge::SphereRates;
@@ -160,7 +156,7 @@ fn fitted(
     let mut to_balance = Vec::new();
     if let Some(default) = known.first() {
         let region = if near { Region::NearDefault } else { Region::Bounds };
-        let (first, count) = (Numbers::GROW, numbers.grow);
+        let (first, count) = (Numbers::GROW, numbers.measure);
         to_balance = sampler.samples(region, first, count, Ask::Any)?;
         to_balance.insert(0, default.clone());
     }

@@ -4,9 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::Isometry3;
 
-use super::super::error::ExportError;
-use super::super::pairs::Decision;
-use super::super::subject::Subject;
+use crate::pairs::Decision;
+use crate::{ExportError, Subject};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;

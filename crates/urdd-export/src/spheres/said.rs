@@ -2,12 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::super::Note;
-use super::super::subject::Subject;
 use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use super::measure::{Measured, Numbers};
 use super::model::{Sphere, distance};
 use super::{Model, Point};
+use crate::{Note, Subject};
 use urdd_format::escape;
 use urdd_format::rate::interval;
 

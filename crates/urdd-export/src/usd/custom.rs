@@ -1,10 +1,8 @@
 //! What USD has no place for, as custom data of a prim under `urdd`: named configurations, and elements of the source that
 //! URDF does not define.
 
-use super::super::error::ExportError;
-use super::super::subject::Subject;
-use super::prim::Prim;
-use super::value::{array, string};
+use super::prim::{Prim, array, string};
+use crate::{ExportError, Subject};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_xml::number::number;
 

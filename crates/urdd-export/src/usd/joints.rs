@@ -4,15 +4,11 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::actuator_kind::ActuatorKind;
-use super::super::error::{ExportError, Note};
-use super::super::gains::Gains;
-use super::super::subject::Subject;
 use super::custom::elements;
-use super::filters::Filters;
-use super::names::{Paths, last};
-use super::prim::Prim;
-use super::value::{float, floats, wxyz};
+use super::names::{Filters, Paths, last};
+use super::prim::{Prim, float, floats, wxyz};
+use crate::joints::moved;
+use crate::{ActuatorKind, Gains, Note, Subject};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{JointType, Limit};
 use urdd_kinematics::rotation::{planar_basis, unit_axis};
@@ -110,7 +106,11 @@ impl Joints<'_> {
         let motion = self.motion(index, notes);
         let (kind, frames) = match &motion {
             Motion::Fixed(position) => {
-                ("PhysicsFixedJoint", [origin * moved(joint, *position), Isometry3::identity()])
+                let own = match joint.num_dofs() {
+                    1 => moved(joint, *position),
+                    _ => Isometry3::identity(),
+                };
+                ("PhysicsFixedJoint", [origin * own, Isometry3::identity()])
             }
             Motion::One { kind, axis, .. } => (*kind, turned(&origin, &aligned(axis).1)),
             Motion::Ball => ("PhysicsSphericalJoint", turned(&origin, &UnitQuaternion::identity())),
@@ -262,20 +262,6 @@ fn positive(value: Option<f64>) -> Option<f64> {
     value.filter(|value| *value > 0.0)
 }
 
-/// The pose of a joint of one DOF at a position, in its frame.
-fn moved(joint: &Joint, position: f64) -> Isometry3<f64> {
-    match (unit_axis(joint.axis), joint.joint_type) {
-        (Some(axis), JointType::Prismatic) => {
-            Isometry3::translation(axis.x * position, axis.y * position, axis.z * position)
-        }
-        (Some(axis), JointType::Revolute | JointType::Continuous) => Isometry3::from_parts(
-            nalgebra::Translation3::identity(),
-            UnitQuaternion::from_axis_angle(&axis, position),
-        ),
-        _ => Isometry3::identity(),
-    }
-}
-
 /// The axis of USD that is the joint's, and the rotation that takes one to the other.
 fn aligned(axis: &Vector3<f64>) -> (&'static str, UnitQuaternion<f64>) {
     let axes = [("X", Vector3::x()), ("Y", Vector3::y()), ("Z", Vector3::z())];
@@ -303,13 +289,4 @@ fn connect(prim: &mut Prim, parent: Option<&String>, child: &str, frames: &[Isom
         prim.set(&format!("point3f physics:localPos{place}"), position);
         prim.set(&format!("quatf physics:localRot{place}"), floats(&wxyz(&frame.rotation)));
     }
-}
-
-/// The values of the DOFs of a configuration, by name.
-pub(super) fn values<'s>(
-    subject: &'s Subject,
-    configuration: &[f64],
-) -> Result<HashMap<&'s str, f64>, ExportError> {
-    let dofs = subject.robot.dof_names()?.iter().map(String::as_str);
-    Ok(dofs.zip(configuration.iter().copied()).collect())
 }

@@ -4,13 +4,11 @@
 
 use std::collections::HashMap;
 
-use super::super::meshes::{Look, Looks, MeshFiles};
-use super::super::source_visuals::Painted;
 use super::names::{VISUAL_PRIMITIVES, VISUALS};
-use super::prim::Prim;
-use super::primitive::primitive;
-use super::surface::{coordinates, material, set};
-use super::value::{array, asset, float};
+use super::prim::{Prim, array, asset, float};
+use super::surface::{coordinates, material, primitive, set};
+use crate::meshes::{Look, Looks};
+use crate::{MeshFiles, Painted};
 use urdd_geometry::Mesh;
 
 /// The longest mesh that is in the file itself, bytes of text.
@@ -109,8 +107,7 @@ fn add_primitives(primitives: &[Vec<Painted>], links: &mut [Prim], materials: &m
         for (place, of) in own.iter().enumerate() {
             let mut prim = primitive(format!("primitive_{place}"), &of.pose, of.primitive);
             if let Some(material) = materials.of(of.color, None) {
-                prim.apply("MaterialBindingAPI");
-                prim.relate("material:binding", std::slice::from_ref(&material));
+                prim.bind("material:binding", &material);
             }
             holder.push(prim);
         }
@@ -134,20 +131,18 @@ fn visuals(looks: &[Look], images: &[Option<String>], materials: &mut Materials)
             continue;
         };
         let mut subset = Prim::new("GeomSubset", format!("subset_{place}"));
-        subset.apply("MaterialBindingAPI");
         subset.set("uniform token elementType", "\"face\"");
         subset.set("uniform token familyName", "\"materialBind\"");
         let faces = first..mesh.triangles.len();
         subset.set("int[] indices", array(faces.map(|face| face.to_string())));
-        subset.relate("material:binding", std::slice::from_ref(&material));
+        subset.bind("material:binding", &material);
         subsets.push((material, subset));
     }
     let mut prim = Prim::new("Mesh", "mesh");
     set(&mut prim, &mesh, &uv);
     prim.set("uniform bool doubleSided", "1");
     if let ([(material, _)], 1) = (&subsets[..], looks.len()) {
-        prim.apply("MaterialBindingAPI");
-        prim.relate("material:binding", std::slice::from_ref(material));
+        prim.bind("material:binding", material);
     } else if !subsets.is_empty() {
         prim.set("uniform token subsetFamily:materialBind:familyType", "\"nonOverlapping\"");
         subsets.into_iter().for_each(|(_, subset)| prim.push(subset));

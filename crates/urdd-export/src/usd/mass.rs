@@ -1,10 +1,8 @@
 //! Masses and inertias of links. USD takes 0 for what is not said, and computes it from shapes: each link says its own.
 
-use super::super::error::Note;
-use super::super::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
-use super::super::subject::Subject;
-use super::prim::Prim;
-use super::value::{float, floats, wxyz};
+use super::prim::{Prim, float, floats, wxyz};
+use crate::mjcf::inertia::{INDEFINITE, Mass, NEGATIVE, TRIANGLE, mass};
+use crate::{Note, Subject};
 use nalgebra::UnitQuaternion;
 
 /// What a link without mass has, kg and kg m²: a ball of 5 cm has these moments.
@@ -51,9 +49,6 @@ pub(super) fn add(subject: &Subject, links: &mut [Prim], notes: &mut Vec<Note>) 
         prim.set("float3 physics:diagonalInertia", floats(own.moments.as_slice()));
         prim.set("quatf physics:principalAxes", floats(&wxyz(&axes)));
     }
-    for (links, what) in [(massless, MASSLESS), (flat, NO_INERTIA)] {
-        if !links.is_empty() {
-            notes.push(Note::Links { links, what });
-        }
-    }
+    notes.extend(Note::links(massless, MASSLESS));
+    notes.extend(Note::links(flat, NO_INERTIA));
 }

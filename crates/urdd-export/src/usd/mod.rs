@@ -5,30 +5,22 @@
 //! attributes say what UsdPhysics has no words for; other programs pass over them.
 
 mod custom;
-mod filters;
 mod joints;
 mod looks;
 mod mass;
 pub(super) mod names;
 mod prim;
-mod primitive;
 mod shapes;
 mod surface;
-mod value;
 
 use nalgebra::Isometry3;
 
-use super::error::{ExportError, Note};
-use super::gains::gains;
-use super::meshes::{MeshFiles, looks};
-use super::options::UsdOptions;
-use super::output::Export;
-use super::stand::Stand;
-use super::subject::Subject;
-use filters::Filters;
+use crate::gains::gains;
+use crate::meshes::looks;
+use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject, UsdOptions};
 use joints::Joints;
 use looks::Materials;
-use names::{Paths, last};
+use names::{Filters, Paths, last};
 use prim::Prim;
 
 const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";
@@ -47,7 +39,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     let stand = Stand::new(subject, false)?;
     let up = Isometry3::translation(0.0, 0.0, stand.base_height);
     let poses = subject.link_poses(&zero)?;
-    let mut files = MeshFiles::new(subject, &options.meshes);
+    let mut files = MeshFiles::new(subject, &options.model.meshes);
     let mut materials = Materials::new(&format!("/{}", paths.root), &paths.scopes[1]);
     let mut links: Vec<Prim> = Vec::new();
     for (link, pose) in poses.iter().enumerate() {
@@ -57,21 +49,18 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         if subject.is_frame(link)
             && let Some(body) = subject.tree.parent_link[link]
         {
-            primitive::place(&mut prim, &(poses[body].inverse() * pose), None);
+            surface::place(&mut prim, &(poses[body].inverse() * pose), None);
             links.push(prim);
             continue;
         }
         prim.apply("PhysicsRigidBodyAPI");
-        primitive::place(&mut prim, &(up * pose), None);
-        if let Some(targets) = filters.targets.get(&paths.links[link]) {
-            prim.apply("PhysicsFilteredPairsAPI");
-            prim.relate("physics:filteredPairs", targets);
-        }
+        surface::place(&mut prim, &(up * pose), None);
+        filters.apply(&paths.links[link], &mut prim);
         links.push(prim);
     }
     mass::add(subject, &mut links, &mut notes);
     looks::add(
-        &looks(subject, &options.meshes, &mut notes)?,
+        &looks(subject, &options.model.meshes, &mut notes)?,
         &mut links,
         &mut materials,
         &mut files,
@@ -82,12 +71,12 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
 
     let mut what = format!("Collision geometry: {}.", subject.shapes);
     let mut drives = None;
-    if let Some(kind) = options.actuators {
-        let (gains, said) = gains(subject, options.bandwidth, kind, &mut notes)?;
+    if let Some(kind) = options.model.actuators {
+        let (gains, said) = gains(subject, options.model.bandwidth, kind, &mut notes)?;
         what += &said;
         drives = Some(gains);
     }
-    let values = joints::values(subject, &zero)?;
+    let values = subject.values(&zero)?;
     if values.values().any(|value| *value != 0.0) {
         notes.push(Note::Robot(ELSEWHERE));
     }

@@ -1,10 +1,11 @@
 //! Names of prims: letters, digits and `_` of ASCII, no digit first, which every version of USD takes. Prims in one place
 //! have different names.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::super::parts::Taken;
-use super::super::subject::Subject;
+use super::prim::Prim;
+use crate::pairs::ascending;
+use crate::{Subject, Taken};
 
 /// The paths of a robot's prims.
 pub(super) struct Paths {
@@ -100,4 +101,54 @@ pub fn mend(name: &str) -> String {
         mended.insert(0, '_');
     }
     mended
+}
+
+/// Pairs that need no collision check: of two bodies, or, where a person keeps pairs of which the URDD checks some pieces,
+/// of two of their shapes. MuJoCo, by which Newton simulates, has 32 bits for pairs of shapes, which do not suffice for
+/// most robots; pairs of bodies it leaves out exactly.
+///
+/// The two bodies of a joint are not checked unless the joint says so: a joint whose links the URDD checks does.
+#[derive(Default)]
+pub(super) struct Filters {
+    /// For the path of a link or a shape, those that it is not checked with.
+    targets: BTreeMap<String, Vec<String>>,
+    /// The joints whose links are checked with each other, at least in part.
+    pub checked: HashSet<usize>,
+}
+
+impl Filters {
+    pub fn new(subject: &Subject, paths: &Paths) -> Self {
+        let mut filters = Filters::default();
+        let joints = &subject.tree.joint_links;
+        let joint = |links: [usize; 2]| {
+            joints.iter().position(|&(parent, child)| ascending(parent, child) == links)
+        };
+        for pair in &subject.pairs {
+            let joint = joint(pair.links);
+            let [a, b] = pair.links.map(|link| &paths.links[link]);
+            if pair.disabled {
+                if joint.is_none() {
+                    filters.add(a.clone(), b.clone());
+                }
+                continue;
+            }
+            filters.checked.extend(joint);
+            for [one, other] in pair.mixed.iter().flat_map(|mixed| &mixed.skipped) {
+                filters.add(path_of_shape(a, *one), path_of_shape(b, *other));
+            }
+        }
+        filters
+    }
+
+    /// Says on the prim of a path what it is not checked with.
+    pub fn apply(&self, path: &str, prim: &mut Prim) {
+        if let Some(targets) = self.targets.get(path) {
+            prim.apply("PhysicsFilteredPairsAPI");
+            prim.relate("physics:filteredPairs", targets);
+        }
+    }
+
+    fn add(&mut self, from: String, to: String) {
+        self.targets.entry(from).or_default().push(to);
+    }
 }

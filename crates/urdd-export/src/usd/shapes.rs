@@ -1,18 +1,11 @@
 //! Collision geometry: convex meshes, boxes and spheres, which are not rendered.
 
-use super::super::error::{ExportError, Note};
-use super::super::flat::FlatShapes;
-use super::super::meshes::MeshFiles;
-use super::super::mjcf::surface::is_flat;
-use super::super::shapes::{Shape, Solid};
-use super::super::subject::Subject;
-use super::filters::Filters;
 use super::looks::LONGEST;
-use super::names::{COLLISIONS, Paths, path_of_shape};
-use super::prim::Prim;
-use super::primitive::primitive;
-use super::surface::set;
-use super::value::asset;
+use super::names::{COLLISIONS, Filters, Paths, path_of_shape};
+use super::prim::{Prim, asset};
+use super::surface::{primitive, set};
+use crate::mjcf::surface::is_flat;
+use crate::{ExportError, FlatShapes, MeshFiles, Note, Shape, Solid, Subject};
 
 /// Adds the shapes to the links, in link order. They have the material of that path.
 pub(super) fn add(
@@ -35,13 +28,9 @@ pub(super) fn add(
             let piece = shape.number;
             let mut prim = shape_prim(link, shape, &flat, files, notes)?;
             prim.apply("PhysicsCollisionAPI");
-            if let Some(targets) = filters.targets.get(&path_of_shape(&paths.links[link], piece)) {
-                prim.apply("PhysicsFilteredPairsAPI");
-                prim.relate("physics:filteredPairs", targets);
-            }
+            filters.apply(&path_of_shape(&paths.links[link], piece), &mut prim);
             if let Some(material) = material {
-                prim.apply("MaterialBindingAPI");
-                prim.relate("material:binding:physics", std::slice::from_ref(material));
+                prim.bind("material:binding:physics", material);
             }
             holder.push(prim);
         }

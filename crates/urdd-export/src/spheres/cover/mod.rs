@@ -11,7 +11,7 @@ pub mod filled;
 
 use rayon::prelude::*;
 
-use super::super::options::SphereBudget;
+use crate::SphereBudget;
 use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;

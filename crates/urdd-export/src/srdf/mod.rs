@@ -1,9 +1,12 @@
-//! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
+//! SRDF: the pairs of links that MoveIt does not check. Groups and other elements are read here; the package of MoveIt
+//! writes them.
 
-use super::error::ExportError;
-use super::output::Export;
-use super::pairs::LinkPair;
-use super::subject::Subject;
+pub(super) mod groups;
+pub(super) mod import;
+pub(super) mod merge;
+pub(super) mod read;
+
+use crate::{Export, ExportError, LinkPair, Subject};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::RobotError;
 use urdd_xml::writer::Element;

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use urdd_xml::Node;
 
-use super::srdf_document::{Srdf, SrdfError};
+use crate::{Srdf, SrdfError};
 
 /// The element that is replaced.
 const DISABLED: &str = "disable_collisions";

@@ -4,12 +4,11 @@ use std::collections::HashMap;
 use std::fmt::Display;
 
 use thiserror::Error;
-use urdd_xml::{Document, Node};
+use urdd_xml::{Document, Kind, Node};
 
-use super::error::ExportError;
+use crate::ExportError;
 use urdd_directory::position::LineIndex;
 use urdd_robot::RobotError;
-use urdd_xml::Kind;
 
 /// Errors of reading an SRDF.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -59,7 +58,7 @@ impl From<RobotError> for SrdfError {
 }
 
 /// An SRDF.
-pub(super) struct Srdf<'t>(Document<'t>);
+pub(crate) struct Srdf<'t>(Document<'t>);
 
 impl<'t> Srdf<'t> {
     /// An SRDF of any robot.
@@ -104,7 +103,7 @@ impl<'t> Srdf<'t> {
 }
 
 /// The elements of an SRDF that an import leaves out, as MoveIt does.
-pub(super) struct LeftOut<'a> {
+pub(crate) struct LeftOut<'a> {
     lines: LineIndex<'a>,
     /// What is wrong, the first line of it, and the number of elements.
     found: Vec<(String, u32, usize)>,
