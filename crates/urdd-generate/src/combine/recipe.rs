@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::Spanned;
 
-use super::error::{CombineError, PartFault, did_you_mean};
+use super::error::{CombineError, PartFault, Result, did_you_mean};
 use urdd_directory::path::portable;
 use urdd_directory::position::{self, Position};
 use urdd_format::escape;
@@ -59,7 +59,6 @@ pub struct Recipe {
     pub(super) shown: String,
     /// The text of its file, in which words have their places; empty without a file.
     pub(super) text: String,
-    /// Name of the combined robot.
     pub(super) name: Word,
     /// An additional link below the first part, which `to` names, and the joint between them.
     pub(super) base: Option<Attachment>,
@@ -116,7 +115,6 @@ pub(super) struct Part {
 #[serde(untagged, expecting = "expected a number, or a list with one for each DOF")]
 pub(super) enum Frozen {
     One(f64),
-    /// One value per DOF.
     Each(Vec<f64>),
 }
 
@@ -196,7 +194,6 @@ impl Part {
 }
 
 impl Attachment {
-    /// A fixed joint.
     pub(super) fn fixed(to: String, name: String, [xyz, rpy]: [[f64; 3]; 2]) -> Self {
         let [to, name] = [to, name].map(Word::new);
         Attachment { to, name, joint: fixed(), xyz, rpy, axis: None, limit: None }
@@ -250,12 +247,7 @@ impl Recipe {
     }
 
     /// Refuses parts whose total text is longer than a URDF may be. `what` is the kind of text.
-    pub(super) fn check_length(
-        &self,
-        part: &Part,
-        what: &str,
-        length: usize,
-    ) -> Result<(), CombineError> {
+    pub(super) fn check_length(&self, part: &Part, what: &str, length: usize) -> Result<()> {
         if length as u64 <= MAX_SOURCE_BYTES {
             return Ok(());
         }
@@ -274,7 +266,7 @@ impl Recipe {
         indices: &HashMap<String, usize>,
         name: &str,
         word: &Word,
-    ) -> Result<usize, CombineError> {
+    ) -> Result<usize> {
         indices.get(name).copied().ok_or_else(|| {
             let mut names: Vec<&str> = indices.keys().map(String::as_str).collect();
             names.sort_unstable_by_key(|name| indices[*name]);
@@ -285,10 +277,7 @@ impl Recipe {
 
     /// The part index and the link that an attachment refers to, or an error if they do not exist. The index is `None`
     /// for the base.
-    pub(super) fn target<'a>(
-        &self,
-        to: &'a Word,
-    ) -> Result<(Option<usize>, &'a str), CombineError> {
+    pub(super) fn target<'a>(&self, to: &'a Word) -> Result<(Option<usize>, &'a str)> {
         let Some((id, link)) = to.text.split_once('/') else {
             let fault = format!("`{}` does not name a part; write `part/link`", to.text);
             return Err(self.refused(to, fault));
