@@ -72,7 +72,6 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-view/src/reply.rs", "the limit of a request's body"),
     ("crates/urdd-view/src/report.rs", "the program's own"),
     ("crates/urdd-view/src/route.rs", "the program's own"),
-    ("crates/urdd-view/src/sent_states.rs", "the limit of a request's body, MAX_VALUES"),
     ("crates/urdd-view/src/site_list.rs", "MAX_LIST_BYTES"),
     ("src/cli/configurations.rs", "a line of a file within MAX_BYTES"),
     ("src/cli/conformance/common.rs", "MAX_LOG_LINE"),

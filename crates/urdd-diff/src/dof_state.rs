@@ -8,7 +8,6 @@ use urdd_format::dof::Quantity;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
-/// A degree of freedom.
 #[derive(Debug, Clone)]
 pub(super) struct DofState {
     pub name: String,

@@ -3,15 +3,14 @@
 use std::collections::{HashMap, HashSet};
 
 use urdd_format::diff_report::ValueChange;
+use urdd_format::urdf::Origin;
 
-/// A value of a part.
 #[derive(Debug, Clone)]
 struct Field {
     name: String,
     unit: &'static str,
     /// Decides whether two values are equal.
     key: String,
-    /// What people see.
     shown: String,
     /// Its numbers, if it has nothing else: they may be equal within a tolerance.
     numbers: Vec<f64>,
@@ -22,14 +21,12 @@ struct Field {
 pub(super) struct Fields(Vec<Field>);
 
 impl Fields {
-    /// Adds a text.
     pub fn text(&mut self, name: impl Into<String>, value: Option<&str>) {
         if let Some(value) = value {
             self.keyed(name, "", value.to_owned(), value.to_owned());
         }
     }
 
-    /// Adds a number.
     pub fn number(&mut self, name: impl Into<String>, unit: &'static str, value: Option<f64>) {
         self.numbers(name, unit, value.map(|value| [value]));
     }
@@ -54,14 +51,8 @@ impl Fields {
         value: Option<[f64; N]>,
     ) {
         if let Some(value) = value {
-            let text = numbers(&value);
-            self.0.push(Field {
-                name: name.into(),
-                unit,
-                key: text.clone(),
-                shown: text,
-                numbers: value.to_vec(),
-            });
+            let (name, key, numbers) = (name.into(), numbers(&value), value.to_vec());
+            self.0.push(Field { name, unit, shown: key.clone(), key, numbers });
         }
     }
 
@@ -76,12 +67,25 @@ impl Fields {
         self.0.push(Field { name: name.into(), unit, key, shown, numbers: Vec::new() });
     }
 
-    /// Whether there is no value.
+    /// Adds the values of a pose as the URDF writes it; what is absent is 0. A quaternion counts where the URDF's version
+    /// has any, and then in place of `rpy`.
+    pub fn origin(&mut self, prefix: &str, origin: Option<&Origin>, quaternions: bool) {
+        let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
+        self.numbers(format!("{prefix}xyz"), "m", Some(xyz));
+        let quaternion = origin.and_then(|origin| origin.quat_xyzw);
+        match quaternion.filter(|_| quaternions) {
+            Some(quaternion) => self.numbers(format!("{prefix}quat_xyzw"), "", Some(quaternion)),
+            None => {
+                let rpy = origin.and_then(|origin| origin.rpy).unwrap_or_default();
+                self.numbers(format!("{prefix}rpy"), "rad", Some(rpy));
+            }
+        }
+    }
+
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The same values, by name.
     pub fn sorted(mut self) -> Self {
         self.0.sort_by(|a, b| a.name.cmp(&b.name));
         self

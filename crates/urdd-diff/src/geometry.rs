@@ -1,14 +1,13 @@
-//! Differences of a link's visual or collision geometry.
+//! Differences of a link's visual or collision geometry, and values of materials.
 
 use std::collections::{HashMap, HashSet, VecDeque};
 
 use crate::fields::{Fields, compare};
 use crate::shapes::mesh_at;
 use crate::side::Side;
-use crate::{materials, origin};
 use urdd_format::diff_report::{DiffBox, GeometryDifference, ValueChange};
 use urdd_format::meshes::GeometryKind;
-use urdd_format::urdf::{Capsule, Cylinder, Geometry};
+use urdd_format::urdf::{Capsule, Cylinder, Geometry, Material};
 use urdd_geometry::mesh::Bounds;
 
 /// Mesh file names that at least one of the robots has no content for: elements with these are compared by name.
@@ -20,7 +19,6 @@ pub(super) fn compared_by_name<'a>(before: &'a Side, after: &'a Side) -> HashSet
     unread(before).chain(unread(after)).collect()
 }
 
-/// The values of an element.
 struct Element {
     name: Option<String>,
     shape: Fields,
@@ -144,9 +142,9 @@ fn of_link(side: &Side, link: usize, kind: GeometryKind, by_name: &HashSet<&str>
                 }
             });
         }
-        origin::add("origin.", origin, side.has_quaternions(), &mut shape);
-        let resolved = materials::resolved(material, &side.robot.materials);
-        Element { name: name.clone(), shape, material: [materials::written(material), resolved] }
+        shape.origin("origin.", origin, side.has_quaternions());
+        let material = [&[], &side.robot.materials[..]].map(|tops| resolved(material, tops));
+        Element { name: name.clone(), shape, material }
     };
     match kind {
         GeometryKind::Visual => {
@@ -188,4 +186,40 @@ fn add_shape(geometry: &Geometry, fields: &mut Fields, mesh: impl Fn(&str) -> (S
         }
         Geometry::Sphere(of) => fields.number("radius", "m", Some(of.radius)),
     }
+}
+
+/// The materials at the top of a URDF as parts.
+pub(super) fn materials(materials: &[Material]) -> Vec<(String, Fields)> {
+    let part = |material: &Material| {
+        let mut fields = Fields::default();
+        add_look("", material, &mut fields);
+        (material.name.clone().unwrap_or_default(), fields)
+    };
+    materials.iter().map(part).collect()
+}
+
+/// The values of a visual element's material. A colour and a texture that it does not state are those of the first
+/// material at the top of the URDF that has this name and states one.
+fn resolved(material: Option<&Material>, tops: &[Material]) -> Fields {
+    let mut fields = Fields::default();
+    let Some(material) = material else { return fields };
+    let named = |top: &&Material| top.name.is_some() && top.name == material.name;
+    let tops = || tops.iter().filter(named);
+    let look = Material {
+        name: material.name.clone(),
+        color: (material.color.clone()).or_else(|| tops().find_map(|top| top.color.clone())),
+        texture: (material.texture.clone()).or_else(|| tops().find_map(|top| top.texture.clone())),
+    };
+    // Published URDDs have an empty name where there is none.
+    let name = look.name.as_deref().filter(|name| !name.is_empty());
+    fields.text("material.name", name);
+    add_look("material.", &look, &mut fields);
+    fields
+}
+
+fn add_look(prefix: &str, material: &Material, fields: &mut Fields) {
+    let rgba = material.color.as_ref().map(|color| color.rgba);
+    fields.numbers(format!("{prefix}rgba"), "", rgba);
+    let texture = material.texture.as_ref().map(|texture| texture.filename.as_str());
+    fields.text(format!("{prefix}texture"), texture);
 }

@@ -1,14 +1,12 @@
 //! Values of joints.
 
 use crate::fields::{Fields, numbers};
-use crate::origin;
 use crate::other_elements;
 use crate::side::Side;
 use urdd_document::pose::unit;
 use urdd_format::urdf::{Joint, JointType, Limit};
 use urdd_xml::other_parts::{OtherParts, Owner};
 
-/// The joints as parts.
 pub(super) fn parts(side: &Side, others: Option<&OtherParts>) -> Vec<(String, Fields)> {
     let part = |joint: &Joint| {
         let mut fields = fields(joint, side.has_quaternions());
@@ -25,7 +23,7 @@ fn fields(joint: &Joint, quaternions: bool) -> Fields {
     fields.text("type", Some(joint.joint_type.as_str()));
     fields.text("parent", Some(&joint.parent.link));
     fields.text("child", Some(&joint.child.link));
-    origin::add("origin.", joint.origin.as_ref(), quaternions, &mut fields);
+    fields.origin("origin.", joint.origin.as_ref(), quaternions);
     if has_axis(joint.joint_type) {
         let axis = joint.axis.as_ref().and_then(|axis| axis.xyz).unwrap_or([1.0, 0.0, 0.0]);
         // Only the direction has a meaning.

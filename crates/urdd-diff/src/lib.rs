@@ -7,22 +7,15 @@
 //! written make no difference.
 
 mod beside;
-mod configurations;
-mod count;
 mod dof_state;
 mod dofs;
-mod element_values;
 mod fields;
 mod findings;
 mod geometry;
 mod joints;
 mod links;
-mod materials;
-mod mesh;
 mod modules;
 mod open;
-mod order;
-mod origin;
 mod other_elements;
 mod pairs;
 mod parts;
@@ -31,8 +24,6 @@ mod render;
 mod shapes;
 mod side;
 mod side_urdd;
-mod side_urdf;
-mod words;
 
 pub use render::{markdown, text};
 pub use side::{DiffError, Options, Side};
@@ -77,14 +68,14 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         robot: robot(before, after),
         links: links::differences(before, after, tolerance),
         joints,
-        materials: parts(&|side| materials::parts(&side.robot.materials)),
+        materials: parts(&|side| geometry::materials(&side.robot.materials)),
         other_elements: parts(&|side| {
             other_elements::parts(&side.robot.unknown_elements, &side.account)
         }),
         poses: poses::difference(before, after, tolerance),
         dofs: dofs::differences(before, after, tolerance),
         pairs,
-        configurations: configurations::differences(before, after, tolerance),
+        configurations: dofs::configurations(before, after, tolerance),
         srdf: beside.srdf,
         setup: beside.setup,
         lost: beside.lost,
@@ -93,7 +84,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         notes,
     };
     report.modules = modules::differences(before, after, &report, tolerance);
-    report.same = count::count(&report) == 0;
+    report.same = render::count(&report) == 0;
     Ok(report)
 }
 
@@ -127,6 +118,21 @@ fn notes(before: &Side, after: &Side) -> Vec<String> {
             ));
         }
     }
-    notes.extend(order::notes(before, after));
+    notes.extend(orders(before, after));
     notes
+}
+
+/// Notes on links and joints in another order. What an order of joints means, the indices of DOFs, is in `dofs`.
+fn orders(before: &Side, after: &Side) -> Vec<String> {
+    let is_other = |a: Vec<&str>, b: Vec<&str>| {
+        let both = parts::matched(&a, &b).into_iter().filter_map(|part| part.both());
+        !both.map(|(_, j)| j).is_sorted()
+    };
+    let orders = [
+        ("links", is_other(before.link_names(), after.link_names())),
+        ("joints", is_other(before.joint_names(), after.joint_names())),
+    ];
+    let others = orders.into_iter().filter(|(_, is_other)| *is_other);
+    let note = |word| format!("the {word} are in another order, so their indices in a URDD differ");
+    others.map(|(word, _)| note(word)).collect()
 }

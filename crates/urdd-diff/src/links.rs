@@ -3,13 +3,12 @@
 use crate::fields::{Fields, compare};
 use crate::parts::matched;
 use crate::side::Side;
-use crate::{geometry, origin, other_elements};
+use crate::{geometry, other_elements};
 use urdd_format::diff_report::LinkDifference;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Link;
 use urdd_xml::other_parts::Owner;
 
-/// The links that differ.
 pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<LinkDifference> {
     let (a, b) = (before.link_names(), after.link_names());
     let by_name = geometry::compared_by_name(before, after);
@@ -50,7 +49,7 @@ fn fields(link: &Link, quaternions: bool) -> Fields {
         fields.number("inertial.mass", "kg", mass);
         let origin = inertial.origin.as_ref();
         if mass.is_some() || inertial.inertia.is_some() || origin.is_some() {
-            origin::add("inertial.origin.", origin, quaternions, &mut fields);
+            fields.origin("inertial.origin.", origin, quaternions);
         }
         if let Some(of) = &inertial.inertia {
             for (name, value) in [

@@ -10,9 +10,7 @@ use urdd_robot::{Robot, ShapeKind};
 /// What is checked of a pair of links with one kind of shapes.
 #[derive(Debug, Default, PartialEq)]
 struct Checked {
-    /// The pairs of pieces that are checked.
     pieces: BTreeSet<(usize, usize)>,
-    /// Number of pairs of pieces.
     all: usize,
 }
 
@@ -92,11 +90,8 @@ fn change(before: &Checked, after: &Checked) -> Option<PairChange> {
     }
 }
 
-/// Opens the robot of a URDD.
 fn open(side: &Side) -> Result<Robot, &'static str> {
-    let Some(urdd) = &side.urdd else {
-        return Err("is a URDF, which states none");
-    };
+    let Some(urdd) = &side.urdd else { return Err("is a URDF, which states none") };
     let robot = Robot::of(urdd.root().clone());
     match robot.skips(ShapeKind::Hulls) {
         Ok(_) => Ok(robot),
@@ -112,9 +107,7 @@ fn checked(robot: &Robot, kind: ShapeKind, index: &[Option<usize>]) -> Option<Pa
     let mut pairs = Pairs::new();
     for (i, first) in places.iter().enumerate() {
         for (j, second) in places.iter().enumerate().skip(i + 1) {
-            let (Some(first), Some(second)) = (first, second) else {
-                continue;
-            };
+            let (Some(first), Some(second)) = (first, second) else { continue };
             let (first, second) = (first.min(second), first.max(second));
             let pair = pairs.entry((first.0, second.0)).or_default();
             pair.all += 1;

@@ -23,7 +23,6 @@ impl Matched<'_> {
         }
     }
 
-    /// Its indices, if both have it.
     pub fn both(&self) -> Option<(usize, usize)> {
         self.before.zip(self.after)
     }
@@ -50,7 +49,6 @@ pub(super) fn matched<'a>(before: &[&'a str], after: &[&'a str]) -> Vec<Matched<
     found
 }
 
-/// The parts that differ.
 pub(super) fn differences(
     before: &[(String, Fields)],
     after: &[(String, Fields)],

@@ -20,9 +20,7 @@ pub(super) fn difference(before: &Side, after: &Side, tolerance: f64) -> Option<
     let by_name: HashMap<&str, &Pose> = after.link_names().into_iter().zip(&b).collect();
     let mut found: Option<PoseDifference> = None;
     for (name, (turn, place)) in before.link_names().into_iter().zip(&a) {
-        let Some((other_turn, other_place)) = by_name.get(name) else {
-            continue;
-        };
+        let Some((other_turn, other_place)) = by_name.get(name) else { continue };
         let distance = (other_place - place).norm();
         // Half of the norm of the difference is the sine of half the angle, times the square root of 2.
         let sine = (other_turn - turn).norm() / (2.0 * std::f64::consts::SQRT_2);

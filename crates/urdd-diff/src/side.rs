@@ -73,7 +73,6 @@ pub enum DiffError {
 
 /// A robot, with all that is compared.
 pub struct Side {
-    /// Its path as given.
     pub(super) path: String,
     pub(super) kind: Kind,
     /// As the URDF describes it.
@@ -88,7 +87,6 @@ pub struct Side {
     pub(super) urdd: Option<Urdd>,
     /// Its validation, if findings are compared.
     pub(super) validation: Option<report::Urdd>,
-    /// What stands beside it.
     pub(super) beside: Beside,
     pub(super) notes: Vec<String>,
     /// What may be made of its elements.

@@ -110,14 +110,10 @@ fn paths(urdd: &Urdd, view: &Robot) -> HashMap<Place, File> {
         }
         return paths;
     }
-    let Some(meshes) = urdd.meshes(ModuleKind::OriginalMeshes) else {
-        return paths;
-    };
+    let Some(meshes) = urdd.meshes(ModuleKind::OriginalMeshes) else { return paths };
     for list in &meshes.lists {
         for (link, meshes) in list.links.iter().enumerate() {
-            let Some(of) = view.links.get(link) else {
-                continue;
-            };
+            let Some(of) = view.links.get(link) else { continue };
             let visual = of.visual.iter().enumerate();
             let named = visual.filter(|(_, v)| matches!(v.geometry, Some(Geometry::Mesh(_))));
             for ((index, _), mesh) in named.zip(meshes) {

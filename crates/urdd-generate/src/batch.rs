@@ -8,9 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::error::GenerateError;
-use super::progress::Progress;
 use super::robot::{Generated, generate};
-use super::settings::Settings;
+use super::settings::{Progress, Settings};
 use urdd_source::robots::Job;
 
 /// One of `n` shards of a batch: every n-th robot. The names are those of the whole batch.

@@ -9,7 +9,6 @@ use urdd_kinematics::rotation::unit_axis;
 use urdd_source::origin;
 use urdd_source::urdf::{Tree, written_axis};
 
-/// Builds the module.
 pub fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
     let mut links: Vec<LinkInChain> = (0..)
         .zip(&robot.links)

@@ -11,9 +11,7 @@ use urdd_geometry::Mesh;
 
 /// The result of `work` for each mesh. Runs `work` once for meshes that are identical bit for bit, with the index of the
 /// first.
-///
-/// # Errors
-/// If cancelled; checked before each mesh.
+/// Fails if cancelled; checked before each mesh.
 pub fn for_each_content<T: Clone + Send>(
     meshes: &[&Mesh],
     cancellation: &Cancellation,

@@ -1,5 +1,8 @@
-//! `dof_module` from the robot: SPEC 6.2.
+//! `dof_module` from the robot, SPEC 6.2, and `bounds_module` from both, SPEC 6.5.
 
+use std::f64::consts::PI;
+
+use urdd_format::bounds::BoundsModule;
 use urdd_format::dof::{Dof, DofModule, Quantity, ResolvedMimic};
 use urdd_format::index::{Count, DofIdx, JointIdx};
 use urdd_format::urdf::{JointType, UrdfModule};
@@ -22,9 +25,7 @@ fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {
 }
 
 /// Builds the module.
-///
-/// # Errors
-/// If the multipliers or offsets along a chain of mimic joints overflow binary64.
+/// Fails if the multipliers or offsets along a chain of mimic joints overflow binary64.
 pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, Fault> {
     let mut dofs = Vec::new();
     let mut joint_to_dofs = Vec::with_capacity(robot.joints.len());
@@ -93,4 +94,38 @@ fn resolve(
         }
     }
     Ok(resolved)
+}
+
+pub(super) fn bounds_module(robot: &UrdfModule, dof: &DofModule) -> BoundsModule {
+    let mut module = BoundsModule {
+        bounds: Vec::new(),
+        dof_lower_bounds: Vec::new(),
+        dof_upper_bounds: Vec::new(),
+        dof_limited: Vec::new(),
+        dof_velocity_limits: Vec::new(),
+        dof_effort_limits: Vec::new(),
+    };
+    for dof in &dof.dofs {
+        let joint = &robot.joints[dof.joint_idx.get()];
+        let limit = joint.limit.as_ref();
+        let kind = joint.joint_type;
+        let can_be_limited = matches!(kind, JointType::Revolute | JointType::Prismatic);
+        let written = limit
+            .filter(|limit| can_be_limited && (limit.lower.is_some() || limit.upper.is_some()));
+        let [lower, upper] = match (written, dof.quantity) {
+            (Some(limit), _) => [limit.lower.unwrap_or(0.0), limit.upper.unwrap_or(0.0)],
+            (None, Quantity::Angle) => [-PI, PI],
+            (None, Quantity::Length) => [-1.0, 1.0],
+        };
+        let of_one_dof = limit.filter(|_| can_be_limited || kind == JointType::Continuous);
+        module.bounds.push([lower, upper]);
+        module.dof_lower_bounds.push(lower);
+        module.dof_upper_bounds.push(upper);
+        module.dof_limited.push(written.is_some());
+        let velocity = of_one_dof.and_then(|limit| limit.velocity);
+        let effort = of_one_dof.and_then(|limit| limit.effort);
+        module.dof_velocity_limits.push(velocity);
+        module.dof_effort_limits.push(effort);
+    }
+    module
 }

@@ -14,7 +14,10 @@ use urdd_format::short::Short;
 use urdd_source::SourceError;
 use urdd_source::note::{Note, SourcePlace};
 
-/// Maximum number of faults of a file that are shown one by one.
+/// What stages and their parts return.
+pub(crate) type Result<T, E = GenerateError> = std::result::Result<T, E>;
+
+/// Maximum number of faults of a file, or of names, that are shown one by one.
 const MOST_SHOWN: usize = 5;
 
 /// Why a URDD could not be generated. Nothing was written, and an existing URDD is unchanged.
@@ -170,14 +173,16 @@ fn known_names(known: &[Short]) -> String {
             "it has none: add one by `urdd configurations set` or `import`, and generate it again"
                 .to_owned()
         }
-        _ => {
-            let shown: Vec<String> =
-                known.iter().take(MOST_SHOWN).map(|name| format!("`{name}`")).collect();
-            let more = known.len() - shown.len();
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-            format!("it has {}{more}", shown.join(", "))
-        }
+        _ => format!("it has {}", first_names(known.iter())),
     }
+}
+
+/// The first of these names, and the number of the others.
+pub(crate) fn first_names(names: impl ExactSizeIterator<Item: fmt::Display>) -> String {
+    let more = names.len().saturating_sub(MOST_SHOWN);
+    let shown: Vec<String> = names.take(MOST_SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("{}{more}", shown.join(", "))
 }
 
 /// Why the edits of a module would be lost.

@@ -1,13 +1,11 @@
 //! Which elements the shapes of links are made of, where that is not what a person may expect.
 
 use super::context::Context;
+use super::error::first_names;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::plain_meshes::PlainMeshesModule;
 use urdd_format::short::Short;
 use urdd_source::note::{Note, NoteKind};
-
-/// Maximum number of links that are named.
-const MOST_NAMED: usize = 5;
 
 /// Notes about the links that collide by their visual elements, and about a robot in which nothing can collide.
 pub(super) fn notes(context: &Context, plain: &PlainMeshesModule) -> Vec<Note> {
@@ -66,10 +64,7 @@ fn has(names: &[&str]) -> &'static str {
 
 /// The number of these links and the names of the first.
 fn listed(names: &[&str]) -> String {
-    let shown: Vec<String> =
-        names.iter().take(MOST_NAMED).map(|name| format!("`{}`", Short::of(name))).collect();
-    let (links, more) =
-        (if names.len() == 1 { "link" } else { "links" }, names.len() - shown.len());
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    format!("{} {links} ({}{more})", names.len(), shown.join(", "))
+    let links = if names.len() == 1 { "link" } else { "links" };
+    let shown = first_names(names.iter().map(|name| Short::of(name)));
+    format!("{} {links} ({shown})", names.len())
 }

@@ -1,24 +1,27 @@
 //! What comes with a robot besides its URDF: from its parts, or from the description that it was imported from.
 
 use std::collections::HashSet;
+use std::path::Path;
 
 use serde_json::Value;
 
 use super::donor::edits::Decisions;
+use urdd_directory::layout::setup_beside;
+use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::ConfigurationEdit;
+use urdd_source::import::Imported;
+use urdd_source::note::{Note, NoteKind};
 
-/// What comes with a robot besides its URDF.
 #[derive(Default, Clone, Copy)]
-pub(super) struct Given<'a> {
+pub(crate) struct Given<'a> {
     /// Edits of skips. Those of the URDD that is replaced follow them.
     pub edits: &'a [SkipEdit],
     /// Named configurations. Those of the URDD that is replaced take precedence.
     pub configurations: &'a [ConfigurationEdit],
     /// The skip reasons to use when no URDD is replaced and the settings give none.
     pub skipped_reasons: Option<&'a Vec<SkippedReason>>,
-    /// How the robot was composed, if it was.
     pub composition: Option<&'a CompositionModule>,
     /// The original, if the robot was imported.
     pub origin: Option<&'a Value>,
@@ -43,4 +46,37 @@ impl Given<'_> {
         there.configurations.extend(new);
         there
     }
+}
+
+impl<'a> From<&'a Imported> for Given<'a> {
+    fn from(imported: &'a Imported) -> Self {
+        Given {
+            edits: &imported.skips,
+            configurations: &imported.configurations,
+            origin: Some(&imported.origin),
+            ..Given::default()
+        }
+    }
+}
+
+/// Writes what an import says for exports beside the URDD, `NAME.export.toml`, unless there is such a file: it may be a
+/// person's. Says so then, and where it cannot be written.
+pub(super) fn write_setup(imported: &Imported, target: &Path) -> Option<Note> {
+    let text = imported.setup()?;
+    let path = setup_beside(target);
+    let own = Output { path: path.file_name()?.into(), bytes: text, replaces: false };
+    let assumed = match outputs::write(Target::File(&path), vec![own]).err()? {
+        OutputError::Exists(_) => {
+            "it stays as it is; `urdd import` writes the new one elsewhere".to_owned()
+        }
+        error => format!("it is not written: {error}"),
+    };
+    Some(Note {
+        kind: NoteKind::LeftBehind,
+        file: path.display().to_string(),
+        line: 0,
+        column: 0,
+        problem: "the description says other gains, or another base, than this file".to_owned(),
+        assumed,
+    })
 }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use sha2::{Digest, Sha256 as Hash};
 
 use super::context::Context;
-use super::error::GenerateError;
+use super::error::Result;
 use super::made::{Digests, Made, made};
 use super::meshes::written::WrittenMesh;
 use urdd_directory::writer::sha256;
@@ -24,7 +24,7 @@ pub(super) fn self_collision_model(
     skips: &LinkShapesSkipsModule,
     statistics: &LinkShapesDistanceStatisticsModule,
     digests: &Digests,
-) -> Result<Made, GenerateError> {
+) -> Result<Made> {
     let pairs = pairs(pieces, skips).map_err(|error| context.unmeasurable(error))?;
     let trained_on = trained_on(context, skips, digests);
     let distances = statistics.full_convex_hulls.max_distances.iter().flatten();

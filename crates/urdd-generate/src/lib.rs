@@ -20,11 +20,9 @@
 
 // Hidden modules are public for `tests/`.
 pub mod batch;
-mod bounds;
 #[doc(hidden)]
 pub mod chain;
 pub mod combine;
-mod composed;
 #[doc(hidden)]
 pub mod connections;
 mod context;
@@ -46,30 +44,23 @@ mod metadata;
 mod modules;
 mod named;
 mod product;
-mod progress;
-mod reference;
 mod robot;
 mod selection;
 mod settings;
-mod setup;
 #[doc(hidden)]
 pub mod shape_documents;
-mod shape_stages;
 #[doc(hidden)]
 pub mod shapes;
 mod size;
 mod skipped_contacts;
 mod stages;
 
-pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh, ReferenceFault};
 pub use meshes::MeshCount;
 pub use modules::MadeModule;
-pub use progress::Progress;
-pub(crate) use robot::generate_composed;
 pub use robot::{Generated, UrddFiles, generate, generate_in_memory, generate_text};
 pub use selection::{Selection, UnknownModule};
-pub use settings::{MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, SAMPLES, Settings};
+pub use settings::{MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, Progress, SAMPLES, Settings};
 pub(crate) use size::MOST_LINKS;
 pub use urdd_learned::train::Effort;
 pub use urdd_source::{

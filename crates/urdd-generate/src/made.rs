@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::error::GenerateError;
+use super::error::{GenerateError, Result};
 use urdd_directory::document::Document;
 use urdd_source::note::Note;
 
@@ -15,12 +15,14 @@ pub(super) type Digests = HashMap<String, String>;
 pub(super) struct Made<T = ()> {
     /// The module; `None` if it is of no use for this robot.
     pub document: Option<Document>,
-    /// The files that the document references.
     pub files: Vec<MadeFile>,
     pub notes: Vec<Note>,
     /// What later stages use.
     pub product: T,
 }
+
+/// What a stage returns whose module later stages use.
+pub(crate) type Shared<T> = Result<Made<Arc<T>>>;
 
 pub(super) struct MadeFile {
     /// Path relative to the URDD's root.
@@ -33,13 +35,13 @@ pub(super) struct MadeFile {
 pub(super) fn streamed<T>(
     document: Result<Document, serde_json::Error>,
     product: T,
-) -> Result<Made<T>, GenerateError> {
+) -> Result<Made<T>> {
     let document = document.map_err(|error| GenerateError::internal("", error))?;
     Ok(Made { document: Some(document), files: Vec::new(), notes: Vec::new(), product })
 }
 
 /// A module without additional files or product.
-pub(super) fn made(module: &impl Serialize) -> Result<Made, GenerateError> {
+pub(super) fn made(module: &impl Serialize) -> Result<Made> {
     made_with(module, Vec::new(), ())
 }
 
@@ -48,7 +50,7 @@ pub(super) fn made_with<T>(
     module: &impl Serialize,
     files: Vec<MadeFile>,
     product: T,
-) -> Result<Made<T>, GenerateError> {
+) -> Result<Made<T>> {
     let made = streamed(serde_json::to_value(module).map(Document::Whole), product)?;
     Ok(Made { files, ..made })
 }

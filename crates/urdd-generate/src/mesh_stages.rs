@@ -5,11 +5,11 @@ use rayon::prelude::*;
 use super::context::Context;
 use super::distinct::for_each_content;
 use super::donor::links::LinkMesh;
-use super::error::GenerateError;
+use super::error::Result;
 use super::made::{Made, MadeFile, made_with};
 use super::meshes::original::OriginalMeshes;
 use super::meshes::plain::link_geometries;
-use super::meshes::written::{Shading, WrittenMesh, files_of};
+use super::meshes::written::{Meshes, Pieces, Shading, WrittenMesh, files_of};
 use super::settings::Settings;
 use urdd_format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
@@ -18,15 +18,17 @@ use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
 use urdd_format::meshes::{GeometryKind, MeshFiles};
 use urdd_format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use urdd_format::registry::ModuleKind;
-use urdd_geometry::Mesh;
-use urdd_geometry::decompose;
 use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::{Mesh, decompose};
+
+/// The solids of each link for which a donor has some.
+type Taken = Vec<Option<Vec<LinkMesh>>>;
 
 pub(super) fn plain(
     context: &Context,
     original: Option<&OriginalMeshes>,
     taken: &[Option<(GeometryKind, LinkMesh)>],
-) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
+) -> Result<Made<Meshes>> {
     let preferred = context.settings.preferred_geometry;
     let robot = &context.source.reading.robot;
     let have = |link: usize| taken.get(link).is_some_and(Option::is_some);
@@ -48,15 +50,13 @@ pub(super) fn plain(
                 let plain = PlainMesh { geometry: *geometry, files };
                 return Ok((Some(plain), contents, Some(taken.mesh.clone())));
             }
-            let Some(geometry) = geometry else {
-                return Ok((None, Vec::new(), None));
-            };
+            let Some(geometry) = geometry else { return Ok((None, Vec::new(), None)) };
             let contents = files_of(&geometry.parts, &files, Shading::Smooth)?;
             let mesh = WrittenMesh::of(&geometry.parts);
             let geometry = geometry.geometry;
             Ok((Some(PlainMesh { geometry, files }), contents, Some(mesh)))
         })
-        .collect::<Result<_, GenerateError>>()?;
+        .collect::<Result<_>>()?;
     let (link_meshes, files, meshes): (_, Vec<_>, _) = written.into_iter().collect();
     let module = PlainMeshesModule { preferred_geometry: preferred, link_meshes };
     made_with(&module, files.into_iter().flatten().collect(), meshes)
@@ -65,8 +65,8 @@ pub(super) fn plain(
 pub(super) fn hulls(
     context: &Context,
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<LinkMesh>>>,
-) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
+    taken: Taken,
+) -> Result<Made<Meshes>> {
     // A plain mesh has a triangle with positive area. It therefore has a convex hull.
     let (links, meshes) = not_taken(plain, &taken);
     let hull = |at: usize, mesh: &Mesh| {
@@ -99,8 +99,8 @@ pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
 pub(super) fn pieces(
     context: &Context,
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<LinkMesh>>>,
-) -> Result<Made<Vec<Vec<WrittenMesh>>>, GenerateError> {
+    taken: Taken,
+) -> Result<Made<Pieces>> {
     let settings = decomposition(context.settings);
     let (links, meshes) = not_taken(plain, &taken);
     let decompose = |at: usize, mesh: &Mesh| {
@@ -140,13 +140,11 @@ fn not_taken<'a>(
 /// The solids of each link: those that are taken, or the next of those that were built, in the colour of the link.
 fn solids(
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<LinkMesh>>>,
+    taken: Taken,
     mut built: impl Iterator<Item = Vec<Mesh>>,
 ) -> Vec<Vec<LinkMesh>> {
     let links = plain.iter().zip(taken).map(|(plain, taken)| {
-        let Some(plain) = plain else {
-            return Vec::new();
-        };
+        let Some(plain) = plain else { return Vec::new() };
         if let Some(taken) = taken {
             return taken;
         }
@@ -162,7 +160,7 @@ fn write(
     context: &Context,
     kind: ModuleKind,
     links: &[Vec<LinkMesh>],
-) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>), GenerateError> {
+) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>)> {
     let are_pieces = kind == ModuleKind::ConvexDecompositionMeshes;
     let written: Vec<Vec<(MeshFiles, Vec<MadeFile>)>> = links
         .par_iter()
@@ -175,7 +173,7 @@ fn write(
             });
             solids.collect()
         })
-        .collect::<Result<_, GenerateError>>()?;
+        .collect::<Result<_>>()?;
     let links = written.into_iter().map(|link| link.into_iter().unzip());
     let (names, contents): (_, Vec<Vec<Vec<MadeFile>>>) = links.unzip();
     Ok((names, contents.into_iter().flatten().flatten().collect()))

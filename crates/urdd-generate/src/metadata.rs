@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::error::GenerateError;
+use super::error::{GenerateError, Result};
 use urdd_directory::writer::sha256;
 use urdd_format::registry::{ModuleKind, PROGRAM_VERSION, SPEC_VERSION};
 use urdd_format::root_metadata::{
@@ -88,7 +88,7 @@ pub(super) fn document(
     origin: Option<&Value>,
     made: &[Entry],
     extensions: Vec<Value>,
-) -> Result<Value, GenerateError> {
+) -> Result<Value> {
     let metadata = RootMetadata {
         urdd_version: version(SPEC_VERSION),
         robot_name: robot_name.to_owned(),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::context::Context;
 use super::donor::Donor;
-use super::error::GenerateError;
+use super::error::{GenerateError, Result};
 use super::inputs;
 use super::made::{Digests, Made, MadeFile};
 use super::metadata::{self, Entry, MODULE_VERSION};
@@ -27,7 +27,6 @@ pub struct MadeModule {
     pub kept: bool,
 }
 
-/// A module whose stage runs.
 struct Begun {
     kind: ModuleKind,
     /// Digest of its inputs, if it can be kept later.
@@ -39,7 +38,6 @@ pub(super) struct Modules<'a> {
     selected: BTreeSet<ModuleKind>,
     replaced: Option<&'a Donor>,
     writer: &'a Writer,
-    /// The new URDD.
     root: Root,
     num_started: usize,
     digests: Digests,
@@ -77,11 +75,9 @@ impl<'a> Modules<'a> {
     pub fn add<T>(
         &mut self,
         kind: ModuleKind,
-        stage: impl FnOnce(&Digests) -> Result<Made<T>, GenerateError>,
-    ) -> Result<Option<T>, GenerateError> {
-        let Some(begun) = self.begin(kind)? else {
-            return Ok(None);
-        };
+        stage: impl FnOnce(&Digests) -> Result<Made<T>>,
+    ) -> Result<Option<T>> {
+        let Some(begun) = self.begin(kind)? else { return Ok(None) };
         let Made { document, files, notes, product } = stage(&self.digests)?;
         self.end(begun, document, files, notes)?;
         Ok(Some(product))
@@ -92,13 +88,12 @@ impl<'a> Modules<'a> {
         self.made.iter().any(|module| module.kind == kind)
     }
 
-    /// The new URDD.
     pub fn root(&self) -> &Root {
         &self.root
     }
 
     /// Begins a module. `None` if it is not selected, or is kept.
-    fn begin(&mut self, kind: ModuleKind) -> Result<Option<Begun>, GenerateError> {
+    fn begin(&mut self, kind: ModuleKind) -> Result<Option<Begun>> {
         if !self.selected.contains(&kind) {
             return Ok(None);
         }
@@ -127,7 +122,7 @@ impl<'a> Modules<'a> {
         document: Option<Document>,
         files: Vec<MadeFile>,
         notes: Vec<Note>,
-    ) -> Result<(), GenerateError> {
+    ) -> Result<()> {
         if let Some(document) = document {
             let mut written = self.writer.module(kind, MODULE_VERSION, &document)?;
             for file in files {
@@ -144,8 +139,8 @@ impl<'a> Modules<'a> {
         &mut self,
         kind: ModuleKind,
         load: Load<T>,
-        stage: impl FnOnce(&Digests) -> Result<Made<T>, GenerateError>,
-    ) -> Result<Product<T>, GenerateError> {
+        stage: impl FnOnce(&Digests) -> Result<Made<T>>,
+    ) -> Result<Product<T>> {
         let made = self.add(kind, stage)?;
         Ok(Product::new(made, kind, self.root.clone(), load))
     }
@@ -165,7 +160,7 @@ impl<'a> Modules<'a> {
 }
 
 /// Returns an error if something was assumed and the settings are strict.
-pub(super) fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
+pub(super) fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<()> {
     let notes = notes.iter().filter(|note| note.kind.changes_robot());
     let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
     if notes.is_empty() { Ok(()) } else { Err(GenerateError::Strict { notes }) }

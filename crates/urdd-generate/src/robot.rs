@@ -7,25 +7,21 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::composed::Composed;
 use super::context::Context;
-use super::donor::edits::{self, Decisions};
-use super::donor::{Donor, configurations, others};
-use super::error::GenerateError;
-use super::given::Given;
+use super::donor::edits::Decisions;
+use super::donor::{Donor, others};
+use super::error::{GenerateError, Result};
+use super::given::{Given, write_setup};
 use super::meshes::MeshCount;
-use super::metadata;
 use super::modules::{MadeModule, Modules, check_assumptions};
-use super::progress::Progress;
-use super::settings::Settings;
-use super::{setup, size, stages};
-use urdd_directory::canonical;
+use super::settings::{Progress, Settings};
+use super::{metadata, size, stages};
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::regular;
 use urdd_directory::root::Root;
 use urdd_directory::source::Growing;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
+use urdd_directory::{canonical, regular};
 use urdd_format::root_metadata::{self, ConformanceClass, FileEntry};
 use urdd_import::{Imported, import};
 use urdd_source::Source;
@@ -72,38 +68,30 @@ pub fn generate(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
-    let path = source;
-    progress.reads(path);
-    let Some(imported) = import(path, &settings.source)? else {
-        let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
-        return make(Some(path), &source, Given::default(), target, settings, progress);
-    };
-    imported.read.iter().for_each(|file| progress.reads(file));
-    let (source, settings) = imported_source(&imported, settings)?;
-    let mut made = make(Some(path), &source, given(&imported), target, &settings, progress)?;
-    made.notes.extend(setup::write(&imported, target));
+    let (imported, loaded, settings) = load(source, settings, progress)?;
+    let given = imported.as_ref().map(Given::from).unwrap_or_default();
+    let mut made = make(Some(source), &loaded, given, target, &settings, progress)?;
+    made.notes.extend(imported.and_then(|imported| write_setup(&imported, target)));
     Ok(made)
 }
 
-/// What was imported as a source, and settings by which its files are found.
-fn imported_source(
-    imported: &Imported,
+/// A source, what was imported if it is no URDF, and settings by which its files are found.
+fn load(
+    path: &Path,
     settings: &Settings,
-) -> Result<(Source, Settings), GenerateError> {
+    progress: &dyn Progress,
+) -> Result<(Option<Imported>, Source, Settings)> {
+    progress.reads(path);
+    let Some(imported) = import(path, &settings.source)? else {
+        let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
+        return Ok((None, source, settings.clone()));
+    };
+    imported.read.iter().for_each(|file| progress.reads(file));
     let settings = Settings { source: imported.settings(&settings.source)?, ..settings.clone() };
     let mut source = imported.load(&settings.source, &settings.cancellation)?;
     source.notes.extend(imported.report.notes(&imported.shown));
     source.shown = format!("{} (as {})", imported.shown, imported.urdf);
-    Ok((source, settings))
-}
-
-fn given(imported: &Imported) -> Given<'_> {
-    Given {
-        edits: &imported.skips,
-        configurations: &imported.configurations,
-        origin: Some(&imported.origin),
-        ..Given::default()
-    }
+    Ok((Some(imported), source, settings))
 }
 
 /// Generates the URDD of a URDF in memory, such as from a pipe. Relative mesh file names refer to `folder`. Notes and
@@ -123,24 +111,20 @@ pub fn generate_text(
     make(None, &source, Given::default(), target, settings, progress)
 }
 
-/// Generates the URDD of a composed robot, as [`generate_text`] does for any robot. The URDF is
-/// stored in it under the robot's name.
-///
-/// # Errors
-/// Those of [`generate`].
-pub fn generate_composed(
+/// As [`generate_text`], for a robot composed of those that give `given`. The URDF is stored under the robot's name.
+pub(crate) fn generate_composed(
     urdf: Vec<u8>,
-    composed: &Composed,
+    (shown, folder): (&str, &Path),
+    given: Given,
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<Generated, GenerateError> {
-    let mut source =
-        urdd_source::load_text(urdf, &composed.shown, &composed.folder, &settings.source)?;
+) -> Result<Generated> {
+    let mut source = urdd_source::load_text(urdf, shown, folder, &settings.source)?;
     // No hidden file, and no option of a command.
     let name = source.reading.robot.name.trim_start_matches(['.', '-']);
     source.file_name = urdd_source::file_name(name);
-    make(None, &source, composed.given(), target, settings, progress)
+    make(None, &source, given, target, settings, progress)
 }
 
 /// Generates the URDD of a URDF in memory, where [`Settings::source`] says that its files are: nothing is written to the
@@ -153,18 +137,10 @@ pub fn generate_in_memory(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<(Generated, UrddFiles), GenerateError> {
-    progress.reads(source);
-    let imported = import(source, &settings.source)?;
-    let (source, settings) = match &imported {
-        Some(imported) => imported_source(imported, settings)?,
-        None => {
-            let source = urdd_source::load(source, &settings.source, &settings.cancellation)?;
-            (source, settings.clone())
-        }
-    };
+    let (imported, source, settings) = load(source, settings, progress)?;
     size::check(&source)?;
     check_assumptions(&source.notes, &settings)?;
-    let given = imported.as_ref().map(given).unwrap_or_default();
+    let given = imported.as_ref().map(Given::from).unwrap_or_default();
     let decisions = given.decisions(true, Decisions::default());
     let context = Context::new(&source, &settings, None, decisions, progress)?;
     let files = Growing::default();
@@ -191,7 +167,7 @@ fn write(
     replaced: Option<&Donor>,
     writer: &Writer,
     root: Root,
-) -> Result<Written, GenerateError> {
+) -> Result<Written> {
     let source = context.source;
     let mut modules = Modules::new(context, replaced, writer, root);
     let meshes = stages::run(context, &mut modules)?;
@@ -208,7 +184,7 @@ impl Written {
         robot: &str,
         origin: Option<&Value>,
         extensions: Vec<Value>,
-    ) -> Result<String, GenerateError> {
+    ) -> Result<String> {
         let Written { carried, found, entries, .. } = self;
         let found = found.as_ref();
         let document = metadata::document(robot, carried, found, origin, entries, extensions)?;
@@ -238,7 +214,7 @@ fn make(
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<Generated, GenerateError> {
+) -> Result<Generated> {
     size::check(source)?;
     check_place(path, source, target)?;
     check_assumptions(&source.notes, settings)?;
@@ -248,10 +224,7 @@ fn make(
     let replaced = donor.as_ref();
     let decisions = match settings.drop_edits {
         true => Decisions::default(),
-        false => Decisions {
-            configurations: configurations::read(target, replaced)?,
-            ..edits::read(target, &settings.selection, replaced)?
-        },
+        false => Decisions::read(target, &settings.selection, replaced)?,
     };
     let decisions = given.decisions(replaced.is_none(), decisions);
     check_target(target, replaced, settings)?;
@@ -288,10 +261,8 @@ fn make(
 }
 
 /// Checks that the source is outside the target.
-fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<(), GenerateError> {
-    let Ok(canonical) = target.canonicalize() else {
-        return Ok(());
-    };
+fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()> {
+    let Ok(canonical) = target.canonicalize() else { return Ok(()) };
     let path = path.and_then(|path| path.canonicalize().ok());
     if path.is_some_and(|path| path.starts_with(&canonical)) {
         return Err(GenerateError::SourceInTarget {
@@ -303,14 +274,8 @@ fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()
 }
 
 /// Checks that the content of the target may be replaced.
-fn check_target(
-    target: &Path,
-    replaced: Option<&Donor>,
-    settings: &Settings,
-) -> Result<(), GenerateError> {
-    let Ok(canonical) = target.canonicalize() else {
-        return Ok(());
-    };
+fn check_target(target: &Path, replaced: Option<&Donor>, settings: &Settings) -> Result<()> {
+    let Ok(canonical) = target.canonicalize() else { return Ok(()) };
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());
     let is_free = is_empty || replaced.is_some_and(Donor::is_ours) || !canonical.is_dir();
     if !is_free && !settings.force {

@@ -1,4 +1,6 @@
-//! Settings of the generator.
+//! Settings of the generator, and who is told of its progress.
+
+use std::path::Path;
 
 use super::selection::Selection;
 use urdd_directory::cancellation::Cancellation;
@@ -6,6 +8,7 @@ use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::ModuleKind;
 use urdd_learned::train::Effort;
 
 /// [`Pieces::most`].
@@ -125,4 +128,24 @@ impl Default for Settings {
             cancellation: Cancellation::default(),
         }
     }
+}
+
+/// Receives the progress of a run.
+pub trait Progress: Sync {
+    /// A module is started; `done` of `total` modules are finished.
+    fn module(&self, kind: ModuleKind, done: usize, total: usize);
+
+    /// Progress within a slow module: `done` of `total` steps are finished.
+    fn part(&self, _kind: ModuleKind, _done: usize, _total: usize) {}
+
+    /// A module's work on the mesh of a link is finished. Links with the same mesh are reported once, by the first.
+    fn link(&self, _kind: ModuleKind, _name: &str) {}
+
+    /// A file of the source is about to be read: the URDF, a mesh, a texture. Also called for the places where a missing
+    /// mesh was searched, since the robot changes when the file appears. Files that xacro includes are not reported.
+    fn reads(&self, _file: &Path) {}
+}
+
+impl Progress for () {
+    fn module(&self, _: ModuleKind, _: usize, _: usize) {}
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::Vector3;
 
-use super::error::GenerateError;
+use super::error::Result;
 use urdd_geometry::read::Part;
 use urdd_source::Source;
 use urdd_source::fault::Fault;
@@ -26,10 +26,7 @@ pub const MOST_TRIANGLES: usize = 10_000_000;
 const LEAST_WIDTH: f64 = 4e-6;
 
 /// Refuses a robot whose URDD would be too large for its readers.
-///
-/// # Errors
-/// If it has too many links or too many elements.
-pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
+pub(super) fn check(source: &Source) -> Result<()> {
     let robot = &source.reading.robot;
     let links = robot.links.len();
     let shapes = robot
@@ -56,9 +53,6 @@ pub(super) struct TriangleBudget(AtomicUsize);
 
 impl TriangleBudget {
     /// Adds the triangles of a link. Returns whether all links so far are within the budget.
-    ///
-    /// # Errors
-    /// If this link alone has too many.
     pub fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
         if triangles > MOST_LINK_TRIANGLES {
             return Err(Fault::TooManyTriangles {
@@ -82,9 +76,6 @@ impl TriangleBudget {
 }
 
 /// Refuses a link whose shape would have no width in its mesh files.
-///
-/// # Errors
-/// If it has none.
 pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     let vertices = || parts.iter().flat_map(|part| &part.mesh.vertices);
     let mut largest = 0.0_f64;
@@ -100,9 +91,7 @@ pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
 
 /// The largest distance of a point from a line through two distant points; 0 without points.
 fn width(points: impl Iterator<Item = Vector3<f64>> + Clone) -> f64 {
-    let Some(first) = points.clone().next() else {
-        return 0.0;
-    };
+    let Some(first) = points.clone().next() else { return 0.0 };
     let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
         points.clone().map(|point| distance(&point)).fold(0.0, f64::max)
     };

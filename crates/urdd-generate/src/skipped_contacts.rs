@@ -1,19 +1,22 @@
-//! What checks for self-collision do not see: pairs of links that are skipped because they touch in one configuration,
-//! and that are apart in others.
+//! `link_shapes_skips_module`: SPEC 8.7. And what checks for self-collision do not see: pairs of links that are skipped
+//! because they touch in one configuration, and that are apart in others.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::error::GenerateError;
+use super::error::Result;
+use super::made::{Shared, streamed};
+use super::shape_documents;
 use super::shapes::statistics::{Shapes, distances_at, sampled_motion};
 use urdd_format::link_shapes_simple_skips::{
     CONTACT, LinkShapesSimpleSkipsModule as SimpleSkips, SkipReason,
 };
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
 use urdd_format::short::Short;
-use urdd_format::skips::{HiddenContacts, TouchesIn};
+use urdd_format::skips::{HiddenContacts, TouchesIn, skips_module};
 use urdd_geometry::convex::pair_distances;
 use urdd_source::note::{Note, NoteKind};
 
@@ -55,14 +58,12 @@ fn pairs<T>(
 }
 
 /// The edits by which pairs of links that touch in the reference configuration are skipped; none without one.
-pub(super) fn of_reference<'a>(
+fn of_reference<'a>(
     context: &Context,
-    shapes: impl FnOnce() -> Result<&'a Shapes, GenerateError>,
+    shapes: impl FnOnce() -> Result<&'a Shapes>,
     simple: &SimpleSkips,
-) -> Result<Vec<SkipEdit>, GenerateError> {
-    let Some(reference) = &context.reference else {
-        return Ok(Vec::new());
-    };
+) -> Result<Vec<SkipEdit>> {
+    let Some(reference) = &context.reference else { return Ok(Vec::new()) };
     let name = format!("the reference configuration `{}`", reference.name.as_str());
     let shapes = shapes()?;
     let kind = shapes.deciding_kind();
@@ -78,13 +79,36 @@ pub(super) fn of_reference<'a>(
     Ok(found.keys().map(edit).collect())
 }
 
+/// Builds the module. Edits that follow from the reference configuration come first, then those of a person.
+pub(super) fn edited_skips<'a>(
+    context: &Context,
+    shapes: impl FnOnce() -> Result<&'a Shapes>,
+    simple: &SimpleSkips,
+) -> Shared<Skips> {
+    let by_reference = of_reference(context, shapes, simple)?;
+    let links = context.chain.links_in_chain.iter();
+    let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+    let edits = [by_reference, context.edits.kept.clone()].concat();
+    let module = Arc::new(skips_module(simple, context.skipped_reasons(), edits, &names));
+    let mut made = streamed(shape_documents::skips(&module), module)?;
+    let lost = context.edits.lost.iter().map(|edit| {
+        let problem = format!(
+            "the previous URDD has an edit of the skips between `{}` and `{}`, but the robot no longer has both links",
+            edit.link_a, edit.link_b
+        );
+        context.note(NoteKind::LeftOut, problem, "the edit is left out")
+    });
+    made.notes.extend(lost);
+    Ok(made)
+}
+
 /// Notes about the pairs of links that are skipped because they touch in the default configuration, or in the reference.
 pub(super) fn notes<'a>(
     context: &Context,
-    shapes: impl FnOnce() -> Result<&'a Shapes, GenerateError>,
+    shapes: impl FnOnce() -> Result<&'a Shapes>,
     simple: &SimpleSkips,
     skips: &Skips,
-) -> Result<Vec<Note>, GenerateError> {
+) -> Result<Vec<Note>> {
     let names = context.chain.links_in_chain.iter().map(|link| link.name.as_str());
     let always = pairs(simple, |_, reason, _| (reason == SkipReason::Always).then_some(()));
     let contacts = HiddenContacts::new(&skips.edits, names, always.into_keys());

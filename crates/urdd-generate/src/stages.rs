@@ -7,19 +7,15 @@ use std::sync::Arc;
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::context::Context;
 use super::donor::links::DonorLinks;
-use super::error::GenerateError;
+use super::error::Result;
 use super::made::{Made, made, streamed};
 use super::meshes::MeshCount;
 use super::meshes::original::original_meshes;
 use super::modules::Modules;
 use super::named::Named;
-use super::shapes::ConvexMeshes;
-use super::shapes::max_distances::max_distances;
 use super::shapes::statistics::Shapes;
-use super::skipped_contacts;
-use super::{
-    geometry_notes, inputs, learned, mesh_stages as meshes, product, shape_stages as shapes,
-};
+use super::shapes::{ConvexMeshes, approximations, simple_skips, statistics};
+use super::{geometry_notes, inputs, learned, mesh_stages as meshes, product, skipped_contacts};
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::named_configurations::NamedConfigurationsModule;
 use urdd_format::plain_meshes::PlainMeshesModule;
@@ -27,7 +23,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_source::note::NoteKind;
 
 /// Runs every stage, in the order of the specification. Returns how the mesh references were resolved.
-pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount, GenerateError> {
+pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount> {
     let donors = &DonorLinks::of(&context.settings.donors, &|kind| inputs::text(kind, context));
 
     modules.add(ModuleKind::Urdf, |_| made(&context.source.reading.robot))?;
@@ -62,17 +58,17 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
         meshes::pieces(context, plain, donors.solids(context, kind, plain, digests))
     })?;
 
-    let solids = || -> Result<_, GenerateError> {
+    let solids = || -> Result<_> {
         let (hulls, pieces) = (hulls.get()?, pieces.get()?);
         Ok(ConvexMeshes { hulls, pieces })
     };
     let kind = ModuleKind::LinkShapesApproximations;
     let approximations = modules.product(kind, product::document, |digests| {
         let solids = solids()?;
-        shapes::boxes_and_spheres(context, &solids, donors.shapes(context, &solids, digests))
+        approximations::approximations(context, &solids, donors.shapes(context, &solids, digests))
     })?;
     modules.add(ModuleKind::LinkShapesMaxDistanceFromOrigin, |_| {
-        made(&max_distances(&solids()?, approximations.get()?))
+        made(&approximations::max_distances(&solids()?, approximations.get()?))
     })?;
     // Preparing the shapes takes long. The next two stages use them.
     let known = OnceCell::new();
@@ -83,17 +79,15 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     };
     let kind = ModuleKind::LinkShapesDistanceStatistics;
     let statistics = modules.product(kind, product::document, |_| {
-        shapes::distance_statistics(context, &solids()?, prepared()?)
+        statistics::statistics(context, &solids()?, prepared()?)
     })?;
     let kind = ModuleKind::LinkShapesSimpleSkips;
     let simple_skips = modules.product(kind, product::document, |_| {
-        shapes::skips_by_distance(context, prepared()?, statistics.get()?)
+        simple_skips::simple_skips(context, prepared()?, statistics.get()?)
     })?;
     let kind = ModuleKind::LinkShapesSkips;
     let skips = modules.product(kind, product::document, |_| {
-        let simple = simple_skips.get()?;
-        let by_reference = skipped_contacts::of_reference(context, prepared, simple)?;
-        shapes::edited_skips(context, simple, by_reference)
+        skipped_contacts::edited_skips(context, prepared, simple_skips.get()?)
     })?;
     if modules.has(kind) {
         let (simple, skips) = (simple_skips.get()?, skips.get()?);
@@ -108,7 +102,7 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
 }
 
 /// With 180 links in a line these tables have 5 million numbers.
-fn connections(context: &Context) -> Result<Made, GenerateError> {
+fn connections(context: &Context) -> Result<Made> {
     let module = connections_module(&context.chain);
     let too_large = module.link_to_link_paths.is_none().then(|| {
         let links = context.chain.links_in_chain.len();
@@ -133,7 +127,7 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
 }
 
 /// SPEC 6.7, from the user's decisions.
-fn named_configurations(context: &Context) -> Result<Made, GenerateError> {
+fn named_configurations(context: &Context) -> Result<Made> {
     let Named { configurations, lost } = &context.named;
     let assumed = "the position is left out; the DOF has its default value there";
     let note =

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::ModelError;
+use super::network::ModelError;
 use urdd_format::index::DofIdx;
 use urdd_format::self_collision_model::ModelInput;
 
@@ -13,7 +13,6 @@ pub enum Input {
     Angle(usize),
     /// A length, scaled by its bounds.
     Length {
-        /// Index of the DOF.
         dof: usize,
         /// Middle of its bounds, metres.
         middle: f64,
@@ -24,9 +23,7 @@ pub enum Input {
     RotationVector([usize; 3]),
 }
 
-/// Number of values of a rotation vector input.
 const MATRIX: usize = 9;
-/// Number of values of an angle input.
 const WAVES: usize = 4;
 
 /// Reads the inputs of a robot with `num_dofs` DOFs.

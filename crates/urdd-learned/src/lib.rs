@@ -9,7 +9,6 @@
 //! Results do not depend on the instruction set, the number of threads, or the batching. Sums have a fixed order
 //! without fused operations, and functions are those of `libm` or our own.
 
-mod error;
 mod inputs;
 #[doc(hidden)]
 pub mod kernel;
@@ -17,5 +16,5 @@ mod model;
 mod network;
 pub mod train;
 
-pub use error::ModelError;
 pub use model::{Clearance, CollisionModel};
+pub use network::ModelError;

@@ -3,10 +3,9 @@
 use fearless_simd::Level;
 use rayon::prelude::*;
 
-use super::error::ModelError;
 use super::inputs::{self, Input};
 use super::kernel::LANES;
-use super::network::Network;
+use super::network::{ModelError, Network};
 use urdd_format::self_collision_model::{
     LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
 };

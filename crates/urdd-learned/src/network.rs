@@ -1,12 +1,37 @@
-//! A fully connected network: SPEC 8.8.4.
+//! A fully connected network, SPEC 8.8.4, and why a model cannot be used.
 
 use fearless_simd::{Level, Simd, dispatch};
+use thiserror::Error;
 
-use super::error::ModelError;
 use super::kernel;
 use urdd_format::self_collision_model::ModelLayer;
 
-/// A layer.
+/// Why a model cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{pointer}: {fault}")]
+pub struct ModelError {
+    /// JSON Pointer to the value.
+    pub pointer: String,
+    /// What is wrong with it.
+    pub fault: String,
+}
+
+impl ModelError {
+    pub(super) fn new(pointer: impl Into<String>, fault: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), fault: fault.into() }
+    }
+
+    /// A number is not one that the model can have.
+    pub(super) fn number(pointer: impl Into<String>) -> Self {
+        Self::new(pointer, "a number is not finite, or not positive where it must be")
+    }
+
+    /// A list is empty, but the network needs at least one `item`.
+    pub(super) fn empty(pointer: impl Into<String>, item: &str) -> Self {
+        Self::new(pointer, format!("empty; the network needs at least one {item}"))
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Row-major, one row per output.
@@ -16,7 +41,6 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Number of inputs.
     pub fn num_inputs(&self) -> usize {
         self.weights.len() / self.biases.len().max(1)
     }

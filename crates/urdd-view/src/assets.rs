@@ -7,9 +7,7 @@ use brotli_decompressor::Decompressor;
 /// A file of the page.
 #[derive(Debug, Clone, Copy)]
 pub struct Asset {
-    /// Its name in the site.
     pub name: &'static str,
-    /// Its media type.
     pub media_type: &'static str,
     /// Its content, compressed with Brotli.
     pub brotli: &'static [u8],
@@ -40,16 +38,12 @@ pub const ASSETS: &[Asset] = &[
 /// The module without the validator, for a page in one file, which includes the report.
 pub const ROBOT_MODULE: Asset = asset!("robot.wasm", "application/wasm");
 
-/// Finds a file by name.
 pub fn find(name: &str) -> Option<&'static Asset> {
     ASSETS.iter().find(|asset| asset.name == name)
 }
 
 impl Asset {
     /// Its decompressed content.
-    ///
-    /// # Errors
-    /// If the data is corrupt.
     pub fn bytes(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;
@@ -58,9 +52,6 @@ impl Asset {
 }
 
 /// The page for `urdd view`'s own server, instead of a static one.
-///
-/// # Errors
-/// As [`Asset::bytes`].
 pub fn live_page() -> io::Result<String> {
     let index = find("index.html").map_or_else(|| Ok(Vec::new()), Asset::bytes)?;
     let text = String::from_utf8(index).map_err(io::Error::other)?;

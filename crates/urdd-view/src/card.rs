@@ -22,7 +22,6 @@ pub struct Card {
 
 #[derive(Debug, Default)]
 struct State {
-    /// Number of requests that wait.
     waiting: usize,
     /// The picture, and the revision of the URDF that it shows.
     made: Option<(String, Picture)>,
@@ -45,7 +44,6 @@ impl Card {
         state.made.as_ref().and_then(|(_, picture)| picture.clone())
     }
 
-    /// Whether a request waits for it.
     pub fn is_wanted(&self) -> bool {
         let state = self.state.lock();
         state.waiting > 0 && state.made.is_none()

@@ -12,9 +12,8 @@ use rayon::ThreadPool;
 
 use crate::card::Picture;
 use crate::collection::{Collection, Making, Shown, Source};
-use crate::picture;
 use crate::reply::{Body, Reply};
-use crate::revision;
+use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;

@@ -74,7 +74,6 @@ impl Source {
     }
 }
 
-/// The mutable state of a displayed robot.
 #[derive(Debug)]
 struct Standing {
     path: PathBuf,

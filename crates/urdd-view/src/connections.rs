@@ -48,9 +48,6 @@ pub struct Connection {
 
 impl Connection {
     /// Takes a slot. If none is free, closes the oldest connection without the token.
-    ///
-    /// # Errors
-    /// If the stream cannot be cloned.
     pub fn begin(stream: &TcpStream, all: &Arc<Connections>) -> io::Result<Self> {
         let stream = stream.try_clone()?;
         let mut state = all.0.lock();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use parking_lot::Mutex;
 
-use crate::reply::Failure;
+use crate::reply::{Result, failed, refused};
 
 /// Maximum size of all drops, bytes.
 const MAX_TOTAL: u64 = 1 << 30;
@@ -37,19 +37,18 @@ impl Drops {
     }
 
     /// A new folder for so many bytes.
-    ///
-    /// # Errors
-    /// If there is no room.
-    pub(super) fn begin(&self, bytes: u64) -> Result<PathBuf, Failure> {
+    pub(super) fn begin(&self, bytes: u64) -> Result<PathBuf> {
         let mut taken = self.taken.lock();
         if taken.bytes.saturating_add(bytes) > MAX_TOTAL {
-            let why = "more than 1 GiB was dropped; give the path to `urdd view` instead";
-            return Err((413, why.to_owned()));
+            return refused(
+                413,
+                "more than 1 GiB was dropped; give the path to `urdd view` instead",
+            );
         }
         taken.bytes += bytes;
         taken.drops += 1;
         let folder = self.folder.join(taken.drops.to_string());
-        fs::create_dir_all(&folder).map_err(|error| (500, error.to_string()))?;
+        fs::create_dir_all(&folder).map_err(failed(500))?;
         Ok(folder)
     }
 }

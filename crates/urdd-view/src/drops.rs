@@ -13,7 +13,7 @@ use serde_json::json;
 
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
-use crate::reply::{Failure, Reply};
+use crate::reply::{Reply, Result, refused};
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::listing::EntryKind;
@@ -28,7 +28,6 @@ pub const MAX_BODY: u64 = 256 << 20;
 /// Maximum number of files of one drop.
 const MAX_FILES: usize = 10_000;
 
-/// A file of a drop.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Item {
@@ -49,12 +48,12 @@ fn taken(
     drops: &Drops,
     body: &[u8],
     is_gone: &dyn Fn() -> bool,
-) -> Result<Vec<String>, Failure> {
+) -> Result<Vec<String>> {
     let (mut items, mut content) = items(body)?;
     let unpacked;
-    let wanted = || {
-        let gone = || (409, "the page does not wait any more".to_owned());
-        (!is_gone()).then_some(()).ok_or_else(gone)
+    let wanted = || match is_gone() {
+        true => refused(409, "the page does not wait any more"),
+        false => Ok(()),
     };
     if let [item] = &*items
         && item.path.to_ascii_lowercase().ends_with(".zip")
@@ -74,33 +73,29 @@ fn taken(
 }
 
 /// The files of a drop, and their bytes.
-fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
-    let bad = |why: String| (400, why);
-    let end = body.iter().position(|byte| *byte == b'\n');
-    let end = end.ok_or_else(|| bad("there is no list of files".to_owned()))?;
+fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8])> {
+    let Some(end) = body.iter().position(|byte| *byte == b'\n') else {
+        return refused(400, "there is no list of files");
+    };
     let (list, content) = (&body[..end], &body[end + 1..]);
-    let items: Vec<Item> =
-        serde_json::from_slice(list).map_err(|error| bad(format!("no list of files: {error}")))?;
+    let items: Vec<Item> = serde_json::from_slice(list)
+        .map_err(|error| (400, format!("no list of files: {error}")))?;
     let size = items.iter().try_fold(0u64, |sum, item| sum.checked_add(item.size));
     if size != Some(content.len() as u64) {
-        return Err(bad("the sizes do not match".to_owned()));
+        return refused(400, "the sizes do not match");
     }
     Ok((items, content))
 }
 
 /// The files in a .zip, and their bytes.
-fn of_zip(
-    bytes: &[u8],
-    wanted: &dyn Fn() -> Result<(), Failure>,
-) -> Result<(Vec<Item>, Vec<u8>), Failure> {
+fn of_zip(bytes: &[u8], wanted: &dyn Fn() -> Result<()>) -> Result<(Vec<Item>, Vec<u8>)> {
     let bad = |error: &dyn std::fmt::Display| (400, format!("this .zip cannot be read: {error}"));
     let archive = Archive::of_any("", bytes.to_vec()).map_err(|error| bad(&error))?;
     let root = Root::of(archive);
     let entries = root.list().map_err(|error| bad(&error))?.entries.into_iter();
     let files: Vec<_> = entries.filter(|entry| entry.kind == EntryKind::File).collect();
     if files.iter().map(|file| file.size).sum::<u64>() > MAX_BODY {
-        let why = format!("this .zip has more than {} MiB in it", MAX_BODY >> 20);
-        return Err((413, why));
+        return refused(413, format!("this .zip has more than {} MiB in it", MAX_BODY >> 20));
     }
     let (mut items, mut content) = (Vec::new(), Vec::new());
     for file in files {
@@ -112,10 +107,9 @@ fn of_zip(
 }
 
 /// Whether number and paths are such that they can be written.
-fn check(items: &[Item]) -> Result<(), Failure> {
-    let bad = |why: String| (400, why);
+fn check(items: &[Item]) -> Result<()> {
     if items.len() > MAX_FILES {
-        return Err(bad(format!("more than {MAX_FILES} files")));
+        return refused(400, format!("more than {MAX_FILES} files"));
     }
     for item in items {
         let name = &item.path;
@@ -123,9 +117,9 @@ fn check(items: &[Item]) -> Result<(), Failure> {
             || name.split('/').any(|part| part.len() > MAX_PART_BYTES)
             || name.split('/').count() > MAX_FOLDER_DEPTH;
         if is_long {
-            return Err(bad("a path is too long".to_owned()));
+            return refused(400, "a path is too long");
         }
-        path::check(name).map_err(|fault| bad(format!("{name:?}: {fault}")))?;
+        path::check(name).map_err(|fault| (400, format!("{name:?}: {fault}")))?;
     }
     Ok(())
 }
@@ -134,8 +128,8 @@ fn write(
     items: &[Item],
     mut content: &[u8],
     folder: &Path,
-    wanted: &dyn Fn() -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    wanted: &dyn Fn() -> Result<()>,
+) -> Result<()> {
     let failed = |path: &str, error: &std::io::Error| {
         let why = match error.kind() {
             // Nothing is replaced: two files of one name are an error.
@@ -169,16 +163,15 @@ fn sources(
     items: &[Item],
     folder: &Path,
     with_xacro: bool,
-    wanted: &dyn Fn() -> Result<(), Failure>,
-) -> Result<Vec<(String, Source)>, Failure> {
+    wanted: &dyn Fn() -> Result<()>,
+) -> Result<Vec<(String, Source)>> {
     let mut jobs = robots::jobs(&[folder.to_owned()], &SourceSettings::default())
         .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
     if !with_xacro {
         jobs.retain(|job| !FileType::Xacro.is_of(&job.source));
     }
     if jobs.is_empty() {
-        let why = "xacro files are programs: start `urdd view --xacro` to run them";
-        return Err((403, why.to_owned()));
+        return refused(403, "xacro files are programs: start `urdd view --xacro` to run them");
     }
     let dropped = PackageFolders::of(items.iter().map(|item| &*item.path).collect());
     let sources = jobs.into_iter().map(|job| {

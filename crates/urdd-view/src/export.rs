@@ -11,18 +11,14 @@ use sha2::{Digest, Sha256};
 
 use crate::assets::{self, ASSETS};
 use crate::collection::{Collection, Shown};
-use crate::export_error::ExportError;
 use crate::report;
-use crate::route;
-use crate::site_list::{FOLDER, PAGE, SiteList};
+use crate::route::{self, MAX_FILE_BYTES};
+use crate::site_list::{ExportError, FOLDER, PAGE, SiteList};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::{EntryKind, ReadError, Root};
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::hexadecimal::hexadecimal;
-
-/// Maximum size of a copied file, in bytes.
-const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
 /// files that the last export listed, and keeps all others. `opens` is the view that the page shows first, as in its
@@ -71,7 +67,6 @@ pub fn export(
     list.put(staging.content(), staging.target(), &before)
 }
 
-/// A site that is being written.
 struct Site {
     writer: Writer,
     list: SiteList,
@@ -96,11 +91,8 @@ impl Site {
 
 /// A robot as published: the URDD's own files, and the validator's report on them.
 pub(super) struct Published {
-    /// The files.
     pub root: Root,
-    /// Their report.
     pub report: String,
-    /// The entry of `robots.json`.
     pub entry: Value,
 }
 

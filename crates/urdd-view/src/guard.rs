@@ -3,9 +3,7 @@
 /// The headers that identify the origin of a request.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Caller<'a> {
-    /// `Host`.
     pub host: Option<&'a str>,
-    /// `Origin`.
     pub origin: Option<&'a str>,
     /// `Sec-Fetch-Site`.
     pub site: Option<&'a str>,
@@ -31,14 +29,11 @@ impl Caller<'_> {
 pub enum Refusal {
     /// Sent to another host name, as in DNS rebinding attacks by other pages.
     Host,
-    /// Sent by another page.
     Origin,
-    /// Without the token.
     Token,
 }
 
 impl Refusal {
-    /// The message for the response.
     pub fn message(self) -> &'static str {
         match self {
             Refusal::Host => "this server accepts requests only for 127.0.0.1 and localhost\n",
@@ -53,7 +48,6 @@ impl Refusal {
 /// The access rules of one server.
 #[derive(Debug, Clone)]
 pub struct Guard {
-    /// The port.
     pub port: u16,
     /// The token that a caller must send.
     pub token: String,
@@ -62,18 +56,12 @@ pub struct Guard {
 impl Guard {
     /// Whether to serve the page's HTML: to the page itself, to a typed address, and to a followed link on any page.
     /// The HTML contains no robot and no token, and no other page can frame or read it.
-    ///
-    /// # Errors
-    /// The reason for the refusal.
     pub fn entrance(&self, caller: &Caller) -> Result<(), Refusal> {
         let site = if caller.follows_a_link() { Some("none") } else { caller.site };
         self.page(&Caller { site, ..*caller })
     }
 
     /// Whether to serve the page's other files. Checks the host, and that no other page sends the request.
-    ///
-    /// # Errors
-    /// The reason for the refusal.
     pub fn page(&self, caller: &Caller) -> Result<(), Refusal> {
         let port = self.port;
         let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
@@ -93,9 +81,6 @@ impl Guard {
     }
 
     /// Whether a robot may be read or changed. Also requires the token.
-    ///
-    /// # Errors
-    /// The reason for the refusal.
     pub fn robots(&self, caller: &Caller) -> Result<(), Refusal> {
         self.page(caller)?;
         let given = caller.token.unwrap_or_default().as_bytes();

@@ -26,16 +26,12 @@ const BYTES_A_SECOND: u64 = 1 << 20;
 const LINGER: Duration = Duration::from_secs(1);
 const MAX_LINGER: u64 = 1 << 20;
 
-/// A request.
 #[derive(Debug, Default)]
 pub struct Request {
-    /// Its method.
     pub method: String,
-    /// Its URL, as sent.
     pub url: String,
     /// Its headers. Values that are not text are empty.
     headers: Vec<(String, String)>,
-    /// Its body.
     pub body: Vec<u8>,
 }
 
@@ -110,14 +106,11 @@ pub fn converse(
                     body(&mut reader, length, &mut request.body)?
                 }
             };
-            let head_only = request.method == "HEAD";
-            match received {
-                Ok(()) => {
-                    let stream = &reader.get_ref().stream;
-                    (answer(&request, &|| is_closed(stream)), head_only)
-                }
-                Err(refused) => (refused, head_only),
-            }
+            let reply = match received {
+                Ok(()) => answer(&request, &|| is_closed(&reader.get_ref().stream)),
+                Err(refused) => refused,
+            };
+            (reply, request.method == "HEAD")
         }
     };
     let seconds = Duration::from_secs(reply.body.size().unwrap_or_default() / BYTES_A_SECOND);

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use crate::collection::{Making, Shown};
-use crate::reply::{Failure, Reply, wish};
+use crate::reply::{Reply, Result, failed, refused, wish};
 use crate::revision;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
@@ -31,36 +31,33 @@ pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
     }))
 }
 
-fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
+fn kept(robot: &Shown, folder: &str) -> Result<PathBuf> {
     if !robot.is_temporary() {
-        return Err((403, "this URDD is already in a folder".to_owned()));
+        return refused(403, "this URDD is already in a folder");
     }
-    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
     // While this is locked, no run replaces what is copied.
     let path = robot.path();
-    let lock = TargetLock::at_once(&path).map_err(|error| failed(&error))?;
+    let lock = TargetLock::at_once(&path).map_err(failed(500))?;
     if lock.is_none() || robot.making() != Making::Done || robot.path() != path {
-        let why = "this robot is still being generated; save it when it is complete";
-        return Err((409, why.to_owned()));
+        return refused(409, "this robot is still being generated; save it when it is complete");
     }
     let target = resolved(folder)?;
     free(&target)?;
-    let staging = Staging::begin(&target, &Cancellation::default())
-        .map_err(|error| (403, error.to_string()))?;
+    let staging = Staging::begin(&target, &Cancellation::default()).map_err(failed(403))?;
     // Another run may have written there while this one waited.
     free(&target)?;
-    take_content(&path, staging.content(), &|_| false).map_err(|error| failed(&error))?;
+    take_content(&path, staging.content(), &|_| false).map_err(failed(500))?;
     let place = staging.target().to_owned();
-    staging.commit().map_err(|error| failed(&error))?;
+    staging.commit().map_err(failed(500))?;
     robot.keep_at(place.clone());
     Ok(place)
 }
 
 /// Resolves the path that the user entered.
-fn resolved(folder: &str) -> Result<PathBuf, Failure> {
+fn resolved(folder: &str) -> Result<PathBuf> {
     let said = folder.trim();
     if said.is_empty() || said.contains('\0') {
-        return Err((400, "give a folder".to_owned()));
+        return refused(400, "give a folder");
     }
     let path = match said.strip_prefix("~/") {
         Some(rest) => std::env::home_dir()
@@ -72,15 +69,15 @@ fn resolved(folder: &str) -> Result<PathBuf, Failure> {
 }
 
 /// Checks that nothing would be overwritten.
-fn free(target: &Path) -> Result<(), Failure> {
+fn free(target: &Path) -> Result<()> {
     let shown = target.display();
     let metadata = match std::fs::symlink_metadata(target) {
         Ok(metadata) => metadata,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
-        Err(error) => return Err((403, format!("{shown}: {error}"))),
+        Err(error) => return refused(403, format!("{shown}: {error}")),
     };
     if !metadata.is_dir() {
-        return Err((403, format!("{shown}: a file of that name exists; nothing was saved")));
+        return refused(403, format!("{shown}: a file of that name exists; nothing was saved"));
     }
     let entries = std::fs::read_dir(target).map_err(|error| (403, format!("{shown}: {error}")))?;
     if entries.count() == 0 {
@@ -90,5 +87,5 @@ fn free(target: &Path) -> Result<(), Failure> {
         true => "this folder has a URDD already; `urdd generate` into it keeps its edits",
         false => "this folder is not empty",
     };
-    Err((409, format!("{shown}: {what}. Nothing was saved; give another folder")))
+    refused(409, format!("{shown}: {what}. Nothing was saved; give another folder"))
 }

@@ -16,8 +16,7 @@ use rayon::ThreadPool;
 
 use crate::cards::Cards;
 use crate::collection::{Collection, Making, Shown, Source};
-use crate::picture;
-use crate::revision;
+use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_format::registry::ModuleKind;
@@ -53,7 +52,6 @@ struct Followed {
     shown: Arc<Shown>,
     source: Source,
     job: Job,
-    /// The folder of its URDDs.
     folder: PathBuf,
     files: Files,
     /// Counts its pictures.
@@ -85,9 +83,7 @@ impl Live<'_> {
                     if !is_watched(&shown) {
                         continue;
                     }
-                    let Some(source) = shown.source.clone() else {
-                        continue;
-                    };
+                    let Some(source) = shown.source.clone() else { continue };
                     let id = shown.id.clone();
                     let robot = known.entry(id).or_insert_with(|| self.followed(shown, source));
                     if robot.turn > 0 && robot.is_current() {
@@ -120,9 +116,7 @@ impl Live<'_> {
 
     /// Generates all of a robot now. Returns whether it succeeded.
     pub fn generate(&self, shown: &Arc<Shown>) -> bool {
-        let Some(source) = shown.source.clone() else {
-            return true;
-        };
+        let Some(source) = shown.source.clone() else { return true };
         let robot = self.followed(Arc::clone(shown), source);
         let outcome = self.whole(&robot, self.settings.cancellation.clone());
         let is_made = outcome.is_ok();
@@ -245,13 +239,9 @@ fn is_due(robot: &Followed) -> bool {
 
 /// Takes the result of a run, unless it was stopped, or the robot has another picture since.
 fn finish(run: Run<'_>, known: &mut BTreeMap<String, Followed>) {
-    let Ok(outcome) = run.thread.join() else {
-        return;
-    };
+    let Ok(outcome) = run.thread.join() else { return };
     let robot = known.get_mut(&run.id);
-    let Some(robot) = robot.filter(|robot| robot.turn == run.turn) else {
-        return;
-    };
+    let Some(robot) = robot.filter(|robot| robot.turn == run.turn) else { return };
     if matches!(outcome, Err(GenerateError::Cancelled)) {
         return;
     }
@@ -265,12 +255,10 @@ impl Followed {
         self.folder.join("picture").join(&self.job.name)
     }
 
-    /// The whole URDD.
     fn whole_path(&self) -> PathBuf {
         self.folder.join("whole").join(&self.job.name)
     }
 
-    /// Whether no file changed since it was read.
     fn is_current(&self) -> bool {
         self.files.iter().all(|(file, word)| revision::of_file(file) == *word)
     }

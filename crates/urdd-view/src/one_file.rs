@@ -17,8 +17,8 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 use crate::assets;
 use crate::collection::Shown;
 use crate::export::{Published, published, unread};
-use crate::export_error::ExportError;
-use crate::meanings::meanings;
+use crate::report::meanings;
+use crate::site_list::ExportError;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_directory::root::{EntryKind, ReadError, Root};
@@ -46,9 +46,7 @@ pub fn may_hold_page(file: &Path) -> bool {
         return true;
     }
     let read = regular::read(file, 2 * MAX_ROBOT_BYTES).ok();
-    let Some(page) = read.and_then(|bytes| String::from_utf8(bytes).ok()) else {
-        return false;
-    };
+    let Some(page) = read.and_then(|bytes| String::from_utf8(bytes).ok()) else { return false };
     let is_sealed = |at| {
         let (above, last) = page.split_at(at);
         seal(above) == last

@@ -34,16 +34,11 @@ struct Facet {
 }
 
 /// The picture of a robot in its default configuration, as PNG; `None` if it has nothing to show.
-///
-/// # Errors
-/// If its meshes or its kinematics cannot be read.
 pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
     let poses = robot.link_poses(&robot.configurations()?.zero())?;
     let mut facets = Vec::new();
     for visual in visuals(robot)? {
-        let Some(pose) = poses.get(visual.link) else {
-            continue;
-        };
+        let Some(pose) = poses.get(visual.link) else { continue };
         for part in &visual.parts {
             let color = part.color.map_or(PLAIN, |[r, g, b, _]| [r, g, b]);
             let places: Vec<Vector3<f64>> =
@@ -103,9 +98,7 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
         let [a, b, c] = [0, 1, 2].map(|k| place(&facet.corners[k]));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let [p, q, r] = &facet.corners;
-        let Some(normal) = (q - p).cross(&(r - p)).try_normalize(0.0) else {
-            continue;
-        };
+        let Some(normal) = (q - p).cross(&(r - p)).try_normalize(0.0) else { continue };
         if area == 0.0 || !area.is_finite() {
             continue;
         }

@@ -1,5 +1,6 @@
 //! Responses of the server.
 
+use std::fmt::Display;
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
@@ -7,9 +8,7 @@ use serde_json::Value;
 
 use urdd_directory::source::OpenFile;
 
-/// The body of a response.
 pub enum Body {
-    /// Bytes.
     Bytes(Vec<u8>),
     /// A file of this size, streamed.
     File(OpenFile, u64),
@@ -28,15 +27,10 @@ impl Body {
     }
 }
 
-/// A response.
 pub struct Reply {
-    /// The HTTP status code.
     pub status: u16,
-    /// The media type of the body.
     pub media_type: &'static str,
-    /// Whether the body is compressed with Brotli.
     pub brotli: bool,
-    /// The body.
     pub body: Body,
 }
 
@@ -81,12 +75,10 @@ impl Reply {
         Self::failure(204, "")
     }
 
-    /// JSON.
     pub fn json(value: &Value) -> Self {
         Self::json_text(value.to_string())
     }
 
-    /// JSON that is already text.
     pub fn json_text(text: String) -> Self {
         Self::ok("application/json", Body::Bytes(text.into_bytes()))
     }
@@ -95,10 +87,20 @@ impl Reply {
 /// Why a request was not done: an HTTP status, and the reason.
 pub type Failure = (u16, String);
 
+/// What requests that do something return.
+pub type Result<T, E = Failure> = std::result::Result<T, E>;
+
+/// An error as a failure of this status.
+pub fn failed<E: Display>(status: u16) -> impl Fn(E) -> Failure {
+    move |error| (status, error.to_string())
+}
+
+/// A failure of our own.
+pub fn refused<T>(status: u16, why: impl Into<String>) -> Result<T, Failure> {
+    Err((status, why.into()))
+}
+
 /// Reads the JSON that the page sends; `what` says what it is to be.
-///
-/// # Errors
-/// If it is something else.
 pub fn wish<T: DeserializeOwned>(body: &[u8], what: &str) -> Result<T, Failure> {
     serde_json::from_slice(body).map_err(|error| (400, format!("not {what}: {error}")))
 }

@@ -1,5 +1,6 @@
 //! The reports that the page shows.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,15 +8,13 @@ use serde_json::{Value, json};
 
 use crate::collection::{Collection, Shown, Source};
 use crate::drop_folder::Drops;
-use crate::meanings::meanings;
 use crate::revision;
 use urdd_directory::root::Root;
 use urdd_findings::baseline::Baseline;
 use urdd_lint::LintSettings;
-use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::settings_file::{SettingsFile, nearest};
-use urdd_validate::{Run, validate, validate_source};
+use urdd_validate::{Run, report, validate, validate_source};
 
 /// Maximum size of a URDF that is sent with its report, in bytes.
 const MAX_TEXT_BYTES: usize = 8 << 20;
@@ -119,9 +118,6 @@ fn report_on_source(collection: &Collection, source: &Source) -> Result<String, 
 }
 
 /// The report of the URDD at a root. `name` is its name in the report.
-///
-/// # Errors
-/// If there is no report.
 pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
     let run = validate_source(root.clone(), name, &Settings::default());
     as_json(&run.map_err(|error| error.to_string())?)
@@ -129,4 +125,26 @@ pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
 
 fn as_json(run: &Run) -> Result<String, String> {
     report::json(&run.report).map_err(|error| error.to_string())
+}
+
+/// The explanations of the rules in a report, where the page's module does not have them.
+pub fn meanings(report: &Value) -> Value {
+    let findings = report["urdds"][0]["findings"].as_array();
+    let codes: BTreeSet<&str> =
+        findings.into_iter().flatten().filter_map(|finding| finding["code"].as_str()).collect();
+    let of_urdds = urdd_validate::rules::all().into_iter();
+    let of_urdfs = urdd_lint::rules::all().into_iter();
+    let known =
+        of_urdds.map(|rule| &rule.description).chain(of_urdfs.map(|rule| &rule.description));
+    let told = known.filter(|rule| codes.contains(&*rule.code.to_string()));
+    told.map(|rule| {
+        json!({
+            "code": rule.code.to_string(),
+            "name": rule.name,
+            "severity": rule.severity.as_str(),
+            "clause": rule.clause,
+            "explanation": rule.explanation(),
+        })
+    })
+    .collect()
 }

@@ -39,9 +39,7 @@ fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
     let mut waiting = vec![path.to_owned()];
     while let Some(at) = waiting.pop() {
         let read = if at == path { fs::metadata(&at) } else { fs::symlink_metadata(&at) };
-        let Ok(metadata) = read else {
-            continue;
-        };
+        let Ok(metadata) = read else { continue };
         if metadata.is_dir() {
             let entries = fs::read_dir(&at).into_iter().flatten().flatten();
             waiting.extend(entries.map(|entry| entry.path()));

@@ -3,51 +3,36 @@
 use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
-use crate::assets;
 use crate::collection::{Collection, Making, Shown};
-use crate::drops;
-use crate::picture;
 use crate::reply::{Body, Reply};
 use crate::report::report_of;
-use crate::revision;
+use crate::{assets, drops, picture, revision};
 use urdd_directory::root::{EntryKind, ReadError, Root};
 
-/// Maximum size of a file that is sent, in bytes.
-const MAX_FILE_BYTES: u64 = 1 << 30;
+/// Maximum size of a file that is sent or copied, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// The resource that a URL identifies.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Route {
-    /// A file of the page.
     Asset(String),
-    /// The list of robots.
     Robots,
-    /// What is asked of the robot with this id.
     Robot(String, Asked),
     /// Takes URDFs that were dropped on the page.
     Drops,
-    /// No known resource.
     Unknown,
 }
 
 /// What is asked of a robot.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// The fingerprint of its files.
     Revision,
-    /// The list of its files.
     Files,
-    /// Its report.
     Report,
-    /// A file.
     File(String),
-    /// The gallery's summary.
     Summary,
-    /// A small picture.
     Picture,
-    /// Saves its skips.
     Skips,
-    /// Saves a named configuration.
     Configurations,
     /// Saves a generated robot.
     Keep,
@@ -59,9 +44,7 @@ impl Route {
     /// Parses a URL, still percent-encoded.
     pub fn of(url: &str) -> Self {
         let path = url.split(['?', '#']).next().unwrap_or_default();
-        let Some(path) = path.strip_prefix('/') else {
-            return Route::Unknown;
-        };
+        let Some(path) = path.strip_prefix('/') else { return Route::Unknown };
         // Decodes after splitting: an encoded slash would be part of a name, and no name contains one.
         let parts: Option<Vec<String>> = path
             .split('/')
@@ -71,9 +54,7 @@ impl Route {
                 is_plain.then(|| part.into_owned())
             })
             .collect();
-        let Some(parts) = parts else {
-            return Route::Unknown;
-        };
+        let Some(parts) = parts else { return Route::Unknown };
         let words: Vec<&str> = parts.iter().map(String::as_str).collect();
         match words.as_slice() {
             [""] => Route::Asset("index.html".to_owned()),
@@ -194,9 +175,7 @@ fn failure(error: &ReadError) -> Reply {
 }
 
 fn asset(name: &str, brotli: bool) -> Reply {
-    let Some(asset) = assets::find(name) else {
-        return no_page();
-    };
+    let Some(asset) = assets::find(name) else { return no_page() };
     let body = match name {
         "index.html" => assets::live_page().map(String::into_bytes),
         _ if brotli => Ok(asset.brotli.to_vec()),
@@ -268,9 +247,6 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
 }
 
 /// The path and size of each file below a root.
-///
-/// # Errors
-/// If they cannot be listed.
 fn files(root: &Root) -> Result<Value, ReadError> {
     let entries = root.list()?.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
     Ok(entries.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())

@@ -1,12 +1,12 @@
 //! Saves what a user decided in the page, with sizes and hashes, atomically: edits of skips and the resulting matrices,
-//! and named configurations. Also undoes saves of skips.
+//! and named configurations. Also undoes saves of skips, and takes configurations that a program sends.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use crate::collection::Shown;
-use crate::reply::{Failure, Reply, wish};
+use crate::reply::{Reply, Result, failed, refused, wish};
 use crate::revision;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::replacement::{Files, Replacement};
@@ -27,11 +27,9 @@ const MAX_UNDONE: usize = 100;
 struct Wish {
     /// The revision that the page displayed.
     revision: String,
-    /// The edits to write.
     edits: Option<Vec<SkipEdit>>,
     /// The skipped reasons to write; without them, the existing ones remain.
     skipped_reasons: Option<Vec<SkippedReason>>,
-    /// Whether to undo the last save instead.
     #[serde(default)]
     undo: bool,
 }
@@ -42,7 +40,6 @@ struct Wish {
 struct Pose {
     /// The revision that the page displayed.
     revision: String,
-    /// Its name.
     name: String,
     /// One value for each DOF, rad or m.
     configuration: Vec<f64>,
@@ -56,7 +53,6 @@ pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
     answered(robot, body, "a list of edits", save_skips)
 }
 
-/// Saves a named configuration.
 pub fn configuration(robot: &Shown, body: &[u8]) -> Reply {
     answered(robot, body, "a named configuration", save_configuration)
 }
@@ -65,24 +61,23 @@ fn answered<T: DeserializeOwned>(
     robot: &Shown,
     body: &[u8],
     what: &str,
-    save: impl Fn(&Shown, T) -> Result<Value, Failure>,
+    save: impl Fn(&Shown, T) -> Result<Value>,
 ) -> Reply {
     Reply::of(wish(body, what).and_then(|wish| match robot.is_writable() {
         true => save(robot, wish),
         false => {
-            let why = "this URDD cannot be written: it is an archive, or was made for this view";
-            Err((403, why.to_owned()))
+            refused(403, "this URDD cannot be written: it is an archive, or was made for this view")
         }
     }))
 }
 
-fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
+fn save_skips(robot: &Shown, wish: Wish) -> Result<Value> {
     let mut undo = robot.undo.lock();
     let (now, before) = write(robot, &wish.revision, || match wish.undo {
         true => {
             let last = undo.last().filter(|(after, _)| *after == wish.revision);
-            let nothing = || (409, "there is nothing to undo".to_owned());
-            last.map(|(_, files)| files.clone()).ok_or_else(nothing)
+            let nothing = || refused(409, "there is nothing to undo");
+            last.map_or_else(nothing, |(_, files)| Ok(files.clone()))
         }
         false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons),
     })?;
@@ -104,7 +99,7 @@ fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     Ok(json!({ "revision": now, "undo": undo.len() }))
 }
 
-fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value, Failure> {
+fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value> {
     let mut undo = robot.undo.lock();
     let (now, _) = write(robot, &wish.revision, || named(robot, &wish))?;
     // Earlier saves cannot be undone past this one, which may have added a file.
@@ -117,73 +112,100 @@ fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value, Failure> {
 fn write(
     robot: &Shown,
     expected: &str,
-    made: impl FnOnce() -> Result<Files, Failure>,
-) -> Result<(String, Files), Failure> {
-    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    made: impl FnOnce() -> Result<Files>,
+) -> Result<(String, Files)> {
     let path = robot.path();
     // From here on, no other process of this program writes there.
-    let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
-    let unchanged = |is_same: bool| {
-        let why = "the files changed on disk since the page read them; nothing was written";
-        is_same.then_some(()).ok_or_else(|| (409, why.to_owned()))
+    let replacement = Replacement::begin(&path).map_err(failed(500))?;
+    let unchanged = |is_same: bool| match is_same {
+        true => Ok(()),
+        false => {
+            refused(409, "the files changed on disk since the page read them; nothing was written")
+        }
     };
     unchanged(revision::of(&path) == expected)?;
     // The new content hard-links the unchanged files, which by itself changes their full revision.
     let content = revision::of_content(&path);
     let files = made()?;
-    let root = Root::open_folder(&path).map_err(|error| failed(&error))?;
+    let root = Root::open_folder(&path).map_err(failed(500))?;
     let mut before = Files::new();
     for name in files.keys().filter(|name| path.join(name).exists()) {
         let bytes = root.read(name, MAX_DOCUMENT_BYTES);
-        before.insert(name.clone(), bytes.map_err(|error| failed(&error))?);
+        before.insert(name.clone(), bytes.map_err(failed(500))?);
     }
-    replacement.stage(&files).map_err(|error| failed(&error))?;
+    replacement.stage(&files).map_err(failed(500))?;
     unchanged(revision::of_content(&path) == content)?;
-    replacement.commit().map_err(|error| failed(&error))?;
+    replacement.commit().map_err(failed(500))?;
     Ok((revision::of(&path), before))
 }
 
 /// The files with one more named configuration.
-fn named(robot: &Shown, wish: &Pose) -> Result<Files, Failure> {
-    let refused = |error: &dyn std::fmt::Display| (400, error.to_string());
-    let opened = Robot::open(robot.path()).map_err(|error| (500, error.to_string()))?;
-    let name = ConfigurationName::new(&wish.name)
-        .filter(|_| wish.name.chars().count() <= MAX_REASON)
-        .ok_or_else(|| refused(&"a configuration needs a name of at most 10,000 characters"))?;
-    let dofs = opened.dof_names().map_err(|error| refused(&error))?;
+fn named(robot: &Shown, wish: &Pose) -> Result<Files> {
+    let opened = Robot::open(robot.path()).map_err(failed(500))?;
+    let name = ConfigurationName::new(&wish.name);
+    let Some(name) = name.filter(|_| wish.name.chars().count() <= MAX_REASON) else {
+        return refused(400, "a configuration needs a name of at most 10,000 characters");
+    };
+    let dofs = opened.dof_names().map_err(failed(400))?;
     if dofs.len() != wish.configuration.len() {
-        return Err(refused(&"a configuration has one value for each DOF"));
+        return refused(400, "a configuration has one value for each DOF");
     }
     let positions = dofs.iter().zip(&wish.configuration);
     let positions =
         positions.map(|(dof, position)| DofPosition { dof_name: dof.clone(), position: *position });
     let edit = ConfigurationEdit { name, positions: positions.collect() };
-    let there = opened.named_configurations().map_err(|error| refused(&error))?;
+    let there = opened.named_configurations().map_err(failed(400))?;
     let mut edits: Vec<ConfigurationEdit> = there.iter().map(Into::into).collect();
     match edits.iter_mut().find(|other| other.name == edit.name) {
         Some(_) if !wish.replace => {
-            return Err((409, "there is another configuration of this name".to_owned()));
+            return refused(409, "there is another configuration of this name");
         }
         Some(there) => *there = edit,
         None => edits.push(edit),
     }
     let edited = opened.with_named_configurations(&edits);
-    edited.map(|edited| edited.files).map_err(|error| refused(&error))
+    edited.map(|edited| edited.files).map_err(failed(400))
 }
 
 /// The files that change.
-fn made(
-    robot: &Shown,
-    edits: Vec<SkipEdit>,
-    reasons: Option<Vec<SkippedReason>>,
-) -> Result<Files, Failure> {
+fn made(robot: &Shown, edits: Vec<SkipEdit>, reasons: Option<Vec<SkippedReason>>) -> Result<Files> {
     if edits.len() > MAX_EDITS {
-        return Err((400, "too many edits".to_owned()));
+        return refused(400, "too many edits");
     }
     if edits.iter().any(|edit| edit.reason.chars().count() > MAX_REASON) {
-        return Err((400, "a reason is too long".to_owned()));
+        return refused(400, "a reason is too long");
     }
-    let opened = Robot::open(robot.path()).map_err(|error| (500, error.to_string()))?;
+    let opened = Robot::open(robot.path()).map_err(failed(500))?;
     let edited = opened.with_skip_edits(edits, reasons);
-    Ok(edited.map_err(|error| (400, error.to_string()))?.files)
+    edited.map(|edited| edited.files).map_err(failed(400))
+}
+
+/// The most values of a configuration of a robot that is not generated yet.
+const MAX_VALUES: usize = 100_000;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sent {
+    q: Vec<f64>,
+}
+
+/// Takes a configuration for a robot from a request.
+pub fn state(robot: &Shown, body: &[u8]) -> Reply {
+    let Ok(Sent { q }) = wish(body, "a configuration") else {
+        return Reply::failure(400, "expected {\"q\": [...]}, a number for each DOF\n");
+    };
+    // Of one that is not generated yet, nothing is known.
+    let dofs = robot.open().ok().and_then(|(_, opened)| Some(opened.robot.dof_names().ok()?.len()));
+    match dofs {
+        Some(dofs) if dofs != q.len() => {
+            let found = q.len();
+            let why = format!("expected one value for each DOF, so {dofs}; found {found}\n");
+            Reply::failure(400, why)
+        }
+        None if q.len() > MAX_VALUES => Reply::failure(400, "too many values\n"),
+        _ => {
+            robot.states.set(&q);
+            Reply::nothing()
+        }
+    }
 }

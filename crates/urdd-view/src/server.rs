@@ -7,17 +7,13 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::cards;
 use crate::collection::{Collection, Shown};
 use crate::connections::{Connection, Connections};
-use crate::drops;
 use crate::guard::{Caller, Guard};
 use crate::http::{Request, converse};
-use crate::keep;
 use crate::reply::Reply;
 use crate::route::{Asked, Route, answer, answer_about};
-use crate::save;
-use crate::sent_states;
+use crate::{cards, drops, keep, save};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
@@ -172,7 +168,7 @@ impl Answers {
             ("GET" | "HEAD", asked) => answer_about(&self.collection, robot, asked),
             ("POST", Asked::Skips) => save::skips(robot, body),
             ("POST", Asked::Configurations) => save::configuration(robot, body),
-            ("POST", Asked::States) => sent_states::take(robot, body),
+            ("POST", Asked::States) => save::state(robot, body),
             ("POST", Asked::Keep) => keep::keep(robot, body),
             _ => cannot_be_done(),
         }

@@ -1,5 +1,5 @@
 //! The list of a site's files, `urdd-site.json`, which tells a later export which files to replace. Anything else that
-//! the user put into the folder remains.
+//! the user put into the folder remains. And why a site was not written.
 #![expect(
     clippy::disallowed_methods,
     reason = "its files are named by their content, and it moves what a site lists alone"
@@ -11,8 +11,9 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use thiserror::Error;
 
-use crate::export_error::ExportError;
+use urdd_directory::root::ReadError;
 use urdd_directory::staging::StagingError;
 use urdd_directory::{digest, regular};
 use urdd_format::registry::PROGRAM_VERSION;
@@ -31,15 +32,59 @@ const MAX_LIST_BYTES: u64 = 64 << 20;
 const OF_0_2_0: [&str; 7] =
     ["app.js", PAGE, "robots.json", "robots", "style.css", "urdd.wasm", "worker.js"];
 
+/// Why a site was not written. The previous content is still in place.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The folder contains something else.
+    #[error("{}: this folder is not empty, and not a site that `urdd view --export` wrote; give another one", .0.display())]
+    Occupied(PathBuf),
+    /// The folder contains a site of 0.2.0, which has no list of its files.
+    /// The paths written by 0.2.0 that still exist are named.
+    #[error(
+        "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; check \
+         that nothing below robots is yours) and run this again: all other files stay",
+        .0.display(), shown(.1)
+    )]
+    Unlisted(PathBuf, Vec<PathBuf>),
+    /// The user's files are at the paths of the site's files.
+    #[error(
+        "{}: not written by the last export, or changed since, and would be overwritten; nothing was changed. Move it \
+         away, and run this again",
+        shown(.0)
+    )]
+    InTheWay(Vec<PathBuf>),
+    /// It cannot be written.
+    #[error(transparent)]
+    Write(#[from] StagingError),
+    /// The page's built-in data is corrupt.
+    #[error("the page cannot be unpacked: {0}")]
+    Page(io::Error),
+    /// A robot is too large for one file: its name, and its size in bytes.
+    #[error("{0}: {1} bytes are too many for a page in one file; give a folder")]
+    TooLarge(String, u64),
+    /// A robot cannot be read.
+    #[error("{0}: {1}")]
+    Robot(String, ReadError),
+}
+
+fn shown(paths: &[PathBuf]) -> String {
+    const MOST: usize = 8;
+    let first = paths.iter().take(MOST);
+    let mut names: Vec<String> = first.map(|path| path.display().to_string()).collect();
+    if paths.len() > MOST {
+        names.push(format!("and {} more", paths.len() - MOST));
+    }
+    names.join(", ")
+}
+
 /// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.
 #[derive(Debug, Clone, Default)]
 pub struct SiteList(BTreeMap<String, BTreeSet<String>>);
 
 impl SiteList {
     /// Reads the list of the site in a folder; an empty list if the folder is empty.
-    ///
-    /// # Errors
-    /// If the folder contains something else, or a site without a list.
+    /// Fails if the folder contains something else, or a site without a list.
     pub fn read(folder: &Path) -> Result<Self, ExportError> {
         let mut entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
@@ -104,9 +149,6 @@ impl SiteList {
 
     /// Refuses to overwrite the user's files: a file at one of these paths that is not from an export, or a file of
     /// `before` that the user changed.
-    ///
-    /// # Errors
-    /// [`ExportError::InTheWay`], with all such files.
     pub fn check_places(&self, folder: &Path, before: &Self) -> Result<(), ExportError> {
         let below = folder.join(FOLDER);
         let mut files = Vec::new();
@@ -132,9 +174,6 @@ impl SiteList {
     ///
     /// Every file except the page is named by its content. So the site is the old one until the page is replaced, which
     /// is atomic, and the new one from then on, even if this is interrupted.
-    ///
-    /// # Errors
-    /// If a file cannot be written or removed.
     pub fn put(
         &self,
         content: &Path,

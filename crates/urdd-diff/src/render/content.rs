@@ -1,6 +1,5 @@
 //! What the renderings say: sections of lines. How a name or value is set apart is theirs.
 
-use crate::count::count;
 use urdd_format::diff_report::{
     DiffBox, DiffReport, DiffSide, DofDifference, FindingDifference, LinkDifference,
     ModuleDifference, PairChange, PairDifference, PartDifference, PoseDifference, Presence,
@@ -9,15 +8,12 @@ use urdd_format::diff_report::{
 use urdd_format::readable::{metres, number};
 use urdd_format::report::{Kind, Verdict};
 
-/// A piece of a line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Span {
     /// Our own words.
     Words(String),
-    /// A name or a path from the input.
-    Name(String),
-    /// A value or a message from the input.
-    Value(String),
+    /// A name, a path, a value or a message from the input.
+    Input(String),
     /// From the value before to the value after.
     Arrow,
 }
@@ -40,12 +36,29 @@ fn words(text: impl Into<String>) -> Span {
     Span::Words(text.into())
 }
 
-fn name(text: &str) -> Span {
-    Span::Name(text.to_owned())
+fn input(text: &str) -> Span {
+    Span::Input(text.to_owned())
 }
 
-fn value(text: &str) -> Span {
-    Span::Value(text.to_owned())
+/// Number of differences: entries of all lists but the notes.
+pub(crate) fn count(report: &DiffReport) -> usize {
+    let lists = [
+        report.robot.len(),
+        report.links.len(),
+        report.joints.len(),
+        report.materials.len(),
+        report.other_elements.len(),
+        usize::from(report.poses.is_some()),
+        report.dofs.len(),
+        report.pairs.as_ref().map_or(0, Vec::len),
+        report.srdf.as_ref().map_or(0, Vec::len),
+        report.setup.as_ref().map_or(0, Vec::len),
+        report.lost.as_ref().map_or(0, Vec::len),
+        report.configurations.as_ref().map_or(0, Vec::len),
+        report.modules.as_ref().map_or(0, Vec::len),
+        report.findings.as_ref().map_or(0, Vec::len),
+    ];
+    lists.iter().sum()
 }
 
 /// The result in a sentence.
@@ -74,9 +87,9 @@ pub(super) fn side(side: &DiffSide) -> Vec<Span> {
         count => format!("{count} {one}s"),
     };
     vec![
-        name(&side.path),
+        input(&side.path),
         words(format!(": {kind}, robot ")),
-        name(&side.name),
+        input(&side.name),
         words(format!(
             ", {}, {}, {}{verdict}",
             counted(side.links.0, "link"),
@@ -108,7 +121,7 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
     add("Lost in the imports", parts(report.lost.as_deref().unwrap_or_default()));
     add("Modules", modules(report.modules.as_deref().unwrap_or_default()));
     add("Findings", findings(report.findings.as_deref().unwrap_or_default()));
-    let note = |note: &String| Line { depth: 0, spans: vec![value(note)] };
+    let note = |note: &String| Line { depth: 0, spans: vec![input(note)] };
     add("Notes", report.notes.iter().map(note).collect());
     sections
 }
@@ -117,14 +130,14 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
 fn change(depth: usize, change: &ValueChange) -> Line {
     let one = |side: &Option<String>| match side {
         Some(text) if text.is_empty() => words("empty"),
-        Some(text) => value(text),
+        Some(text) => input(text),
         None => words("absent"),
     };
     let unit = || match change.unit.as_str() {
         "" => words(""),
         unit => words(format!(" {unit}")),
     };
-    let mut spans = vec![name(&change.field), words(": "), one(&change.before)];
+    let mut spans = vec![input(&change.field), words(": "), one(&change.before)];
     if change.after.is_none() {
         spans.push(unit());
     }
@@ -141,7 +154,7 @@ fn in_one<'a>(parts: impl Iterator<Item = (Presence, &'a str)> + Clone) -> Vec<L
         let mut spans = Vec::new();
         for (_, text) in parts.clone().filter(|part| part.0 == presence) {
             spans.push(words(if spans.is_empty() { format!("{word}: ") } else { ", ".to_owned() }));
-            spans.push(name(text));
+            spans.push(input(text));
         }
         (!spans.is_empty()).then_some(Line { depth: 0, spans })
     };
@@ -151,7 +164,7 @@ fn in_one<'a>(parts: impl Iterator<Item = (Presence, &'a str)> + Clone) -> Vec<L
 
 /// The name of a part that both robots have, and the values that differ.
 fn in_both<'a>(part: &str, changes: &'a [ValueChange]) -> impl Iterator<Item = Line> + use<'a> {
-    let spans = vec![name(part)];
+    let spans = vec![input(part)];
     let changes = changes.iter().map(|it| change(1, it));
     std::iter::once(Line { depth: 0, spans }).chain(changes)
 }
@@ -182,9 +195,7 @@ fn links(links: &[LinkDifference]) -> Vec<Line> {
 }
 
 fn bounds(of: Option<&DiffBox>) -> String {
-    let Some(of) = of else {
-        return "not known".to_owned();
-    };
+    let Some(of) = of else { return "not known".to_owned() };
     let axis = |axis: usize| format!("{}..{}", number(of.min[axis], 5), number(of.max[axis], 5));
     format!("x {}, y {}, z {} m", axis(0), axis(1), axis(2))
 }
@@ -207,7 +218,7 @@ fn poses(poses: &PoseDifference) -> Line {
         count => format!("{count} links are elsewhere, the farthest of them "),
     };
     let place = words(format!(", by {}{angle}", metres(poses.distance)));
-    Line { depth: 0, spans: vec![words(count), name(&poses.farthest), place] }
+    Line { depth: 0, spans: vec![words(count), input(&poses.farthest), place] }
 }
 
 fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
@@ -217,7 +228,7 @@ fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
     for dof in both().filter(|dof| dof.index_before != dof.index_after) {
         if let (Some(a), Some(b)) = (dof.index_before, dof.index_after) {
             moved.push(words(if moved.is_empty() { "index: " } else { ", " }));
-            moved.push(name(&dof.name));
+            moved.push(input(&dof.name));
             moved.push(words(format!(" {}", a.0)));
             moved.push(Span::Arrow);
             moved.push(words(b.0.to_string()));
@@ -245,14 +256,14 @@ fn pairs(pairs: &[PairDifference]) -> Vec<Line> {
         };
         let [a, b] = &pair.links;
         let kinds = words(format!(" ({kinds})"));
-        Line { depth: 0, spans: vec![words(word), name(a), words(" - "), name(b), kinds] }
+        Line { depth: 0, spans: vec![words(word), input(a), words(" - "), input(b), kinds] }
     });
     lines.collect()
 }
 
 fn modules(modules: &[ModuleDifference]) -> Vec<Line> {
     let lines = modules.iter().map(|module| {
-        let mut spans = vec![name(&module.name)];
+        let mut spans = vec![input(&module.name)];
         match module.presence {
             Presence::Removed => spans.push(words(": removed")),
             Presence::Added => spans.push(words(": added")),
@@ -260,7 +271,7 @@ fn modules(modules: &[ModuleDifference]) -> Vec<Line> {
                 let mut what = Vec::new();
                 if module.version_before != module.version_after {
                     let version = |version: &Option<String>| match version {
-                        Some(version) => value(version),
+                        Some(version) => input(version),
                         None => words("none"),
                     };
                     spans.push(words(": version "));
@@ -297,9 +308,9 @@ fn findings(findings: &[FindingDifference]) -> Vec<Line> {
         let mut spans =
             vec![words(format!("{word}: {} {}{count}", finding.severity, finding.code))];
         if let Some(subject) = &finding.subject {
-            spans.extend([words(", "), name(subject)]);
+            spans.extend([words(", "), input(subject)]);
         }
-        spans.extend([words(": "), value(&finding.message)]);
+        spans.extend([words(": "), input(&finding.message)]);
         Line { depth: 0, spans }
     });
     lines.collect()

@@ -1,17 +1,20 @@
-//! Composes one URDF from all parts.
+//! Composes one URDF from all parts, and records how in the `composition_module`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
-use super::error::CombineError;
-use super::frozen::origin_text;
+use super::error::Result;
 use super::names::escaped;
 use super::part::Loaded;
 use super::recipe::{Attachment, Part, Recipe, Word};
 use super::rewrite::Rewritten;
-use super::trim::Trim;
-use urdd_format::composition::PartSource;
-use urdd_format::urdf::{Joint, Link, Material};
+use super::trim::{Trim, origin_text};
+use urdd_format::composition::{
+    CompositionBase, CompositionModule, CompositionPart, FrozenJoint, PartAttachment, PartJoint,
+    PartLink, PartSource,
+};
+use urdd_format::index::{JointIdx, LinkIdx, RobotIdx};
+use urdd_format::urdf::{Joint, Link, Material, UrdfModule};
 use urdd_source::origin::has_quaternions;
 use urdd_xml::number::numbers;
 
@@ -30,15 +33,11 @@ impl Member<'_> {
     }
 
     /// The name of one of its links in the combined robot.
-    ///
-    /// # Errors
-    /// If the part has no such link, or it is dropped.
-    pub fn link(&self, recipe: &Recipe, name: &str, at: &Word) -> Result<String, CombineError> {
+    /// Fails if the part has no such link, or it is dropped.
+    pub fn link(&self, recipe: &Recipe, name: &str, at: &Word) -> Result<String> {
         let part = &self.part.id.text;
         let idx = recipe.find(part, "link", &self.loaded.links, name, at)?;
-        let Some(with) = self.trim.dropped_links[idx] else {
-            return Ok(self.renamed(name));
-        };
+        let Some(with) = self.trim.dropped_links[idx] else { return Ok(self.renamed(name)) };
         let with = &self.part.drop[with].text;
         let fault = format!("the link `{name}` of part `{part}` is dropped, with `{with}`");
         Err(recipe.refused(at, fault))
@@ -48,13 +47,11 @@ impl Member<'_> {
         matches!(self.loaded.source, PartSource::Urdd(_))
     }
 
-    /// The links that are not dropped.
     pub fn kept_links(&self) -> impl Iterator<Item = &Link> {
         let links = self.loaded.robot.links.iter().enumerate();
         links.filter(|(idx, _)| self.trim.keeps_link(*idx)).map(|(_, link)| link)
     }
 
-    /// The joints that are not dropped.
     pub fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.loaded.robot.joints.iter().enumerate();
         joints.filter(|(idx, _)| self.trim.keeps_joint(*idx)).map(|(_, joint)| joint)
@@ -85,13 +82,10 @@ pub(super) struct Held<'a> {
 }
 
 /// What holds each part; `None` for a root part without a base.
-///
-/// # Errors
-/// If an attachment names a part or a link that does not exist, or a dropped link.
 pub(super) fn holders<'a>(
     recipe: &'a Recipe,
     parts: &[Member<'a>],
-) -> Result<Vec<Option<Held<'a>>>, CombineError> {
+) -> Result<Vec<Option<Held<'a>>>> {
     let holder = |member: &Member<'a>| {
         let Some(joint) = &member.part.attach else {
             let base = recipe.base.as_ref();
@@ -109,13 +103,7 @@ pub(super) fn holders<'a>(
 
 /// Checks that names are unique. Returns, for each part, the indices of top-level materials that an earlier part also
 /// has.
-///
-/// # Errors
-/// The first name that occurs twice.
-pub(super) fn check_names(
-    recipe: &Recipe,
-    parts: &[Member],
-) -> Result<Vec<BTreeSet<usize>>, CombineError> {
+pub(super) fn check_names(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>> {
     let mut known: BTreeMap<(&'static str, String), String> = BTreeMap::new();
     let mut add = |what, name: String, from: &str, at: &Word| {
         let before = known.insert((what, name.clone()), from.to_owned());
@@ -148,10 +136,8 @@ fn clash(
     before: Option<String>,
     second: String,
     at: &Word,
-) -> Result<(), CombineError> {
-    let Some(first) = before else {
-        return Ok(());
-    };
+) -> Result<()> {
+    let Some(first) = before else { return Ok(()) };
     let fault = format!(
         "the {what} `{name}` comes from {first} and from {second}; give one of them a `prefix`, or another name"
     );
@@ -159,7 +145,7 @@ fn clash(
 }
 
 /// Materials with the same name must look the same in all parts. Within a part, the first counts.
-fn materials(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>, CombineError> {
+fn materials(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>> {
     let mut known: BTreeMap<String, (usize, &Material)> = BTreeMap::new();
     let mut repeated = Vec::new();
     for (idx, member) in parts.iter().enumerate() {
@@ -170,9 +156,7 @@ fn materials(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>, 
         let all = top.map(|(place, of)| (Some(place), of)).chain(inline.map(|of| (None, of)));
         let mut again = BTreeSet::new();
         for (place, material) in all {
-            let Some(name) = &material.name else {
-                continue;
-            };
+            let Some(name) = &material.name else { continue };
             let has_look = material.color.is_some() || material.texture.is_some();
             if name.is_empty() || !has_look {
                 continue;
@@ -196,15 +180,13 @@ fn materials(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>, 
 }
 
 /// Writes the text of the URDF.
-///
-/// # Errors
-/// If parts use one XML prefix for different namespaces, or the same name for transmissions and the like.
+/// Fails if parts use one XML prefix for different namespaces, or the same name for transmissions and the like.
 pub(super) fn urdf(
     recipe: &Recipe,
     parts: &[Member],
     holders: &[Option<Held>],
     rewritten: &[Rewritten],
-) -> Result<String, CombineError> {
+) -> Result<String> {
     let mut namespaces: BTreeMap<&str, &str> = BTreeMap::new();
     let mut own: BTreeMap<&str, &Member> = BTreeMap::new();
     for (member, text) in parts.iter().zip(rewritten) {
@@ -278,4 +260,64 @@ fn joint(described: &Attachment, parent: &str, child: &str) -> String {
         text += &format!("    <limit{}/>\n", said.collect::<String>());
     }
     text + "  </joint>\n"
+}
+
+/// Builds the `composition_module`.
+pub(super) fn composition(
+    recipe: &Recipe,
+    parts: &[Member],
+    holders: &[Option<Held>],
+    robot: &UrdfModule,
+) -> CompositionModule {
+    let links: HashMap<&str, u32> =
+        (robot.links.iter().map(|link| link.name.as_str())).zip(0..).collect();
+    let joints: HashMap<&str, u32> =
+        (robot.joints.iter().map(|joint| joint.name.as_str())).zip(0..).collect();
+    let link = |name: &str| LinkIdx(links.get(name).copied().unwrap_or_default());
+    let joint = |name: &str| JointIdx(joints.get(name).copied().unwrap_or_default());
+    let mut made = Vec::new();
+    for (member, held) in parts.iter().zip(holders) {
+        let (part, of) = (member.part, &member.loaded.robot);
+        let attachment = held.as_ref().map(|held| PartAttachment {
+            part_idx: held.part.map(|part| RobotIdx(part as u32)),
+            link_idx: link(&held.link),
+            joint_idx: joint(&held.joint.name.text),
+        });
+        let dropped = |names: &mut dyn Iterator<Item = &String>, dropped: &[Option<usize>]| {
+            let names = names.zip(dropped).filter(|(_, with)| with.is_some());
+            names.map(|(name, _)| name.clone()).collect()
+        };
+        let frozen = member.trim.frozen.iter().map(|(idx, position)| FrozenJoint {
+            joint_idx: joint(&member.renamed(&of.joints[*idx].name)),
+            position: position.iter().map(|value| value + 0.0).collect(),
+        });
+        made.push(CompositionPart {
+            id: part.id.text.clone(),
+            name: of.name.clone(),
+            source: member.loaded.source.clone(),
+            prefix: part.prefix.text.clone(),
+            links: (member.kept_links().map(|link| &link.name))
+                .map(|name| PartLink { name: name.clone(), link_idx: link(&member.renamed(name)) })
+                .collect(),
+            joints: (member.kept_joints().map(|joint| &joint.name))
+                .map(|name| PartJoint {
+                    name: name.clone(),
+                    joint_idx: joint(&member.renamed(name)),
+                })
+                .collect(),
+            dropped_links: dropped(
+                &mut of.links.iter().map(|link| &link.name),
+                &member.trim.dropped_links,
+            ),
+            dropped_joints: dropped(
+                &mut of.joints.iter().map(|joint| &joint.name),
+                &member.trim.dropped_joints,
+            ),
+            frozen_joints: frozen.collect(),
+            attachment,
+            composition: member.loaded.composition.clone().map(Into::into),
+        });
+    }
+    let base = recipe.base.as_ref().map(|base| CompositionBase { link_idx: link(&base.to.text) });
+    CompositionModule { base, parts: made }
 }

@@ -1,5 +1,6 @@
-//! Why robots cannot be combined.
+//! Why robots cannot be combined, and notes about those that are.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -9,6 +10,9 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_directory::position::Position;
 use urdd_format::escape;
 use urdd_format::nearest::nearest;
+
+/// What the steps of combining return.
+pub(super) type Result<T, E = CombineError> = std::result::Result<T, E>;
 
 /// Why robots cannot be combined. Nothing was written, and an existing URDD is unchanged.
 #[derive(Debug, Error)]
@@ -122,10 +126,35 @@ impl PartFault {
         PartFault::unusable(format!("{}: {}", escape::line(file), reason.to_string()))
     }
 
-    /// The URDD has no URDF.
     pub(super) fn no_urdf() -> Self {
         PartFault::unusable(
             "this URDD carries no URDF, but parts are combined as URDFs; give the URDF itself as the source",
         )
+    }
+}
+
+/// A note about combined robots. Its text says what was found in a part, and what was done about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// A machine-readable name of its kind, such as `left-alone`.
+    pub kind: &'static str,
+    /// The part; `None` for the robot as a whole.
+    pub part: Option<String>,
+    /// The text. Names in it are not escaped.
+    pub text: String,
+}
+
+impl Note {
+    pub(super) fn of_part(kind: &'static str, part: &str, text: String) -> Self {
+        Note { kind, part: Some(part.to_owned()), text }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(part) = &self.part {
+            write!(f, "part `{}`: ", escape::line(part))?;
+        }
+        f.write_str(&escape::line(&self.text))
     }
 }

@@ -5,10 +5,9 @@ use std::path::{Component, Path};
 
 use serde::de::DeserializeOwned;
 
-use super::document::document;
-use super::error::{CombineError, PartFault};
-use super::note::Note;
+use super::error::{CombineError, Note, PartFault};
 use super::recipe::{Attachment, BASE, Frozen, JointLimit, Part, Recipe, Sources, Word};
+use super::sources::document;
 use urdd_directory::root::Root;
 use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
 use urdd_format::legacy::combined_robot::{AttachedRobot, AttachmentPoint, CombinedRobotModule};

@@ -8,22 +8,21 @@ use std::path::Path;
 
 use urdd_xml::Document;
 
-use super::document::document;
 use super::error::PartFault;
 use super::names::mesh_edits;
+use super::sources::document;
 use urdd_directory::root::Root;
 use urdd_format::legacy::plain_meshes::PlainMeshesModule;
+use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Mesh};
-use urdd_source::{MAX_SOURCE_BYTES, read_urdf};
+use urdd_source::{MAX_SOURCE_BYTES, named, read_urdf};
 use urdd_xml::element::{Edit, apply, attribute, children};
 use urdd_xml::{Kind, parse};
 
 /// The URDF in a legacy URDD.
 pub(super) struct Carried {
-    /// Its file name.
     pub file: String,
-    /// Its bytes as found.
     pub found: Vec<u8>,
     /// Its text, with mesh names that refer to the URDD's files, relative to its folder.
     pub text: Vec<u8>,
@@ -41,14 +40,12 @@ pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
     let links = &robot.robot.links;
     let is_there = |place: &str| root.open_file(place).is_ok();
     let mut places = BTreeMap::new();
-    for visual in links.iter().flat_map(|link| &link.visual) {
-        let Some(Geometry::Mesh(mesh)) = &visual.geometry else {
-            continue;
-        };
+    let visual = named(&robot.robot).into_iter();
+    for mesh in visual.filter(|mesh| mesh.geometry == GeometryKind::Visual) {
         let name = last_component(mesh.filename.trim());
         let place = format!("{}/meshes/{name}", ModuleKind::OriginalMeshes.folder());
         if !name.is_empty() && is_there(&place) {
-            places.insert(mesh.filename.clone(), place);
+            places.insert(mesh.filename.to_owned(), place);
         }
     }
     let document = parse(&text, Kind::Robot)
@@ -83,9 +80,7 @@ fn last_component(path: &str) -> &str {
 
 /// The mesh of a link with only one visual element and no scale: the converter ignored scales.
 fn only_mesh(link: &Link) -> Option<&Mesh> {
-    let [visual] = link.visual.as_slice() else {
-        return None;
-    };
+    let [visual] = link.visual.as_slice() else { return None };
     match &visual.geometry {
         Some(Geometry::Mesh(mesh)) if mesh.scale.is_none_or(|scale| scale == [1.0; 3]) => {
             Some(mesh)
@@ -120,9 +115,7 @@ fn plain_edits(document: &Document, plain: &BTreeMap<usize, String>) -> Vec<Edit
     let links = children(document.root_element()).filter(|(tag, _)| *tag == "link");
     let mut edits = Vec::new();
     for (idx, (_, link)) in links.enumerate() {
-        let Some(place) = plain.get(&idx) else {
-            continue;
-        };
+        let Some(place) = plain.get(&idx) else { continue };
         let visuals = children(link).filter(|(tag, _)| *tag == "visual");
         for (tag, element) in visuals.flat_map(|(_, visual)| children(visual)) {
             if tag == "origin" {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::error::{CombineError, PartFault};
+use super::error::{CombineError, PartFault, Result};
 use super::part::{Loaded, MeshFile};
 use super::recipe::Part;
 use crate::error::GenerateError;
@@ -37,16 +37,7 @@ impl<'a> Meshes<'a> {
         Meshes { places: BTreeMap::new(), files: BTreeMap::new(), store, cancellation }
     }
 
-    /// Adds the meshes of a part.
-    ///
-    /// # Errors
-    /// If one cannot be read or written, or if cancelled.
-    pub fn add(
-        &mut self,
-        part: &Part,
-        loaded: &Loaded,
-        used: &BTreeSet<String>,
-    ) -> Result<Placed, CombineError> {
+    pub fn add(&mut self, part: &Part, loaded: &Loaded, used: &BTreeSet<String>) -> Result<Placed> {
         let mut placed = Placed::new();
         for (name, mesh) in loaded.meshes.iter().filter(|(name, _)| used.contains(*name)) {
             self.cancellation.check()?;
@@ -63,8 +54,8 @@ impl<'a> Meshes<'a> {
         &mut self,
         id: &str,
         mesh: &MeshFile,
-        read: &dyn Fn(&String) -> Result<Vec<u8>, CombineError>,
-    ) -> Result<String, CombineError> {
+        read: &dyn Fn(&String) -> Result<Vec<u8>>,
+    ) -> Result<String> {
         let own = read(&mesh.path)?;
         let mut sides = Vec::new();
         for side in &mesh.side_files {
@@ -89,7 +80,7 @@ impl<'a> Meshes<'a> {
         Ok(place)
     }
 
-    fn store(&mut self, place: String, bytes: &[u8]) -> Result<(), CombineError> {
+    fn store(&mut self, place: String, bytes: &[u8]) -> Result<()> {
         let path = self.store.join(self.files.len().to_string());
         outputs::fresh(&path, bytes).map_err(|error| CombineError::unwritable(&path, error))?;
         self.files.insert(place, path);
@@ -98,10 +89,7 @@ impl<'a> Meshes<'a> {
 
     /// Puts the files where the URDF names them, below `folder`. Returns the folder that all places share, which is
     /// left out of the names.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<PathBuf, CombineError> {
+    pub fn write(&self, folder: &Path) -> Result<PathBuf> {
         let places: Vec<&Path> = self.files.keys().map(Path::new).collect();
         let shared = common_folder(&places);
         for (place, stored) in &self.files {

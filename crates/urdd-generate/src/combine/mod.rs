@@ -4,24 +4,18 @@
 //! A [`Recipe`] lists the robots and how they are attached. [`combine`] generates the URDD. It does not validate the
 //! parts; the caller does that first, with [`check_parts`].
 
-mod check_parts;
 mod compose;
-mod configurations;
-mod document;
+mod decisions;
 mod error;
 mod from_legacy;
-mod frozen;
 mod legacy;
 mod meshes;
 mod names;
-mod note;
 mod part;
 mod recipe;
 mod recipe_check;
 mod recipe_file;
-mod record;
 mod rewrite;
-mod skips;
 mod sources;
 mod trim;
 
@@ -30,23 +24,23 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use self::compose::Member;
+use self::error::Result;
 use self::meshes::Meshes;
 use self::names::LeftAlone;
 use self::rewrite::{Rewrite, Rewritten};
-use crate::{
-    Composed, GenerateError, Generated, MOST_LINKS, Progress, Settings, generate_composed,
-};
+use self::sources::SourceKind;
+use crate::given::Given;
+use crate::robot::generate_composed;
+use crate::{GenerateError, Generated, MOST_LINKS, Progress, Settings};
+use urdd_directory::cancellation::Cancelled;
 use urdd_directory::temporary::Temporary;
 use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
-use urdd_format::urdf::Geometry;
 use urdd_source::note::{self as generated, NoteKind};
 use urdd_source::origin::has_quaternions;
-use urdd_source::read_urdf;
+use urdd_source::{named, read_urdf};
 
-pub use check_parts::check_parts;
-pub use error::{CombineError, PartFault};
-pub use note::Note;
+pub use error::{CombineError, Note, PartFault};
 pub use recipe::Recipe;
 
 /// The modules that a part has because of a person, and that are not computed.
@@ -61,6 +55,41 @@ pub struct Combined {
     pub composition: CompositionModule,
     /// Notes for the user.
     pub notes: Vec<Note>,
+}
+
+/// Validates each part that is a URDD: `find_errors` returns its errors as text. With [`Settings::force`], parts with
+/// errors are accepted; their ids are returned, and their URDDs must not be reused.
+///
+/// # Errors
+/// [`CombineError::Part`] for a part that is missing or may not be used, and without `force` for one with errors; an
+/// error if cancelled.
+pub fn check_parts(
+    recipe: &Recipe,
+    settings: &Settings,
+    find_errors: impl Fn(&Path) -> Result<Vec<String>, Cancelled>,
+) -> Result<BTreeSet<String>, CombineError> {
+    let mut distrusted = BTreeSet::new();
+    let mut known: BTreeMap<PathBuf, Vec<String>> = BTreeMap::new();
+    for part in &recipe.parts {
+        settings.cancellation.check()?;
+        let source = recipe.source(part, settings)?;
+        if source.kind != SourceKind::Urdd {
+            continue;
+        }
+        let codes = match known.get(&source.path) {
+            Some(codes) => codes.clone(),
+            None => find_errors(&source.path)?,
+        };
+        known.insert(source.path, codes.clone());
+        if codes.is_empty() {
+            continue;
+        }
+        if !settings.force {
+            return Err(part.refused(PartFault::Fails { codes }));
+        }
+        distrusted.insert(part.id.text.clone());
+    }
+    Ok(distrusted)
 }
 
 /// Combines robots: generates the URDD of a recipe in the folder `target`, which is replaced atomically and is
@@ -88,8 +117,8 @@ pub fn combine(
     note_parts(&parts, &mut notes);
     let holders = compose::holders(recipe, &parts)?;
     let repeated = compose::check_names(recipe, &parts)?;
-    let (edits, skipped_reasons) = skips::decisions(recipe, &parts, &mut notes)?;
-    let configurations = configurations::of_parts(recipe, &parts, &mut notes)?;
+    let (edits, skipped_reasons) = decisions::skips(recipe, &parts, &mut notes)?;
+    let configurations = decisions::configurations(recipe, &parts, &mut notes)?;
 
     let [folder, store] = ["whole", "store"].map(|name| workplace.path().join(name));
     for folder in [&folder, &store] {
@@ -127,7 +156,7 @@ pub fn combine(
     settings.cancellation.check()?;
     let robot = read_urdf(urdf.as_bytes(), &recipe.name.text)
         .map_err(|error| CombineError::Generate { id: None, error: error.into() })?;
-    let composition = record::composition(recipe, &parts, &holders, &robot.robot);
+    let composition = compose::composition(recipe, &parts, &holders, &robot.robot);
 
     let mut settings = settings.clone();
     let mut reused = BTreeSet::new();
@@ -136,15 +165,16 @@ pub fn combine(
         is_trusted && reused.insert(Rc::as_ptr(&member.loaded))
     });
     settings.donors = trusted.map(|member| member.loaded.root.clone()).collect();
-    let composed = Composed {
-        shown: format!("{}.urdf", recipe.name.text),
-        folder,
-        edits,
-        configurations,
-        skipped_reasons,
-        composition: composition.clone(),
+    let given = Given {
+        edits: &edits,
+        configurations: &configurations,
+        skipped_reasons: skipped_reasons.as_ref(),
+        composition: Some(&composition),
+        origin: None,
     };
-    let generated = generate_composed(urdf.into_bytes(), &composed, target, &settings, progress);
+    let shown = format!("{}.urdf", recipe.name.text);
+    let place = (shown.as_str(), folder.as_path());
+    let generated = generate_composed(urdf.into_bytes(), place, given, target, &settings, progress);
     let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
     // The notes about the parts already say that.
     let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
@@ -157,7 +187,7 @@ fn load_parts<'a>(
     recipe: &'a Recipe,
     workplace: &Path,
     settings: &Settings,
-) -> Result<Vec<Member<'a>>, CombineError> {
+) -> Result<Vec<Member<'a>>> {
     let mut parts = Vec::new();
     let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
     let (mut links, mut length, mut composition_length) = (0, 0, 0);
@@ -187,16 +217,9 @@ fn load_parts<'a>(
 }
 
 fn used_meshes(member: &Member) -> BTreeSet<String> {
-    let geometries = member.kept_links().flat_map(|link| {
-        let visual = link.visual.iter().map(|visual| &visual.geometry);
-        let collision = link.collision.iter().map(|collision| &collision.geometry);
-        visual.chain(collision).flatten()
-    });
-    let names = geometries.filter_map(|geometry| match geometry {
-        Geometry::Mesh(mesh) => Some(mesh.filename.clone()),
-        _ => None,
-    });
-    names.collect()
+    let named = named(&member.loaded.robot).into_iter();
+    let used = named.filter(|mesh| member.trim.keeps_link(mesh.link));
+    used.map(|mesh| mesh.filename.to_owned()).collect()
 }
 
 fn textures(member: &Member) -> BTreeSet<String> {
@@ -208,10 +231,7 @@ fn textures(member: &Member) -> BTreeSet<String> {
 }
 
 /// The recipe's `names` of a part: other elements and attributes that name links and joints.
-fn name_places<'a>(
-    recipe: &Recipe,
-    part: &'a recipe::Part,
-) -> Result<BTreeSet<&'a str>, CombineError> {
+fn name_places<'a>(recipe: &Recipe, part: &'a recipe::Part) -> Result<BTreeSet<&'a str>> {
     let mut places = BTreeSet::new();
     for word in &part.names {
         let mut words = word.text.split('@');
@@ -240,42 +260,34 @@ fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
         for link in &member.loaded.plain_meshes {
             let idx = member.loaded.links.get(link);
             if idx.is_some_and(|idx| member.trim.keeps_link(*idx)) {
-                note(
-                    "plain-mesh",
-                    format!(
-                        "its URDD lacks the original mesh of link `{link}`; the plain mesh is used, without colours"
-                    ),
+                let text = format!(
+                    "its URDD lacks the original mesh of link `{link}`; the plain mesh is used, without colours"
                 );
+                note("plain-mesh", text);
             }
         }
         for joint in &member.trim.following {
-            note(
-                "following",
-                format!(
-                    "joint `{joint}` mimics a frozen joint, and is frozen at the position that follows"
-                ),
+            let text = format!(
+                "joint `{joint}` mimics a frozen joint, and is frozen at the position that follows"
             );
+            note("following", text);
         }
         // URDDs store the textures of meshes, not those of materials.
         for name in textures(member) {
-            note(
-                "texture",
-                format!(
-                    "texture `{name}` of a material is not carried; its name is unchanged, and the file stays where it is"
-                ),
+            let text = format!(
+                "texture `{name}` of a material is not carried; its name is unchanged, and the file stays where it is"
             );
+            note("texture", text);
         }
         if !member.is_urdd() {
             continue;
         }
         for name in used_meshes(member) {
             if !member.loaded.meshes.contains_key(&name) {
-                note(
-                    "mesh-not-found",
-                    format!(
-                        "its URDD has no file for mesh `{name}`: not carried; the element has no surface"
-                    ),
+                let text = format!(
+                    "its URDD has no file for mesh `{name}`: not carried; the element has no surface"
                 );
+                note("mesh-not-found", text);
             }
         }
         let lacks = |name: &&str| {
@@ -299,12 +311,10 @@ fn note_text(member: &Member, text: &Rewritten, notes: &mut Vec<Note>) {
     let mut note = |kind, text| notes.push(Note::of_part(kind, &member.part.id.text, text));
     let is_renamed = !member.part.prefix.text.is_empty();
     for LeftAlone { place, name } in text.left_alone.iter().filter(|_| is_renamed) {
-        note(
-            "left-alone",
-            format!(
-                "`{place}` contains `{name}`, the name of a link or joint, and was left unchanged; if it refers to that, write names = [\"{place}\"]"
-            ),
+        let text = format!(
+            "`{place}` contains `{name}`, the name of a link or joint, and was left unchanged; if it refers to that, write names = [\"{place}\"]"
         );
+        note("left-alone", text);
     }
     for what in &text.removed {
         note("gone", format!("left out {what}"));

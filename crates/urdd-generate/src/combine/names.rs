@@ -228,9 +228,7 @@ impl Finder<'_> {
 
     fn text<'a>(&mut self, element: Node<'a, 'a>, tag: &str, text: Node<'a, 'a>) {
         let value = text.text().unwrap_or_default().trim();
-        let Some(named) = self.named(value) else {
-            return;
-        };
+        let Some(named) = self.named(value) else { return };
         let is_mimic_param = tag == "param"
             && attribute(element, "name").is_some_and(|name| name.value() == "mimic");
         let is_known = TEXTS.contains(&tag) || self.more.contains(tag) || is_mimic_param;
@@ -243,7 +241,6 @@ impl Finder<'_> {
     }
 }
 
-/// The edits that rename meshes.
 pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (_, link) in children(document.root_element()).filter(|(tag, _)| *tag == "link") {
@@ -252,9 +249,7 @@ pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) 
             shapes.flat_map(|(_, shape)| children(shape)).filter(|(tag, _)| *tag == "geometry");
         let meshes = geometries.flat_map(|(_, geometry)| children(geometry));
         for (_, mesh) in meshes.filter(|(tag, _)| *tag == "mesh") {
-            let Some(filename) = attribute(mesh, "filename") else {
-                continue;
-            };
+            let Some(filename) = attribute(mesh, "filename") else { continue };
             if let Some(new) = names.get(filename.value()) {
                 edits.push(Edit { range: filename.range_value(), text: escaped(new) });
             }

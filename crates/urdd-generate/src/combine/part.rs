@@ -7,10 +7,9 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
-use super::document::{bytes, document, parsed};
-use super::error::{CombineError, PartFault};
+use super::error::{CombineError, PartFault, Result};
 use super::legacy;
-use super::sources::{Source, SourceKind};
+use super::sources::{Source, SourceKind, bytes, document, parsed};
 use crate::{Selection, Settings, generate, generate_text};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::regular;
@@ -30,31 +29,23 @@ use urdd_source::{MAX_SOURCE_BYTES, read_urdf};
 pub(super) struct Loaded {
     /// The URDD: the source, or the one generated from it.
     pub root: Root,
-    /// The text of its URDF.
     pub text: String,
     /// The robot in that text.
     pub robot: UrdfModule,
-    /// The indices of its links, by name.
     pub links: HashMap<String, usize>,
-    /// The indices of its joints, by name.
     pub joints: HashMap<String, usize>,
     /// The mesh files in the URDD, by the names in the URDF.
     pub meshes: BTreeMap<String, MeshFile>,
-    /// The user's decisions about its skips.
     pub skips: Option<Skips>,
-    /// The user's named configurations.
     pub configurations: Vec<ConfigurationEdit>,
     /// The kind of source and its digest.
     pub source: PartSource,
-    /// How it was composed, if it was.
     pub composition: Option<CompositionModule>,
     /// The length of its composition document in bytes.
     pub composition_length: usize,
-    /// Deviations in its URDF.
     pub notes: Vec<Note>,
     /// Links with the plain mesh of a legacy URDD because the original is missing.
     pub plain_meshes: Vec<String>,
-    /// The names of its modules.
     pub modules: Vec<String>,
 }
 
@@ -75,15 +66,12 @@ pub(super) struct Skips {
 
 /// Loads a part. A URDD for a URDF source is generated in `workplace`, a folder that must not exist yet. `id` is the
 /// name of a robot without one.
-///
-/// # Errors
-/// If it cannot be read or is not a valid robot.
 pub(super) fn load(
     source: &Source,
     id: &str,
     workplace: &Path,
     settings: &Settings,
-) -> Result<Loaded, CombineError> {
+) -> Result<Loaded> {
     let shown = source.path.display().to_string();
     let refused =
         |fault| CombineError::Part { id: id.to_owned(), source_path: shown.clone(), fault };
@@ -155,15 +143,12 @@ fn indices<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<String, usize
     names.cloned().zip(0..).collect()
 }
 
-/// The mesh files by the names in the URDF.
 fn meshes(original: OriginalMeshesModule) -> BTreeMap<String, MeshFile> {
     let files: BTreeMap<&str, &Vec<String>> =
         (original.files.iter()).map(|file| (file.path.as_str(), &file.side_files)).collect();
     let mut meshes = BTreeMap::new();
     for reference in &original.references {
-        let Some(path) = &reference.path else {
-            continue;
-        };
+        let Some(path) = &reference.path else { continue };
         let side_files = files.get(path.as_str()).map(|files| (*files).clone());
         let file = MeshFile { path: path.clone(), side_files: side_files.unwrap_or_default() };
         meshes.insert(reference.filename.clone(), file);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::Spanned;
 
-use super::error::{CombineError, PartFault, did_you_mean};
+use super::error::{CombineError, PartFault, Result, did_you_mean};
 use urdd_directory::file_type::stem;
 use urdd_directory::path::portable;
 use urdd_directory::position::{self, Position};
@@ -60,7 +60,6 @@ pub struct Recipe {
     pub(super) shown: String,
     /// The text of its file, in which words have their places; empty without a file.
     pub(super) text: String,
-    /// Name of the combined robot.
     pub(super) name: Word,
     /// An additional link below the first part, which `to` names, and the joint between them.
     pub(super) base: Option<Attachment>,
@@ -117,7 +116,6 @@ pub(super) struct Part {
 #[serde(untagged, expecting = "expected a number, or a list with one for each DOF")]
 pub(super) enum Frozen {
     One(f64),
-    /// One value per DOF.
     Each(Vec<f64>),
 }
 
@@ -197,7 +195,6 @@ impl Part {
 }
 
 impl Attachment {
-    /// A fixed joint.
     pub(super) fn fixed(to: String, name: String, [xyz, rpy]: [[f64; 3]; 2]) -> Self {
         let [to, name] = [to, name].map(Word::new);
         Attachment { to, name, joint: fixed(), xyz, rpy, axis: None, limit: None }
@@ -251,12 +248,7 @@ impl Recipe {
     }
 
     /// Refuses parts whose total text is longer than a URDF may be. `what` is the kind of text.
-    pub(super) fn check_length(
-        &self,
-        part: &Part,
-        what: &str,
-        length: usize,
-    ) -> Result<(), CombineError> {
+    pub(super) fn check_length(&self, part: &Part, what: &str, length: usize) -> Result<()> {
         if length as u64 <= MAX_SOURCE_BYTES {
             return Ok(());
         }
@@ -275,7 +267,7 @@ impl Recipe {
         indices: &HashMap<String, usize>,
         name: &str,
         word: &Word,
-    ) -> Result<usize, CombineError> {
+    ) -> Result<usize> {
         indices.get(name).copied().ok_or_else(|| {
             let mut names: Vec<&str> = indices.keys().map(String::as_str).collect();
             names.sort_unstable_by_key(|name| indices[*name]);
@@ -286,10 +278,7 @@ impl Recipe {
 
     /// The part index and the link that an attachment refers to, or an error if they do not exist. The index is `None`
     /// for the base.
-    pub(super) fn target<'a>(
-        &self,
-        to: &'a Word,
-    ) -> Result<(Option<usize>, &'a str), CombineError> {
+    pub(super) fn target<'a>(&self, to: &'a Word) -> Result<(Option<usize>, &'a str)> {
         let Some((id, link)) = to.text.split_once('/') else {
             let fault = format!("`{}` does not name a part; write `part/link`", to.text);
             return Err(self.refused(to, fault));

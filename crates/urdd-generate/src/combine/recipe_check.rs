@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::error::{CombineError, did_you_mean};
+use super::error::{CombineError, Result, did_you_mean};
 use super::recipe::{Attachment, Recipe, Word};
 use crate::MOST_LINKS;
 use urdd_format::urdf::JointType;
@@ -20,7 +20,7 @@ const MAX_SHOWN: usize = 60;
 
 impl Recipe {
     /// Checks the number of parts, their names and their attachments.
-    pub(super) fn check(&self) -> Result<(), CombineError> {
+    pub(super) fn check(&self) -> Result<()> {
         if self.parts.is_empty() {
             let fault = "there is no part; write one or more tables `[[part]]`, each with `id` and `source`";
             return Err(self.refused(&Word::default(), fault));
@@ -51,7 +51,7 @@ impl Recipe {
     }
 
     /// Checks that names and prefixes can be written in a URDF, and that numbers are finite.
-    fn check_words(&self) -> Result<(), CombineError> {
+    fn check_words(&self) -> Result<()> {
         let unlimited = usize::MAX;
         self.check_word("the name", &self.name, MAX_NAME_BYTES)?;
         if let Some(base) = &self.base {
@@ -74,7 +74,7 @@ impl Recipe {
         Ok(())
     }
 
-    fn check_word(&self, what: &str, word: &Word, limit: usize) -> Result<(), CombineError> {
+    fn check_word(&self, what: &str, word: &Word, limit: usize) -> Result<()> {
         let text = &word.text;
         // XML does not allow other control characters, and turns these into spaces.
         let is_unfit = |c: &char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
@@ -97,7 +97,7 @@ impl Recipe {
         Err(self.refused(word, format!("{what} `{shown}` {why}")))
     }
 
-    fn check_joint(&self, table: &str, joint: &Attachment) -> Result<(), CombineError> {
+    fn check_joint(&self, table: &str, joint: &Attachment) -> Result<()> {
         self.check_word("the joint", &joint.name, usize::MAX)?;
         let kind = joint.joint.text.as_str();
         let known: Vec<String> =
@@ -130,7 +130,7 @@ impl Recipe {
         Err(self.refused(word, fault))
     }
 
-    fn check_ids(&self) -> Result<(), CombineError> {
+    fn check_ids(&self) -> Result<()> {
         let mut first_of: HashMap<String, &Word> = HashMap::new();
         for part in &self.parts {
             let id = &part.id;
@@ -153,7 +153,7 @@ impl Recipe {
     }
 
     /// Checks that each part is attached to the root part, or to one that is.
-    fn check_attachments(&self) -> Result<(), CombineError> {
+    fn check_attachments(&self) -> Result<()> {
         let mut holders = Vec::new();
         for part in &self.parts {
             holders.push(match &part.attach {
@@ -161,9 +161,7 @@ impl Recipe {
                 None => None,
             });
         }
-        let Some(ring) = cycles(&holders).into_iter().next() else {
-            return Ok(());
-        };
+        let Some(ring) = cycles(&holders).into_iter().next() else { return Ok(()) };
         let first = &self.parts[ring[0]];
         let at = first.attach.as_ref().map_or(&first.id, |attach| &attach.to);
         let ids: Vec<&str> = ring.iter().map(|part| self.parts[*part].id.text.as_str()).collect();

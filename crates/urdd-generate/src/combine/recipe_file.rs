@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{CombineError, did_you_mean};
 use super::recipe::{Attachment, JointLimit, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word, fixed};
-use urdd_directory::position;
-use urdd_directory::regular;
+use urdd_directory::{position, regular};
 use urdd_format::escape;
 
 #[derive(Serialize, Deserialize)]

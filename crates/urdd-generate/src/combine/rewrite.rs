@@ -6,10 +6,9 @@ use std::ops::Range;
 
 use urdd_xml::{Document, Node};
 
-use super::frozen;
 use super::names::{self, LeftAlone, NamePlace, Named, escaped, mesh_edits};
 use super::part::Loaded;
-use super::trim::Trim;
+use super::trim::{Trim, frozen_origin};
 use urdd_source::origin::has_quaternions;
 use urdd_xml::element::{Edit, apply, attribute, children, name_at};
 use urdd_xml::{Kind, parse};
@@ -35,7 +34,6 @@ pub(super) struct Rewrite<'a> {
     pub prefix: &'a str,
     /// Additional places of link and joint names.
     pub names: &'a BTreeSet<&'a str>,
-    /// New names of meshes.
     pub meshes: &'a BTreeMap<String, String>,
     /// Indices of top-level materials that an earlier part also has.
     pub repeated_materials: &'a BTreeSet<usize>,
@@ -44,10 +42,6 @@ pub(super) struct Rewrite<'a> {
 }
 
 impl Rewrite<'_> {
-    /// Rewrites the text.
-    ///
-    /// # Errors
-    /// The parser's error as text.
     pub fn run(&self) -> Result<Rewritten, String> {
         let text = self.loaded.text.trim_start_matches('\u{feff}');
         let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
@@ -174,7 +168,7 @@ impl Rewrite<'_> {
             edits.push(Edit { range: found.range_value(), text: "fixed".to_owned() });
         }
         let quaternions = has_quaternions(self.loaded.robot.version.as_deref());
-        let origin = frozen::origin(joint, position, quaternions);
+        let origin = frozen_origin(joint, position, quaternions);
         let mut is_placed = false;
         for (tag, inner) in children(element) {
             match tag {

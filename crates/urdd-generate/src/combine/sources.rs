@@ -1,15 +1,20 @@
-//! The sources of a recipe's parts, and which of them may run as programs.
+//! The sources of a recipe's parts, which of them may run as programs, and the documents of those that are URDDs.
 //!
 //! A recipe may come from a stranger, together with its folder. It therefore uses only parts in that folder and runs no
 //! program, unless the user allows more.
 
 use std::path::{Path, PathBuf};
 
-use super::error::{CombineError, PartFault};
+use serde::de::DeserializeOwned;
+
+use super::error::{PartFault, Result};
 use super::recipe::{Part, Recipe, Sources};
 use crate::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::FileType;
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::Root;
 use urdd_directory::source::{is_archive, is_urdd};
 use urdd_format::escape;
 
@@ -19,7 +24,6 @@ pub(super) enum SourceKind {
     Urdd,
     /// A URDD from before version 1, which is used through the URDF in it.
     Legacy,
-    /// A URDF or xacro file.
     Urdf,
 }
 
@@ -53,11 +57,9 @@ pub(super) struct Source {
 
 impl Recipe {
     /// The source of a part.
-    ///
-    /// # Errors
-    /// If it does not exist, is outside the folders from which the recipe may use parts, or is a xacro file that may
+    /// Fails if it does not exist, is outside the folders from which the recipe may use parts, or is a xacro file that may
     /// not run.
-    pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source, CombineError> {
+    pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source> {
         self.allowed(&part.source, settings).map_err(|fault| part.refused(fault))
     }
 
@@ -89,4 +91,23 @@ impl Recipe {
             false => Ok(Source { path, kind }),
         }
     }
+}
+
+/// A JSON document of a URDD, with its length in bytes.
+pub(super) fn document<T: DeserializeOwned>(
+    root: &Root,
+    path: &str,
+) -> Result<(T, usize), PartFault> {
+    let bytes = bytes(root, path)?;
+    Ok((parsed(&bytes, path)?, bytes.len()))
+}
+
+pub(super) fn bytes(root: &Root, path: &str) -> Result<Vec<u8>, PartFault> {
+    root.read(path, MAX_DOCUMENT_BYTES).map_err(|error| PartFault::unreadable(path, error))
+}
+
+/// The value of a JSON document; `path` names it in faults.
+pub(super) fn parsed<T: DeserializeOwned>(bytes: &[u8], path: &str) -> Result<T, PartFault> {
+    let value = json::read(bytes).map_err(|error| PartFault::unreadable(path, error))?;
+    T::deserialize(&value.value).map_err(|error| PartFault::unreadable(path, error))
 }

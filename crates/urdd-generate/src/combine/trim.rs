@@ -1,12 +1,16 @@
-//! Determines which links and joints of a part are dropped, and which joints are frozen.
+//! Determines which links and joints of a part are dropped, and which joints are frozen, and where.
 
 use std::collections::BTreeMap;
 
-use super::error::CombineError;
+use super::error::Result;
 use super::part::Loaded;
 use super::recipe::{Part, Recipe};
 use urdd_format::urdf::{Joint, JointType};
-use urdd_kinematics::num_dofs;
+use urdd_kinematics::rotation::{to_rpy, unit_axis};
+use urdd_kinematics::{joint_motion, num_dofs};
+use urdd_source::origin;
+use urdd_source::urdf::written_axis;
+use urdd_xml::number::numbers;
 
 /// What is dropped and frozen. Lists are indexed by the part's own links and joints.
 #[derive(Debug)]
@@ -18,7 +22,6 @@ pub(super) struct Trim {
     pub frozen: BTreeMap<usize, Vec<f64>>,
     /// Joints that are frozen because the joint that they mimic is.
     pub following: Vec<String>,
-    /// The root link.
     pub root: usize,
 }
 
@@ -33,10 +36,8 @@ impl Trim {
 }
 
 /// Determines what is dropped and frozen.
-///
-/// # Errors
-/// If the recipe names a missing link or joint, or asks for something impossible.
-pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
+/// Fails if the recipe names a missing link or joint, or asks for something impossible.
+pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim> {
     let trimmer = Trimmer { recipe, part, loaded, id: &part.id.text };
     let robot = &loaded.robot;
     let mut is_child = vec![false; robot.links.len()];
@@ -67,7 +68,7 @@ struct Trimmer<'a> {
 }
 
 impl Trimmer<'_> {
-    fn drop(&self, trim: &mut Trim) -> Result<(), CombineError> {
+    fn drop(&self, trim: &mut Trim) -> Result<()> {
         let robot = &self.loaded.robot;
         for (with, word) in self.part.drop.iter().enumerate() {
             let link = self.recipe.find(self.id, "link", &self.loaded.links, &word.text, word)?;
@@ -100,7 +101,7 @@ impl Trimmer<'_> {
         Ok(())
     }
 
-    fn freeze(&self, trim: &mut Trim) -> Result<(), CombineError> {
+    fn freeze(&self, trim: &mut Trim) -> Result<()> {
         for (word, position) in &self.part.freeze {
             let name = &word.text;
             let idx = self.recipe.find(self.id, "joint", &self.loaded.joints, name, word)?;
@@ -133,18 +134,14 @@ impl Trimmer<'_> {
 
     /// Freezes the mimic joints of frozen joints at the resulting positions. A mimic joint whose driver is dropped is
     /// an error.
-    fn follow(&self, trim: &mut Trim) -> Result<(), CombineError> {
+    fn follow(&self, trim: &mut Trim) -> Result<()> {
         let joints = &self.loaded.robot.joints;
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
         for (idx, joint) in joints.iter().enumerate() {
             let moves = joint.joint_type != JointType::Fixed;
             let is_free = trim.keeps_joint(idx) && !trim.frozen.contains_key(&idx) && moves;
-            let Some(mimic) = joint.mimic.as_ref().filter(|_| is_free) else {
-                continue;
-            };
-            let Some(&driver) = self.loaded.joints.get(&mimic.joint) else {
-                continue;
-            };
+            let Some(mimic) = joint.mimic.as_ref().filter(|_| is_free) else { continue };
+            let Some(&driver) = self.loaded.joints.get(&mimic.joint) else { continue };
             if let Some(with) = trim.dropped_joints[driver] {
                 let at = &self.part.drop[with];
                 let fault = format!(
@@ -158,13 +155,9 @@ impl Trimmer<'_> {
         let mut drivers: Vec<usize> = trim.frozen.keys().copied().collect();
         let mut following = Vec::new();
         while let Some(driver) = drivers.pop() {
-            let Some(&[value]) = trim.frozen.get(&driver).map(Vec::as_slice) else {
-                continue;
-            };
+            let Some(&[value]) = trim.frozen.get(&driver).map(Vec::as_slice) else { continue };
             for idx in std::mem::take(&mut followers[driver]) {
-                let Some(mimic) = &joints[idx].mimic else {
-                    continue;
-                };
+                let Some(mimic) = &joints[idx].mimic else { continue };
                 let (multiplier, offset) = (mimic.multiplier, mimic.offset);
                 let value = multiplier.unwrap_or(1.0) * value + offset.unwrap_or(0.0);
                 trim.frozen.insert(idx, vec![value]);
@@ -186,4 +179,18 @@ fn limits(joint: &Joint) -> Option<[f64; 2]> {
         (None, None) => None,
         (lower, upper) => Some([lower.unwrap_or(0.0), upper.unwrap_or(0.0)]),
     }
+}
+
+/// The `<origin>` of a joint that is frozen at a position, given as one value per DOF (SPEC 5.8).
+pub(super) fn frozen_origin(joint: &Joint, position: &[f64], quaternions: bool) -> String {
+    let axis = unit_axis(written_axis(joint));
+    let motion = joint_motion(joint.joint_type, axis, position);
+    let pose = origin::of(joint.origin.as_ref(), quaternions) * motion;
+    let rpy = to_rpy(pose.rotation.to_rotation_matrix().matrix());
+    let xyz = pose.translation.vector;
+    origin_text([xyz.x, xyz.y, xyz.z], rpy)
+}
+
+pub(super) fn origin_text(xyz: [f64; 3], rpy: [f64; 3]) -> String {
+    format!("<origin xyz=\"{}\" rpy=\"{}\"/>", numbers(&xyz), numbers(&rpy))
 }

@@ -7,13 +7,12 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Donor;
-use crate::error::{EditsFault, GenerateError};
-use urdd_directory::json;
+use crate::error::{EditsFault, GenerateError, Result};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::position::{self, Position};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
-use urdd_directory::yaml;
+use urdd_directory::{json, yaml};
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 
@@ -38,20 +37,14 @@ struct Document {
 impl Decided<'_> {
     /// The decisions, whatever else is wrong with the URDD; `None` if there is no such module. `parse` reads them from the
     /// document. The URDD is `replaced` if its root metadata is readable.
-    ///
-    /// # Errors
-    /// If there may be some and they cannot be read.
+    /// Fails if there may be some and they cannot be read.
     pub fn read<T>(
         &self,
         replaced: Option<&Donor>,
         parse: impl FnOnce(&Root, &Value) -> Result<T, Fault>,
-    ) -> Result<Option<T>, GenerateError> {
-        let Ok(root) = Root::open(self.folder) else {
-            return Ok(None);
-        };
-        let Some(document) = self.document(&root)? else {
-            return Ok(None);
-        };
+    ) -> Result<Option<T>> {
+        let Ok(root) = Root::open(self.folder) else { return Ok(None) };
+        let Some(document) = self.document(&root)? else { return Ok(None) };
         let decisions = parse(&root, &document.value).map_err(|(pointer, fault)| {
             let at = position::locate(&document.text, &pointer);
             self.unusable(&self.path("module.json"), at, fault)
@@ -61,7 +54,7 @@ impl Decided<'_> {
     }
 
     /// The document; `None` if there is no such module.
-    fn document(&self, root: &Root) -> Result<Option<Document>, GenerateError> {
+    fn document(&self, root: &Root) -> Result<Option<Document>> {
         let (json_path, yaml_path) = (self.path("module.json"), self.path("module.yaml"));
         let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
@@ -96,14 +89,12 @@ impl Decided<'_> {
         root: &Root,
         document: &Document,
         replaced: Option<&Donor>,
-    ) -> Result<(), GenerateError> {
+    ) -> Result<()> {
         let path = self.path("module.yaml");
         if is_as_made(replaced, &path) {
             return Ok(());
         }
-        let Ok(bytes) = root.read(&path, MAX_DOCUMENT_BYTES) else {
-            return Ok(());
-        };
+        let Ok(bytes) = root.read(&path, MAX_DOCUMENT_BYTES) else { return Ok(()) };
         let faults = yaml::check_mirror(&bytes, &document.value);
         // Only the first of many differences are kept, and those of decisions may be among the rest.
         let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
@@ -114,9 +105,7 @@ impl Decided<'_> {
             TextFaultKind::YamlSyntax | TextFaultKind::YamlNotUtf8 => true,
             _ => false,
         });
-        let Some(fault) = differs else {
-            return Ok(());
-        };
+        let Some(fault) = differs else { return Ok(()) };
         let words = &fault.message;
         let words = format!("this file differs from module.json, which takes precedence: {words}");
         Err(self.unusable(&path, fault.position, words))
@@ -144,9 +133,7 @@ impl Decided<'_> {
 }
 
 fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
-    let Some(replaced) = replaced else {
-        return false;
-    };
+    let Some(replaced) = replaced else { return false };
     let mut files = replaced.metadata.modules.iter().flat_map(|module| &module.files);
     files.find(|file| file.path == path).is_some_and(|file| replaced.is_intact(file))
 }

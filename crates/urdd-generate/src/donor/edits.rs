@@ -1,15 +1,18 @@
-//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which a new URDD takes over.
+//! The user's edits of the skip matrix (MoveIt's allowed collision matrix) and named configurations, which a new URDD
+//! takes over. The values of configurations are computed again.
 //!
 //! They are read before any module is built.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::Donor;
 use super::decided::{Decided, Fault, names};
-use crate::error::{EditsFault, GenerateError};
+use crate::error::{EditsFault, Result};
 use crate::selection::Selection;
 use urdd_directory::root::Root;
 use urdd_format::chain::ChainModule;
@@ -19,6 +22,7 @@ use urdd_format::registry::ModuleKind;
 
 const EDITS: &str = "edits";
 const SKIPPED_REASONS: &str = "skipped_reasons";
+const CONFIGURATIONS: &str = "configurations";
 
 #[derive(Debug, Clone)]
 pub(crate) struct Decisions {
@@ -44,7 +48,6 @@ pub(crate) struct Edits {
     pub skipped_reasons: Vec<SkippedReason>,
     /// Edits whose links the robot has.
     pub kept: Vec<SkipEdit>,
-    /// The other edits.
     pub lost: Vec<SkipEdit>,
 }
 
@@ -63,32 +66,46 @@ impl Edits {
     }
 }
 
-/// Reads the edits from a folder that is to be replaced, whatever else is wrong with it.
-///
-/// # Errors
-/// If there may be edits and they cannot be read, or if the selected modules would not hold them.
-pub(crate) fn read(
-    folder: &Path,
-    selection: &Selection,
-    replaced: Option<&Donor>,
-) -> Result<Decisions, GenerateError> {
-    let decided = Decided {
-        folder,
-        kind: ModuleKind::LinkShapesSkips,
-        what: "edits of skips",
-        keys: &[EDITS, SKIPPED_REASONS],
-    };
-    let decisions = decided.read(replaced, |root, document| {
-        let decisions = parse(document)?;
-        check_links(root, &decisions.edits)?;
-        Ok(decisions)
-    })?;
-    let decisions = decisions.unwrap_or_default();
-    if !decisions.edits.is_empty() && !selection.has(decided.kind) {
-        let fault = EditsFault::NotAskedFor(decisions.edits.len());
-        return Err(decided.refused(&decided.path("module.json"), None, fault));
+impl Decisions {
+    /// Reads the decisions from a folder that is to be replaced, whatever else is wrong with it.
+    ///
+    /// # Errors
+    /// If there may be some and they cannot be read, or if the selected modules would not hold the edits.
+    pub fn read(folder: &Path, selection: &Selection, replaced: Option<&Donor>) -> Result<Self> {
+        let decided = Decided {
+            folder,
+            kind: ModuleKind::NamedConfigurations,
+            what: "named configurations",
+            keys: &[CONFIGURATIONS],
+        };
+        let configurations = decided.read(replaced, |root, document| {
+            let dofs = names(root, ModuleKind::Dof, "dofs");
+            let configurations = parse_configurations(document).and_then(|edits| {
+                check_configurations(&edits, dofs.as_ref())?;
+                Ok(edits)
+            });
+            configurations.map_err(|(pointer, words)| {
+                (pointer, format!("this configuration cannot be used: {words}"))
+            })
+        })?;
+        let decided = Decided {
+            folder,
+            kind: ModuleKind::LinkShapesSkips,
+            what: "edits of skips",
+            keys: &[EDITS, SKIPPED_REASONS],
+        };
+        let decisions = decided.read(replaced, |root, document| {
+            let decisions = parse_edits(document)?;
+            check_links(root, &decisions.edits)?;
+            Ok(decisions)
+        })?;
+        let decisions = decisions.unwrap_or_default();
+        if !decisions.edits.is_empty() && !selection.has(decided.kind) {
+            let fault = EditsFault::NotAskedFor(decisions.edits.len());
+            return Err(decided.refused(&decided.path("module.json"), None, fault));
+        }
+        Ok(Decisions { configurations: configurations.unwrap_or_default(), ..decisions })
     }
-    Ok(decisions)
 }
 
 /// Refuses an edit with a link that the URDD's own robot lacks: a mistyped name. A link that only the new robot lacks is
@@ -97,9 +114,7 @@ fn check_links(root: &Root, edits: &[SkipEdit]) -> Result<(), Fault> {
     if edits.is_empty() {
         return Ok(());
     }
-    let Some(links) = names(root, ModuleKind::Urdf, "links") else {
-        return Ok(());
-    };
+    let Some(links) = names(root, ModuleKind::Urdf, "links") else { return Ok(()) };
     for (idx, edit) in edits.iter().enumerate() {
         let mut named = [&edit.link_a, &edit.link_b].into_iter();
         if let Some(unknown) = named.find(|name| !links.contains(*name)) {
@@ -113,7 +128,7 @@ fn check_links(root: &Root, edits: &[SkipEdit]) -> Result<(), Fault> {
 }
 
 /// The decisions in a document of any draft, or the JSON Pointer to an invalid one and what is wrong with it.
-fn parse(document: &Value) -> Result<Decisions, Fault> {
+fn parse_edits(document: &Value) -> Result<Decisions, Fault> {
     let skipped_reasons = match document.get(SKIPPED_REASONS) {
         // An early draft of the format had edits but no choice of reasons.
         None => SkippedReason::USUAL.to_vec(),
@@ -136,13 +151,58 @@ fn parse(document: &Value) -> Result<Decisions, Fault> {
         }
         SkipEdit::deserialize(edit).map_err(|error| unusable(pointer, error.to_string()))
     });
-    Ok(Decisions {
-        skipped_reasons,
-        edits: edits.collect::<Result<_, _>>()?,
-        configurations: Vec::new(),
-    })
+    let edits = edits.collect::<Result<_, _>>()?;
+    Ok(Decisions { skipped_reasons, edits, configurations: Vec::new() })
 }
 
 fn unusable(pointer: String, why: String) -> Fault {
     (pointer, format!("this edit cannot be used: {why}"))
+}
+
+fn parse_configurations(document: &Value) -> Result<Vec<ConfigurationEdit>, Fault> {
+    let Some(list) = document.get(CONFIGURATIONS).and_then(Value::as_array) else {
+        return Err((String::new(), format!("`{CONFIGURATIONS}` must be a list")));
+    };
+    let edits = list.iter().enumerate().map(|(idx, configuration)| {
+        let pointer = format!("/{CONFIGURATIONS}/{idx}");
+        Ok(ConfigurationEdit {
+            name: member(configuration, &pointer, "name")?,
+            positions: member(configuration, &pointer, "positions")?,
+        })
+    });
+    edits.collect()
+}
+
+fn member<T: DeserializeOwned>(of: &Value, pointer: &str, key: &str) -> Result<T, Fault> {
+    let Some(value) = of.get(key) else {
+        return Err((pointer.to_owned(), format!("`{key}` is missing")));
+    };
+    T::deserialize(value).map_err(|error| (format!("{pointer}/{key}"), error.to_string()))
+}
+
+/// Checks that the configurations are unambiguous, and name DOFs of the URDD's own robot. DOFs that only the new robot lacks are
+/// handled elsewhere.
+fn check_configurations(
+    edits: &[ConfigurationEdit],
+    dofs: Option<&HashSet<String>>,
+) -> Result<(), Fault> {
+    let mut names = HashSet::new();
+    for (idx, edit) in edits.iter().enumerate() {
+        let fault =
+            |place: String, words: String| Err((format!("/{CONFIGURATIONS}/{idx}/{place}"), words));
+        if !names.insert(&edit.name) {
+            return fault("name".to_owned(), "an earlier one has this name".to_owned());
+        }
+        let mut set = HashSet::new();
+        for (entry, position) in edit.positions.iter().enumerate() {
+            let (name, place) = (&position.dof_name, format!("positions/{entry}"));
+            if dofs.is_some_and(|dofs| !dofs.contains(name)) {
+                return fault(place, format!("the robot of this URDD has no DOF `{name}`"));
+            }
+            if !set.insert(name) {
+                return fault(place, format!("it sets the DOF `{name}` twice"));
+            }
+        }
+    }
+    Ok(())
 }

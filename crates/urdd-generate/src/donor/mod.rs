@@ -5,8 +5,7 @@
 //! |---|---|---|
 //! | a whole module: [`Donor::kept`] | the replaced URDD | its inputs are the same, and its files are unchanged |
 //! | meshes and shapes of a link: [`links`] | parts | the link's geometry and the settings are the same |
-//! | the user's edits of skips: [`edits`] | the replaced URDD | always; edits that cannot be read are an error |
-//! | the user's named configurations: [`configurations`] | the replaced URDD | always; as for edits |
+//! | the user's edits of skips and named configurations: [`edits`] | the replaced URDD | always; edits that cannot be read are an error |
 //! | all other files: [`others`] | the replaced URDD | always; a file in the way of the new URDD is an error |
 //!
 //! Modules and meshes are taken over only from URDDs of this version of the program, and only if their bytes match
@@ -16,10 +15,8 @@
 //! determines; a part's links are in another robot under other indices, so they are found by content. Equal meshes
 //! within a run (`distinct`) have no files yet by which to find them.
 
-pub(super) mod configurations;
 mod decided;
 pub(super) mod edits;
-mod link_keys;
 pub(super) mod links;
 pub(super) mod others;
 
@@ -30,11 +27,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::metadata::{self, GENERATOR, INPUTS_KEY, MODULE_VERSION};
-use urdd_directory::digest;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
+use urdd_directory::{digest, json};
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{FileEntry, ModuleEntry, RootMetadata};
 
@@ -56,7 +52,6 @@ impl Donor {
         Some(Donor { root, metadata, value })
     }
 
-    /// Whether this program wrote it.
     pub fn is_ours(&self) -> bool {
         let generator = self.metadata.generator.as_ref();
         generator.is_some_and(|generator| generator.name == GENERATOR)

@@ -9,22 +9,18 @@ use serde_json::Value;
 
 use super::Donor;
 use crate::metadata::FOUND_KEY;
-use urdd_directory::digest;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::file_entry;
-use urdd_directory::outputs;
 use urdd_directory::root::Root;
 use urdd_directory::staging::StagingError;
 use urdd_directory::take::take;
+use urdd_directory::{digest, file_entry, outputs};
 use urdd_format::registry::ModuleKind;
 
 /// The files that every module has.
 const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
 
 /// Links or copies the files to keep from `folder` into `root`.
-///
-/// # Errors
-/// If something cannot be read or written, or a user's file has a name that the URDD needs.
+/// Fails if something cannot be read or written, or a user's file has a name that the URDD needs.
 pub(crate) fn carry_over(
     folder: &Path,
     replaced: Option<&Donor>,
@@ -101,9 +97,7 @@ fn merge(
 }
 
 fn make_above(path: &Path) -> Result<(), StagingError> {
-    let Some(above) = path.parent() else {
-        return Ok(());
-    };
+    let Some(above) = path.parent() else { return Ok(()) };
     fs::create_dir_all(above).map_err(|error| StagingError::Write { path: above.to_owned(), error })
 }
 
@@ -133,9 +127,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
 /// The entries of extension modules that were carried over, with updated sizes and hashes.
 pub(crate) fn extensions(replaced: Option<&Donor>, root: &Path) -> Vec<Value> {
     let modules = replaced.and_then(|replaced| replaced.value["modules"].as_array());
-    let Ok(root) = Root::open(root) else {
-        return Vec::new();
-    };
+    let Ok(root) = Root::open(root) else { return Vec::new() };
     let mut entries = Vec::new();
     for module in modules.into_iter().flatten() {
         if module["name"].as_str().is_none_or(is_known) {

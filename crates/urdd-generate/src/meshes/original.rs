@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::layout::Layout;
 use crate::context::Context;
-use crate::error::{GenerateError, OutsideMesh};
+use crate::error::{GenerateError, OutsideMesh, Result};
 use crate::made::{Made, MadeFile, made_with};
 use urdd_format::index::{ElementIdx, LinkIdx};
 use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
@@ -42,10 +42,8 @@ pub struct MeshCount {
 }
 
 /// Builds the module.
-///
-/// # Errors
-/// If the URDF references files that it must not make the user publish.
-pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
+/// Fails if the URDF references files that it must not make the user publish.
+pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>> {
     let Context { source, settings, progress, .. } = *context;
     let named = named(&source.reading.robot);
     let gate = Gate::new(&source.folder, &settings.source);
@@ -114,9 +112,7 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>,
 
     let (mut meshes, mut files, mut scenes) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
     for (file, inside) in &inspected {
-        let (Some(bytes), Some(mesh_path)) = (&inside.bytes, path(file)) else {
-            continue;
-        };
+        let (Some(bytes), Some(mesh_path)) = (&inside.bytes, path(file)) else { continue };
         let mut side_files = BTreeSet::new();
         for (side, content) in inside.side_files.iter().filter(|(side, _)| *side != file) {
             if let Some(path) = path(side) {
@@ -154,7 +150,7 @@ fn refuse_outside(
     file: &str,
     names: &[(&str, &SourcePlace)],
     found: &BTreeMap<&str, Result<FoundMesh, NotFound>>,
-) -> Result<(), GenerateError> {
+) -> Result<()> {
     let outside = names.iter().filter_map(|(name, place)| {
         let path = found[name].as_ref().err()?.outside.clone()?;
         Some(OutsideMesh { place: (*place).clone(), name: (*name).to_owned(), path })

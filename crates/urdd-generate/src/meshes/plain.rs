@@ -10,10 +10,9 @@ use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::urdf::{Geometry, Link, Material, Origin, UrdfModule};
-use urdd_geometry::Mesh;
 use urdd_geometry::mesh::placement;
-use urdd_geometry::primitives;
 use urdd_geometry::read::{Part, Scene};
+use urdd_geometry::{Mesh, primitives};
 use urdd_source::fault::Fault;
 use urdd_source::origin;
 
@@ -34,9 +33,7 @@ struct Element<'a> {
 
 /// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths in the URDD.
 /// `have` returns true for links whose geometry is not needed.
-///
-/// # Errors
-/// If a link has too many triangles, or a shape too small for its distance from the frame.
+/// Fails if a link has too many triangles, or a shape too small for its distance from the frame.
 pub(crate) fn link_geometries(
     robot: &UrdfModule,
     original: &OriginalMeshesModule,

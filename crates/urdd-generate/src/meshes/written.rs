@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::error::GenerateError;
+use crate::error::{GenerateError, Result};
 use crate::made::MadeFile;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::meshes::MeshFiles;
-use urdd_geometry::Mesh;
 use urdd_geometry::read::{GltfUp, Options, Part, read_with};
-use urdd_geometry::write;
+use urdd_geometry::{Mesh, write};
 
 /// The mesh of a link or a piece, as in its files.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,11 +35,15 @@ impl WrittenMesh {
         WrittenMesh { mesh, color: largest.and_then(|(color, _)| color) }
     }
 
-    /// The mesh as one part.
     pub fn part(&self) -> Part {
         Part { mesh: self.mesh.clone(), color: self.color, ..Part::default() }
     }
 }
+
+/// A mesh of each link that has one.
+pub(crate) type Meshes = Vec<Option<WrittenMesh>>;
+/// The pieces of each link.
+pub(crate) type Pieces = Vec<Vec<WrittenMesh>>;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shading {
@@ -55,7 +58,7 @@ pub(crate) fn files_of(
     parts: &[Part],
     files: &MeshFiles,
     shading: Shading,
-) -> Result<Vec<MadeFile>, GenerateError> {
+) -> Result<Vec<MadeFile>> {
     let glb = match shading {
         Shading::Flat => write::glb(parts),
         Shading::Smooth => write::smooth_glb(parts),
@@ -75,14 +78,14 @@ pub(crate) fn files_of(
 }
 
 /// Reads a mesh from the files of an earlier run.
-pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
+pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh> {
     let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| GenerateError::internal(&files.glb, error))?;
     read_glb(&bytes, &files.glb)
 }
 
 /// Reads a mesh from the bytes of its .glb.
-pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
+pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh> {
     let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     let mut scene = read_with(bytes, path, &mut |_| None, &options)
         .map_err(|error| GenerateError::internal(path, error))?;

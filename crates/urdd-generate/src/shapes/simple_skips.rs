@@ -2,8 +2,12 @@
 //! 8.6.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
-use urdd_format::chain::ChainModule;
+use super::statistics::{Shapes, distances_at};
+use crate::context::Context;
+use crate::made::{Shared, streamed};
+use crate::shape_documents;
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
@@ -11,16 +15,18 @@ use urdd_format::link_shapes_simple_skips::{
     LinkShapesSimpleSkipsModule, SeenPair, SkipReason, SkipReasons,
 };
 
-type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Builds the module. `default` contains the distances in the default configuration, by kind of shape.
+/// Builds the module.
 pub(crate) fn simple_skips(
+    context: &Context,
+    shapes: &Shapes,
     statistics: &LinkShapesDistanceStatisticsModule,
-    default: &[Vec<Vec<f64>>],
-    chain: &ChainModule,
-) -> LinkShapesSimpleSkipsModule {
-    let joined: HashSet<[usize; 2]> = chain
+) -> Shared<LinkShapesSimpleSkipsModule> {
+    let name = "the default configuration";
+    let default = distances_at(context, shapes, name, &context.space.default_configuration())?;
+    let joined: HashSet<[usize; 2]> = context
+        .chain
         .joints_in_chain
         .iter()
         .map(|joint| [joint.parent_link_idx.get(), joint.child_link_idx.get()])
@@ -29,45 +35,43 @@ pub(crate) fn simple_skips(
     let pieces: Vec<usize> =
         statistics.decomposition_shapes.iter().map(|piece| piece.link_idx.get()).collect();
     let of_full =
-        |kind: usize, of: &DistanceStatistics| classed(&full, of, &default[kind], &joined);
+        |kind: usize, of: &DistanceStatistics| reasons(&full, of, &default[kind], &joined);
     let of_pieces = |kind: usize, of: &Option<DistanceStatistics>| {
         let both = of.as_ref().zip(default.get(kind));
-        both.map(|(of, default)| classed(&pieces, of, default, &joined)).unzip()
+        both.map(|(of, default)| reasons(&pieces, of, default, &joined))
     };
-    let s = statistics;
-    let (hulls, hull_reasons) = of_full(0, &s.full_convex_hulls);
-    let (obbs, obb_reasons) = of_full(1, &s.full_obbs);
-    let (spheres, sphere_reasons) = of_full(2, &s.full_bounding_spheres);
-    let (piece_hulls, piece_hull_reasons) = of_pieces(3, &s.decomposition_convex_hulls);
-    let (piece_obbs, piece_obb_reasons) = of_pieces(4, &s.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) = of_pieces(5, &s.decomposition_bounding_spheres);
-    LinkShapesSimpleSkipsModule {
+    let reasons = SkipReasons {
+        full_convex_hulls: of_full(0, &statistics.full_convex_hulls),
+        full_obbs: of_full(1, &statistics.full_obbs),
+        full_bounding_spheres: of_full(2, &statistics.full_bounding_spheres),
+        decomposition_convex_hulls: of_pieces(3, &statistics.decomposition_convex_hulls),
+        decomposition_obbs: of_pieces(4, &statistics.decomposition_obbs),
+        decomposition_bounding_spheres: of_pieces(5, &statistics.decomposition_bounding_spheres),
+    };
+    let of_pieces = |reasons: &Option<Reasons>| reasons.as_ref().map(skips);
+    let module = Arc::new(LinkShapesSimpleSkipsModule {
         full_shapes: statistics.full_shapes.clone(),
         decomposition_shapes: statistics.decomposition_shapes.clone(),
-        full_convex_hulls_simple_skips: hulls,
-        full_obbs_simple_skips: obbs,
-        full_bounding_spheres_simple_skips: spheres,
-        decomposition_convex_hulls_simple_skips: piece_hulls,
-        decomposition_obbs_simple_skips: piece_obbs,
-        decomposition_bounding_spheres_simple_skips: piece_spheres,
-        reasons: SkipReasons {
-            full_convex_hulls: hull_reasons,
-            full_obbs: obb_reasons,
-            full_bounding_spheres: sphere_reasons,
-            decomposition_convex_hulls: piece_hull_reasons,
-            decomposition_obbs: piece_obb_reasons,
-            decomposition_bounding_spheres: piece_sphere_reasons,
-        },
-    }
+        full_convex_hulls_simple_skips: skips(&reasons.full_convex_hulls),
+        full_obbs_simple_skips: skips(&reasons.full_obbs),
+        full_bounding_spheres_simple_skips: skips(&reasons.full_bounding_spheres),
+        decomposition_convex_hulls_simple_skips: of_pieces(&reasons.decomposition_convex_hulls),
+        decomposition_obbs_simple_skips: of_pieces(&reasons.decomposition_obbs),
+        decomposition_bounding_spheres_simple_skips: of_pieces(
+            &reasons.decomposition_bounding_spheres,
+        ),
+        reasons,
+    });
+    streamed(shape_documents::simple_skips(&module), module)
 }
 
-/// Whether each pair is a simple skip, and its reason. `links[i]` is the link of shape i.
-fn classed(
+/// The reason of each pair. `links[i]` is the link of shape i.
+fn reasons(
     links: &[usize],
     statistics: &DistanceStatistics,
     default: &[Vec<f64>],
     joined: &HashSet<[usize; 2]>,
-) -> (Skips, Reasons) {
+) -> Reasons {
     let reason = |i: usize, j: usize| {
         let (a, b) = (links[i], links[j]);
         let seen = SeenPair {
@@ -79,9 +83,10 @@ fn classed(
         seen.reason()
     };
     let all = 0..links.len();
-    let reasons: Reasons =
-        all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect();
-    let skips =
-        reasons.iter().map(|row| row.iter().map(|reason| reason.is_simple()).collect()).collect();
-    (skips, reasons)
+    all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect()
+}
+
+/// Whether each pair is a simple skip.
+fn skips(reasons: &Reasons) -> Vec<Vec<bool>> {
+    reasons.iter().map(|row| row.iter().map(|reason| reason.is_simple()).collect()).collect()
 }

@@ -1,14 +1,17 @@
 //! `link_shapes_distance_statistics_module`: SPEC 8.5.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rayon::prelude::*;
 
-use super::rounding::seven_digits;
-use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
+use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, seven_digits};
 use crate::context::Context;
-use crate::error::GenerateError;
+use crate::error::Result;
+use crate::made::{Shared, streamed};
 use crate::meshes::written::WrittenMesh;
 use crate::settings::Settings;
+use crate::shape_documents;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::chain::ChainModule;
 use urdd_format::index::Count;
@@ -16,7 +19,7 @@ use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
 use urdd_format::link_shapes_distance_statistics::{
-    DistanceStatistics, LinkShapesDistanceStatisticsModule,
+    DistanceStatistics, LinkShapesDistanceStatisticsModule as Statistics,
 };
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::{
@@ -24,16 +27,13 @@ use urdd_geometry::convex::{
     statistics_of_kinds,
 };
 use urdd_kinematics::rotation::from_rpy;
+use urdd_source::note::NoteKind;
 
-/// Builds the module.
-///
-/// # Errors
-/// If cancelled, or if distances cannot be computed.
 pub(crate) fn statistics(
     context: &Context,
     solids: &ConvexMeshes,
     shapes: &Shapes,
-) -> Result<LinkShapesDistanceStatisticsModule, GenerateError> {
+) -> Shared<Statistics> {
     let Settings { num_samples, cancellation, .. } = context.settings;
     let mut found = over(&sampled_motion(context)?, shapes, cancellation).into_iter();
     cancellation.check()?;
@@ -46,7 +46,7 @@ pub(crate) fn statistics(
         [(); 3].map(|()| matrices(found.next().unwrap_or_default()));
     let [decomposition_convex_hulls, decomposition_obbs, decomposition_bounding_spheres] =
         [(); 3].map(|()| found.next().map(matrices));
-    Ok(LinkShapesDistanceStatisticsModule {
+    let module = Arc::new(Statistics {
         num_samples: Count(*num_samples),
         full_shapes: solids.full_shapes(),
         decomposition_shapes: solids.decomposition_shapes(),
@@ -56,11 +56,23 @@ pub(crate) fn statistics(
         decomposition_convex_hulls,
         decomposition_obbs,
         decomposition_bounding_spheres,
-    })
+    });
+    let mut made = streamed(shape_documents::statistics(&module), Arc::clone(&module))?;
+    if module.decomposition_convex_hulls.is_none() {
+        let pieces = module.decomposition_shapes.len();
+        made.notes.push(context.note(
+            NoteKind::TooLarge,
+            format!(
+                "the robot has {pieces} convex pieces; matrices over more than {MOST_PIECES_WITH_MATRICES} are too large"
+            ),
+            "distances and skips between pieces are left out; those between links are included",
+        ));
+    }
+    Ok(made)
 }
 
 /// The link poses in the sampled configurations (SPEC 9.3).
-pub(crate) fn sampled_motion(context: &Context) -> Result<Motion, GenerateError> {
+pub(crate) fn sampled_motion(context: &Context) -> Result<Motion> {
     let configuration = |sample: u32| {
         let name = format!("sampled configuration {sample}");
         (name, context.space.sampled(u64::from(sample)))
@@ -74,7 +86,7 @@ pub(crate) fn distances_at(
     shapes: &Shapes,
     name: &str,
     configuration: &[f64],
-) -> Result<Vec<Vec<Vec<f64>>>, GenerateError> {
+) -> Result<Vec<Vec<Vec<f64>>>> {
     let configuration = [(name.to_owned(), configuration.to_vec())];
     let motion = motion(context, configuration.into_par_iter())?;
     let found = over(&motion, shapes, &Cancellation::default());
@@ -94,15 +106,11 @@ pub(crate) struct Shapes {
 }
 
 impl Shapes {
-    /// Prepares the shapes.
-    ///
-    /// # Errors
-    /// If one cannot be used.
     pub fn new(
         context: &Context,
         solids: &ConvexMeshes,
         of: &LinkShapesApproximationsModule,
-    ) -> Result<Self, GenerateError> {
+    ) -> Result<Self> {
         let full = (
             placed(context, solids.hulls, of_mesh)?,
             placed(context, &of.full_obbs, of_box)?,
@@ -148,13 +156,13 @@ fn over(motion: &Motion, shapes: &Shapes, cancellation: &Cancellation) -> Vec<Pa
 fn motion(
     context: &Context,
     configurations: impl IndexedParallelIterator<Item = (String, Vec<f64>)>,
-) -> Result<Motion, GenerateError> {
+) -> Result<Motion> {
     let poses: Vec<Vec<Isometry3<f64>>> = configurations
         .map(|(name, configuration)| {
             let poses = context.kinematics.link_poses(&configuration);
             poses.map_err(|error| context.unmeasurable(format!("{name}: {error}")))
         })
-        .collect::<Result<_, GenerateError>>()?;
+        .collect::<Result<_>>()?;
     Motion::new(&poses, &rigid_groups(&context.chain)).map_err(|error| context.unmeasurable(error))
 }
 
@@ -163,9 +171,7 @@ fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     let mut groups: Vec<usize> = (0..chain.links_in_chain.len()).collect();
     for link in chain.kinematic_hierarchy.iter().flatten() {
         let joint = chain.links_in_chain[link.get()].parent_joint_idx;
-        let Some(joint) = joint.map(|joint| &chain.joints_in_chain[joint.get()]) else {
-            continue;
-        };
+        let Some(joint) = joint.map(|joint| &chain.joints_in_chain[joint.get()]) else { continue };
         if joint.joint_type == JointType::Fixed {
             groups[link.get()] = groups[joint.parent_link_idx.get()];
         }
@@ -178,7 +184,7 @@ fn placed<L, T, S>(
     context: &Context,
     links: &[L],
     shape: fn(&T) -> Result<S, ShapeError>,
-) -> Result<Vec<PlacedShape<S>>, GenerateError>
+) -> Result<Vec<PlacedShape<S>>>
 where
     for<'a> &'a L: IntoIterator<Item = &'a T>,
 {

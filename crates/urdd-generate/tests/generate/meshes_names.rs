@@ -2,7 +2,7 @@
 
 use urdd_format::registry::ModuleKind;
 use urdd_generate::MeshFormats;
-use urdd_generate::meshes::names::*;
+use urdd_generate::meshes::*;
 
 #[test]
 fn slugs_are_ascii_and_short() {

@@ -1,6 +1,6 @@
 //! Rounds distances to their significant digits.
 
-use urdd_generate::shapes::rounding::*;
+use urdd_generate::shapes::seven_digits;
 
 #[test]
 fn the_number_nearest_to_the_decimal_of_seven_digits() {

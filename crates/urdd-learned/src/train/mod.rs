@@ -14,7 +14,6 @@ pub mod calibration;
 mod evaluation;
 #[doc(hidden)]
 pub mod labels;
-mod model_inputs;
 mod optimiser;
 mod settings;
 mod subject;
@@ -24,9 +23,8 @@ pub use self::subject::{NoModel, Subject};
 
 use self::evaluation::Counted;
 use self::labels::Labels;
-use self::model_inputs::model_inputs;
 use self::settings::MAX_DOFS;
-use self::subject::rounded;
+use self::subject::{model_inputs, rounded};
 use crate::inputs::{self, Input};
 use crate::model::CollisionModel;
 use crate::network::{Layer, Network};
