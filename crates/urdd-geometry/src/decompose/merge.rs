@@ -7,9 +7,9 @@
 use rayon::prelude::*;
 
 use super::field::in_cut;
-use super::grower::{AXES, Places, bulk};
+use super::part::{norm, normal};
 use super::search::Block;
-use super::vector::{norm, normal};
+use super::slices::{AXES, Places, bulk};
 
 /// One block, or several merged ones.
 #[derive(Clone)]

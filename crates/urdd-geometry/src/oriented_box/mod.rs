@@ -2,10 +2,8 @@
 
 mod arc;
 mod calipers;
-mod queue;
 mod search;
 mod shadow;
-mod vectors;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 

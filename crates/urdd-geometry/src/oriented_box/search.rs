@@ -12,11 +12,9 @@
 
 use nalgebra::Vector3;
 
-use super::super::hull::ConvexHull;
-use super::arc::{Arc, Known, Stretch};
-use super::queue::{Queue, Sketched};
-use super::shadow::{Candidate, Caster, Edge};
-use super::vectors::AXES;
+use super::arc::{Arc, Known, Queue, Sketched, Stretch};
+use super::shadow::{AXES, Candidate, Caster, Edge};
+use crate::hull::ConvexHull;
 use crate::vector::{dot, spread};
 
 /// A pass over the arcs.

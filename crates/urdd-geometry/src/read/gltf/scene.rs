@@ -6,14 +6,11 @@ use std::sync::Arc;
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
-use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, Picker, mark};
+use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, Picker, UvCorners, mark};
 use super::super::collada::path_of_url;
 use super::super::error::{Failure, Fault, NoteCode};
-use super::super::options::GltfUp;
-use super::super::scene::Texture;
-use super::super::uv::UvCorners;
-use super::accessor;
-use super::buffer::{Buffers, decode, is_data};
+use super::super::scene::{GltfUp, Texture};
+use super::accessor::{self, Buffers, decode, is_data};
 use super::json::{self, Node, Primitive, Root};
 use crate::mesh::Mesh;
 use crate::polygon::{fan, strip};
