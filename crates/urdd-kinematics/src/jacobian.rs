@@ -143,19 +143,12 @@ pub struct Branch<'a> {
 }
 
 /// The pose of a branch's link; reusable for further configurations.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Place {
     /// The pose of the link in the root link's frame.
     pub pose: Isometry3<f64>,
     /// For each joint, the rotation of its frame and the position of its child link.
     pub(super) joints: Vec<(UnitQuaternion<f64>, Vector3<f64>)>,
-}
-
-impl Default for Place {
-    /// The identity, without joints.
-    fn default() -> Self {
-        Self { pose: Isometry3::identity(), joints: Vec::new() }
-    }
 }
 
 impl ForwardKinematics {

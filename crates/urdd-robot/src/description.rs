@@ -88,7 +88,7 @@ impl Robot {
     /// # Errors
     /// If `urdf_module` is missing or unusable.
     pub fn link_masses(&self) -> Result<&[LinkMass], RobotError> {
-        let of = |link: urdd_format::urdf::Link| {
+        let of = |link: Link| {
             let inertial = link.inertial?;
             let origin = inertial.origin.and_then(|origin| origin.xyz);
             Some(LinkMass { mass: inertial.mass?.value, centre: origin.unwrap_or_default() })

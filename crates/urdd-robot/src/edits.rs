@@ -9,7 +9,7 @@ use super::error::RobotError;
 use super::names::index;
 use super::robot::{of_read, usable};
 use super::shapes::ShapeKind;
-use super::skips::Skips;
+use super::skips::{SIMPLE, SKIPS, Skips};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::ReadError;
@@ -108,7 +108,7 @@ impl Robot {
     pub fn named_configuration(&self, name: &str) -> Result<&[f64], RobotError> {
         let all = self.named_configurations()?;
         let names = all.iter().map(|named| named.name.to_string());
-        let idx = super::names::index("configuration", &names.collect::<Vec<_>>(), name)?;
+        let idx = index("configuration", &names.collect::<Vec<_>>(), name)?;
         Ok(&all[idx].configuration)
     }
 
@@ -151,7 +151,7 @@ impl Robot {
             None => Ok(()),
             Some(PositionFault::UnknownDof) => {
                 let names: Vec<String> = dof.dofs.iter().map(|dof| dof.name.clone()).collect();
-                super::names::index("DOF", &names, &position.dof_name).map(|_| ())
+                index("DOF", &names, &position.dof_name).map(|_| ())
             }
             Some(PositionFault::OutOfBounds([lower, upper])) => Err(RobotError::OutOfBounds {
                 dof: position.dof_name.clone(),
@@ -167,9 +167,6 @@ impl Robot {
         Ok(edits.iter().map(resolve).collect())
     }
 }
-
-const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
-const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
 
 /// A skips module with new edits, and the files of the URDD that change.
 #[derive(Debug)]
@@ -218,7 +215,7 @@ impl Robot {
         for edit in &edits {
             for link in [&edit.link_a, &edit.link_b] {
                 if described.link(link).is_none() {
-                    super::names::index("link", &names, link)?;
+                    index("link", &names, link)?;
                 }
             }
         }

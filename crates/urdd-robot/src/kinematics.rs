@@ -167,9 +167,6 @@ impl Robot {
     }
 }
 
-/// Configurations in one block of work.
-const BLOCK: usize = 64;
-
 /// What acts on a robot that is held still.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GravitySettings {

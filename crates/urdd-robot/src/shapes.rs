@@ -60,7 +60,7 @@ fn solid(volume: Volume) -> Solid {
 }
 
 /// The meshes of one module.
-pub(super) struct Meshes<'a> {
+struct Meshes<'a> {
     part: &'a Urdd,
     meshes: meshes::Meshes<'a>,
     /// The format to read: the first of STL, OBJ and GLB, ordered by how compactly they store vertices, that has any
@@ -93,13 +93,23 @@ impl<'a> Meshes<'a> {
         places.into_par_iter().map(read).collect()
     }
 
-    /// Reads one mesh.
-    fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
+    /// The file of a mesh in this format, or else its first one.
+    fn path(
+        &self,
+        link: usize,
+        piece: usize,
+        format: Option<Format>,
+    ) -> Result<&MeshPath<'_>, RobotError> {
         let lists = self.meshes.lists.iter();
         let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
-        let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
-        let of_format = paths.iter().find(|path| path.format == self.format);
-        let path = of_format.or(paths.first()).ok_or(RobotError::Missing(self.meshes.kind))?;
+        let mut paths = meshes.flat_map(|mesh| &mesh.paths);
+        let of_format = paths.clone().find(|path| path.format == format);
+        of_format.or_else(|| paths.next()).ok_or(RobotError::Missing(self.meshes.kind))
+    }
+
+    /// Reads one mesh.
+    fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
+        let path = self.path(link, piece, self.format)?;
         let mut mesh = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?.merged();
         // STL repeats each vertex for each of its triangles.
         mesh.weld();
@@ -113,12 +123,7 @@ impl<'a> Meshes<'a> {
     fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
         let links = (0..self.meshes.num_links()).filter(|link| self.meshes.count(*link) > 0);
         let visual = |link: usize| {
-            let lists = self.meshes.lists.iter();
-            let meshes = lists.filter_map(|list| list.links.get(link)?.first());
-            let mut paths = meshes.flat_map(|mesh| &mesh.paths);
-            let glb = paths.clone().find(|path| path.format == Some(Format::Glb));
-            let path = glb.or_else(|| paths.next());
-            let path = path.ok_or(RobotError::Missing(self.meshes.kind))?;
+            let path = self.path(link, 0, Some(Format::Glb))?;
             let scene = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?;
             Ok(LinkVisual { link, parts: scene.parts })
         };

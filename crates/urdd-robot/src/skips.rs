@@ -12,8 +12,8 @@ use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
-const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
-const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
+pub(super) const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
+pub(super) const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
 
 /// The skips between the shapes of one kind: MoveIt's *allowed collision matrix*, for shapes instead of links.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Matrix4};
 use rayon::prelude::*;
 
 use super::Robot;
@@ -68,7 +68,7 @@ impl Robot {
         let account = &Account::default();
         let modules = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
         let part = self.part_as_it_is(&modules)?;
-        super::robot::usable(&part, ModuleKind::Urdf)?;
+        usable(&part, ModuleKind::Urdf)?;
         let robot = part.robot().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
         let paths = paths(&part);
         let of_kind = paths.iter().filter(|((_, of, _), _)| *of == kind);
@@ -94,10 +94,10 @@ impl Robot {
 }
 
 /// A visual or collision element: its link, its kind, its place in the link.
-pub(super) type Place = (usize, GeometryKind, usize);
+type Place = (usize, GeometryKind, usize);
 
 /// The paths of the meshes of elements.
-pub(super) fn paths(part: &Urdd) -> BTreeMap<Place, &str> {
+fn paths(part: &Urdd) -> BTreeMap<Place, &str> {
     let Some(ModuleDocument::OriginalMeshes(module)) = part.document(ModuleKind::OriginalMeshes)
     else {
         return BTreeMap::new();
@@ -218,13 +218,19 @@ fn placed(element: &Element, mesh: &[Part], color: Option<[f64; 4]>) -> Vec<Part
             mesh.to_vec()
         }
     };
-    let rotation = element.origin.rotation();
-    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
+    let place = place_of(element, scale);
     for part in &mut parts {
-        part.mesh.transform(&placement(scale, rows, element.origin.xyz));
+        part.mesh.transform(&place);
         part.color = part.color.or(color);
     }
     parts
+}
+
+/// The matrix that puts a scaled shape into its link's frame.
+fn place_of(element: &Element, scale: [f64; 3]) -> Matrix4<f64> {
+    let rotation = element.origin.rotation();
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
+    placement(scale, rows, element.origin.xyz)
 }
 
 /// The meshes that the URDF names, of those that the URDD carries. Each file is read once.
@@ -264,7 +270,7 @@ impl Robot {
             let path = reference.path.as_ref()?;
             let link = reference.link_idx.get();
             let element = robot.links.get(link)?.visual.get(reference.element_idx.get())?;
-            let parts = read(&part, path).map(|parts| in_link(parts, element));
+            let parts = textured_parts(&part, path).map(|parts| in_link(parts, element));
             Some(parts.transpose()?.map(|parts| LinkVisual { link, parts }))
         };
         let references = original.references.par_iter();
@@ -284,7 +290,7 @@ impl Robot {
     }
 }
 
-pub(super) fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
+fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
     if !part.listing().has_file(path) {
         return Ok(None);
     }
@@ -297,7 +303,7 @@ pub(super) fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotErr
 }
 
 /// The parts of a mesh that have a texture.
-fn read(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
+fn textured_parts(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
     let content = bytes(part, mesh)?.unwrap_or_default();
     // Without what names a library or an image, there is none: OBJ, COLLADA, glTF.
     let names: [&[u8]; 3] = [b"mtllib", b"init_from", b"\"images\""];
@@ -329,13 +335,11 @@ fn read(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
 }
 
 /// Puts the parts of an element's mesh into its link's frame, with coordinates of binary32.
-pub(super) fn in_link(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
+fn in_link(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
     let Some(Geometry::Mesh(mesh)) = &element.geometry else {
         return None;
     };
-    let rotation = element.origin.rotation();
-    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
-    let place = placement(mesh.scale.unwrap_or([1.0; 3]), rows, element.origin.xyz);
+    let place = place_of(element, mesh.scale.unwrap_or([1.0; 3]));
     for part in &mut parts {
         part.mesh.transform(&place);
         let coordinates = part.mesh.vertices.as_flattened_mut();

@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::goal::{Goal, InverseSettings};
-use super::path::{Kind, Path, within};
-use crate::branch::Place;
+use super::path::{Goal, InverseSettings, Kind, Path, within};
+use crate::jacobian::Place;
 use crate::rotation::to_rotation_vector;
 
 /// Maximum change of a DOF per iteration, rad or m. The linearisation is poor beyond it.

@@ -1,6 +1,6 @@
 //! Gradients of distances with respect to the configuration.
 
-use super::vector::to_root;
+use super::body::to_root;
 use super::{PairDistance, Proximity};
 use crate::workspace::{Derivative, Placed};
 use urdd_geometry::convex::Penetration;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
+use super::body::{relative, to_root};
 use super::swept::{SweptPair, Waiting};
-use super::vector::{relative, to_root};
 use super::{Group, PairDistance, Proximity, Rounding};
 use crate::checked::Checked;
 use crate::error::RobotError;
