@@ -5,6 +5,8 @@
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
 
+use crate::vector::normal;
+
 /// A triangle mesh. Lengths in metres.
 ///
 /// A triangle is three indices into `vertices`, counter-clockwise when seen from outside. The methods of this type
@@ -158,8 +160,7 @@ pub(crate) fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
 
 /// The normal of a triangle; its length is twice the area.
 pub(crate) fn double_area_normal(corners: [[f64; 3]; 3]) -> Vector3<f64> {
-    let [a, b, c] = corners.map(Vector3::from);
-    (b - a).cross(&(c - a))
+    normal(corners).into()
 }
 
 impl Mesh {

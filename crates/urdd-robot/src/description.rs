@@ -1,7 +1,5 @@
 //! The source URDF: as data, its text, its limits and its masses.
 
-use nalgebra::{Point3, Vector3};
-
 use super::Robot;
 use super::error::RobotError;
 use super::kept::LinkMass;
@@ -11,6 +9,7 @@ use urdd_document::kept::keep;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::root_metadata::Source;
 use urdd_format::urdf::{Link, UrdfModule};
+use urdd_kinematics::Load;
 
 /// The file that a URDD was generated from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,11 +105,10 @@ impl Robot {
     /// As [`Robot::link_poses`] and [`Robot::link_masses`].
     pub fn centre_of_mass(&self, configuration: &[f64]) -> Result<Option<[f64; 3]>, RobotError> {
         let poses = self.link_poses(configuration)?;
-        let (mut mass, mut moment) = (0.0, Vector3::zeros());
+        let mut all = Load::default();
         for (link, pose) in self.link_masses()?.iter().zip(&poses) {
-            mass += link.mass;
-            moment += link.mass * (pose * Point3::from(link.centre)).coords;
+            all += Load::new(link.mass, link.centre.into(), pose);
         }
-        Ok((mass > 0.0).then(|| (moment / mass).into()))
+        Ok((all.mass > 0.0).then(|| (all.moment / all.mass).into()))
     }
 }

@@ -119,7 +119,19 @@ impl Sphere {
 }
 
 /// A shape with distance queries: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
-pub trait Shape: sealed::Distances + Sync {}
+pub trait Shape: Sized + Sync {
+    /// The distance in each sample, in order. In place of one in the range `within`, any number in it. The length of
+    /// `distances` is a multiple of the lane count.
+    ///
+    /// A function of each shape, and none of the trait: a kernel is compiled here, and not in each crate that asks.
+    fn distances(
+        level: Level,
+        pair: [&Self; 2],
+        poses: &PoseLanes,
+        within: [f64; 2],
+        distances: &mut [f64],
+    );
+}
 
 /// The distance of two shapes, metres; 0 if they touch or overlap. `b_in_a` is the pose of the frame of `b` in that of
 /// `a` and must be finite.
@@ -130,29 +142,9 @@ pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
     lanes[0]
 }
 
-mod sealed {
-    use super::{Level, PoseLanes};
-
-    pub trait Distances: Sized {
-        /// The distance in each sample, in order. In place of one in the range `within`, any number in it. The length
-        /// of `distances` is a multiple of the lane count.
-        ///
-        /// A function of each shape, and none of the trait: a kernel is compiled here, and not in each crate that asks.
-        fn distances(
-            level: Level,
-            pair: [&Self; 2],
-            poses: &PoseLanes,
-            within: [f64; 2],
-            distances: &mut [f64],
-        );
-    }
-}
-
 macro_rules! shapes {
     ($($kernel:ident: $shape:ty),*) => {$(
-        impl Shape for $shape {}
-
-        impl sealed::Distances for $shape {
+        impl Shape for $shape {
             fn distances(
                 level: Level,
                 pair: [&Self; 2],

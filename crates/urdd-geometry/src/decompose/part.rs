@@ -1,16 +1,11 @@
 //! Vectors, planes and parts of the proxy surface, and the tree of the planes that cut it.
 
 pub(super) use crate::mesh::Bounds;
-pub(super) use crate::vector::{cross, dot, norm, sub};
+pub(super) use crate::vector::{cross, dot, norm, normal, sub};
 
 /// The point at parameter `t` from `a` to `b`.
 pub(super) fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])]
-}
-
-/// The normal of a triangle; its length is twice the area.
-pub(super) fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
-    cross(sub(b, a), sub(c, a))
 }
 
 /// The mean of a triangle's corners.

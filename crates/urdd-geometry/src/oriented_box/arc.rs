@@ -84,7 +84,7 @@ pub struct Arc {
 
 impl Arc {
     pub fn new(caster: &Caster, edge: &Edge) -> Self {
-        let [from, to] = [edge.left, edge.right].map(|t| caster.normal(t as usize));
+        let [from, to] = [edge.left, edge.right].map(|t| caster.normals[t as usize]);
         let along = caster.along(edge);
         // Normals rotate about the edge, even if they are nearly opposite.
         let mut towards = along.cross(&from);

@@ -39,7 +39,7 @@ impl OrientedBox {
         let aligned = Self::with_rotation(hull, UnitQuaternion::identity());
         let candidates = if hull.is_flat() {
             let mut caster = Caster::new(hull);
-            let normal = caster.largest_normal();
+            let normal = caster.largest_normal;
             caster.smallest_box(&normal).into_iter().collect()
         } else {
             smallest_boxes(hull)

@@ -28,10 +28,11 @@ pub struct Caster {
     /// The vertices, relative to the first vertex.
     vertices: Vec<Vector3<f64>>,
     /// The triangles' unit normals; zero for a degenerate triangle.
-    normals: Vec<Vector3<f64>>,
+    pub normals: Vec<Vector3<f64>>,
     /// Edges whose triangles' normals differ.
     pub edges: Vec<Edge>,
-    largest: Vector3<f64>,
+    /// The unit normal of the largest triangle.
+    pub largest_normal: Vector3<f64>,
     /// Upper bound of the distance between two vertices: the diagonal of the bounding box.
     diameter: f64,
     /// For each triangle, the set of axes that it faces along.
@@ -87,7 +88,7 @@ impl Caster {
             along().fold(0.0, f64::max) - along().fold(0.0, f64::min)
         });
         Self {
-            largest: largest.map(unit).unwrap_or_default(),
+            largest_normal: largest.map(unit).unwrap_or_default(),
             diameter: Vector3::from(sides).norm(),
             lit: Vec::new(),
             border: Vec::new(),
@@ -97,19 +98,6 @@ impl Caster {
             vertices,
             polygon: Vec::new(),
         }
-    }
-
-    pub fn triangles(&self) -> usize {
-        self.normals.len()
-    }
-
-    pub fn normal(&self, triangle: usize) -> Vector3<f64> {
-        self.normals[triangle]
-    }
-
-    /// The unit normal of the largest triangle.
-    pub fn largest_normal(&self) -> Vector3<f64> {
-        self.largest
     }
 
     /// The unit vector along an edge.

@@ -10,6 +10,7 @@ use super::scene::{Format, Options, Part, Scene, Texture};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.
+#[derive(Default)]
 pub(super) struct Assembly {
     parts: Vec<Part>,
     part_of: HashMap<Look, usize>,
@@ -35,14 +36,7 @@ type Look = (Option<String>, Option<[u64; 4]>, Option<(String, bool)>);
 
 impl Assembly {
     pub(super) fn new(options: &Options) -> Self {
-        Self {
-            parts: Vec::new(),
-            part_of: HashMap::new(),
-            triangles: 0,
-            options: *options,
-            side_files: Vec::new(),
-            notes: Notes::default(),
-        }
+        Self { options: *options, ..Self::default() }
     }
 
     /// Adds a mesh, placed by `matrix`, to the part with the same material.
