@@ -197,12 +197,7 @@ impl Mesh {
     /// Returns how many vertices were removed. Triangles stay, even if they become degenerate.
     pub fn weld(&mut self) -> usize {
         let before = self.vertices.len();
-        let mut table = PlaceTable::for_count(before);
-        let mut kept: Vec<[f64; 3]> = Vec::with_capacity(before);
-        let mut index_of: Vec<u32> = Vec::with_capacity(before);
-        for vertex in &self.vertices {
-            index_of.push(table.index(vertex.map(|coordinate| coordinate + 0.0), &mut kept));
-        }
+        let (kept, index_of) = welded(&self.vertices, |vertex| Some(vertex.map(|x| x + 0.0)));
         self.vertices = kept;
         for triangle in &mut self.triangles {
             *triangle = triangle.map(|index| index_of[index as usize]);
@@ -246,31 +241,26 @@ impl Mesh {
     }
 }
 
-/// Maps positions to their first index. Uses open addressing: the standard map with its secure hash takes three times
-/// as long.
-pub(crate) struct PlaceTable {
-    slots: Vec<u32>,
-}
-
-const FREE: u32 = u32::MAX;
-
-impl PlaceTable {
-    pub(crate) fn for_count(count: usize) -> Self {
-        Self { slots: vec![FREE; (count * 2).next_power_of_two().max(2)] }
-    }
-
-    /// The index of the position in `kept`; appends the position if it is new.
-    pub(crate) fn index(&mut self, place: [f64; 3], kept: &mut Vec<[f64; 3]>) -> u32 {
-        let mask = self.slots.len() - 1;
+/// The distinct positions in order of first use, and the index of each given point among them: `u32::MAX` if `place` gives
+/// it no position. Uses open addressing: the standard map with its secure hash takes three times as long.
+pub(crate) fn welded(
+    given: &[[f64; 3]],
+    place: impl Fn([f64; 3]) -> Option<[f64; 3]>,
+) -> (Vec<[f64; 3]>, Vec<u32>) {
+    const FREE: u32 = u32::MAX;
+    let mut slots = vec![FREE; (given.len() * 2).next_power_of_two().max(2)];
+    let mask = slots.len() - 1;
+    let mut kept: Vec<[f64; 3]> = Vec::with_capacity(given.len());
+    let index_of = |point: &[f64; 3]| {
+        let Some(place) = place(*point) else { return FREE };
         let mut slot = hash(place) & mask;
         loop {
-            match self.slots[slot] {
+            match slots[slot] {
                 FREE => {
                     // A mesh has at most `u32::MAX` vertices.
-                    let index = u32::try_from(kept.len()).unwrap_or(u32::MAX);
-                    self.slots[slot] = index;
+                    slots[slot] = u32::try_from(kept.len()).unwrap_or(FREE);
                     kept.push(place);
-                    return index;
+                    return slots[slot];
                 }
                 index if kept[index as usize].map(f64::to_bits) == place.map(f64::to_bits) => {
                     return index;
@@ -278,7 +268,9 @@ impl PlaceTable {
                 _ => slot = (slot + 1) & mask,
             }
         }
-    }
+    };
+    let index = given.iter().map(index_of).collect();
+    (kept, index)
 }
 
 /// Mixes the bits of three coordinates (the finalizer of MurmurHash3 after each).

@@ -7,7 +7,7 @@
 
 use super::part::{Bounds, Part, cross, dot, normal, sub};
 use crate::Mesh;
-use crate::mesh::{PlaceTable, from_lowest};
+use crate::mesh::{from_lowest, welded};
 
 /// A welded surface. `unit` are the vertices moved and scaled so that the largest extent runs from -1 to 1; planes use
 /// these coordinates.
@@ -26,7 +26,12 @@ pub(super) struct Surface {
 impl Surface {
     /// Welds equal vertices and drops invalid triangles; `None` if no triangle remains.
     pub fn new(mesh: &Mesh) -> Option<Self> {
-        let (vertices, index) = weld(&mesh.vertices);
+        let (vertices, index) = welded(&mesh.vertices, |p| {
+            // The range of the hull's exact arithmetic: no robot is that large. Values below that range become 0, and -0
+            // becomes 0.
+            let is_near = p.iter().all(|x| x.abs() < 1e60);
+            is_near.then(|| p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x }))
+        });
         let mut triangles = Vec::with_capacity(mesh.triangles.len());
         for t in &mesh.triangles {
             let corner = t.map(|i| index.get(i as usize).copied().unwrap_or(u32::MAX));
@@ -86,23 +91,6 @@ fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     let mut first: Vec<usize> = numbered.into_iter().map(|(_, at)| at).collect();
     first.sort_unstable();
     first.into_iter().map(|at| triangles[at]).collect()
-}
-
-/// The distinct vertices in order of first use, and the index of each given vertex among them (`u32::MAX` if it is out
-/// of range).
-fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
-    let mut table = PlaceTable::for_count(given.len());
-    let mut out: Vec<[f64; 3]> = Vec::with_capacity(given.len() / 2);
-    let index_of = |p: &[f64; 3]| {
-        // The range of the hull's exact arithmetic: no robot is that large.
-        if !p.iter().all(|x| x.abs() < 1e60) {
-            return u32::MAX;
-        }
-        // Values below that range become 0, and -0 becomes 0.
-        table.index(p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x }), &mut out)
-    };
-    let index = given.iter().map(index_of).collect();
-    (out, index)
 }
 
 /// Target number of clusters.
