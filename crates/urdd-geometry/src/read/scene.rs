@@ -96,7 +96,7 @@ pub struct Part {
     pub color: Option<[f64; 4]>,
     /// The material's name.
     pub material: Option<String>,
-    /// Its texture; always `None` without [`Options::textures`](super::Options::textures).
+    /// Its texture; always `None` without [`Options::textures`].
     pub texture: Option<Texture>,
 }
 

@@ -38,7 +38,7 @@ impl Goal {
     }
 }
 
-/// Tolerances and limits of [`ForwardKinematics::reach`](crate::ForwardKinematics::reach).
+/// Tolerances and limits of [`ForwardKinematics::reach`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSettings {
     /// Position tolerance, metres, 0 or more; default 1e-6.

@@ -73,7 +73,7 @@ impl Proximity {
     /// These shapes, without the pairs of these bodies: links, or objects that are attached. This is MoveIt's *allowed
     /// collision matrix* at run time, such as for two links that are always nearer than a margin. The shapes are shared,
     /// not copied. A pair that is not checked anyway is no error. Obstacles are still tested:
-    /// [`Obstacle::ignoring`](crate::Obstacle::ignoring).
+    /// [`Obstacle::ignoring`].
     ///
     /// ```
     /// # use urdd_robot::{Robot, RobotError, ShapeKind};

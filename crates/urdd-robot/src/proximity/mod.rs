@@ -10,7 +10,6 @@
 
 mod body;
 mod changed;
-mod gradient;
 mod query;
 mod swept;
 
@@ -32,9 +31,8 @@ use urdd_geometry::convex::across::columns;
 use urdd_kinematics::Travel;
 
 pub(super) use body::{Shape, relative, to_root};
-pub use gradient::{Gradient, Overlap, PairGradient};
-pub(super) use gradient::{in_root, toward};
-pub(super) use swept::{SweptPair, Waiting, penetration_of, witnesses};
+pub use swept::{Gradient, Overlap, PairGradient};
+pub(super) use swept::{SweptPair, Waiting, in_root, penetration_of, toward, witnesses};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
