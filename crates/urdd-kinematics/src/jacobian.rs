@@ -94,20 +94,16 @@ pub(super) fn columns(
             add(*along_x, frame * x, Vector3::zeros());
             add(*along_y, frame * y, Vector3::zeros());
         }
-        Motion::Float { dofs: [x, y, z, a, b, c] } => {
-            let vector = [*a, *b, *c].map(|dof| configuration[dof]);
-            let columns = left_jacobian(vector);
-            for (k, dof) in [*a, *b, *c].into_iter().enumerate() {
+        Motion::Float { dofs: [.., a, b, c] } | Motion::Ball { dofs: [a, b, c] } => {
+            let vector = [*a, *b, *c];
+            let columns = left_jacobian(vector.map(|dof| configuration[dof]));
+            for (k, dof) in vector.into_iter().enumerate() {
                 turn(dof, frame * columns.column(k));
             }
-            for (axis, dof) in [*x, *y, *z].into_iter().enumerate() {
-                add(dof, frame * Vector3::ith(axis, 1.0), Vector3::zeros());
-            }
-        }
-        Motion::Ball { dofs } => {
-            let columns = left_jacobian(dofs.map(|dof| configuration[dof]));
-            for (k, dof) in dofs.iter().enumerate() {
-                turn(*dof, frame * columns.column(k));
+            if let Motion::Float { dofs: [along @ .., _, _, _] } = &step.motion {
+                for (axis, dof) in along.iter().enumerate() {
+                    add(*dof, frame * Vector3::ith(axis, 1.0), Vector3::zeros());
+                }
             }
         }
     }

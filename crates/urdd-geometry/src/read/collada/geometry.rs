@@ -307,20 +307,13 @@ impl Faces<'_> {
                         self.uvs.follow(&self.triangles);
                     }
                 }
-                ("polygons", _) => {
+                (tag, _) => {
                     self.read_corners(&mut words, usize::MAX);
-                    splitter.split(vertices, &self.corners, &mut self.triangles);
-                }
-                ("trifans", _) => {
-                    self.read_corners(&mut words, usize::MAX);
-                    for triangle in fan(&self.corners) {
-                        splitter.push(triangle, &mut self.triangles);
-                    }
-                }
-                _ => {
-                    self.read_corners(&mut words, usize::MAX);
-                    for triangle in strip(&self.corners) {
-                        splitter.push(triangle, &mut self.triangles);
+                    let (corners, out) = (&self.corners, &mut self.triangles);
+                    match tag {
+                        "polygons" => splitter.split(vertices, corners, out),
+                        "trifans" => fan(corners).for_each(|fan| splitter.push(fan, out)),
+                        _ => strip(corners).for_each(|strip| splitter.push(strip, out)),
                     }
                 }
             }

@@ -33,10 +33,9 @@ pub(super) fn positions(
         let shape = &accessor.shape;
         return Err(Fault::malformed(format!("positions are {shape} instead of VEC{width}")));
     }
-    let (read, largest) = reader(accessor.component_type).ok_or_else(|| {
+    let (size, read, largest) = reader(accessor.component_type).ok_or_else(|| {
         Fault::malformed(format!("positions of component type {}", accessor.component_type))
     })?;
-    let size = size(accessor.component_type);
     let number = |bytes: &[u8]| match largest.filter(|_| accessor.normalized) {
         Some(largest) => (read(bytes) / largest).max(-1.0),
         None => read(bytes),
@@ -138,14 +137,14 @@ fn indices_of(
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<u32>, Failure> {
-    let read: fn(&[u8]) -> u32 = match array.component_type {
-        UNSIGNED_BYTE => |bytes| u32::from(bytes[0]),
-        UNSIGNED_SHORT => |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
-        UNSIGNED_INT => |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+    let (size, read): (usize, fn(&[u8]) -> u32) = match array.component_type {
+        UNSIGNED_BYTE => (1, |bytes| u32::from(bytes[0])),
+        UNSIGNED_SHORT => (2, |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]]))),
+        UNSIGNED_INT => (4, |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
         other => return Err(Fault::malformed(format!("indices of component type {other}"))),
     };
     let view = buffers.view(array.buffer_view, assembly)?;
-    Ok(elements(view, array.byte_offset, size(array.component_type), count)?.map(read).collect())
+    Ok(elements(view, array.byte_offset, size, count)?.map(read).collect())
 }
 
 fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
@@ -177,30 +176,22 @@ fn elements(
     Ok(bytes.chunks(stride))
 }
 
-fn size(component: u32) -> usize {
-    match component {
-        BYTE | UNSIGNED_BYTE => 1,
-        SHORT | UNSIGNED_SHORT => 2,
-        _ => 4,
-    }
-}
-
 fn float(bytes: &[u8]) -> f64 {
     f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
 }
 
-type Reader = (fn(&[u8]) -> f64, Option<f64>);
+type Reader = (usize, fn(&[u8]) -> f64, Option<f64>);
 
-/// The function that reads a component, and the largest integer. `KHR_mesh_quantization` allows integer positions.
+/// The bytes of a component, the function that reads it, and the largest integer. `KHR_mesh_quantization` allows integer positions.
 /// Normalized integers are fractions of the largest, as the glTF specification defines.
 fn reader(component: u32) -> Option<Reader> {
     Some(match component {
-        FLOAT => (float, None),
-        BYTE => (|bytes| f64::from(i8::from_le_bytes([bytes[0]])), Some(127.0)),
-        UNSIGNED_BYTE => (|bytes| f64::from(bytes[0]), Some(255.0)),
-        SHORT => (|bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), Some(32767.0)),
+        FLOAT => (4, float, None),
+        BYTE => (1, |bytes| f64::from(i8::from_le_bytes([bytes[0]])), Some(127.0)),
+        UNSIGNED_BYTE => (1, |bytes| f64::from(bytes[0]), Some(255.0)),
+        SHORT => (2, |bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), Some(32767.0)),
         UNSIGNED_SHORT => {
-            (|bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), Some(65535.0))
+            (2, |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), Some(65535.0))
         }
         _ => return None,
     })
