@@ -92,9 +92,7 @@ impl Mesh {
     /// first vertex, so that a mesh far from the origin loses no precision. The result has no meaning for an open
     /// surface.
     pub fn signed_volume(&self) -> f64 {
-        let Some(first) = self.triangles.first() else {
-            return 0.0;
-        };
+        let Some(first) = self.triangles.first() else { return 0.0 };
         let origin = Vector3::from(self.vertices[first[0] as usize]);
         self.triangles
             .iter()

@@ -291,9 +291,7 @@ impl ForwardKinematics {
         gather(loads, self.steps.iter().rev().map(|step| (step.parent, step.child)));
         for step in &self.steps {
             let load = loads[step.child];
-            let Some(centre) = load.centre() else {
-                continue;
-            };
+            let Some(centre) = load.centre() else { continue };
             let frame = poses[step.parent].rotation * step.origin.rotation;
             let child = &poses[step.child].translation.vector;
             columns(step, &frame, child, &centre, configuration, |dof, linear, _| {

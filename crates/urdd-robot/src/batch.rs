@@ -19,9 +19,7 @@ pub(super) fn room<T: Clone + Default + Send>(
     width: usize,
 ) -> Result<Vec<T>, RobotError> {
     let memory = RobotError::Memory { count, width };
-    let Some(values) = count.checked_mul(width) else {
-        return Err(memory);
-    };
+    let Some(values) = count.checked_mul(width) else { return Err(memory) };
     if !has_room(values.saturating_mul(size_of::<T>())) {
         return Err(memory);
     }

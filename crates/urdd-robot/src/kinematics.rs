@@ -198,9 +198,7 @@ impl GravitySettings {
         if !self.gravity.iter().all(|x| x.is_finite()) {
             return Err(RobotError::Setting("gravity is three finite numbers, m/s²"));
         }
-        let Some(Payload { link, mass, point }) = self.payload else {
-            return Ok(());
-        };
+        let Some(Payload { link, mass, point }) = self.payload else { return Ok(()) };
         check_link(link, num_links)?;
         if !(mass.is_finite() && mass >= 0.0) {
             return Err(RobotError::Setting("a payload's mass is finite, and not below 0 kg"));

@@ -336,9 +336,7 @@ fn textured_parts(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
 
 /// Puts the parts of an element's mesh into its link's frame, with coordinates of binary32.
 fn in_link(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
-    let Some(Geometry::Mesh(mesh)) = &element.geometry else {
-        return None;
-    };
+    let Some(Geometry::Mesh(mesh)) = &element.geometry else { return None };
     let place = place_of(element, mesh.scale.unwrap_or([1.0; 3]));
     for part in &mut parts {
         part.mesh.transform(&place);

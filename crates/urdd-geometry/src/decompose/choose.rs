@@ -25,9 +25,7 @@ const MAX_TESTS: usize = 2_000_000_000;
 /// A subset of the points such that none is farther than `tolerance` from its hull. Returns all points if they are
 /// flat.
 pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
-    let Some((mut hull, mut corners, eps)) = start(points) else {
-        return points.to_vec();
-    };
+    let Some((mut hull, mut corners, eps)) = start(points) else { return points.to_vec() };
     let mut tests = points.len().saturating_mul(hull.slots());
     if tests > MAX_TESTS {
         return points.to_vec();
@@ -159,9 +157,7 @@ pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -
 /// A flat triangle along a splinter, just wide enough to have an area in binary32.
 fn widened(splinter: ConvexHull) -> ConvexHull {
     let points = &splinter.mesh().vertices;
-    let Some(&p) = points.first() else {
-        return splinter;
-    };
+    let Some(&p) = points.first() else { return splinter };
     let far = |from: [f64; 3]| {
         let length = |q: &&[f64; 3]| norm(sub(**q, from));
         points.iter().max_by(|a, b| length(a).total_cmp(&length(b))).map_or(from, |q| *q)

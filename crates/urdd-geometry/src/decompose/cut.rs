@@ -245,9 +245,7 @@ impl Tree {
             let deepest = parts
                 .filter_map(|(k, deep)| Some((k, *deep.faces.first()?)))
                 .reduce(|a, b| if b.1.1 > a.1.1 { b } else { a });
-            let Some((k, (plane, _))) = deepest.filter(|(_, face)| face.1 > least) else {
-                break;
-            };
+            let Some((k, (plane, _))) = deepest.filter(|(_, face)| face.1 > least) else { break };
             if !self.cut(k, plane, places) {
                 self.parts[k].faces.remove(0);
             }

@@ -125,9 +125,7 @@ fn grow(
     while leaves.len() < limits.most && standoff(&leaves) > limits.enough * area {
         let worth = leaves.iter().enumerate().map(|(k, l)| (k, l.worth()));
         let best = worth.reduce(|a, b| if b.1 > a.1 { b } else { a });
-        let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else {
-            break;
-        };
+        let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else { break };
         if !leaves[k].has_all {
             leaves[k].find_all(places);
             continue;

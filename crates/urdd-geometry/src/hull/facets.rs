@@ -149,9 +149,7 @@ fn outline(points: &[Point], triangle: [u32; 3]) -> Vec<u32> {
         .into_iter()
         .filter(|[i, j]| turn([a[*i], a[*j]], [b[*i], b[*j]], [c[*i], c[*j]]).is_ne())
         .max_by(|s, t| size(*s).total_cmp(&size(*t)));
-    let Some([i, j]) = best else {
-        return Vec::new();
-    };
+    let Some([i, j]) = best else { return Vec::new() };
     let shadow = |p: u32| [points[p as usize][i], points[p as usize][j]];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by(|p, q| {

@@ -72,9 +72,7 @@ impl ConvexHull {
             if hull.flat {
                 break;
             }
-            let Some(kept) = without_slivers(&hull.mesh, Self::THINNEST) else {
-                break;
-            };
+            let Some(kept) = without_slivers(&hull.mesh, Self::THINNEST) else { break };
             match Self::exact(&kept) {
                 Ok(simpler) if !simpler.flat => hull = simpler,
                 _ => break,

@@ -53,9 +53,7 @@ impl OrientedBox {
             .map(|candidate| nearest_to_identity(&candidate.axes))
             // The first of equals wins: the search order is fixed.
             .reduce(|best, other| if other.trace() > best.trace() { other } else { best });
-        let Some(matrix) = turns_least else {
-            return aligned;
-        };
+        let Some(matrix) = turns_least else { return aligned };
         let rotation = Rotation3::from_matrix_unchecked(matrix);
         let found = Self::with_rotation(hull, canonical(&UnitQuaternion::from(rotation)));
         if hull.is_flat() && aligned.area() <= found.area() * (1.0 + TIE) {

@@ -126,9 +126,7 @@ impl Search {
     /// Keeps a box of the hull if it is among the best.
     fn take(&mut self, candidate: Option<Candidate>) -> Known {
         self.left = self.left.saturating_sub(self.fine.normals.len());
-        let Some(candidate) = candidate else {
-            return Known::NOTHING;
-        };
+        let Some(candidate) = candidate else { return Known::NOTHING };
         if candidate.volume <= self.best * (1.0 + TIE) {
             self.best = self.best.min(candidate.volume);
             self.found.push(candidate);
@@ -236,9 +234,7 @@ impl Search {
                 let limit = self.best * (1.0 - GAIN);
                 let axis = |stretch: &Stretch| arcs[stretch.arc].at(stretch.middle());
                 let sketches = |axes: &[Vector3<f64>]| self.sketches(axes);
-                let Some(item) = queue.pop(limit, ahead, axis, sketches) else {
-                    break;
-                };
+                let Some(item) = queue.pop(limit, ahead, axis, sketches) else { break };
                 let Stretch { arc, parts: [low, high], ends: [from, to], .. } = item.stretch;
                 let middle = item.stretch.middle();
                 let there = self.judge(item, &mut queue);

@@ -98,9 +98,7 @@ impl Assembly {
     /// Adds a note if no triangle uses some vertices of an array.
     pub(super) fn note_unused(&mut self, vertices: &[[f64; 3]], used: &[bool]) {
         let mut unused = vertices.iter().zip(used).filter(|(_, used)| !**used);
-        let Some(([x, y, z], _)) = unused.next() else {
-            return;
-        };
+        let Some(([x, y, z], _)) = unused.next() else { return };
         let text = match unused.count() {
             0 => format!("no triangle uses the vertex ({x}, {y}, {z})"),
             more => format!("no triangle uses {} vertices, the first at ({x}, {y}, {z})", more + 1),

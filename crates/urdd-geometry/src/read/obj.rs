@@ -140,9 +140,7 @@ impl File {
 
     /// Selects the group of the last named material before a face. A material without faces gets no group.
     fn begin_group(&mut self) {
-        let Some(name) = self.wanted.take() else {
-            return;
-        };
+        let Some(name) = self.wanted.take() else { return };
         let next = self.groups.len();
         self.current = match self.group_of.get(&name) {
             Some(known) => *known,
@@ -300,9 +298,7 @@ fn read_library(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
             entries.push(Entry { name: rest.to_owned(), color: None, opacity: 1.0, texture: None });
             continue;
         }
-        let Some(entry) = entries.last_mut() else {
-            continue;
-        };
+        let Some(entry) = entries.last_mut() else { continue };
         match keyword.as_str() {
             "kd" => entry.color = color(rest),
             "d" => entry.opacity = opacity(rest).unwrap_or(1.0),

@@ -219,9 +219,7 @@ impl<'a> Descent<'a> {
             for (column, _) in columns.iter().zip(&*free).filter(|(_, free)| **free) {
                 matrix.ger(1.0, column, column, 1.0);
             }
-            let Some(factor) = matrix.cholesky() else {
-                return;
-            };
+            let Some(factor) = matrix.cholesky() else { return };
             let weights = factor.solve(&left);
             let largest = columns
                 .iter()

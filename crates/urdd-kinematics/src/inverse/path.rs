@@ -27,9 +27,7 @@ pub struct Goal {
 impl Goal {
     /// An error, or a column of its Jacobian, times the weights.
     pub(super) fn weighted(&self, vector: &Vector6<f64>) -> Vector6<f64> {
-        let Some(weights) = &self.weights else {
-            return *vector;
-        };
+        let Some(weights) = &self.weights else { return *vector };
         let axes = self.rotation.unwrap_or_else(UnitQuaternion::identity);
         let part =
             |first: usize| axes.inverse_transform_vector(&vector.fixed_rows::<3>(first).into());

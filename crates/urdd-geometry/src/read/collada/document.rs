@@ -149,9 +149,7 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> Matrix4<f64> {
 /// Shear along the second axis by an angle away from the first, as in RenderMan, whose operator COLLADA cites.
 fn skew([degrees, fx, fy, fz, tx, ty, tz]: [f64; 7]) -> Matrix4<f64> {
     let (from, along) = (Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
-    let Some(along) = along.try_normalize(0.0) else {
-        return Matrix4::identity();
-    };
+    let Some(along) = along.try_normalize(0.0) else { return Matrix4::identity() };
     let Some(across) = (from - along * from.dot(&along)).try_normalize(0.0) else {
         return Matrix4::identity();
     };

@@ -112,9 +112,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         loop {
             let mut position = [0.0; 3];
             for at in 0..stride {
-                let Some(word) = words.next() else {
-                    return Ok(positions);
-                };
+                let Some(word) = words.next() else { return Ok(positions) };
                 if let Some(axis) = axes.iter().position(|axis| *axis == at) {
                     position[axis] = float(word);
                 }
@@ -128,9 +126,7 @@ impl<'a, 'd> Positions<'a, 'd> {
 /// few parameters.
 fn axes(accessor: Option<Node<'_, '_>>, wanted: [&str; 3]) -> Option<[usize; 3]> {
     let first = [0, 1, if wanted[1] == wanted[2] { 1 } else { 2 }];
-    let Some(accessor) = accessor else {
-        return Some(first);
-    };
+    let Some(accessor) = accessor else { return Some(first) };
     let params = children(accessor, "param");
     let names: Vec<Option<&str>> = params.map(|param| param.attribute("name")).collect();
     let of = |name: &str| names.iter().position(|found| *found == Some(name));
@@ -190,9 +186,7 @@ pub(super) fn read<'a>(
         if !["triangles", "polylist", "polygons", "trifans", "tristrips"].contains(&tag) {
             continue;
         }
-        let Some(mut layout) = Layout::of(element)? else {
-            continue;
-        };
+        let Some(mut layout) = Layout::of(element)? else { continue };
         layout.uv.take_if(|_| !*textures);
         let [vertices, uvs] = positions.of(layout.source, layout.uv.map(|(source, _)| source))?;
         let mut faces = Faces {
@@ -285,9 +279,7 @@ impl Faces<'_> {
                 "p" => list,
                 "ph" => {
                     notes.add(NoteCode::LeftOut, "holes of a polygon were filled");
-                    let Some(outline) = child(list, "p") else {
-                        continue;
-                    };
+                    let Some(outline) = child(list, "p") else { continue };
                     outline
                 }
                 _ => continue,

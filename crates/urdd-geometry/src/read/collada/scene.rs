@@ -122,13 +122,9 @@ impl<'a> Walker<'a, '_> {
                 self.assembly.notes.add(NoteCode::SkinAsShape, text);
                 return self.geometry(geometry, Some(instance), &matrix);
             }
-            let Some(controller) = self.document.find("controller", url) else {
-                break;
-            };
+            let Some(controller) = self.document.find("controller", url) else { break };
             let is_deformer = |node: &Node| matches!(node.tag_name().name(), "skin" | "morph");
-            let Some(deformer) = controller.children().find(is_deformer) else {
-                break;
-            };
+            let Some(deformer) = controller.children().find(is_deformer) else { break };
             if let Some(shape) = child(deformer, "bind_shape_matrix") {
                 matrix *= rows(numbers::<16>(shape)?);
             }
@@ -195,9 +191,7 @@ fn material_of(
     symbol: Option<&str>,
     looks: &mut Looks,
 ) -> Material {
-    let Some(symbol) = symbol else {
-        return Material::default();
-    };
+    let Some(symbol) = symbol else { return Material::default() };
     let material = document.find("material", bindings.get(symbol).unwrap_or(&symbol));
     let name = material
         .and_then(|material| material.attribute("name").or_else(|| material.attribute("id")));

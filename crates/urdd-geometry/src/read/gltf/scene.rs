@@ -238,9 +238,7 @@ impl Walker<'_, '_, '_, '_> {
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
         self.assembly.notes.add_many(NoteCode::IndexOutOfRange, text, left_out);
-        let Some(uv) = uv else {
-            return Ok(Some((mesh, Vec::new())));
-        };
+        let Some(uv) = uv else { return Ok(Some((mesh, Vec::new()))) };
         let corners = UvCorners::of(triangles.clone());
         let (mesh, mut uvs) = corners.mesh(vertices, &triangles, &self.positions[&(uv, 2)]);
         // glTF counts from the top.
