@@ -81,9 +81,7 @@ pub fn about_spheres<'a>(
 
 /// The centre of the smallest enclosing sphere.
 fn smallest(points: &[Vector3<f64>]) -> Vector3<f64> {
-    let Some(first) = points.first() else {
-        return Vector3::zeros();
-    };
+    let Some(first) = points.first() else { return Vector3::zeros() };
     let mut sphere = Carried { support: vec![*first], centre: *first, radius: 0.0 };
     loop {
         let away = |p: &Vector3<f64>| (p - sphere.centre).norm_squared();
@@ -115,9 +113,7 @@ fn smallest_of_few(points: &[Vector3<f64>]) -> Option<Carried> {
         }
         let picked = points.iter().enumerate().filter(|(i, _)| chosen >> i & 1 == 1);
         let support: Vec<_> = picked.map(|(_, p)| *p).collect();
-        let Some(centre) = circumcentre(&support) else {
-            continue;
-        };
+        let Some(centre) = circumcentre(&support) else { continue };
         // The radius that encloses all points. The distance to the support alone could exclude one by rounding.
         let radius = points.iter().fold(0.0, |r: f64, p| r.max((p - centre).norm()));
         if best.as_ref().is_none_or(|best| radius < best.radius) {

@@ -7,7 +7,7 @@ use super::convex::{ConvexShape, distance};
 use super::hull::ConvexHull;
 use super::oriented_box::OrientedBox;
 use super::primitives::{Primitive, Prism};
-use super::vector::{cross, dot, norm, sub};
+use super::vector::{dot, norm, normal, sub};
 
 /// A primitive around a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,10 +88,10 @@ fn long(points: &[[f64; 3]], frame: Isometry3<f64>) -> [Enclosing; 2] {
 /// How far a point within a hull is from its faces, m.
 fn depth(hull: &ConvexHull, point: [f64; 3]) -> f64 {
     let mesh = hull.mesh();
-    let corner = |at: u32| mesh.vertices[at as usize];
-    let gaps = mesh.triangles.iter().map(|[a, b, c]| {
-        let normal = cross(sub(corner(*b), corner(*a)), sub(corner(*c), corner(*a)));
-        dot(normal, sub(corner(*a), point)) / norm(normal)
+    let gaps = mesh.triangles.iter().map(|triangle| {
+        let corners = mesh.corners(*triangle);
+        let normal = normal(corners);
+        dot(normal, sub(corners[0], point)) / norm(normal)
     });
     gaps.fold(f64::INFINITY, f64::min).max(0.0)
 }

@@ -2,7 +2,7 @@
 //!
 //! Mesh input and output, and geometry computed from meshes. This crate does not know the URDD format.
 //!
-//! - [`mesh`] is the triangle mesh that all modules share. [`clean`] rounds, welds and filters it.
+//! - [`mesh`] is the triangle mesh that all modules share; it rounds, welds and filters itself.
 //! - [`read`] reads STL, COLLADA, OBJ and glTF; [`write`](mod@write) writes STL, OBJ and GLB.
 //! - [`primitives`] tessellates box, cylinder, sphere and capsule.
 //! - [`hull`] computes convex hulls. [`oriented_box`] and [`bounding_sphere`] fit minimum-volume boxes and spheres.
@@ -13,7 +13,6 @@
 //!   [`half_spaces`] those of points from the planes of a body's faces.
 
 pub mod bounding_sphere;
-pub mod clean;
 pub mod convex;
 pub mod decompose;
 pub mod enclosing;

@@ -1,6 +1,11 @@
-//! A triangle mesh, its measures and transforms.
+//! A triangle mesh: its measures, its transforms, and its cleaning by rounding, welding, and removal of degenerate or unused
+//! elements.
+//!
+//! All operations are deterministic and keep the order of the remaining elements.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
+
+use crate::vector::normal;
 
 /// A triangle mesh. Lengths in metres.
 ///
@@ -26,7 +31,6 @@ pub struct Bounds {
 /// The 4 by 4 matrix that places a URDF mesh element in its link's frame: scale, then rotation, then translation.
 ///
 /// `rotation` is row-major; `translation` is in metres.
-#[must_use]
 pub fn placement(scale: [f64; 3], rotation: [[f64; 3]; 3], translation: [f64; 3]) -> Matrix4<f64> {
     Matrix4::from_fn(|row, column| match (row, column) {
         (3, 3) => 1.0,
@@ -38,7 +42,6 @@ pub fn placement(scale: [f64; 3], rotation: [[f64; 3]; 3], translation: [f64; 3]
 
 impl Bounds {
     /// The bounds of points; without points, from infinity to minus infinity.
-    #[must_use]
     pub fn of(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
         for point in points {
@@ -51,13 +54,11 @@ impl Bounds {
     }
 
     /// The lengths along the axes.
-    #[must_use]
     pub fn size(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.max[axis] - self.min[axis])
     }
 
     /// The largest length along an axis; 0 without points.
-    #[must_use]
     pub fn extent(&self) -> f64 {
         self.size().into_iter().fold(0.0, f64::max)
     }
@@ -65,14 +66,12 @@ impl Bounds {
 
 impl Mesh {
     /// The positions of a triangle's vertices.
-    #[must_use]
     #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|index| self.vertices[index as usize])
     }
 
     /// The axis-aligned bounding box of the triangles; `None` without triangles. Unused vertices do not count.
-    #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         let corners = self.triangles.as_flattened().iter();
         let corners = corners.map(|corner| self.vertices[*corner as usize]);
@@ -80,7 +79,6 @@ impl Mesh {
     }
 
     /// Surface area, square metres.
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.triangles
             .iter()
@@ -93,11 +91,8 @@ impl Mesh {
     /// Sums the signed tetrahedra between a fixed point and each triangle (divergence theorem). The fixed point is the
     /// first vertex, so that a mesh far from the origin loses no precision. The result has no meaning for an open
     /// surface.
-    #[must_use]
     pub fn signed_volume(&self) -> f64 {
-        let Some(first) = self.triangles.first() else {
-            return 0.0;
-        };
+        let Some(first) = self.triangles.first() else { return 0.0 };
         let origin = Vector3::from(self.vertices[first[0] as usize]);
         self.triangles
             .iter()
@@ -163,6 +158,127 @@ pub(crate) fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
 
 /// The normal of a triangle; its length is twice the area.
 pub(crate) fn double_area_normal(corners: [[f64; 3]; 3]) -> Vector3<f64> {
-    let [a, b, c] = corners.map(Vector3::from);
-    (b - a).cross(&(c - a))
+    normal(corners).into()
+}
+
+impl Mesh {
+    /// Rounds every coordinate to the nearest binary32, and -0 to 0. Returns how many triangles were dropped because a
+    /// corner has no finite binary32 value.
+    pub fn round_to_f32(&mut self) -> usize {
+        for coordinate in self.vertices.iter_mut().flatten() {
+            let rounded = *coordinate as f32;
+            // Adding 0 turns -0 into 0 and leaves other values unchanged.
+            *coordinate = f64::from(rounded) + 0.0;
+        }
+        self.drop_non_finite()
+    }
+
+    /// Drops triangles with a non-finite corner; returns how many. If a coordinate is not finite, also drops all unused
+    /// vertices.
+    pub fn drop_non_finite(&mut self) -> usize {
+        if self.vertices.iter().flatten().all(|coordinate| coordinate.is_finite()) {
+            return 0;
+        }
+        let before = self.triangles.len();
+        let vertices = &self.vertices;
+        self.triangles.retain(|triangle| {
+            triangle.iter().all(|index| {
+                vertices[*index as usize].iter().all(|coordinate| coordinate.is_finite())
+            })
+        });
+        self.drop_unused_vertices();
+        before - self.triangles.len()
+    }
+
+    /// Merges vertices at the same position into the first of them. 0 and -0 are equal; no tolerance applies.
+    ///
+    /// Returns how many vertices were removed. Triangles stay, even if they become degenerate.
+    pub fn weld(&mut self) -> usize {
+        let before = self.vertices.len();
+        let (kept, index_of) = welded(&self.vertices, |vertex| Some(vertex.map(|x| x + 0.0)));
+        self.vertices = kept;
+        for triangle in &mut self.triangles {
+            *triangle = triangle.map(|index| index_of[index as usize]);
+        }
+        before - self.vertices.len()
+    }
+
+    /// Drops triangles without area, which have coincident or collinear corners; returns how many.
+    ///
+    /// The area is computed from the stored coordinates in binary64 and compared with exactly 0, so a thin triangle
+    /// stays. After [`round_to_f32`](Self::round_to_f32) two corners are either equal or distinct.
+    pub fn drop_degenerate(&mut self) -> usize {
+        let before = self.triangles.len();
+        let vertices = &self.vertices;
+        self.triangles.retain(|triangle| {
+            let [a, b, c] = triangle.map(|index| vertices[index as usize]);
+            a != b && b != c && c != a && double_area_normal([a, b, c]).norm_squared() > 0.0
+        });
+        before - self.triangles.len()
+    }
+
+    /// Drops vertices that no triangle uses; returns how many. The order of the others is kept.
+    pub fn drop_unused_vertices(&mut self) -> usize {
+        let mut used = vec![false; self.vertices.len()];
+        for index in self.triangles.iter().flatten() {
+            used[*index as usize] = true;
+        }
+        let mut index_of = vec![0_u32; self.vertices.len()];
+        let mut next = 0_u32;
+        for (new, used) in index_of.iter_mut().zip(&used) {
+            *new = next;
+            next += u32::from(*used);
+        }
+        let before = self.vertices.len();
+        let mut flags = used.iter();
+        self.vertices.retain(|_| *flags.next().unwrap_or(&false));
+        for triangle in &mut self.triangles {
+            *triangle = triangle.map(|index| index_of[index as usize]);
+        }
+        before - self.vertices.len()
+    }
+}
+
+/// The distinct positions in order of first use, and the index of each given point among them: `u32::MAX` if `place` gives
+/// it no position. Uses open addressing: the standard map with its secure hash takes three times as long.
+pub(crate) fn welded(
+    given: &[[f64; 3]],
+    place: impl Fn([f64; 3]) -> Option<[f64; 3]>,
+) -> (Vec<[f64; 3]>, Vec<u32>) {
+    const FREE: u32 = u32::MAX;
+    let mut slots = vec![FREE; (given.len() * 2).next_power_of_two().max(2)];
+    let mask = slots.len() - 1;
+    let mut kept: Vec<[f64; 3]> = Vec::with_capacity(given.len());
+    let index_of = |point: &[f64; 3]| {
+        let Some(place) = place(*point) else { return FREE };
+        let mut slot = hash(place) & mask;
+        loop {
+            match slots[slot] {
+                FREE => {
+                    // A mesh has at most `u32::MAX` vertices.
+                    slots[slot] = u32::try_from(kept.len()).unwrap_or(FREE);
+                    kept.push(place);
+                    return slots[slot];
+                }
+                index if kept[index as usize].map(f64::to_bits) == place.map(f64::to_bits) => {
+                    return index;
+                }
+                _ => slot = (slot + 1) & mask,
+            }
+        }
+    };
+    let index = given.iter().map(index_of).collect();
+    (kept, index)
+}
+
+/// Mixes the bits of three coordinates (the finalizer of MurmurHash3 after each).
+fn hash(place: [f64; 3]) -> usize {
+    let mut mixed = 0_u64;
+    for coordinate in place {
+        mixed = (mixed ^ coordinate.to_bits()).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        mixed ^= mixed >> 33;
+        mixed = mixed.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        mixed ^= mixed >> 33;
+    }
+    mixed as usize
 }

@@ -62,7 +62,6 @@ const SIDES: u32 = 64;
 
 impl Primitive {
     /// The corners of a convex body, and how far around it the primitive reaches, m.
-    #[must_use]
     pub fn core(&self, prism: Prism) -> (Vec<[f64; 3]>, f64) {
         match *self {
             Primitive::Box(half) => (corners(half).to_vec(), 0.0),
@@ -86,7 +85,6 @@ impl Primitive {
     }
 
     /// Cubic metres.
-    #[must_use]
     pub fn volume(&self) -> f64 {
         match *self {
             Primitive::Box(half) => 8.0 * half[0] * half[1] * half[2],
@@ -99,7 +97,6 @@ impl Primitive {
     }
 
     /// Half of the extents along x, y and z, metres, after a rotation.
-    #[must_use]
     pub fn half_extents(&self, rotation: &Matrix3<f64>) -> [f64; 3] {
         [0, 1, 2].map(|axis| {
             let row = rotation.row(axis);
@@ -133,7 +130,6 @@ pub const CAPSULE_TRIANGLES: usize = 4 * RINGS * SEGMENTS;
 pub const SPHERE_TRIANGLES: usize = 20 << (2 * SPLITS);
 
 /// A box with the edge lengths `size` along x, y and z, metres.
-#[must_use]
 pub fn cuboid(size: [f64; 3]) -> Mesh {
     let half = size.map(|length| length / 2.0);
     // The index of a corner is 4 x + 2 y + z; each coordinate is 0 at the low side, else 1.
@@ -148,7 +144,6 @@ pub fn cuboid(size: [f64; 3]) -> Mesh {
 }
 
 /// A cylinder along z with the given radius and full length, metres.
-#[must_use]
 pub fn cylinder(radius: f64, length: f64) -> Mesh {
     let mut mesh = Mesh::default();
     push_ring(&mut mesh, radius, -length / 2.0);
@@ -162,7 +157,6 @@ pub fn cylinder(radius: f64, length: f64) -> Mesh {
 }
 
 /// A capsule along z: a cylinder of the given radius and length with a hemisphere at each end, metres.
-#[must_use]
 pub fn capsule(radius: f64, length: f64) -> Mesh {
     let mut mesh = Mesh::default();
     let circle = circle();
@@ -188,7 +182,6 @@ pub fn capsule(radius: f64, length: f64) -> Mesh {
 }
 
 /// A sphere of the given radius, metres.
-#[must_use]
 pub fn sphere(radius: f64) -> Mesh {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let mut mesh = Mesh::default();
@@ -239,7 +232,6 @@ fn split(mesh: &mut Mesh) {
 /// Cosine and sine of each vertex of the circle: exact at the quarters, and exactly mirrored between them.
 fn circle() -> [(f64, f64); SEGMENTS] {
     let quarter = SEGMENTS / 4;
-    #[allow(clippy::cast_precision_loss)]
     let eighth =
         |corner: usize| (std::f64::consts::TAU * corner as f64 / SEGMENTS as f64).sin_cos();
     std::array::from_fn(|corner| {
@@ -273,7 +265,6 @@ fn join_rings(mesh: &mut Mesh, first: u32) {
 }
 
 /// Primitive meshes have a few hundred vertices, so the cast is safe.
-#[allow(clippy::cast_possible_truncation)]
 const fn index(at: usize) -> u32 {
     at as u32
 }
@@ -284,5 +275,29 @@ fn unit(vector: [f64; 3]) -> [f64; 3] {
 }
 
 #[cfg(test)]
-#[path = "tests/primitives.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    /// The extents agree with those of tessellated shapes, up to the tessellation.
+    #[test]
+    fn extents_are_those_of_the_surfaces() {
+        let (radius, half) = (0.3, 0.25);
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
+        for (shape, mut mesh) in [
+            (Primitive::Box([0.1, 0.2, 0.3]), cuboid([0.2, 0.4, 0.6])),
+            (Primitive::Cylinder { radius, half }, cylinder(0.3, 0.5)),
+            (Primitive::Capsule { radius, half }, capsule(0.3, 0.5)),
+            (Primitive::Sphere { radius }, sphere(0.3)),
+        ] {
+            mesh.transform(&turn.to_homogeneous());
+            let (found, bounds) = (shape.half_extents(turn.matrix()), mesh.bounds().unwrap());
+            for (axis, reach) in found.into_iter().enumerate() {
+                for end in [-bounds.min[axis], bounds.max[axis]] {
+                    let beyond = reach - end;
+                    assert!((-1e-12..0.004).contains(&beyond), "{shape:?}: {found:?}");
+                }
+            }
+        }
+    }
+}

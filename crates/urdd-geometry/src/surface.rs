@@ -161,12 +161,8 @@ impl<'a> Matching<'a> {
         let mut lost = [Vec::new(), Vec::new()];
         for which in 0..2 {
             for (at, triangle) in self.meshes[which].triangles.iter().enumerate() {
-                let Some((key, facing)) = self.key(which, *triangle) else {
-                    continue;
-                };
-                let Some(count) = counts.get_mut(&key) else {
-                    continue;
-                };
+                let Some((key, facing)) = self.key(which, *triangle) else { continue };
+                let Some(count) = counts.get_mut(&key) else { continue };
                 let (here, there) = (count[which], count[1 - which]);
                 let (total_here, total_there) = (here[0] + here[1], there[0] + there[1]);
                 // Whether the other mesh lacks it, or has it with the other orientation.

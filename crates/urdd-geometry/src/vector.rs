@@ -12,6 +12,12 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The normal of a triangle; its length is twice the area.
+#[inline]
+pub fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    cross(sub(b, a), sub(c, a))
+}
+
 /// The dot product.
 #[inline]
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -213,9 +213,7 @@ pub fn joint_motion(joint_type: JointType, axis: Option<Axis>, values: &[f64]) -
 }
 
 fn position(idx: usize, dofs: &[usize], dof: &DofModule) -> Result<Position, KinematicsError> {
-    let Some(mimic) = &dof.joint_idx_to_mimic_mapping[idx] else {
-        return Ok(Position::own(dofs));
-    };
+    let Some(mimic) = &dof.joint_idx_to_mimic_mapping[idx] else { return Ok(Position::own(dofs)) };
     let pointer = |key: &str| format!("/{MIMICS}/{idx}/{key}");
     for (key, value) in [("multiplier", mimic.multiplier), ("offset", mimic.offset)] {
         if !value.is_finite() {

@@ -1,10 +1,14 @@
-//! The results of batches of configurations: their allocation, and the room for them.
+//! Batches of configurations, stored one after another in one slice: their results, and the memory for these.
+
+use std::fs;
 
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
+use super::checked::Checked;
 use super::error::RobotError;
-use super::memory::has_room;
+use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::fill;
 
 /// Allocates the results of `count` configurations, `width` values each. The caller determines both numbers.
 ///
@@ -15,9 +19,7 @@ pub(super) fn room<T: Clone + Default + Send>(
     width: usize,
 ) -> Result<Vec<T>, RobotError> {
     let memory = RobotError::Memory { count, width };
-    let Some(values) = count.checked_mul(width) else {
-        return Err(memory);
-    };
+    let Some(values) = count.checked_mul(width) else { return Err(memory) };
     if !has_room(values.saturating_mul(size_of::<T>())) {
         return Err(memory);
     }
@@ -34,6 +36,78 @@ pub(super) fn check_room(found: usize, count: usize, width: usize) -> Result<(),
         Some(expected) if expected == found => Ok(()),
         _ => Err(RobotError::Room { found, count, width }),
     }
+}
+
+/// A motion takes at least as long as this many configurations.
+const MOTION: usize = 8;
+
+/// Writes `width` results of each configuration into `out`, as `ask` does for one.
+///
+/// # Errors
+/// [`RobotError::Batch`], [`RobotError::Room`], [`RobotError::Cancelled`], and that of `ask` for the first configuration
+/// that fails.
+pub(super) fn answer<C: Checked, T: Send>(
+    pairs: &C,
+    configurations: &[f64],
+    cancellation: &Cancellation,
+    (out, width): (&mut [T], usize),
+    ask: impl Fn(&[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+) -> Result<(), RobotError> {
+    let rows = pairs.shapes().motion.rows(configurations)?;
+    check_room(out.len(), rows.count, width)?;
+    fill(out, width, C::BLOCK, |(): &mut (), k, out| {
+        cancellation.check()?;
+        ask(rows.row(k), out)
+    })
+}
+
+/// As [`answer`], for motions from each configuration of `starts` to that of `ends`.
+///
+/// # Errors
+/// As there.
+pub(super) fn answer_edges<C: Checked, const N: usize>(
+    pairs: &C,
+    [starts, ends]: [&[f64]; 2],
+    cancellation: &Cancellation,
+    out: &mut [f64],
+    ask: impl Fn(&[f64], &[f64]) -> Result<[f64; N], RobotError> + Sync,
+) -> Result<(), RobotError> {
+    let motion = &pairs.shapes().motion;
+    let ends = motion.rows(ends)?;
+    check_room(starts.len(), ends.count, motion.kinematics.num_dofs())?;
+    let starts = motion.rows(starts)?;
+    check_room(out.len(), ends.count, N)?;
+    fill(out, N, C::BLOCK.div_ceil(MOTION), |(): &mut (), k, out| {
+        cancellation.check()?;
+        out.copy_from_slice(&ask(starts.row(k), ends.row(k))?);
+        Ok(())
+    })
+}
+
+/// Results below this size are not compared with the memory that there is: reading it takes longer than making them, bytes.
+const SMALL: usize = 64 << 20;
+
+/// Whether this many bytes may be allocated and filled. An allocation alone does not tell on Linux: it succeeds, and the
+/// system ends the process once it fills more than there is.
+pub fn has_room(bytes: usize) -> bool {
+    bytes < SMALL || available().is_none_or(|available| bytes as u64 <= available)
+}
+
+/// The bytes that this process can still take: those of the system, and of its control group (version 2), where both are
+/// known. `None` on other systems than Linux.
+fn available() -> Option<u64> {
+    let number = |path: &str| fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
+    let of_group = || {
+        let most = number("/sys/fs/cgroup/memory.max")?;
+        Some(most.saturating_sub(number("/sys/fs/cgroup/memory.current")?))
+    };
+    let of_system = fs::read_to_string("/proc/meminfo").ok()?;
+    let of_system = of_system.lines().find_map(|line| {
+        let kibibytes = line.strip_prefix("MemAvailable:")?.trim();
+        let kibibytes = kibibytes.strip_suffix("kB")?.trim().parse::<u64>().ok()?;
+        Some(kibibytes << 10)
+    })?;
+    Some(of_group().map_or(of_system, |of_group| of_group.min(of_system)))
 }
 
 #[cfg(test)]

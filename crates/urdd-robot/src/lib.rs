@@ -30,61 +30,43 @@
 //! `urdf_module`.
 
 mod batch;
-mod batches;
 mod checked;
 mod collision_model;
 mod description;
 mod edge;
-mod edited_files;
+mod edits;
 mod error;
-mod gravity;
 mod inverse;
 mod kept;
 mod kinematics;
-mod limits;
-mod mass;
-mod memory;
-mod mesh;
-mod motion;
-mod named_configurations;
 mod names;
 mod obstacle;
 pub mod proximity;
 mod queries;
 mod robot;
 mod shapes;
-mod skip_edits;
 mod skips;
 mod source_elements;
-mod source_visuals;
-mod space;
-mod statistics;
-mod textured;
 mod workspace;
 pub mod world;
 
+#[doc(hidden)]
+pub use batch::has_room;
 pub use checked::check_margin;
 pub use description::SourceFile;
 pub use edge::{EdgeSettings, FirstContact};
+pub use edits::{EditedConfigurations, EditedSkips};
 pub use error::RobotError;
-pub use gravity::{GravitySettings, Payload};
 pub use inverse::Target;
-pub use kept::{LinkMass, LinkShape, Solid};
-pub use kinematics::Jacobian;
-#[doc(hidden)]
-pub use memory::has_room;
-pub use mesh::LinkVisual;
-pub use named_configurations::EditedConfigurations;
+pub use kept::{Configurations, LinkMass, LinkShape, Solid};
+pub use kinematics::{GravitySettings, Jacobian, Payload};
 pub use obstacle::{Obstacle, World};
 pub use proximity::{Gradient, Overlap, PairDistance, PairGradient, Proximity};
 pub use queries::Queries;
 pub use robot::Robot;
-pub use shapes::ShapeKind;
-pub use skip_edits::EditedSkips;
-pub use skips::Skips;
+pub use shapes::{LinkVisual, ShapeKind};
+pub use skips::{PairStatistics, Skips};
 pub use source_elements::{SourceElement, SourceElements, SourceShape};
-pub use space::Configurations;
-pub use statistics::PairStatistics;
 #[doc(hidden)]
 pub use urdd_kinematics::fill;
 pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution, Verdict};

@@ -9,6 +9,7 @@ use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about};
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::decompose::{self, decompose};
+use urdd_geometry::mesh::Bounds;
 use urdd_geometry::oriented_box::corners;
 use urdd_geometry::primitives::{Primitive, Prism};
 use urdd_geometry::vector::norm;
@@ -32,8 +33,8 @@ pub(crate) struct Part {
     pub radius: f64,
     /// The points of the shape.
     points: Arc<[[f64; 3]]>,
-    /// The least and the largest coordinates of the points, in metres.
-    bounds: [[f64; 3]; 2],
+    /// Of the points, in metres.
+    bounds: Bounds,
     /// Around the part.
     pub sphere: BoundingSphere,
 }
@@ -41,10 +42,7 @@ pub(crate) struct Part {
 impl Part {
     fn new(points: Arc<[[f64; 3]]>, radius: f64) -> Result<Self, ShapeError> {
         let core = Arc::new(ConvexShape::of_points(&points)?);
-        let end = |k: usize, sign: f64| {
-            sign * points.iter().map(|p| sign * p[k]).fold(f64::NEG_INFINITY, f64::max)
-        };
-        let bounds = [-1.0, 1.0].map(|sign| [0, 1, 2].map(|k| end(k, sign)));
+        let bounds = Bounds::of(points.iter().copied());
         let mut sphere = about(core.centre(), &points);
         sphere.radius += radius;
         Ok(Part { core, radius, bounds, points, sphere })
@@ -52,7 +50,7 @@ impl Part {
 
     /// A lower bound of the distance of the part from a sphere in its frame, in metres; not positive if they may touch.
     pub fn bound(&self, sphere: &BoundingSphere) -> f64 {
-        let [least, most] = self.bounds;
+        let Bounds { min: least, max: most } = self.bounds;
         let p = sphere.centre;
         let apart = [0, 1, 2].map(|k| (least[k] - p[k]).max(p[k] - most[k]).max(0.0));
         // Less by more than any rounding error.

@@ -1,7 +1,6 @@
 //! What is asked of a robot's own pairs, and of those with obstacles.
 
-use super::batch::{check_room, room};
-use super::batches::{answer, answer_edges};
+use super::batch::{answer, answer_edges, check_room, room};
 use super::checked::{Checked, any_within, at_most, check_margin, closest, least};
 use super::edge::{self, EdgeSettings, FirstContact};
 use super::error::RobotError;

@@ -4,9 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::error::RobotError;
-use super::kept::{LinkMass, LinkShape};
-use super::motion::Motion;
-use super::space::Configurations;
+use super::kept::{Configurations, LinkMass, LinkShape, Motion};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
 use urdd_document::kept::{Kept, keep};

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
-use crate::hull::flat;
+use crate::hull::facets::triangulate_flat;
 use crate::hull::predicates::{Point, in_range};
 use crate::hull::quickhull::{self, Growing, Start};
 use crate::hull::{ConvexHull, HullError};
@@ -66,7 +66,7 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
                     polytope = Some(grown);
                 }
                 Ok(Start::Plane(triangle)) if is_exact => {
-                    let corners = flat::triangulate(&points, triangle).into_iter();
+                    let corners = triangulate_flat(&points, triangle).into_iter();
                     faces = corners.map(|of| Face::new(of, &vertices)).collect();
                 }
                 // All on a line: the rest is beside it, if there is any.

@@ -6,8 +6,8 @@ use fearless_simd::Level;
 use rayon::prelude::*;
 
 use super::gjk::EXACT;
-use super::kernel::Shape;
 use super::motion::{Motion, PoseLanes};
+use super::shape::Shape;
 use crate::lanes::LANES;
 
 /// A shape and the index of its body.
@@ -32,20 +32,11 @@ pub struct PairStatistics {
     pub max: Vec<Vec<f64>>,
 }
 
-/// Statistics of one pair.
-#[derive(Clone, Copy)]
-struct Summary {
-    mean: f64,
-    min: f64,
-    max: f64,
-}
+/// Mean, minimum and maximum of one pair.
+type Summary = [f64; 3];
 
-/// The pairs of shape `i` of one kind.
-struct Row {
-    kind: usize,
-    i: usize,
-    pairs: Vec<(usize, Summary)>,
-}
+/// A kind, the index of a shape of that kind, and its pairs with others.
+type Row = (usize, usize, Vec<(usize, Summary)>);
 
 /// A list of [`PlacedShape`] of any one kind.
 pub trait ShapeList: Sync {
@@ -170,15 +161,14 @@ fn statistics_within(
             on_body[a].par_iter().map(move |&(kind, i)| {
                 let same_kind = of_b.iter().filter(|&&(of, j)| of == kind && (a != b || j > i));
                 let others = same_kind.map(|(_, j)| *j).take_while(|_| goes_on());
-                let pairs = row(level, kinds[kind], i, others, &poses, range);
-                Row { kind, i, pairs }
+                (kind, i, row(level, kinds[kind], i, others, &poses, range))
             })
         });
         let rows: Vec<Row> = rows.collect();
         if is_stopped.load(Ordering::Relaxed) {
             return None;
         }
-        for Row { kind, i, pairs } in rows {
+        for (kind, i, pairs) in rows {
             for (j, summary) in pairs {
                 statistics[kind].put(i, j, summary);
             }
@@ -193,10 +183,10 @@ impl PairStatistics {
     }
 
     fn put(&mut self, i: usize, j: usize, summary: Summary) {
-        for (i, j) in [(i, j), (j, i)] {
-            self.mean[i][j] = summary.mean;
-            self.min[i][j] = summary.min;
-            self.max[i][j] = summary.max;
+        for (matrix, value) in
+            [&mut self.mean, &mut self.min, &mut self.max].into_iter().zip(summary)
+        {
+            (matrix[i][j], matrix[j][i]) = (value, value);
         }
     }
 }
@@ -251,5 +241,5 @@ fn summary(distances: &[f64]) -> Summary {
     }
     // Rounding of the sum must not push the mean outside the range of the distances.
     let mean = (sum / distances.len() as f64).max(min).min(max);
-    Summary { mean, min, max }
+    [mean, min, max]
 }

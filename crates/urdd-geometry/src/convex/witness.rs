@@ -90,9 +90,7 @@ impl<S: Simd> Way<S> {
         for (vertex, weight) in vertices.into_iter().zip(weights) {
             // By value: of equal vertices, the first.
             let same = |[of, _]: &&[Vec3<S>; 2]| of.lane(lane) == vertex;
-            let Some([_, support]) = self.vertices.iter().find(same) else {
-                continue;
-            };
+            let Some([_, support]) = self.vertices.iter().find(same) else { continue };
             let support = support.lane(lane);
             for k in 0..3 {
                 on_a[k] += weight * support[k];

@@ -7,9 +7,9 @@
 use rayon::prelude::*;
 
 use super::field::in_cut;
-use super::grower::{AXES, Places, bulk};
+use super::part::{norm, normal};
 use super::search::Block;
-use super::vector::{norm, normal};
+use super::slices::{AXES, Places, bulk};
 
 /// One block, or several merged ones.
 #[derive(Clone)]
@@ -159,9 +159,7 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
             }
         }
         let (p, i, j) = best;
-        let (Some(a), Some(b)) = (&alive[i], &alive[j]) else {
-            break;
-        };
+        let (Some(a), Some(b)) = (&alive[i], &alive[j]) else { break };
         let join = a.join(b, places);
         total += join.standoff;
         // Blocks around a hollow seem to gain from a join if they protrude into it. The volume test keeps a lid

@@ -5,19 +5,19 @@
 //! whole surface. By construction no point of the surface is outside the pieces, except by
 //! [`Settings::surface_tolerance`], which allows pieces with fewer vertices.
 //!
-//! 1. `clean`: welds equal vertices and drops invalid triangles.
-//! 2. `proxy`: a proxy surface with some 1,500 points, used only by the search.
-//! 3. `inside`: points inside the body, if it has an inside, so that parts count with what they enclose. `field`:
-//!    distances from the surface.
+//! 1. `surface`: welds equal vertices and drops invalid triangles.
+//! 2. A proxy of it with some 1,500 points, used only by the search.
+//! 3. `field`: points inside the body, if it has an inside, so that parts count with what they enclose, and distances
+//!    from the surface.
 //! 4. `search`: planes cut the proxy, always where a cut lowers the summed standoff of the hulls most (`cut`), into 1.5
 //!    times as many blocks as wanted. If the first cuts save little, two alternatives are tried. If everything deep in
-//!    the hull is flat, as in boxes without lids, a second tree is first cut along those faces (`faces`). The tree
-//!    whose merged blocks cost less is kept.
+//!    the hull is flat, as in boxes without lids, a second tree is first cut along those faces. The tree whose merged
+//!    blocks cost less is kept.
 //! 5. `merge`: merges blocks, the cheapest pair first, while there are too many or a merge costs nearly nothing.
 //!    Cutting far and merging back finds what one greedy pass does not.
 //! 6. `assign`: clips the surface itself by the same planes and assigns it to the groups.
 //! 7. `choose`: selects few points of each group whose hull contains the rest; `ConvexHull` makes the piece. Drops flat
-//!    pieces that another piece contains, and joins splinters to the piece beside them (`held`).
+//!    pieces that another piece contains, and joins splinters to the piece beside them.
 //!
 //! The quality measure is the *standoff*: the mean distance of the decomposition's outside from the surface. It is the
 //! integral of that distance over the pieces' faces, without faces inside other pieces or in cuts, where another piece
@@ -31,23 +31,14 @@
 
 mod assign;
 mod choose;
-mod clean;
 mod cut;
-mod faces;
 mod field;
-mod grower;
 mod growing_hull;
-mod held;
-mod inside;
 mod merge;
 mod part;
-mod planes;
-mod proxy;
 mod search;
 mod slices;
-mod support;
-mod tree;
-mod vector;
+mod surface;
 
 use rayon::prelude::*;
 
@@ -85,13 +76,13 @@ impl Default for Settings {
 }
 
 impl Settings {
-    fn tolerance(&self, surface: &clean::Surface) -> f64 {
+    fn tolerance(&self, surface: &surface::Surface) -> f64 {
         self.surface_tolerance.min(self.relative_surface_tolerance * surface.scale).max(0.0)
     }
 
     /// The `surface_tolerance` that [`decompose`] would return for the mesh, without decomposing it.
     pub fn surface_tolerance_of(&self, mesh: &Mesh) -> f64 {
-        clean::Surface::new(mesh).map_or(0.0, |surface| self.tolerance(&surface))
+        surface::Surface::new(mesh).map_or(0.0, |surface| self.tolerance(&surface))
     }
 }
 
@@ -127,21 +118,21 @@ const BETTER: f64 = 0.9;
 ///
 /// Each piece is inside the convex hull of the mesh, up to the rounding of clipped points to f32.
 pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
-    let Some(surface) = clean::Surface::new(mesh) else {
+    let Some(surface) = surface::Surface::new(mesh) else {
         return Decomposition {
             ignored_triangles: mesh.triangles.len(),
             ..Decomposition::default()
         };
     };
     let most = settings.max_pieces.max(1);
-    let (mut part, cell) = proxy::proxy(&surface);
-    let flood = inside::Flood::new(&part);
+    let (mut part, cell) = surface::proxy(&surface);
+    let flood = field::Flood::new(&part);
     let (inner, reach) =
         flood.as_ref().map_or((Vec::new(), 0.0), |flood| (flood.centres(), flood.cell / 2.0));
     let body = part.points.clone();
     part.inner = inner.clone();
-    let places = grower::Places {
-        frames: cut::frames(proxy::flat_coordinates(&surface, MAX_FLATS)),
+    let places = slices::Places {
+        frames: cut::frames(surface::flat_coordinates(&surface, MAX_FLATS)),
         reach,
         eps: (ON_PLANE_PROXY * cell).max(ON_PLANE),
         field: field::Field::new(&part),
@@ -185,12 +176,12 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         .filter_map(|hand| {
             let hull = ConvexHull::new(&choose::choose(&hand.points, tolerance)).ok()?;
             // Points inside alone that enclose nothing are not a piece of the body.
-            let is_body = || !hull.is_flat() && !held::is_thin(hull.mesh());
+            let is_body = || !hull.is_flat() && !choose::is_thin(hull.mesh());
             (hand.has_surface || is_body()).then_some(hull)
         })
         .collect();
     Decomposition {
-        pieces: held::without_held(pieces, HELD * tolerance, tolerance),
+        pieces: choose::without_held(pieces, HELD * tolerance, tolerance),
         surface_tolerance: tolerance,
         ignored_triangles: surface.ignored,
     }

@@ -3,11 +3,9 @@
 use rayon::join;
 use rayon::prelude::*;
 
-use super::cut::{Cut, best_cuts, first_cuts};
-use super::faces;
-use super::grower::{AXES, Grower, Places, bulk};
-use super::part::{Part, Plane};
-use super::tree::{Node, divide};
+use super::cut::{self, Cut, best_cuts, first_cuts};
+use super::part::{Node, Part, Plane, divide};
+use super::slices::{AXES, Grower, Places, bulk};
 
 /// A leaf's hull in the search.
 #[derive(Clone)]
@@ -110,7 +108,7 @@ pub(super) fn along_faces(
     places: &Places,
     limits: &Limits,
 ) -> Option<Search> {
-    let (nodes, parts) = faces::cut(part, places, limits.most)?;
+    let (nodes, parts) = cut::along_faces(part, places, limits.most)?;
     let leaves = parts.into_par_iter().map(|(part, node)| Leaf { node, ..Leaf::new(part, places) });
     Some(grow(nodes, leaves.collect(), area, places, limits))
 }
@@ -127,9 +125,7 @@ fn grow(
     while leaves.len() < limits.most && standoff(&leaves) > limits.enough * area {
         let worth = leaves.iter().enumerate().map(|(k, l)| (k, l.worth()));
         let best = worth.reduce(|a, b| if b.1 > a.1 { b } else { a });
-        let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else {
-            break;
-        };
+        let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else { break };
         if !leaves[k].has_all {
             leaves[k].find_all(places);
             continue;

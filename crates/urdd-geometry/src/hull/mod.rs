@@ -8,14 +8,13 @@
 //! 1e-4 of its length as flat or as a line: points then remain outside by up to that much, or the "hull" has two
 //! vertices.
 
-mod error;
-mod facets;
-pub(crate) mod flat;
+pub(crate) mod facets;
 pub mod predicates;
 pub(crate) mod quickhull;
-mod slivers;
 
-pub use error::HullError;
+pub use quickhull::HullError;
+
+use nalgebra::Vector3;
 
 use super::mesh::Mesh;
 use predicates::{Point, in_range};
@@ -69,13 +68,11 @@ impl ConvexHull {
     /// The exact hull, then repeatedly the hull of its corners without slivers, while that is not flat.
     fn of_checked(points: &[Point]) -> Result<Self, HullError> {
         let mut hull = Self::exact(points)?;
-        for _ in 0..slivers::ROUNDS {
+        for _ in 0..ROUNDS {
             if hull.flat {
                 break;
             }
-            let Some(kept) = slivers::without_slivers(&hull.mesh, Self::THINNEST) else {
-                break;
-            };
+            let Some(kept) = without_slivers(&hull.mesh, Self::THINNEST) else { break };
             match Self::exact(&kept) {
                 Ok(simpler) if !simpler.flat => hull = simpler,
                 _ => break,
@@ -86,7 +83,7 @@ impl ConvexHull {
 
     fn exact(points: &[Point]) -> Result<Self, HullError> {
         let (triangles, flat) = match quickhull::start(points)? {
-            Start::Plane(triangle) => (flat::triangulate(points, triangle), true),
+            Start::Plane(triangle) => (facets::triangulate_flat(points, triangle), true),
             Start::Tetrahedron(corners) => {
                 let grown = quickhull::grow(points, corners).into_triangles();
                 (facets::triangulate(points, &grown), false)
@@ -110,4 +107,35 @@ impl ConvexHull {
     pub fn is_flat(&self) -> bool {
         self.flat
     }
+}
+
+/// Maximum number of removal rounds. Each round removes about half of a row of such corners.
+const ROUNDS: usize = 32;
+
+/// The vertices, except those closer to the segment between two others than `thinnest` times its length, judged by the
+/// mesh's triangles; `None` if all remain.
+fn without_slivers(mesh: &Mesh, thinnest: f64) -> Option<Vec<Point>> {
+    let mut dropped = vec![false; mesh.vertices.len()];
+    let mut anchored = vec![false; mesh.vertices.len()];
+    for triangle in &mesh.triangles {
+        let corners = triangle.map(|i| Vector3::from(mesh.vertices[i as usize]));
+        // Squared length of the edge opposite corner k.
+        let opposite = |k: usize| (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm_squared();
+        let apex = (0..3).max_by(|j, k| opposite(*j).total_cmp(&opposite(*k))).unwrap_or(0);
+        let area = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm();
+        if area >= thinnest * opposite(apex) {
+            continue;
+        }
+        let [apex, from, to] = [0, 1, 2].map(|k| triangle[(apex + k) % 3] as usize);
+        // The ends of the segment stay in this round: the apex is dropped because it is close to them.
+        if !anchored[apex] && !dropped[from] && !dropped[to] {
+            dropped[apex] = true;
+            anchored[from] = true;
+            anchored[to] = true;
+        }
+    }
+    dropped.contains(&true).then(|| {
+        let kept = mesh.vertices.iter().zip(&dropped).filter(|(_, dropped)| !**dropped);
+        kept.map(|(vertex, _)| *vertex).collect()
+    })
 }

@@ -8,12 +8,12 @@ use std::cmp::Ordering;
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 
-use crate::hull::flat::monotone_chain;
+use crate::hull::facets::monotone_chain;
 
 type Point2 = [f64; 2];
 
-/// A rectangle.
-#[derive(Clone, Copy, Debug)]
+/// A rectangle. In a search, half perimeter and side are scaled by the length of an edge of the polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
     pub area: f64,
     /// The sum of two adjacent side lengths.
@@ -48,26 +48,18 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     }
     // Close the polygon: append its first corner.
     polygon.push(polygon[0]);
-    let Best { area, half_perimeter, along } =
+    let Rectangle { area, half_perimeter, side } =
         if n <= MAX_AT_ONCE { at_once(Level::new(), polygon) } else { one_by_one(polygon) };
-    let length = dot(along, along).sqrt();
+    let length = dot(side, side).sqrt();
     (length > 0.0).then(|| Rectangle {
         area,
         half_perimeter: half_perimeter / length,
-        side: along.map(|x| x / length),
+        side: side.map(|x| x / length),
     })
 }
 
-/// The best rectangle so far. Its half perimeter is scaled by the length of `along`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Best {
-    area: f64,
-    half_perimeter: f64,
-    along: Point2,
-}
-
-impl Best {
-    const NOTHING: Self = Self { area: f64::INFINITY, half_perimeter: 0.0, along: [0.0; 2] };
+impl Rectangle {
+    const NOTHING: Self = Self { area: f64::INFINITY, half_perimeter: 0.0, side: [0.0; 2] };
 
     /// Considers the rectangle along an edge, given the corners farthest ahead, across and behind.
     #[inline(always)]
@@ -79,14 +71,14 @@ impl Best {
         // Both are scaled by the length of the edge.
         let area = length * height / dot(along, along);
         if area < self.area {
-            *self = Self { area, half_perimeter: length + height, along };
+            *self = Self { area, half_perimeter: length + height, side: along };
         }
     }
 }
 
 /// Tries each edge of a closed polygon, whose last corner repeats the first. The search for the farthest corner in a
 /// direction continues from its position for the previous edge.
-fn one_by_one(polygon: &[Point2]) -> Best {
+fn one_by_one(polygon: &[Point2]) -> Rectangle {
     let n = polygon.len() - 1;
     let edge = |i: usize| minus(polygon[i + 1], polygon[i]);
     let walk = |from: &mut usize, towards: Point2| {
@@ -98,7 +90,7 @@ fn one_by_one(polygon: &[Point2]) -> Best {
         }
     };
     let (mut ahead, mut across, mut behind) = (0, 0, 0);
-    let mut best = Best::NOTHING;
+    let mut best = Rectangle::NOTHING;
     for i in 0..n {
         let along = edge(i);
         walk(&mut ahead, along);
@@ -123,12 +115,12 @@ const WIDTH: usize = 8;
 
 /// The same as [`one_by_one`], bit for bit, for at most [`MAX_AT_ONCE`] edges. Tests all edges at once where a walk
 /// ends, which avoids unpredictable branches.
-fn at_once(level: Level, polygon: &[Point2]) -> Best {
+fn at_once(level: Level, polygon: &[Point2]) -> Rectangle {
     dispatch!(level, simd => at_once_in(simd, polygon))
 }
 
 #[inline(always)]
-fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
+fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Rectangle {
     let n = polygon.len() - 1;
     let blocks = n.div_ceil(WIDTH);
     let (mut x, mut y) = ([[0.0; WIDTH]; WIDTH], [[0.0; WIDTH]; WIDTH]);
@@ -140,7 +132,7 @@ fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
     let zero = f64x8::splat(simd, 0.0);
     let all = u64::MAX >> (MAX_AT_ONCE - n);
     let (mut ahead, mut across, mut behind) = (0, 0, 0);
-    let mut best = Best::NOTHING;
+    let mut best = Rectangle::NOTHING;
     for i in 0..n {
         let along_x = f64x8::splat(simd, x[i / WIDTH][i % WIDTH]);
         let along_y = f64x8::splat(simd, y[i / WIDTH][i % WIDTH]);
@@ -212,5 +204,35 @@ pub fn outline(points: &mut Vec<Point2>) {
 }
 
 #[cfg(test)]
-#[path = "tests/calipers.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::levels::levels;
+
+    #[test]
+    fn each_instruction_set_finds_what_walking_finds() {
+        for n in [3, 4, 6, 7, 8, 9, 12, 31, 40, 63, 64] {
+            for turn in 0..20 {
+                // On an ellipse, so that opposite edges of even polygons are parallel up to rounding, and unrotated
+                // rectangles and hexagons have edges at right angles. Every fourth polygon has a corner that turns
+                // right.
+                let turned = 0.3 * f64::from(turn / 2);
+                let mut polygon: Vec<Point2> = (0..n)
+                    .map(|k| (2.0 * f64::from(k) + 1.0) * std::f64::consts::PI / f64::from(n))
+                    .map(|angle| [2.0 * (angle + turned).cos(), (angle + turned).sin()])
+                    .collect();
+                if turn % 4 == 3 {
+                    polygon[1] = polygon[1].map(|x| 0.2 * x);
+                }
+                if turn % 2 == 1 {
+                    let on_grid = |x: f64| (16.0 * x).round() / 16.0;
+                    polygon = polygon.iter().map(|p| p.map(on_grid)).collect();
+                }
+                polygon.push(polygon[0]);
+                let plain = one_by_one(&polygon);
+                for level in levels() {
+                    assert_eq!(at_once(level, &polygon), plain, "{level:?} {n} {turn}");
+                }
+            }
+        }
+    }
+}

@@ -2,10 +2,8 @@
 
 mod arc;
 mod calipers;
-mod queue;
 mod search;
 mod shadow;
-mod vectors;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
@@ -41,7 +39,7 @@ impl OrientedBox {
         let aligned = Self::with_rotation(hull, UnitQuaternion::identity());
         let candidates = if hull.is_flat() {
             let mut caster = Caster::new(hull);
-            let normal = caster.largest_normal();
+            let normal = caster.largest_normal;
             caster.smallest_box(&normal).into_iter().collect()
         } else {
             smallest_boxes(hull)
@@ -55,9 +53,7 @@ impl OrientedBox {
             .map(|candidate| nearest_to_identity(&candidate.axes))
             // The first of equals wins: the search order is fixed.
             .reduce(|best, other| if other.trace() > best.trace() { other } else { best });
-        let Some(matrix) = turns_least else {
-            return aligned;
-        };
+        let Some(matrix) = turns_least else { return aligned };
         let rotation = Rotation3::from_matrix_unchecked(matrix);
         let found = Self::with_rotation(hull, canonical(&UnitQuaternion::from(rotation)));
         if hull.is_flat() && aligned.area() <= found.area() * (1.0 + TIE) {

@@ -12,11 +12,9 @@
 
 use nalgebra::Vector3;
 
-use super::super::hull::ConvexHull;
-use super::arc::{Arc, Known, Stretch};
-use super::queue::{Queue, Sketched};
-use super::shadow::{Candidate, Caster, Edge};
-use super::vectors::AXES;
+use super::arc::{Arc, Known, Queue, Sketched, Stretch};
+use super::shadow::{AXES, Candidate, Caster, Edge};
+use crate::hull::ConvexHull;
 use crate::vector::{dot, spread};
 
 /// A pass over the arcs.
@@ -112,7 +110,8 @@ impl Search {
 
     fn run(&mut self) {
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            self.try_axis(&axis);
+            let candidate = self.fine.smallest_box(&axis);
+            self.take(candidate);
         }
         if self.left == 0 {
             return;
@@ -124,18 +123,10 @@ impl Search {
         }
     }
 
-    /// Computes the smallest box with this axis, and keeps it if it is among the best.
-    fn try_axis(&mut self, axis: &Vector3<f64>) -> Known {
-        let candidate = self.fine.smallest_box(axis);
-        self.take(candidate)
-    }
-
     /// Keeps a box of the hull if it is among the best.
     fn take(&mut self, candidate: Option<Candidate>) -> Known {
-        self.left = self.left.saturating_sub(self.fine.triangles());
-        let Some(candidate) = candidate else {
-            return Known::NOTHING;
-        };
+        self.left = self.left.saturating_sub(self.fine.normals.len());
+        let Some(candidate) = candidate else { return Known::NOTHING };
         if candidate.volume <= self.best * (1.0 + TIE) {
             self.best = self.best.min(candidate.volume);
             self.found.push(candidate);
@@ -186,7 +177,7 @@ impl Search {
 
     /// Tries each triangle's normal.
     fn try_faces(&mut self) -> Vec<Known> {
-        let normals: Vec<_> = (0..self.fine.triangles()).map(|t| self.fine.normal(t)).collect();
+        let normals = self.fine.normals.clone();
         let sketches = self.sketches(&normals);
         if self.coarse.is_none() {
             return sketches.into_iter().map(|s| self.take(s)).collect();
@@ -222,7 +213,7 @@ impl Search {
             Stretch { promise: 0.0, arc, parts: [0.0, 1.0], ends }
         };
         let mut stretches: Vec<Stretch> = edges.iter().enumerate().map(whole).collect();
-        let triangles = self.coarse.as_ref().unwrap_or(&self.fine).triangles().max(1);
+        let triangles = self.coarse.as_ref().unwrap_or(&self.fine).normals.len().max(1);
         // Sketches of the coarse hull are cheap compared with the boxes of the hull.
         let ahead = AXES * if self.coarse.is_some() { AHEAD } else { 1 };
         for pass in PASSES {
@@ -243,9 +234,7 @@ impl Search {
                 let limit = self.best * (1.0 - GAIN);
                 let axis = |stretch: &Stretch| arcs[stretch.arc].at(stretch.middle());
                 let sketches = |axes: &[Vector3<f64>]| self.sketches(axes);
-                let Some(item) = queue.pop(limit, ahead, axis, sketches) else {
-                    break;
-                };
+                let Some(item) = queue.pop(limit, ahead, axis, sketches) else { break };
                 let Stretch { arc, parts: [low, high], ends: [from, to], .. } = item.stretch;
                 let middle = item.stretch.middle();
                 let there = self.judge(item, &mut queue);

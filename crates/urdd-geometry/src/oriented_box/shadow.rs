@@ -1,12 +1,16 @@
 //! The smallest box with a given axis: the extent of the hull along the axis, times the minimum-area rectangle of its
 //! projection along the axis (its *shadow*).
+//!
+//! Dot products with several axes are computed at once; one lane is one axis. A box does not depend on the machine
+//! (`lanes`).
 
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Vector3;
 
-use super::super::hull::ConvexHull;
 use super::calipers::{Rectangle, outline, smallest_rectangle};
-use super::vectors::{AXES, Axes, beyond, reach};
+use crate::hull::ConvexHull;
+pub(super) use crate::lanes::LANES as AXES;
+use crate::lanes::{Vec3, splat};
 
 /// An edge of the hull between two triangles whose planes differ.
 #[derive(Clone, Copy, Debug)]
@@ -24,10 +28,11 @@ pub struct Caster {
     /// The vertices, relative to the first vertex.
     vertices: Vec<Vector3<f64>>,
     /// The triangles' unit normals; zero for a degenerate triangle.
-    normals: Vec<Vector3<f64>>,
+    pub normals: Vec<Vector3<f64>>,
     /// Edges whose triangles' normals differ.
     pub edges: Vec<Edge>,
-    largest: Vector3<f64>,
+    /// The unit normal of the largest triangle.
+    pub largest_normal: Vector3<f64>,
     /// Upper bound of the distance between two vertices: the diagonal of the bounding box.
     diameter: f64,
     /// For each triangle, the set of axes that it faces along.
@@ -83,7 +88,7 @@ impl Caster {
             along().fold(0.0, f64::max) - along().fold(0.0, f64::min)
         });
         Self {
-            largest: largest.map(unit).unwrap_or_default(),
+            largest_normal: largest.map(unit).unwrap_or_default(),
             diameter: Vector3::from(sides).norm(),
             lit: Vec::new(),
             border: Vec::new(),
@@ -93,19 +98,6 @@ impl Caster {
             vertices,
             polygon: Vec::new(),
         }
-    }
-
-    pub fn triangles(&self) -> usize {
-        self.normals.len()
-    }
-
-    pub fn normal(&self, triangle: usize) -> Vector3<f64> {
-        self.normals[triangle]
-    }
-
-    /// The unit normal of the largest triangle.
-    pub fn largest_normal(&self) -> Vector3<f64> {
-        self.largest
     }
 
     /// The unit vector along an edge.
@@ -210,4 +202,104 @@ fn across(axis: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     least[axis.iamin()] = 1.0;
     let u = axis.cross(&least).normalize();
     (u, axis.cross(&u))
+}
+
+/// The x, y and z coordinates of the axes.
+pub struct Axes([[f64; AXES]; 3]);
+
+impl Axes {
+    /// From 1 to [`AXES`] axes; the first axis fills unused lanes.
+    pub fn new(axes: &[Vector3<f64>]) -> Self {
+        let of = |k: usize| std::array::from_fn(|a| axes.get(a).unwrap_or(&axes[0])[k]);
+        Self([of(0), of(1), of(2)])
+    }
+}
+
+/// One number for each axis.
+pub type Each = [f64; AXES];
+
+/// The minimum and maximum dot product of each axis with the vectors.
+pub fn reach(level: Level, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
+    dispatch!(level, simd => reach_in(simd, vectors, axes))
+}
+
+/// For each vector, the set of axes with a dot product greater than `limit`.
+pub fn beyond(
+    level: Level,
+    vectors: &[Vector3<f64>],
+    axes: &Axes,
+    limit: f64,
+    found: &mut Vec<u8>,
+) {
+    found.resize(vectors.len(), 0);
+    dispatch!(level, simd => beyond_in(simd, vectors, axes, limit, found));
+}
+
+#[inline(always)]
+fn reach_in<S: Simd>(simd: S, vectors: &[Vector3<f64>], Axes([x, y, z]): &Axes) -> [Each; 2] {
+    let axes = Vec3::load(simd, [x, y, z]);
+    let mut low = splat(simd, f64::INFINITY);
+    let mut high = splat(simd, f64::NEG_INFINITY);
+    for v in vectors {
+        let along = axes.dot(Vec3::splat(simd, (*v).into()));
+        low = along.simd_lt(low).select(along, low);
+        high = along.simd_gt(high).select(along, high);
+    }
+    [low.to_array(), high.to_array()]
+}
+
+#[inline(always)]
+fn beyond_in<S: Simd>(
+    simd: S,
+    vectors: &[Vector3<f64>],
+    Axes([x, y, z]): &Axes,
+    limit: f64,
+    found: &mut [u8],
+) {
+    let axes = Vec3::load(simd, [x, y, z]);
+    let limit = splat(simd, limit);
+    for (v, found) in vectors.iter().zip(found) {
+        let along = axes.dot(Vec3::splat(simd, (*v).into()));
+        *found = along.simd_gt(limit).to_bitmask() as u8;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::levels;
+
+    #[test]
+    fn each_instruction_set_finds_what_the_plain_loop_finds() {
+        // On a coarse grid, so that many dot products equal each other or the limits.
+        let vectors = |count: u32, shift: f64| -> Vec<Vector3<f64>> {
+            (0..count)
+                .map(|i| f64::from(i) + shift)
+                .map(|x| Vector3::new((1.7 * x).sin(), (2.3 * x).cos(), (0.9 * x).sin()))
+                .map(|v| v.map(|x| (4.0 * x).round() / 4.0))
+                .collect()
+        };
+        for (count, num_axes) in [(1, 1), (2, 8), (7, 3), (8, 5), (9, 8), (100, 7)] {
+            let (list, axes) = (vectors(count, 1.0), vectors(num_axes, 0.5));
+            for level in levels() {
+                let [low, high] = reach(level, &list, &Axes::new(&axes));
+                for (a, axis) in axes.iter().enumerate() {
+                    let dot = |v: &Vector3<f64>| axis.x * v.x + axis.y * v.y + axis.z * v.z;
+                    let dots = || list.iter().map(dot);
+                    let plain = [
+                        dots().fold(f64::INFINITY, f64::min),
+                        dots().fold(f64::NEG_INFINITY, f64::max),
+                    ];
+                    assert_eq!([low[a], high[a]], plain, "{level:?} {count} {a}");
+                    let mut found = Vec::new();
+                    for limit in [0.0, 0.25, plain[1]] {
+                        beyond(level, &list, &Axes::new(&axes), limit, &mut found);
+                        let found = found.iter().map(|bits| bits >> a & 1 == 1);
+                        let plain = dots().map(|d| d > limit);
+                        assert!(found.eq(plain), "{level:?} {count} {a} {limit}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -6,12 +6,11 @@ use std::fmt;
 use nalgebra::Matrix4;
 
 use super::error::{Failure, Fault, NoteCode, Notes};
-use super::format::Format;
-use super::options::Options;
-use super::scene::{Part, Scene, Texture};
+use super::scene::{Format, Options, Part, Scene, Texture};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.
+#[derive(Default)]
 pub(super) struct Assembly {
     parts: Vec<Part>,
     part_of: HashMap<Look, usize>,
@@ -37,14 +36,7 @@ type Look = (Option<String>, Option<[u64; 4]>, Option<(String, bool)>);
 
 impl Assembly {
     pub(super) fn new(options: &Options) -> Self {
-        Self {
-            parts: Vec::new(),
-            part_of: HashMap::new(),
-            triangles: 0,
-            options: *options,
-            side_files: Vec::new(),
-            notes: Notes::default(),
-        }
+        Self { options: *options, ..Self::default() }
     }
 
     /// Adds a mesh, placed by `matrix`, to the part with the same material.
@@ -106,9 +98,7 @@ impl Assembly {
     /// Adds a note if no triangle uses some vertices of an array.
     pub(super) fn note_unused(&mut self, vertices: &[[f64; 3]], used: &[bool]) {
         let mut unused = vertices.iter().zip(used).filter(|(_, used)| !**used);
-        let Some(([x, y, z], _)) = unused.next() else {
-            return;
-        };
+        let Some(([x, y, z], _)) = unused.next() else { return };
         let text = match unused.count() {
             0 => format!("no triangle uses the vertex ({x}, {y}, {z})"),
             more => format!("no triangle uses {} vertices, the first at ({x}, {y}, {z})", more + 1),
@@ -242,5 +232,66 @@ impl Picker {
         }
         let left_out = triangles.len() - mesh.triangles.len();
         (mesh, left_out)
+    }
+}
+
+/// Texture coordinates of the corners of polygons, while these become triangles. Without textures, it does nothing.
+#[derive(Default)]
+pub(super) struct UvCorners {
+    of_vertex: HashMap<u32, u32>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl UvCorners {
+    /// Those of triangles whose corners have the same index for both.
+    pub(super) fn of(triangles: Vec<[u32; 3]>) -> Self {
+        Self { of_vertex: HashMap::new(), triangles }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.of_vertex.is_empty()
+    }
+
+    /// Notes the texture coordinate of a corner of the current polygon.
+    pub(super) fn note(&mut self, vertex: u32, uv: u32) {
+        self.of_vertex.insert(vertex, uv);
+    }
+
+    /// Gives texture coordinates to the triangles that the current polygon became, the last ones.
+    pub(super) fn follow(&mut self, triangles: &[[u32; 3]]) {
+        if self.is_empty() {
+            return;
+        }
+        let uv_of = |vertex: u32| self.of_vertex.get(&vertex).copied().unwrap_or(u32::MAX);
+        let new = triangles.iter().skip(self.triangles.len());
+        self.triangles.extend(new.map(|triangle| triangle.map(uv_of)));
+    }
+
+    /// A mesh of these triangles with a vertex for each pair of position and texture coordinate, and these coordinates,
+    /// of which two numbers count; none without values. Leaves out a triangle with a missing vertex.
+    pub(super) fn mesh(
+        &self,
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        values: &[[f64; 3]],
+    ) -> (Mesh, Vec<[f64; 2]>) {
+        let (mut mesh, mut uvs, mut places) = (Mesh::default(), Vec::new(), HashMap::new());
+        for (triangle, corners) in triangles.iter().zip(&self.triangles) {
+            if triangle.iter().any(|index| *index as usize >= vertices.len()) {
+                continue;
+            }
+            mesh.triangles.push([0, 1, 2].map(|at| {
+                *places.entry((triangle[at], corners[at])).or_insert_with(|| {
+                    let uv = values
+                        .get(corners[at] as usize)
+                        .filter(|uv| uv[..2].iter().all(|value| (*value as f32).is_finite()));
+                    uvs.push(uv.map_or([0.0; 2], |uv| [uv[0], uv[1]]));
+                    mesh.vertices.push(vertices[triangle[at] as usize]);
+                    mesh.vertices.len() as u32 - 1
+                })
+            }));
+        }
+        uvs.truncate(if values.is_empty() { 0 } else { uvs.len() });
+        (mesh, uvs)
     }
 }

@@ -79,14 +79,10 @@ impl Fault {
     }
 }
 
-/// An error before the file's name is known.
-#[derive(Debug)]
-pub(super) struct Failure {
-    pub(super) place: Option<Place>,
-    pub(super) fault: Fault,
-}
+/// An error whose file has no name yet.
+pub(super) type Failure = MeshError;
 
-impl Failure {
+impl MeshError {
     /// Sets the location, unless one is set.
     pub(super) fn at(mut self, place: impl FnOnce() -> Place) -> Self {
         self.place.get_or_insert_with(place);
@@ -98,14 +94,14 @@ impl Failure {
         self.at(|| Place::Element(format!("{kind} '{name}'")))
     }
 
-    pub(super) fn in_file(self, file: &str) -> MeshError {
-        MeshError { file: file.to_owned(), place: self.place, fault: self.fault }
+    pub(super) fn in_file(self, file: &str) -> Self {
+        Self { file: file.to_owned(), ..self }
     }
 }
 
-impl From<Fault> for Failure {
+impl From<Fault> for MeshError {
     fn from(fault: Fault) -> Self {
-        Self { place: None, fault }
+        Self { file: String::new(), place: None, fault }
     }
 }
 

@@ -46,23 +46,16 @@
 //! accessors), a limit applies. No input makes a reader panic.
 
 mod assembly;
+mod bytes;
 mod collada;
 mod error;
-mod format;
 mod gltf;
-mod mtl;
-mod number;
 mod obj;
-mod options;
 mod scene;
-mod sniff;
 mod stl;
-mod uv;
 
 pub use error::{Fault, MeshError, Note, NoteCode, Place};
-pub use format::Format;
-pub use options::{GltfUp, Options};
-pub use scene::{Part, Scene, Texture};
+pub use scene::{Format, GltfUp, Options, Part, Scene, Texture};
 
 use assembly::Assembly;
 use error::Failure;
@@ -93,9 +86,9 @@ pub fn read_with(
     options: &Options,
 ) -> Result<Scene, MeshError> {
     let in_file = |failure: Failure| failure.in_file(name);
-    let format = sniff::format(bytes, name).map_err(|fault| in_file(fault.into()))?;
+    let format = bytes::format_of(bytes, name).map_err(|fault| in_file(fault.into()))?;
     let mut assembly = Assembly::new(options);
-    let named = sniff::extension_format(name);
+    let named = bytes::extension_format(name);
     if let Some(named) = named.filter(|named| named.extension() != format.extension()) {
         let text =
             format!("the extension says {}, but the content is {}", named.label(), format.label());

@@ -1,16 +1,16 @@
-//! Wavefront OBJ.
+//! Wavefront OBJ, and its material libraries (.mtl): diffuse colours and opacity.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 use nalgebra::Matrix4;
 
-use super::assembly::{Assembly, MAX_PARTS, Material, Picker, TOO_MANY_PARTS, mark, within};
+use super::assembly::{
+    Assembly, MAX_PARTS, Material, Picker, TOO_MANY_PARTS, UvCorners, mark, within,
+};
+use super::bytes::{Words, float};
 use super::error::{Failure, NoteCode, Place};
-use super::mtl;
-use super::number::Words;
 use super::scene::Texture;
-use super::uv::UvCorners;
 use crate::polygon::Splitter;
 
 /// Reads OBJ. Groups faces by material: objects, groups and smoothing groups do not affect the surface.
@@ -60,7 +60,7 @@ pub(super) fn read(
     let mut picker = Picker::default();
     for group in &file.groups {
         let entry = group.material.as_ref().and_then(|name| materials.get(name));
-        let color = entry.and_then(mtl::Entry::color);
+        let color = entry.and_then(Entry::color);
         let texture = entry.and_then(|entry| entry.texture.clone());
         let (mut mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
@@ -140,9 +140,7 @@ impl File {
 
     /// Selects the group of the last named material before a face. A material without faces gets no group.
     fn begin_group(&mut self) {
-        let Some(name) = self.wanted.take() else {
-            return;
-        };
+        let Some(name) = self.wanted.take() else { return };
         let next = self.groups.len();
         self.current = match self.group_of.get(&name) {
             Some(known) => *known,
@@ -221,7 +219,7 @@ fn read_libraries(
     libraries: &[String],
     fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
     assembly: &mut Assembly,
-) -> HashMap<String, mtl::Entry> {
+) -> HashMap<String, Entry> {
     let mut materials = HashMap::new();
     let mut seen: Vec<&str> = Vec::new();
     for library in libraries {
@@ -243,7 +241,7 @@ fn read_libraries(
                 assembly.notes.add(NoteCode::SideFileMissing, text);
                 continue;
             };
-            let (entries, textures) = mtl::read(&bytes);
+            let (entries, textures) = read_library(&bytes);
             for texture in textures {
                 assembly.add_side_file(&beside(name, &texture));
             }
@@ -265,4 +263,78 @@ fn beside(library: &str, texture: &str) -> String {
         Some((folder, _)) if !texture.starts_with('/') => format!("{folder}/{texture}"),
         _ => texture.to_owned(),
     }
+}
+
+/// A material of the library.
+#[derive(Debug)]
+struct Entry {
+    name: String,
+    color: Option<[f64; 3]>,
+    opacity: f64,
+    /// The image of its diffuse colour, relative to the library.
+    texture: Option<String>,
+}
+
+impl Entry {
+    /// Colour and opacity; `None` with a texture.
+    fn color(&self) -> Option<[f64; 4]> {
+        let [red, green, blue] = self.color.filter(|_| self.texture.is_none())?;
+        Some([red, green, blue, self.opacity])
+    }
+}
+
+/// The materials of a library in order, and the textures that it references.
+fn read_library(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut textures = Vec::new();
+    let text = String::from_utf8_lossy(bytes);
+    for line in text.lines() {
+        let line = line.trim();
+        let (keyword, rest) =
+            line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
+        let rest = rest.trim();
+        let keyword = keyword.to_ascii_lowercase();
+        if keyword == "newmtl" {
+            entries.push(Entry { name: rest.to_owned(), color: None, opacity: 1.0, texture: None });
+            continue;
+        }
+        let Some(entry) = entries.last_mut() else { continue };
+        match keyword.as_str() {
+            "kd" => entry.color = color(rest),
+            "d" => entry.opacity = opacity(rest).unwrap_or(1.0),
+            "tr" => entry.opacity = opacity(rest).map_or(1.0, |transparency| 1.0 - transparency),
+            _ if keyword.starts_with("map_")
+                || matches!(keyword.as_str(), "bump" | "disp" | "decal" | "norm" | "refl") =>
+            {
+                // Options such as `-bm 0.2` precede the name, which is last.
+                let is_last = |c: char| rest.starts_with('-') && c.is_whitespace();
+                let name = rest.rsplit(is_last).next().unwrap_or(rest).replace('\\', "/");
+                if keyword == "map_kd" {
+                    entry.texture = Some(name.clone());
+                }
+                textures.push(name);
+            }
+            _ => {}
+        }
+    }
+    (entries, textures)
+}
+
+/// `r g b`, or `r` for all three; `None` for `spectral` and `xyz`.
+fn color(text: &str) -> Option<[f64; 3]> {
+    let values: Vec<f64> =
+        text.split_ascii_whitespace().take(3).map(|word| float(word.as_bytes())).collect();
+    let color = match *values {
+        [gray] => [gray; 3],
+        [red, green, blue] => [red, green, blue],
+        _ => return None,
+    };
+    color.iter().all(|value| value.is_finite()).then(|| color.map(|value| value.clamp(0.0, 1.0)))
+}
+
+/// The first number of a `d` or `Tr` line; `-halo` may precede it.
+fn opacity(text: &str) -> Option<f64> {
+    let word = text.split_ascii_whitespace().find(|word| *word != "-halo")?;
+    let value = float(word.as_bytes());
+    value.is_finite().then(|| value.clamp(0.0, 1.0))
 }

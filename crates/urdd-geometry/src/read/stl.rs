@@ -3,9 +3,8 @@
 use nalgebra::Matrix4;
 
 use super::assembly::{Assembly, Material, within};
+use super::bytes::{Words, skip_byte_order_mark};
 use super::error::{Failure, Fault, NoteCode, Place};
-use super::number::Words;
-use super::sniff::skip_byte_order_mark;
 use crate::mesh::Mesh;
 use crate::polygon::fan;
 

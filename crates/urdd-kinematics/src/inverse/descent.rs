@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::goal::{Goal, InverseSettings};
-use super::path::{Kind, Path, within};
-use crate::branch::Place;
+use super::path::{Goal, InverseSettings, Kind, Path, within};
+use crate::jacobian::Place;
 use crate::rotation::to_rotation_vector;
 
 /// Maximum change of a DOF per iteration, rad or m. The linearisation is poor beyond it.
@@ -220,9 +219,7 @@ impl<'a> Descent<'a> {
             for (column, _) in columns.iter().zip(&*free).filter(|(_, free)| **free) {
                 matrix.ger(1.0, column, column, 1.0);
             }
-            let Some(factor) = matrix.cholesky() else {
-                return;
-            };
+            let Some(factor) = matrix.cholesky() else { return };
             let weights = factor.solve(&left);
             let largest = columns
                 .iter()

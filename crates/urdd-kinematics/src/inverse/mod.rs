@@ -5,10 +5,9 @@
 //! Kinematics by the Levenberg-Marquardt Method", IEEE Transactions on Robotics 27 (2011).
 
 mod descent;
-mod goal;
 mod path;
 
-pub use goal::{Goal, InverseSettings};
+pub use path::{Goal, InverseSettings};
 
 use self::descent::{Descent, Found, LEAST_GAIN};
 use self::path::Path;

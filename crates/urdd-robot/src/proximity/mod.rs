@@ -8,24 +8,20 @@
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
 //! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
-mod attach;
 mod body;
-mod gradient;
+mod changed;
 mod query;
 mod swept;
-mod vector;
-mod without;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::Robot;
 use super::error::RobotError;
-use super::motion::Motion;
+use super::kept::Motion;
 use super::names::{check_link, index};
 use super::shapes::ShapeKind;
-use super::skips::Skips;
-use super::statistics::PairStatistics;
+use super::skips::{PairStatistics, Skips};
 use super::workspace::Placed;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::skips::HiddenContacts;
@@ -34,11 +30,9 @@ use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
 use urdd_kinematics::Travel;
 
-pub(super) use body::Shape;
-pub use gradient::{Gradient, Overlap, PairGradient};
-pub(super) use gradient::{in_root, toward};
-pub(super) use swept::{SweptPair, Waiting, penetration_of, witnesses};
-pub(super) use vector::{relative, to_root};
+pub(super) use body::{Shape, relative, to_root};
+pub use swept::{Gradient, Overlap, PairGradient};
+pub(super) use swept::{SweptPair, Waiting, in_root, penetration_of, toward, witnesses};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]

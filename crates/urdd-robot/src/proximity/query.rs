@@ -6,8 +6,8 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
+use super::body::{relative, to_root};
 use super::swept::{SweptPair, Waiting};
-use super::vector::{relative, to_root};
 use super::{Group, PairDistance, Proximity, Rounding};
 use crate::checked::Checked;
 use crate::error::RobotError;
@@ -61,9 +61,7 @@ impl Proximity {
 
     /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
     fn are_apart(&self, placed: &Placed, links: [usize; 2]) -> bool {
-        let [Some(a), Some(b)] = links.map(|link| self.spheres[link]) else {
-            return true;
-        };
+        let [Some(a), Some(b)] = links.map(|link| self.spheres[link]) else { return true };
         let p = to_root(&placed.links[links[0]], a.centre);
         let q = to_root(&placed.links[links[1]], b.centre);
         let between = sub(q, p);

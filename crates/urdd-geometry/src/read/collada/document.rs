@@ -1,10 +1,14 @@
-//! Element lookup in a COLLADA document.
+//! Elements of a COLLADA document: their lookup, their text, and the transforms of a node.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
 use percent_encoding::percent_decode_str;
 use urdd_xml::Node;
+
+use super::super::bytes::Words;
+use super::super::error::{Failure, Fault};
 
 /// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
 /// files reuse ids across tags.
@@ -87,4 +91,89 @@ pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
 pub(crate) fn path_of_url(url: &str) -> String {
     let path = percent_decode_str(url).decode_utf8();
     path.unwrap_or(url.into()).replace('\\', "/")
+}
+
+/// The product of the node's transforms in document order: the first is outermost.
+pub(super) fn transform_of(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> {
+    let mut matrix = Matrix4::identity();
+    for element in node.children().filter(Node::is_element) {
+        let step = match element.tag_name().name() {
+            "matrix" => rows(numbers::<16>(element)?),
+            "translate" => Matrix4::new_translation(&Vector3::from(numbers::<3>(element)?)),
+            "scale" => Matrix4::new_nonuniform_scaling(&Vector3::from(numbers::<3>(element)?)),
+            "rotate" => rotation(numbers::<4>(element)?),
+            "skew" => skew(numbers::<7>(element)?),
+            "lookat" => {
+                let fault = "a `lookat` whose eye, interest and up lie on one line";
+                look_at(numbers::<9>(element)?).ok_or_else(|| Fault::malformed(fault))?
+            }
+            _ => continue,
+        };
+        matrix *= step;
+    }
+    Ok(matrix)
+}
+
+/// A matrix from 16 numbers, row by row.
+pub(super) fn rows(values: [f64; 16]) -> Matrix4<f64> {
+    let mut matrix = Matrix4::from_row_slice(&values);
+    // The last row is 0 0 0 1 by definition; some files contain rounding errors there.
+    matrix.set_row(3, &nalgebra::RowVector4::new(0.0, 0.0, 0.0, 1.0));
+    matrix
+}
+
+/// Parses exactly `N` finite numbers.
+pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N], Failure> {
+    let text = text(element);
+    let mut words = Words::new(text.as_bytes());
+    let mut values = [0.0; N];
+    for value in &mut values {
+        *value =
+            words.float().filter(|value| value.is_finite()).ok_or_else(|| wrong(element, N))?;
+    }
+    if words.next().is_some() { Err(wrong(element, N)) } else { Ok(values) }
+}
+
+fn wrong(element: Node<'_, '_>, count: usize) -> Failure {
+    Fault::malformed(format!("a `{}` does not have {count} numbers", element.tag_name().name()))
+}
+
+/// Rotation about an axis, in degrees; the identity for an axis of length 0.
+fn rotation([x, y, z, degrees]: [f64; 4]) -> Matrix4<f64> {
+    match Unit::try_new(Vector3::new(x, y, z), 0.0) {
+        Some(axis) => Rotation3::from_axis_angle(&axis, degrees.to_radians()).to_homogeneous(),
+        None => Matrix4::identity(),
+    }
+}
+
+/// Shear along the second axis by an angle away from the first, as in RenderMan, whose operator COLLADA cites.
+fn skew([degrees, fx, fy, fz, tx, ty, tz]: [f64; 7]) -> Matrix4<f64> {
+    let (from, along) = (Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
+    let Some(along) = along.try_normalize(0.0) else { return Matrix4::identity() };
+    let Some(across) = (from - along * from.dot(&along)).try_normalize(0.0) else {
+        return Matrix4::identity();
+    };
+    // The skew increases the angle of `from` above `across`.
+    let angle = from.dot(&along).atan2(from.dot(&across));
+    let shear = (angle + degrees.to_radians()).tan() - angle.tan();
+    if !shear.is_finite() {
+        return Matrix4::identity();
+    }
+    let mut matrix = Matrix4::identity();
+    matrix
+        .fixed_view_mut::<3, 3>(0, 0)
+        .copy_from(&(nalgebra::Matrix3::identity() + along * across.transpose() * shear));
+    matrix
+}
+
+/// The pose of a camera at the eye that looks along its -z towards the interest, with +y up.
+fn look_at(values: [f64; 9]) -> Option<Matrix4<f64>> {
+    let [eye, interest, up] =
+        [0, 3, 6].map(|at| Vector3::new(values[at], values[at + 1], values[at + 2]));
+    let back = (eye - interest).try_normalize(0.0)?;
+    let right = up.cross(&back).try_normalize(0.0)?;
+    let rotation = nalgebra::Matrix3::from_columns(&[right, back.cross(&right), back]);
+    let mut matrix = rotation.to_homogeneous();
+    matrix.fixed_view_mut::<3, 1>(0, 3).copy_from(&eye);
+    Some(matrix)
 }

@@ -2,14 +2,11 @@
 
 mod document;
 mod geometry;
-mod material;
 mod scene;
-mod source;
-mod transform;
 
 use super::assembly::Assembly;
+use super::bytes::{is_utf16, skip_byte_order_mark};
 use super::error::{Failure, Fault, NoteCode, Place};
-use super::sniff;
 pub(super) use document::path_of_url;
 use document::{Document, child};
 
@@ -42,14 +39,14 @@ fn decode<'a>(
     bytes: &'a [u8],
     assembly: &mut Assembly,
 ) -> Result<std::borrow::Cow<'a, str>, Failure> {
-    if sniff::is_utf16(bytes) {
+    if is_utf16(bytes) {
         let decode = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
         let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|pair| decode(*pair)).collect();
         return String::from_utf16(&units)
             .map(Into::into)
             .map_err(|_| Fault::malformed("the text is not UTF-16"));
     }
-    let bytes = sniff::skip_byte_order_mark(bytes);
+    let bytes = skip_byte_order_mark(bytes);
     let text = String::from_utf8_lossy(bytes);
     if matches!(text, std::borrow::Cow::Owned(_)) {
         assembly.notes.add(NoteCode::Assumed, "the text is not UTF-8; invalid bytes were replaced");
@@ -78,7 +75,6 @@ fn unit(root: urdd_xml::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
     let Some(meter) = meter else { return 1.0 };
     match meter.trim().parse::<f64>() {
         Ok(unit) if unit.is_finite() && unit > 0.0 => {
-            #[allow(clippy::float_cmp)]
             if unit != 1.0 {
                 let text = format!("lengths were multiplied by the file's unit, {unit} m");
                 assembly.notes.add(NoteCode::UnitApplied, text);

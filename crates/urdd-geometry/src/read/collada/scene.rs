@@ -1,16 +1,18 @@
-//! The visual scene: nodes, and the geometries that they place.
+//! The visual scene: nodes, the geometries that they place, and their materials.
 
 use std::collections::HashMap;
 
 use nalgebra::{Matrix4, Vector3};
-use urdd_xml::Node;
+use urdd_xml::{Node, NodeId};
 
-use super::super::assembly::{Assembly, FIRST_SCENE, Nesting, within};
+use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, within};
+use super::super::bytes::Words;
 use super::super::error::{Failure, NoteCode};
-use super::document::{Document, child, children};
+use super::super::scene::Texture;
+use super::document::{
+    Document, child, children, file_of_image, numbers, rows, text, transform_of,
+};
 use super::geometry::{self, Primitive, Tools};
-use super::material::{self, Looks};
-use super::transform;
 
 /// Maximum number of node bytes processed, counted for each placement.
 const MAX_TEXT: usize = 1 << 28;
@@ -59,9 +61,9 @@ struct Walker<'a, 'd> {
     assembly: &'d mut Assembly,
     tools: Tools,
     /// Geometries by element, so that each is read once.
-    geometries: HashMap<urdd_xml::NodeId, Vec<Primitive<'a>>>,
+    geometries: HashMap<NodeId, Vec<Primitive<'a>>>,
     looks: Looks,
-    nesting: Nesting<urdd_xml::NodeId>,
+    nesting: Nesting<NodeId>,
     text: usize,
 }
 
@@ -83,8 +85,7 @@ impl<'a> Walker<'a, '_> {
             .map(|part| part.range().len())
             .sum::<usize>();
         within("bytes of nodes, counted once per instance", self.text, MAX_TEXT)?;
-        let matrix =
-            parent * transform::of_node(node).map_err(|failure| failure.within("node", name))?;
+        let matrix = parent * transform_of(node).map_err(|failure| failure.within("node", name))?;
         for element in node.children().filter(Node::is_element) {
             let url = element.attribute("url").unwrap_or("");
             match element.tag_name().name() {
@@ -121,15 +122,11 @@ impl<'a> Walker<'a, '_> {
                 self.assembly.notes.add(NoteCode::SkinAsShape, text);
                 return self.geometry(geometry, Some(instance), &matrix);
             }
-            let Some(controller) = self.document.find("controller", url) else {
-                break;
-            };
+            let Some(controller) = self.document.find("controller", url) else { break };
             let is_deformer = |node: &Node| matches!(node.tag_name().name(), "skin" | "morph");
-            let Some(deformer) = controller.children().find(is_deformer) else {
-                break;
-            };
+            let Some(deformer) = controller.children().find(is_deformer) else { break };
             if let Some(shape) = child(deformer, "bind_shape_matrix") {
-                matrix *= transform::rows(transform::numbers::<16>(shape)?);
+                matrix *= rows(numbers::<16>(shape)?);
             }
             // Both `skin` and `morph` reference what they deform by `source`.
             url = deformer.attribute("source").unwrap_or("");
@@ -151,12 +148,12 @@ impl<'a> Walker<'a, '_> {
             self.geometries
                 .insert(geometry.id(), read.map_err(|failure| failure.within("geometry", name))?);
         }
-        let bindings = material::bindings(instance);
+        let bindings = bindings(instance);
         let primitives = &self.geometries[&geometry.id()];
         self.nesting.visited += primitives.len();
         for primitive in primitives {
             let mut material =
-                material::of_symbol(self.document, &bindings, primitive.symbol, &mut self.looks);
+                material_of(self.document, &bindings, primitive.symbol, &mut self.looks);
             if let Some(texture) = &mut material.texture {
                 texture.uv.clone_from(&primitive.uv);
             }
@@ -169,4 +166,99 @@ impl<'a> Walker<'a, '_> {
         let text = format!("the {kind} '{url}' is placed by a node, but does not exist");
         self.assembly.notes.add(NoteCode::LeftOut, text);
     }
+}
+
+/// The colour and the texture of each effect that was read.
+type Looks = HashMap<NodeId, (Option<[f64; 4]>, Option<Texture>)>;
+
+/// The bindings of a geometry instance: from symbol to material URL.
+fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &'a str> {
+    let mut bindings = HashMap::new();
+    for node in instance.into_iter().flat_map(|instance| instance.descendants()) {
+        if let ("instance_material", Some(symbol), Some(target)) =
+            (node.tag_name().name(), node.attribute("symbol"), node.attribute("target"))
+        {
+            bindings.entry(symbol).or_insert(target);
+        }
+    }
+    bindings
+}
+
+/// The material that the instance binds to the symbol, or else the material with that id.
+fn material_of(
+    document: &Document<'_>,
+    bindings: &HashMap<&str, &str>,
+    symbol: Option<&str>,
+    looks: &mut Looks,
+) -> Material {
+    let Some(symbol) = symbol else { return Material::default() };
+    let material = document.find("material", bindings.get(symbol).unwrap_or(&symbol));
+    let name = material
+        .and_then(|material| material.attribute("name").or_else(|| material.attribute("id")));
+    let (color, texture) = material
+        .and_then(|material| child(material, "instance_effect"))
+        .and_then(|effect| document.find("effect", effect.attribute("url")?))
+        .map(|effect| {
+            let read = || (diffuse(effect), texture(document, effect));
+            looks.entry(effect.id()).or_insert_with(read).clone()
+        })
+        .unwrap_or_default();
+    Material { name: Some(name.unwrap_or(symbol).to_owned()), color, texture }
+}
+
+/// The diffuse colour of an effect, or the emission of a `constant` one, which has no diffuse colour; `None` for a
+/// texture.
+fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
+    let (scopes, value) = value(effect)?;
+    if let Some(color) = child(value, "color") {
+        return rgba(color);
+    }
+    // A named parameter of the technique, profile or effect.
+    parameter(scopes, child(value, "param")?.attribute("ref")?)
+        .and_then(|parameter| {
+            parameter
+                .children()
+                .find(|node| matches!(node.tag_name().name(), "float4" | "float3" | "color"))
+        })
+        .and_then(rgba)
+}
+
+/// That texture, whose image is named by a sampler and its surface (1.4), by a sampler (1.5), or directly.
+fn texture(document: &Document<'_>, effect: Node<'_, '_>) -> Option<Texture> {
+    let (scopes, value) = value(effect)?;
+    let mut id = child(value, "texture")?.attribute("texture")?;
+    let sampler = parameter(scopes, id).and_then(|found| child(found, "sampler2D"));
+    if let Some(image) = sampler.and_then(|sampler| child(sampler, "instance_image")) {
+        id = image.attribute("url")?;
+    } else if let Some(source) = sampler.and_then(|sampler| child(sampler, "source")) {
+        let surface = child(parameter(scopes, source.text()?.trim())?, "surface")?;
+        id = child(surface, "init_from")?.text()?;
+    }
+    let name = file_of_image(document.find("image", id)?)?;
+    Some(Texture { name, ..Texture::default() })
+}
+
+/// The diffuse value of an effect, or the emission of a `constant` one; and the scopes of its parameters.
+fn value<'a>(effect: Node<'a, 'a>) -> Option<([Node<'a, 'a>; 3], Node<'a, 'a>)> {
+    let profile = child(effect, "profile_COMMON")?;
+    let technique = child(profile, "technique")?;
+    let shader = technique.children().find(|node| {
+        matches!(node.tag_name().name(), "phong" | "blinn" | "lambert" | "constant")
+    })?;
+    let wanted = if shader.tag_name().name() == "constant" { "emission" } else { "diffuse" };
+    Some(([technique, profile, effect], child(shader, wanted)?))
+}
+
+fn parameter<'a>(scopes: [Node<'a, 'a>; 3], name: &str) -> Option<Node<'a, 'a>> {
+    let mut parameters = scopes.into_iter().flat_map(|scope| children(scope, "newparam"));
+    parameters.find(|parameter| parameter.attribute("sid") == Some(name))
+}
+
+/// Three or four numbers, clamped to 0 to 1.
+fn rgba(node: Node<'_, '_>) -> Option<[f64; 4]> {
+    let text = text(node);
+    let mut words = Words::new(text.as_bytes());
+    let mut value = || words.float().filter(|value| value.is_finite());
+    let color = [value()?, value()?, value()?, value().unwrap_or(1.0)];
+    Some(color.map(|value| value.clamp(0.0, 1.0)))
 }

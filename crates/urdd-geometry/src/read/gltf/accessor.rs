@@ -1,8 +1,13 @@
-//! Accessors of a glTF file: positions, normals and indices.
+//! Accessors of a glTF file: positions, normals and indices; and the buffers that they read: the GLB chunk, data URIs and
+//! files.
+
+use base64::Engine as _;
+use base64::engine::DecodePaddingMode;
+use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 
 use super::super::assembly::{Assembly, within};
+use super::super::collada::path_of_url;
 use super::super::error::{Failure, Fault, NoteCode};
-use super::buffer::Buffers;
 use super::json::{Accessor, Root, SparseArray};
 use crate::vector::norm;
 
@@ -28,10 +33,9 @@ pub(super) fn positions(
         let shape = &accessor.shape;
         return Err(Fault::malformed(format!("positions are {shape} instead of VEC{width}")));
     }
-    let (read, largest) = reader(accessor.component_type).ok_or_else(|| {
+    let (size, read, largest) = reader(accessor.component_type).ok_or_else(|| {
         Fault::malformed(format!("positions of component type {}", accessor.component_type))
     })?;
-    let size = size(accessor.component_type);
     let number = |bytes: &[u8]| match largest.filter(|_| accessor.normalized) {
         Some(largest) => (read(bytes) / largest).max(-1.0),
         None => read(bytes),
@@ -71,7 +75,6 @@ fn bounds_are(accessor: &Accessor, positions: &[[f64; 3]]) -> bool {
     type Pick = fn(f64, f64) -> f64;
     let sides: [(&Vec<f64>, Pick); 2] = [(&accessor.min, f64::min), (&accessor.max, f64::max)];
     sides.into_iter().all(|(given, pick)| {
-        #[allow(clippy::cast_possible_truncation)]
         let is = |(axis, given): (usize, &f64)| {
             let found = positions.iter().map(|position| position[axis]).reduce(pick);
             found.is_none_or(|found| found as f32 == *given as f32)
@@ -134,14 +137,14 @@ fn indices_of(
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<u32>, Failure> {
-    let read: fn(&[u8]) -> u32 = match array.component_type {
-        UNSIGNED_BYTE => |bytes| u32::from(bytes[0]),
-        UNSIGNED_SHORT => |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
-        UNSIGNED_INT => |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+    let (size, read): (usize, fn(&[u8]) -> u32) = match array.component_type {
+        UNSIGNED_BYTE => (1, |bytes| u32::from(bytes[0])),
+        UNSIGNED_SHORT => (2, |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]]))),
+        UNSIGNED_INT => (4, |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
         other => return Err(Fault::malformed(format!("indices of component type {other}"))),
     };
     let view = buffers.view(array.buffer_view, assembly)?;
-    Ok(elements(view, array.byte_offset, size(array.component_type), count)?.map(read).collect())
+    Ok(elements(view, array.byte_offset, size, count)?.map(read).collect())
 }
 
 fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
@@ -173,31 +176,102 @@ fn elements(
     Ok(bytes.chunks(stride))
 }
 
-fn size(component: u32) -> usize {
-    match component {
-        BYTE | UNSIGNED_BYTE => 1,
-        SHORT | UNSIGNED_SHORT => 2,
-        _ => 4,
-    }
-}
-
 fn float(bytes: &[u8]) -> f64 {
     f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
 }
 
-type Reader = (fn(&[u8]) -> f64, Option<f64>);
+type Reader = (usize, fn(&[u8]) -> f64, Option<f64>);
 
-/// The function that reads a component, and the largest integer. `KHR_mesh_quantization` allows integer positions.
+/// The bytes of a component, the function that reads it, and the largest integer. `KHR_mesh_quantization` allows integer positions.
 /// Normalized integers are fractions of the largest, as the glTF specification defines.
 fn reader(component: u32) -> Option<Reader> {
     Some(match component {
-        FLOAT => (float, None),
-        BYTE => (|bytes| f64::from(i8::from_le_bytes([bytes[0]])), Some(127.0)),
-        UNSIGNED_BYTE => (|bytes| f64::from(bytes[0]), Some(255.0)),
-        SHORT => (|bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), Some(32767.0)),
+        FLOAT => (4, float, None),
+        BYTE => (1, |bytes| f64::from(i8::from_le_bytes([bytes[0]])), Some(127.0)),
+        UNSIGNED_BYTE => (1, |bytes| f64::from(bytes[0]), Some(255.0)),
+        SHORT => (2, |bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), Some(32767.0)),
         UNSIGNED_SHORT => {
-            (|bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), Some(65535.0))
+            (2, |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), Some(65535.0))
         }
         _ => return None,
     })
+}
+
+/// Returns the bytes of a side file.
+pub(super) type Fetch<'f> = &'f mut dyn FnMut(&str) -> Option<Vec<u8>>;
+
+/// Buffers, loaded on first use.
+pub(super) struct Buffers<'r, 'f> {
+    pub(super) root: &'r Root,
+    data: Option<&'r [u8]>,
+    fetch: Fetch<'f>,
+    loaded: Vec<Option<Vec<u8>>>,
+}
+
+/// Some writers omit the padding.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &base64::alphabet::STANDARD,
+    GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true),
+);
+
+impl<'r, 'f> Buffers<'r, 'f> {
+    pub(super) fn new(root: &'r Root, data: Option<&'r [u8]>, fetch: Fetch<'f>) -> Self {
+        Self { root, data, fetch, loaded: root.buffers.iter().map(|_| None).collect() }
+    }
+
+    /// The bytes of a buffer view, and its stride.
+    pub(super) fn view(
+        &mut self,
+        view: usize,
+        assembly: &mut Assembly,
+    ) -> Result<(&[u8], Option<usize>), Failure> {
+        let missing = || Fault::malformed(format!("buffer view {view} does not exist"));
+        let found = self.root.buffer_views.get(view).ok_or_else(missing)?;
+        let bytes = self.buffer(found.buffer, assembly)?;
+        let end = found.byte_offset.checked_add(found.byte_length);
+        let slice = end.and_then(|end| bytes.get(found.byte_offset..end));
+        let slice = slice.ok_or_else(|| {
+            Fault::Truncated(format!("buffer view {view} extends beyond its buffer"))
+        })?;
+        Ok((slice, found.byte_stride.filter(|stride| *stride > 0)))
+    }
+
+    fn buffer(&mut self, index: usize, assembly: &mut Assembly) -> Result<&[u8], Failure> {
+        let missing = || Fault::malformed(format!("buffer {index} does not exist"));
+        let buffer = self.root.buffers.get(index).ok_or_else(missing)?;
+        let Some(uri) = &buffer.uri else {
+            // Only the first buffer may be the GLB chunk.
+            let data = self.data.filter(|_| index == 0);
+            return data.ok_or_else(|| {
+                Fault::malformed(format!("buffer {index} has neither a file nor data"))
+            });
+        };
+        let slot = &mut self.loaded[index];
+        if slot.is_none() {
+            let bytes = if is_data(uri) {
+                let invalid = || Fault::malformed(format!("buffer {index} is not valid base64"));
+                decode(uri).ok_or_else(invalid)?
+            } else {
+                let path = path_of_url(uri);
+                assembly.add_side_file(&path);
+                let found = (self.fetch)(&path)
+                    .or_else(|| if path == *uri { None } else { (self.fetch)(uri) });
+                found.ok_or(Fault::NoSideFile(path))?
+            };
+            *slot = Some(bytes);
+        }
+        Ok(slot.as_deref().unwrap_or_default())
+    }
+}
+
+/// Whether a URI is a data URI.
+pub(super) fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
+pub(super) fn decode(uri: &str) -> Option<Vec<u8>> {
+    let (head, data) = uri.split_once(',')?;
+    head.ends_with(";base64").then(|| BASE64.decode(data.trim()).ok())?
 }

@@ -1,14 +1,13 @@
 //! glTF 2.0, as JSON and as GLB.
 
 mod accessor;
-mod buffer;
 mod json;
 mod scene;
 
 use super::assembly::Assembly;
+use super::bytes::skip_byte_order_mark;
 use super::error::{Failure, Fault, NoteCode, Place};
-use super::sniff::skip_byte_order_mark;
-use buffer::Fetch;
+use accessor::{Buffers, Fetch, is_data};
 
 /// The beginnings of names of extensions for textures, lights and materials, which leave positions as they are.
 const LOOKS: [&str; 5] =
@@ -98,9 +97,9 @@ fn read_document(
     }
     let files = root.images.iter().chain(&root.buffers);
     for uri in files.filter_map(|file| file.uri.as_deref()) {
-        if !buffer::is_data(uri) {
+        if !is_data(uri) {
             assembly.add_side_file(&super::collada::path_of_url(uri));
         }
     }
-    scene::walk(&mut buffer::Buffers::new(&root, data, fetch), assembly)
+    scene::walk(&mut Buffers::new(&root, data, fetch), assembly)
 }

@@ -6,14 +6,11 @@ use std::sync::Arc;
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
-use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, Picker, mark};
+use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, Picker, UvCorners, mark};
 use super::super::collada::path_of_url;
 use super::super::error::{Failure, Fault, NoteCode};
-use super::super::options::GltfUp;
-use super::super::scene::Texture;
-use super::super::uv::UvCorners;
-use super::accessor;
-use super::buffer::{Buffers, decode, is_data};
+use super::super::scene::{GltfUp, Texture};
+use super::accessor::{self, Buffers, decode, is_data};
 use super::json::{self, Node, Primitive, Root};
 use crate::mesh::Mesh;
 use crate::polygon::{fan, strip};
@@ -241,9 +238,7 @@ impl Walker<'_, '_, '_, '_> {
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
         self.assembly.notes.add_many(NoteCode::IndexOutOfRange, text, left_out);
-        let Some(uv) = uv else {
-            return Ok(Some((mesh, Vec::new())));
-        };
+        let Some(uv) = uv else { return Ok(Some((mesh, Vec::new()))) };
         let corners = UvCorners::of(triangles.clone());
         let (mesh, mut uvs) = corners.mesh(vertices, &triangles, &self.positions[&(uv, 2)]);
         // glTF counts from the top.

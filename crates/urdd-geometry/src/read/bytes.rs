@@ -1,14 +1,15 @@
-//! Detects the mesh format from the content, or from the extension if the content is ambiguous.
+//! Raw bytes: the mesh format, from the content, or from the extension if the content is ambiguous; and the words and
+//! numbers of a text.
 
 use super::error::Fault;
-use super::format::Format;
+use super::scene::Format;
 
 /// Number of leading bytes searched for format markers. Long comments may precede the root element of XML.
 const HEAD: usize = 64 * 1024;
 const STL_HEADER: usize = 84;
 
 /// The format of the bytes, or why they are not readable.
-pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
+pub(super) fn format_of(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     if bytes.is_empty() {
         return Err(Fault::Empty);
     }
@@ -121,4 +122,76 @@ fn is_obj(text: &[u8]) -> bool {
         .find(|line| !line.is_empty() && !line.starts_with(b"#"))
         .and_then(|line| line.split(u8::is_ascii_whitespace).next())
         .is_some_and(|word| KEYWORDS.contains(&word))
+}
+
+/// The words of a text, separated by white space.
+#[derive(Clone)]
+pub(super) struct Words<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Words<'a> {
+    pub(super) fn new(text: &'a [u8]) -> Self {
+        Self { rest: text }
+    }
+
+    /// The next number, rounded to nearest; NaN for a word that is not a number.
+    pub(super) fn float(&mut self) -> Option<f64> {
+        self.next().map(float)
+    }
+
+    /// Skips to the end of the line, unless the last word ended it.
+    pub(super) fn skip_line(&mut self) {
+        let end = self.rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        self.rest = &self.rest[end.unwrap_or(self.rest.len())..];
+    }
+
+    /// The next index; `Some(None)` for a word that is not an index.
+    pub(super) fn index(&mut self) -> Option<Option<u32>> {
+        let word = self.next()?;
+        Some(std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()))
+    }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a [u8];
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let start = self.rest.iter().position(|byte| *byte > b' ')?;
+        let rest = &self.rest[start..];
+        let end = rest.iter().position(|byte| *byte <= b' ').unwrap_or(rest.len());
+        let (word, rest) = rest.split_at(end);
+        self.rest = rest;
+        Some(word)
+    }
+}
+
+/// Parses a number; NaN for any other word (`1.#QNAN`, `-nan(ind)`).
+#[inline]
+pub(super) fn float(word: &[u8]) -> f64 {
+    let word = std::str::from_utf8(word).ok();
+    word.and_then(|word| word.parse().ok()).unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_nan() {
+        for word in ["", ".", "-", "e5", "1e", "1.2.3", "1.#QNAN", "-nan(ind)", "1,5", "0x10"] {
+            assert!(float(word.as_bytes()).is_nan(), "{word}");
+        }
+    }
+
+    #[test]
+    fn indices() {
+        let mut words = Words::new(b"4294967295 4294967296 00000000000007 -1");
+        assert_eq!(words.index(), Some(Some(u32::MAX)));
+        assert_eq!(words.index(), Some(None));
+        assert_eq!(words.index(), Some(Some(7)));
+        assert_eq!(words.index(), Some(None));
+        assert_eq!(words.index(), None);
+    }
 }
