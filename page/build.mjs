@@ -77,6 +77,7 @@ function stamp() {
     "page/package-lock.json",
     "page/tsconfig.json",
     "wasm/Cargo.toml",
+    "wasm/npm/module.mjs",
   ];
   const paths = [
     ...roots.flatMap((root) => walk(join(repository, root))),

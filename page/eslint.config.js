@@ -20,6 +20,10 @@ export default tseslint.config(
         ...["innerHTML", "outerHTML", "insertAdjacentHTML"].map((property) => ({ property, message: html })),
       ],
       "no-restricted-globals": ["error", "eval"],
+      "no-restricted-syntax": [
+        "error",
+        { selector: "Identifier[name=/^urdd_/]", message: "wasm/npm/module.mjs alone calls what a module exports." },
+      ],
     },
   },
   {

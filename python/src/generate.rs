@@ -1,6 +1,6 @@
-//! Generation of URDDs.
+//! Generation of URDDs, and combination of robots.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use pyo3::exceptions::PyValueError;
@@ -11,9 +11,11 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::caught;
+use urdd_generate::combine::{Recipe, check_parts};
 use urdd_generate::{Generated, MeshFormats, Pieces, Progress, Selection, Settings};
+use urdd_validate::find_errors;
 
-use crate::errors::of_generate;
+use crate::errors::{of_combine, of_generate};
 use crate::source::Source;
 use crate::work::{self, Step, Teller};
 
@@ -135,7 +137,7 @@ impl Told<'_> {
 }
 
 /// Runs a job, and calls `progress` with its progress.
-pub fn with_progress<T: Send, E: Send>(
+fn with_progress<T: Send, E: Send>(
     py: Python<'_>,
     options: Options,
     progress: Option<Bound<'_, PyAny>>,
@@ -158,7 +160,7 @@ pub fn with_progress<T: Send, E: Send>(
 }
 
 /// The summary of a generated URDD.
-pub fn summary<'py>(py: Python<'py>, generated: &Generated) -> PyResult<Bound<'py, PyDict>> {
+fn summary<'py>(py: Python<'py>, generated: &Generated) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     found.set_item("robot_name", &generated.robot_name)?;
     found.set_item("num_links", generated.num_links)?;
@@ -210,4 +212,37 @@ pub fn generate<'py>(
         }
     })?;
     summary(py, &made.map_err(|error| of_generate(py, &error))?)
+}
+
+/// How a robot is attached to a link of another: the link, the position and roll, pitch, yaw, and the name of the
+/// combined robot.
+type Attached = (String, [[f64; 3]; 2], Option<String>);
+
+/// Combines robots: those of a recipe, or with `attached` two, of which the first is `source`. Returns the notes on the
+/// URDD, and those on the parts, each a kind and a message.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub fn combine<'py>(
+    py: Python<'py>,
+    source: PathBuf,
+    attached: Option<(PathBuf, Attached)>,
+    target: PathBuf,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, Vec<(&'static str, String)>)> {
+    let made = with_progress(py, options, progress, move |settings, progress| {
+        let recipe = match attached {
+            None => Recipe::read(&source)?,
+            Some((held, (link, pose, name))) => {
+                Recipe::of_two(&source, &held, name.as_deref(), &link, pose)?
+            }
+        };
+        let find_errors = |part: &Path| find_errors(part, &settings.cancellation);
+        let distrusted = check_parts(&recipe, settings, find_errors)?;
+        urdd_generate::combine::combine(&recipe, &target, settings, &distrusted, progress)
+    })?;
+    let made = made.map_err(|error| of_combine(py, &error))?;
+    let notes = made.notes.iter();
+    let notes = notes.map(|note| (note.kind, note.to_string())).collect();
+    Ok((summary(py, &made.generated)?, notes))
 }

@@ -6,14 +6,10 @@
 mod advice;
 mod arrays;
 mod collision_model;
-mod combine;
-mod command;
 mod diff;
 mod errors;
 mod export;
 mod generate;
-mod import;
-mod jobs;
 mod lint;
 mod obstacle;
 mod outputs;
@@ -21,7 +17,6 @@ mod page;
 mod parts;
 mod proximity;
 mod queries;
-mod ranges;
 mod robot;
 mod shapes;
 mod source;
@@ -30,28 +25,46 @@ mod validate;
 mod work;
 mod world;
 
+use std::ffi::OsString;
+use std::process::ExitCode;
+
 use pyo3::prelude::*;
+use urdd_directory::range::Range;
+
+/// Runs the command line, and returns the exit status. The first word is the program's name.
+#[pyfunction]
+pub fn main(py: Python<'_>, words: Vec<OsString>, closed: bool) -> u8 {
+    let status = py.detach(|| urdd::cli::run(words, closed));
+    // The only way to get the number of an exit status.
+    (0..=u8::MAX).find(|number| ExitCode::from(*number) == status).unwrap_or(101)
+}
+
+/// The ranges of whole numbers that Python checks together with their types, by the function and its argument.
+fn ranges() -> Vec<(&'static str, (u64, u64))> {
+    let ends = |range: Range| (range.least as u64, range.most as u64);
+    vec![
+        ("generate.pieces", ends(urdd_generate::PIECES)),
+        ("generate.samples", ends(urdd_generate::SAMPLES)),
+        ("export.spheres", ends(urdd_export::SPHERES)),
+        ("export.total_spheres", ends(urdd_export::TOTAL_SPHERES)),
+        ("export.samples", ends(urdd_export::SAMPLES)),
+    ]
+}
 
 #[pymodule]
 mod _urdd {
     #[pymodule_export]
     use crate::collision_model::CollisionModel;
     #[pymodule_export]
-    use crate::combine::combine;
-    #[pymodule_export]
-    use crate::command::main;
-    #[pymodule_export]
     use crate::diff::diff;
     #[pymodule_export]
     use crate::export::{base_pose, export, joint_groups};
     #[pymodule_export]
-    use crate::generate::generate;
-    #[pymodule_export]
-    use crate::import::import_robot;
-    #[pymodule_export]
-    use crate::jobs::find_urdfs;
+    use crate::generate::{combine, generate};
     #[pymodule_export]
     use crate::lint::lint;
+    #[pymodule_export]
+    use crate::main;
     #[pymodule_export]
     use crate::obstacle::Obstacle;
     #[pymodule_export]
@@ -62,6 +75,8 @@ mod _urdd {
     use crate::proximity::Proximity;
     #[pymodule_export]
     use crate::robot::Robot;
+    #[pymodule_export]
+    use crate::source::{find_urdfs, import_robot};
     #[pymodule_export]
     use crate::threads::{num_threads, set_num_threads};
     #[pymodule_export]
@@ -75,7 +90,7 @@ mod _urdd {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let ranges = PyDict::new(module.py());
-        for (option, ends) in crate::ranges::all() {
+        for (option, ends) in crate::ranges() {
             ranges.set_item(option, ends)?;
         }
         module.add("RANGES", ranges)?;

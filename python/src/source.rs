@@ -1,10 +1,16 @@
-//! How descriptions are found and read.
+//! How descriptions are found, read and imported.
 
 use std::path::PathBuf;
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use urdd_generate::{Packages, SourceSettings, XacroSettings};
-use urdd_source::ImportOptions;
+use pyo3::types::PyBytes;
+use urdd_generate::{GenerateError, Packages, SourceSettings, XacroSettings};
+use urdd_import::import_whole;
+use urdd_source::{ImportOptions, robots};
+
+use crate::errors::{of_generate, raise};
+use crate::work;
 
 /// What functions that read descriptions ask for, which check its types.
 #[derive(FromPyObject)]
@@ -41,7 +47,7 @@ impl Source {
 }
 
 /// Where meshes are: packages, those of the environment too, and folders, which exist.
-pub fn places(
+fn places(
     named: &[(String, PathBuf)],
     allowed_folders: Vec<PathBuf>,
 ) -> Result<(Packages, Vec<PathBuf>), String> {
@@ -68,4 +74,26 @@ fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result<boo
             Err(format!("{option}: `{}` is neither {first} nor {second}", other.escape_debug()))
         }
     }
+}
+
+/// The name of the URDF, the files with it, by path, and the report as JSON.
+type Made<'py> = (String, Vec<(String, Bound<'py, PyBytes>)>, String);
+
+/// What an MJCF or SDF becomes, in memory.
+#[pyfunction]
+pub fn import_robot<'py>(py: Python<'py>, file: PathBuf, source: Source) -> PyResult<Made<'py>> {
+    let settings = source.settings().map_err(PyValueError::new_err)?;
+    let outcome = work::run(py, move |cancellation| import_whole(&file, &settings, cancellation))?;
+    let (imported, _) = outcome.map_err(|error| of_generate(py, &GenerateError::Source(error)))?;
+    let files = imported.files.iter();
+    let files = files.map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes))).collect();
+    Ok((imported.urdf.clone(), files, imported.report.to_json()))
+}
+
+/// The robots below these paths: for each its file, and a unique name.
+#[pyfunction]
+pub fn find_urdfs(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<(PathBuf, String)>> {
+    let jobs = work::run(py, move |_| robots::jobs(&paths, &SourceSettings::default()))?;
+    let jobs = jobs.map_err(|error| raise(py, "OpenError", error, &[]))?;
+    Ok(jobs.into_iter().map(|job| (job.source, job.name)).collect())
 }

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -96,13 +95,8 @@ impl Chosen<'_> {
     }
 }
 
-/// Runs `urdd check-collisions`.
-pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
-    output::ended(check(arguments).map(u8::from))
-}
-
-/// Prints the results. Returns whether the robot collides in any configuration.
-fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
+/// Runs `urdd check-collisions`. The exit status is 1 if the robot collides in any configuration.
+pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
     let robot = inputs::open(&arguments.path)?;
     let in_urdd = output::about(&arguments.path);
     let space = robot.configurations().map_err(&in_urdd)?;
@@ -118,7 +112,7 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
     if arguments.format == Format::Text && sum {
         let (text, any) = sum_up(&proximity, hidden.as_ref(), &chosen, dofs).map_err(&in_urdd)?;
         output::print(&text)?;
-        return Ok(any);
+        return Ok(any.into());
     }
     let of_pieces = !proximity.kind().is_of_links();
     let (mut text, mut any) = (String::new(), false);
@@ -141,14 +135,14 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, Failure> {
             }
         }
         if text.len() > MAX_UNPRINTED && !output::print_some(&std::mem::take(&mut text))? {
-            return Ok(any);
+            return Ok(any.into());
         }
     }
     if arguments.format == Format::Text {
         text.push_str(&totals(&proximity, chosen.count()));
     }
     output::print(&text)?;
-    Ok(any)
+    Ok(any.into())
 }
 
 fn totals(proximity: &Proximity, count: u64) -> String {
@@ -176,8 +170,7 @@ fn as_text(
     let links = links_of(touching);
     let verdict = match links.len() {
         0 => "free".to_owned(),
-        1 => "collides: 1 pair of links".to_owned(),
-        count => format!("collides: {count} pairs of links"),
+        count => format!("collides: {} of links", output::counted(count, "pair")),
     };
     let _ = writeln!(text, "configuration {number}: {verdict}");
     for (links, pairs) in &links {

@@ -1,7 +1,6 @@
 //! `urdd combine`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::Args;
 
@@ -9,6 +8,7 @@ use super::generate_output::{FAILED, Printer};
 use super::making::MakingArguments;
 use super::output::{self, Failure};
 use super::signals::{self, Signals};
+use urdd_generate::batch::Observer;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_source::robots::Job;
 
@@ -63,7 +63,7 @@ pub struct CombineArguments {
 }
 
 /// Runs `urdd combine`.
-pub fn run(arguments: &CombineArguments) -> ExitCode {
+pub fn run(arguments: &CombineArguments) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; nothing was changed";
     signals::run(Some(stopped), |signals| put_together(arguments, signals))
 }
@@ -99,7 +99,7 @@ fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, F
         )?,
     };
     let make = |recipe: Recipe| {
-        let progress = printer.begin_robot(&job);
+        let progress = printer.begin(&job);
         pool.install(|| {
             let find_errors =
                 |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);

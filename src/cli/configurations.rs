@@ -47,16 +47,11 @@ enum Form {
 }
 
 impl<'a> Lines<'a> {
-    /// # Errors
-    /// If the robot's DOFs cannot be read.
     pub fn new(robot: &'a Robot) -> Result<Self, Failure> {
         Ok(Lines { robot, dofs: robot.dof_names()?, begun: None })
     }
 
     /// The configuration of a line; `None` for a line without one.
-    ///
-    /// # Errors
-    /// What is wrong with the line.
     pub fn next(&mut self, line: &str) -> Result<Option<Vec<f64>>, Failure> {
         if line.trim().is_empty() {
             return Ok(None);

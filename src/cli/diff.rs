@@ -1,16 +1,13 @@
 //! `urdd diff`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::foreign;
+use super::inputs::advice;
 use super::output::{self, Failure};
-use super::packages::PackageArguments;
-use super::robots::RobotArguments;
 use super::signals::{self, Signals};
-use super::xacro::{self, XacroArguments};
+use super::sources::{PackageArguments, RobotArguments, XacroArguments, only_arguments};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_source::Settings;
 use urdd_validate::report;
@@ -74,7 +71,7 @@ impl DiffArguments {
     /// The arguments for xacro of A and B: those on the command line; without any, those that are declared of each. Where
     /// nobody declares A, as a temporary file of git, it is another version of B.
     fn of_xacro(&self) -> Result<[Vec<String>; 2], Failure> {
-        let given = xacro::only_arguments(&self.more)?;
+        let given = only_arguments(&self.more)?;
         if !given.is_empty() {
             return Ok([given.clone(), given]);
         }
@@ -85,7 +82,7 @@ impl DiffArguments {
 }
 
 /// Runs `urdd diff`.
-pub fn run(arguments: &DiffArguments) -> ExitCode {
+pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
     signals::run(None, |signals| diff(arguments, signals))
 }
 
@@ -99,7 +96,7 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
             without_findings: arguments.no_findings,
         };
         Side::open(path, &options).map_err(|error| match error {
-            DiffError::Discover(error) => foreign::advice(&error),
+            DiffError::Discover(error) => advice(&error),
             error => error.to_string(),
         })
     };

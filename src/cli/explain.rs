@@ -1,7 +1,5 @@
 //! `urdd explain`.
 
-use std::process::ExitCode;
-
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
@@ -35,12 +33,8 @@ enum Format {
 /// Maximum line length of an explanation on a terminal, in characters.
 const WIDEST: usize = 100;
 
-/// Runs `urdd explain`.
-pub fn run(arguments: &ExplainArguments) -> ExitCode {
-    output::printed(explained(arguments))
-}
-
-fn explained(arguments: &ExplainArguments) -> Result<String, Failure> {
+/// Runs `urdd explain`. Returns what to print.
+pub fn run(arguments: &ExplainArguments) -> Result<String, Failure> {
     let mut wanted = all();
     if let Some(word) = &arguments.rule {
         let codes = word.parse::<Codes>().ok();

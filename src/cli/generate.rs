@@ -2,7 +2,6 @@
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
@@ -10,9 +9,8 @@ use clap::Args;
 use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output::{self, Failure, one_line};
-use super::robots::RobotArguments;
 use super::signals::{self, Signals};
-use super::xacro;
+use super::sources::{RobotArguments, split};
 use urdd_directory::file_type::FileType;
 use urdd_format::escape;
 use urdd_generate::batch::{self, Observer, Shard};
@@ -56,17 +54,16 @@ pub struct GenerateArguments {
     shard: Option<Shard>,
 }
 
-/// Runs `urdd generate`.
-pub fn run(arguments: &GenerateArguments) -> ExitCode {
+/// Runs `urdd generate`. Returns the exit status, as the other commands do.
+pub fn run(arguments: &GenerateArguments) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; URDDs that were not finished are unchanged";
     signals::run(Some(stopped), |signals| {
         output::without_panic_messages(|| generate(arguments, signals))
     })
 }
 
-/// Returns the exit status.
 fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Failure> {
-    let (robots, xacro_arguments) = xacro::split(&arguments.robots);
+    let (robots, xacro_arguments) = split(&arguments.robots);
     let mut settings = arguments.making.settings(xacro_arguments, signals)?;
     settings.source.robots = arguments.declared.declared()?.into();
     let pool = arguments.making.pool()?;
@@ -90,7 +87,7 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
         }
-        printer.begin(jobs.len());
+        printer.begin_batch(jobs.len());
         let sieve = Sieve { printer: &printer, found: &found, parts: AtomicUsize::new(0) };
         let failed = pool.install(|| batch::run(&jobs, &arguments.output, &settings, &sieve));
         let parts = sieve.parts.into_inner();
@@ -120,7 +117,7 @@ struct Sieve<'a> {
 
 impl Observer for Sieve<'_> {
     fn begin(&self, job: &Job) -> Box<dyn Progress> {
-        self.printer.begin_robot(job)
+        self.printer.begin(job)
     }
 
     fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
@@ -160,7 +157,7 @@ fn one(
     let piped =
         if job.source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
     let job = Job { name: output.display().to_string(), ..job };
-    let progress = printer.begin_robot(&job);
+    let progress = printer.begin(&job);
     let outcome = pool.install(|| {
         batch::caught(&job.source, || match piped {
             Some(urdf) => {

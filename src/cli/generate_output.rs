@@ -65,7 +65,7 @@ impl Printer {
     }
 
     /// Begins a batch of `total` robots.
-    pub(super) fn begin(&self, total: usize) {
+    pub(super) fn begin_batch(&self, total: usize) {
         if let Some(bars) = &self.bars {
             let bar = bars.all.add(bars.batch.clone());
             bar.set_length(total as u64);
@@ -94,16 +94,6 @@ impl Printer {
                 )
             }
         });
-    }
-
-    pub(super) fn begin_robot(&self, job: &Job) -> Box<dyn Progress> {
-        let bar = self.bars.as_ref().map(|bars| {
-            let bar = bars.all.add(ProgressBar::new(1));
-            bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
-            bar.set_prefix(escape::line(&job.name).into_owned());
-            bar
-        });
-        Box::new(RobotBar(bar))
     }
 
     /// Prints the result of a combination, or its error.
@@ -154,7 +144,13 @@ impl Printer {
 
 impl Observer for Printer {
     fn begin(&self, job: &Job) -> Box<dyn Progress> {
-        self.begin_robot(job)
+        let bar = self.bars.as_ref().map(|bars| {
+            let bar = bars.all.add(ProgressBar::new(1));
+            bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
+            bar.set_prefix(escape::line(&job.name).into_owned());
+            bar
+        });
+        Box::new(RobotBar(bar))
     }
 
     fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {

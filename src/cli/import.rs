@@ -1,12 +1,11 @@
 //! `urdd import`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
 use super::output::{self, Failure, counted, shown};
-use super::packages::PackageArguments;
+use super::sources::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
 use urdd_import::{Imported, import_whole};
@@ -43,12 +42,8 @@ pub struct ImportArguments {
     packages: PackageArguments,
 }
 
-/// Runs `urdd import`.
-pub fn run(arguments: &ImportArguments) -> ExitCode {
-    output::ended(made(arguments).map(|()| 0))
-}
-
-fn made(arguments: &ImportArguments) -> Result<(), Failure> {
+/// Runs `urdd import`. Returns what to print.
+pub fn run(arguments: &ImportArguments) -> Result<String, Failure> {
     let settings = arguments.packages.settings()?;
     let (imported, source) = import_whole(&arguments.file, &settings, &Cancellation::default())?;
     let robot = &source.reading.robot;
@@ -70,7 +65,7 @@ fn made(arguments: &ImportArguments) -> Result<(), Failure> {
     let [links, joints] = [(robot.links.len(), "link"), (robot.joints.len(), "joint")]
         .map(|(count, thing)| counted(count, thing));
     let urdf = shown(&arguments.output.join(&imported.urdf));
-    Ok(output::print(&format!("{urdf}: {links}, {joints}, {}\n", counted(count, "file")))?)
+    Ok(format!("{urdf}: {links}, {joints}, {}\n", counted(count, "file")))
 }
 
 /// What is lost, what is otherwise, and what else a person has to know.

@@ -1,22 +1,23 @@
-//! Reads the files that commands are given: URDDs, SRDFs.
+//! Reads the files that commands are given: URDDs, SRDFs, and advice on those that are something else. Edits a module of a
+//! URDD: reads the robot, asks for the changed files, and replaces them atomically.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-use super::foreign;
 use super::output::{self, Failure, about, one_line, shown};
-use super::packages::around;
 use super::signals;
-use super::xacro;
+use super::sources::{around, only_arguments};
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::discover::DiscoverError;
+use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
 use urdd_directory::file_type::FileType;
-use urdd_directory::limits::MAX_SRDF_BYTES;
-use urdd_directory::regular;
+use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SRDF_BYTES};
+use urdd_directory::read_error::ReadError;
+use urdd_directory::replacement::{Files, Replacement};
+use urdd_directory::root::Root;
 use urdd_directory::source::is_archive;
 use urdd_format::escape;
+use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;
-use urdd_source::{Settings, XacroSettings, read_source};
+use urdd_source::{Files as SourceFiles, Format, Settings, XacroSettings, read_source, root_of};
 
 /// Opens the robot of a URDD.
 ///
@@ -33,7 +34,7 @@ pub fn open(path: &Path) -> Result<Robot, Failure> {
                 escape::shell(&path)
             ))?;
         }
-        Err(foreign::advice(&DiscoverError::NotAFolder { path }))?;
+        Err(advice(&DiscoverError::NotAFolder { path }))?;
     }
     Ok(Robot::open(path).map_err(one_line)?)
 }
@@ -44,7 +45,7 @@ pub fn with_srdf(
     file: &Path,
     words: &[PathBuf],
     work: impl FnOnce(&str) -> Result<String, Failure>,
-) -> ExitCode {
+) -> Result<u8, Failure> {
     signals::run(None, |signals| {
         let text = srdf_or_xacro(file, words, signals.cancellation())?;
         output::print(&work(&text)?)?;
@@ -57,7 +58,7 @@ fn srdf_or_xacro(
     words: &[PathBuf],
     cancellation: Cancellation,
 ) -> Result<String, Failure> {
-    let arguments = xacro::only_arguments(words)?;
+    let arguments = only_arguments(words)?;
     if !FileType::Xacro.is_of(file) {
         return match arguments.first() {
             None => srdf(file),
@@ -74,11 +75,125 @@ fn srdf_or_xacro(
 }
 
 /// The text of an SRDF.
-///
-/// # Errors
-/// If it cannot be read.
 pub fn srdf(file: &Path) -> Result<String, Failure> {
     let unread = |error| about(file)(format!("cannot be read: {error}"));
     let bytes = regular::read(file, MAX_SRDF_BYTES).map_err(unread)?;
     Ok(String::from_utf8(bytes).map_err(|_| about(file)("it is not UTF-8"))?)
+}
+
+/// The message of an error, with advice if the file has a known format.
+pub fn advice(error: &DiscoverError) -> String {
+    let DiscoverError::NotAFolder { path } = error else {
+        return one_line(error);
+    };
+    format!("{}: {}", one_line(path), of_file(Path::new(path)).unwrap_or(NEITHER))
+}
+
+fn of_file(path: &Path) -> Option<&'static str> {
+    let by_name = match FileType::of(path) {
+        Some(FileType::Xacro) => Some(
+            "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it",
+        ),
+        Some(FileType::Sdf) => Some(SDF),
+        Some(FileType::Srdf) => Some(
+            "this is SRDF, which adds groups and skipped collisions to a URDF; \
+             give the URDF that it belongs to, or a URDD",
+        ),
+        Some(FileType::Mjcf) => Some(MJCF),
+        Some(FileType::Usd) => Some(
+            "this is USD; URDDs are generated from URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
+        ),
+        Some(FileType::Document) => Some(
+            "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders",
+        ),
+        Some(FileType::Urdf | FileType::Xml | FileType::Archive) | None => None,
+    };
+    by_name.or_else(|| by_content(path))
+}
+
+const NEITHER: &str = "this is a file, but neither a URDF (its name would end in .urdf) nor a URDD \
+    (a folder that holds urdd.json or the module folders, or a zip archive of one)";
+const SDF: &str = "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
+const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, \
+    `urdd import` makes a URDF";
+
+fn by_content(path: &Path) -> Option<&'static str> {
+    let root = root_of(path, &SourceFiles::Disk)?;
+    match Format::of_root(&root) {
+        Some(Format::Mjcf) => Some(MJCF),
+        Some(Format::Sdf) => Some(SDF),
+        None => (root == "robot").then_some(
+            "this looks like a URDF; give it a name that ends in .urdf, or use `urdd generate` to generate a URDD from it",
+        ),
+    }
+}
+
+/// Maximum number of attempts while another program writes to the URDD.
+const MAX_TRIES: usize = 5;
+
+/// An edit.
+pub struct Edited {
+    /// The files that change.
+    pub files: Files,
+    /// What to print.
+    pub told: String,
+}
+
+impl Edited {
+    /// Nothing changes.
+    pub fn unchanged(told: String) -> Self {
+        Edited { files: Files::new(), told }
+    }
+}
+
+/// Edits a module of the URDD in a folder. Returns what to print.
+pub fn edited(
+    urdd: &Path,
+    kind: ModuleKind,
+    edit: impl Fn(&Robot) -> Result<Edited, Failure>,
+) -> Result<String, Failure> {
+    if !urdd.is_dir() {
+        Err(about(urdd)("not a folder; edits are written into the folder of a URDD"))?;
+    }
+    for _ in 0..MAX_TRIES {
+        let before = state(urdd, kind).map_err(about(urdd))?;
+        let robot = open(urdd)?;
+        let Edited { files, told } = edit(&robot)?;
+        if files.is_empty() {
+            return Ok(told);
+        }
+        // Takes the lock here. Other programs may have written before.
+        let replacement = Replacement::begin(urdd)?;
+        if state(urdd, kind).map_err(about(urdd))? != before {
+            continue;
+        }
+        replacement.stage(&files)?;
+        replacement.commit()?;
+        return Ok(told);
+    }
+    Err(about(urdd)("another program keeps writing into this folder; nothing was written").into())
+}
+
+/// Refuses an SRDF of which nothing can be imported; `wrong` says why.
+pub fn some_read(read: usize, wrong: &[String]) -> Result<(), String> {
+    match read == 0 && !wrong.is_empty() {
+        true => Err(format!("nothing in it can be imported: {}", wrong.join("; "))),
+        false => Ok(()),
+    }
+}
+
+/// A line for each part of an SRDF that an import leaves out.
+pub fn left_out(wrong: &[String]) -> String {
+    wrong.iter().map(|wrong| format!("  left out: {wrong}\n")).collect()
+}
+
+/// The files that the edits depend on.
+fn state(urdd: &Path, kind: ModuleKind) -> Result<Vec<Vec<u8>>, ReadError> {
+    let root = Root::open_folder(urdd)?;
+    let module = format!("{}/module.json", kind.folder());
+    let read = |path: &str| match root.read(path, MAX_DOCUMENT_BYTES) {
+        Err(ReadError::Missing) => Ok(Vec::new()),
+        read => read,
+    };
+    [ROOT_METADATA, &module].map(read).into_iter().collect()
 }

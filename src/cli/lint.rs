@@ -1,17 +1,15 @@
 //! `urdd lint`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
 use similar::TextDiff;
 
 use super::output::{self, Color, Failure, about, one_line, shown};
-use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
 use super::signals::{self, Signals};
-use super::xacro::{self, XacroArguments};
+use super::sources::{PackageArguments, XacroArguments, split};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
@@ -78,7 +76,7 @@ pub struct LintArguments {
 }
 
 /// Runs `urdd lint`.
-pub fn run(arguments: &LintArguments, color: Color) -> ExitCode {
+pub fn run(arguments: &LintArguments, color: Color) -> Result<u8, Failure> {
     signals::run(None, |signals| lint(arguments, color, signals))
 }
 
@@ -98,7 +96,7 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
         settings.report.programs.clone_from(&arguments.programs);
     }
     settings.report.cancellation = signals.cancellation();
-    let (paths, xacro_arguments) = xacro::split(&arguments.paths);
+    let (paths, xacro_arguments) = split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     output::without_panic_messages(|| work(arguments, &paths, &settings, color))
 }
@@ -164,7 +162,7 @@ fn write_robots(
     paths: &[PathBuf],
     settings: &LintSettings,
 ) -> Result<u8, Failure> {
-    let file = arguments.report.file().unwrap_or_else(|| PathBuf::from(SETTINGS_FILE));
+    let file = arguments.report.config.as_deref().unwrap_or(Path::new(SETTINGS_FILE));
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     let (mut told, mut lines, mut count) = (String::new(), String::new(), 0);
@@ -184,11 +182,11 @@ fn write_robots(
         }
     }
     if count > 0 {
-        output::write_file(&file, &SettingsFile::with_lines(&file, &lines)?)?;
+        output::write_file(file, &SettingsFile::with_lines(file, &lines)?)?;
     }
     output::print(&format!(
         "{told}{}: added {}\n",
-        shown(&file),
+        shown(file),
         output::counted(count, "robot file")
     ))?;
     Ok(0)

@@ -4,10 +4,9 @@ use clap::{Args, ValueEnum};
 
 use super::generate_output::Format;
 use super::output::{Failure, one_line};
-use super::packages::PackageArguments;
 use super::signals::Signals;
+use super::sources::{PackageArguments, XacroArguments};
 use super::words::{Preferred, Skip};
-use super::xacro::XacroArguments;
 use urdd_generate::{
     Effort, MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, SAMPLES, Selection, Settings,
 };

@@ -5,33 +5,26 @@ mod combine;
 mod configurations;
 mod conformance;
 mod diff;
-mod editing;
 mod explain;
 mod export;
-mod foreign;
 mod generate;
 mod generate_output;
 mod import;
 mod info;
 mod inputs;
 mod lint;
-mod lsp;
 mod making;
 mod named_configurations;
-mod new_extension;
 mod output;
-mod packages;
 mod rehash;
 mod reporting;
-mod robots;
 mod schema;
 mod signals;
 mod skips;
+mod sources;
 mod validate;
 mod view;
-mod viewed;
 mod words;
-mod xacro;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -40,7 +33,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use self::output::{Color, Failure};
+use self::output::{Color, Failure, one_line};
 use urdd_format::escape;
 
 /// Specification, validator and reference generator of the Universal Robot Description Directory.
@@ -68,7 +61,16 @@ enum Command {
     /// Check URDFs: what is wrong with them, and what is odd.
     Lint(lint::LintArguments),
     /// Language server: findings, hover and completion in editors.
-    Lsp(lsp::LspArguments),
+    #[command(
+        after_help = "Editors start it: see docs/editors.md. It speaks the Language Server Protocol on standard input and \
+        output, and ends with the editor.\n\n\
+        Exit status: 0 the editor ended it; 1 the editor went away; 2 a message could not be read or written."
+    )]
+    Lsp {
+        /// Accepted because some editors pass it: there is no other way to connect.
+        #[arg(long, hide = true)]
+        stdio: bool,
+    },
     /// Compare two robots by meaning: links, joints, geometry, skipped pairs and findings.
     Diff(diff::DiffArguments),
     /// Check a robot for self-collisions, and list its nearest pairs of links.
@@ -78,9 +80,11 @@ enum Command {
     /// Export a robot: SRDF, URDF, MJCF, spheres.
     Export(export::ExportArguments),
     /// Import edits of the skips from an SRDF.
-    Skips(skips::SkipsArguments),
+    #[command(subcommand)]
+    Skips(skips::SkipsCommand),
     /// List, set and remove named configurations: home, ready.
-    Configurations(named_configurations::ConfigurationsArguments),
+    #[command(subcommand)]
+    Configurations(named_configurations::ConfigurationsCommand),
     /// Explain a rule, or list all rules.
     Explain(explain::ExplainArguments),
     /// Show what a URDD contains, without validating it.
@@ -88,9 +92,11 @@ enum Command {
     /// Update the sizes and hashes in urdd.json to match the files.
     Rehash(rehash::RehashArguments),
     /// Conformance suite, for authors of producers and validators.
-    Conformance(conformance::ConformanceArguments),
+    #[command(subcommand)]
+    Conformance(conformance::ConformanceCommand),
     /// Show, export or check the published JSON Schemas, or begin an extension.
-    Schema(schema::SchemaArguments),
+    #[command(subcommand)]
+    Schema(schema::SchemaCommand),
     /// Print the completion script of a shell: `urdd completions bash > ~/.local/share/bash-completion/completions/urdd`.
     Completions {
         /// The shell.
@@ -109,30 +115,38 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Err(error) => return usage(error, &words),
     };
     let color = arguments.color;
-    match arguments.command {
+    output::ended(match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Combine(arguments) => combine::run(&arguments),
-        Command::Import(arguments) => import::run(&arguments),
+        Command::Import(arguments) => printed(import::run(&arguments)),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::Lint(arguments) => lint::run(&arguments, color),
-        Command::Lsp(arguments) => lsp::run(&arguments),
+        Command::Lsp { .. } => urdd_lsp::serve_stdio()
+            .map(|ended| u8::from(!ended.is_orderly()))
+            .map_err(|error| one_line(error).into()),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
-        Command::Skips(arguments) => skips::run(&arguments),
-        Command::Configurations(arguments) => named_configurations::run(&arguments),
-        Command::Explain(arguments) => explain::run(&arguments),
-        Command::Info(arguments) => info::run(&arguments),
-        Command::Rehash(arguments) => rehash::run(&arguments),
-        Command::Conformance(arguments) => conformance::run(&arguments),
-        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Skips(command) => skips::run(&command),
+        Command::Configurations(command) => named_configurations::run(&command),
+        Command::Explain(arguments) => printed(explain::run(&arguments)),
+        Command::Info(arguments) => printed(info::run(&arguments)),
+        Command::Rehash(arguments) => Ok(rehash::run(&arguments)),
+        Command::Conformance(command) => conformance::run(&command),
+        Command::Schema(command) => schema::run(&command),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "urdd", &mut script);
-            output::printed(Ok::<_, Failure>(String::from_utf8_lossy(&script).into_owned()))
+            printed(Ok(String::from_utf8_lossy(&script).into_owned()))
         }
-    }
+    })
+}
+
+/// Prints the text of a command that only prints.
+fn printed(text: Result<String, Failure>) -> Result<u8, Failure> {
+    output::print(&text?)?;
+    Ok(0)
 }
 
 /// Prints help if requested, or the error of the command line. Its words come from the user or from file names, so they
@@ -147,5 +161,5 @@ fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
         let _ = writeln!(std::io::stderr().lock(), "{text}");
         return ExitCode::from(output::USAGE);
     }
-    output::printed(Ok::<_, Failure>(error.render().to_string()))
+    output::ended(printed(Ok(error.render().to_string())))
 }

@@ -1,12 +1,10 @@
 //! `urdd configurations`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-use clap::{Args, Subcommand};
+use clap::Subcommand;
 
-use super::editing::{self, Edited};
-use super::inputs;
+use super::inputs::{self, Edited, edited, left_out, some_read};
 use super::output::{self, Failure, about, shown};
 use urdd_export::import_states;
 use urdd_format::escape;
@@ -15,15 +13,9 @@ use urdd_format::nearest::nearest;
 use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;
 
-/// Arguments of `urdd configurations`.
-#[derive(Args)]
-pub struct ConfigurationsArguments {
-    #[command(subcommand)]
-    command: ConfigurationsCommand,
-}
-
+/// The commands of `urdd configurations`.
 #[derive(Subcommand)]
-enum ConfigurationsCommand {
+pub enum ConfigurationsCommand {
     /// List the named configurations of a URDD, with the positions that were set.
     List {
         /// The URDD: a folder or a zip archive.
@@ -86,8 +78,8 @@ enum ConfigurationsCommand {
 }
 
 /// Runs `urdd configurations`.
-pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
-    let text = match &arguments.command {
+pub fn run(command: &ConfigurationsCommand) -> Result<u8, Failure> {
+    let text = match command {
         ConfigurationsCommand::List { urdd } => list(urdd),
         ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
         ConfigurationsCommand::Import { srdf, urdd, more, force } => {
@@ -95,7 +87,8 @@ pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
         }
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
-    output::printed(text)
+    output::print(&text?)?;
+    Ok(0)
 }
 
 fn list(urdd: &Path) -> Result<String, Failure> {
@@ -144,17 +137,17 @@ fn remove(urdd: &Path, name: &str) -> Result<String, Failure> {
 }
 
 fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
-    editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
+    edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
         let imported = import_states(robot, text, force).map_err(about(srdf))?;
         let read = imported.changed + imported.already + imported.out_of_bounds.len();
-        editing::some_read(read + imported.left_out, &imported.wrong).map_err(about(srdf))?;
+        some_read(read + imported.left_out, &imported.wrong).map_err(about(srdf))?;
         let mut told = format!(
             "{}: {} imported; {} of the SRDF unchanged\n",
             shown(urdd),
             output::counted(imported.changed, "configuration"),
             imported.already
         );
-        told += &editing::left_out(&imported.wrong);
+        told += &left_out(&imported.wrong);
         if imported.left_out > 0 {
             let positions = output::counted(imported.left_out, "position");
             told += &format!(
@@ -178,7 +171,7 @@ fn change(
     urdd: &Path,
     change: impl Fn(&mut Vec<ConfigurationEdit>) -> Result<&'static str, String>,
 ) -> Result<String, Failure> {
-    editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
+    edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
         let named = robot.named_configurations().map_err(about(urdd))?;
         let mut edits: Vec<ConfigurationEdit> = named.iter().map(Into::into).collect();
         let done = change(&mut edits).map_err(about(urdd))?;

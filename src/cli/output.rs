@@ -44,17 +44,11 @@ pub fn about<E: Display>(path: &Path) -> impl Fn(E) -> String {
 }
 
 /// Prints to standard output.
-///
-/// # Errors
-/// A message if the text cannot be written.
 pub fn print(text: &str) -> Result<(), String> {
     write(&safe(text)).map(|_| ())
 }
 
 /// As [`print`], for text that has more to follow. Returns whether a reader is still there.
-///
-/// # Errors
-/// As for [`print`].
 pub fn print_some(text: &str) -> Result<bool, String> {
     write(&safe(text))
 }
@@ -76,9 +70,6 @@ fn write(text: &str) -> Result<bool, String> {
 
 /// As [`print`], for text in a format that has already escaped names by its own rules, or that consists of workflow
 /// commands.
-///
-/// # Errors
-/// As for [`print`].
 pub fn print_raw(text: &str) -> Result<(), String> {
     write(&escape::lines(text)).map(|_| ())
 }
@@ -164,9 +155,6 @@ pub fn is_dumb() -> bool {
 
 /// Writes files that belong together, and a report on them. If one cannot be written, writes none. `also` is what the
 /// message ends with if a file exists with other content.
-///
-/// # Errors
-/// A message that names the file.
 pub fn write_files<'f>(
     target: Target,
     mut files: Vec<Output<'f>>,
@@ -200,9 +188,6 @@ pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
 }
 
 /// Writes a file that a person named. One with other content is replaced with `force` only.
-///
-/// # Errors
-/// A message that names the file.
 pub fn write_alone(file: &Path, text: &str, force: bool) -> Result<(), String> {
     let path = outputs::name_of(file).into();
     let output = Output { path, bytes: text.as_bytes(), replaces: force };
@@ -237,13 +222,8 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// The exit status of a command that only prints.
-pub fn printed(text: Result<String, impl Display>) -> ExitCode {
-    ended(text.map_err(|error| error.to_string()).and_then(|text| print(&text).map(|()| 0)))
-}
-
 /// The exit status of a command. Prints its error message.
-pub fn ended(result: Result<u8, impl Display>) -> ExitCode {
+pub fn ended(result: Result<u8, Failure>) -> ExitCode {
     let status = result.unwrap_or_else(|message| {
         error(&message.to_string());
         USAGE

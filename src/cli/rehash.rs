@@ -1,7 +1,6 @@
 //! `urdd rehash`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
@@ -29,8 +28,8 @@ pub struct RehashArguments {
     paths: Vec<PathBuf>,
 }
 
-/// Runs `urdd rehash`.
-pub fn run(arguments: &RehashArguments) -> ExitCode {
+/// Runs `urdd rehash`. Returns the exit status.
+pub fn run(arguments: &RehashArguments) -> u8 {
     let mut worst = 0;
     for path in &arguments.paths {
         match discover(path) {
@@ -41,7 +40,7 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
             }
         }
     }
-    ExitCode::from(worst)
+    worst
 }
 
 /// Updates the hashes of a URDD. Returns the exit status.

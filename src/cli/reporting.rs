@@ -42,7 +42,7 @@ pub(super) struct ReportArguments {
 
     /// Settings file; default: urdd.toml in the current folder, if it exists.
     #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
+    pub(super) config: Option<PathBuf>,
 
     /// Leaves out folders with this path, relative to the given path; `*` and `**` as in .gitignore.
     /// May be repeated; in urdd.toml it is `exclude`.
@@ -111,11 +111,6 @@ pub(super) fn settings_file(named: Option<&Path>) -> Result<SettingsFile, Failur
 }
 
 impl ReportArguments {
-    /// The settings, of the file and of the command line.
-    pub(super) fn settings(&self) -> Result<Settings, Failure> {
-        Ok(self.settings_file()?.settings)
-    }
-
     /// The settings file, with what the command line sets.
     pub(super) fn settings_file(&self) -> Result<SettingsFile, Failure> {
         for file in &self.output {
@@ -131,11 +126,6 @@ impl ReportArguments {
         settings.selection.ignore.clone_from(&self.ignore);
         settings.fail_on = self.fail_on.map(Into::into).or(settings.fail_on);
         Ok(read)
-    }
-
-    /// The settings file that is named.
-    pub(super) fn file(&self) -> Option<PathBuf> {
-        self.config.clone()
     }
 
     /// Writes the report to standard output and to the files; returns the exit status. `is_lint`: what `urdd lint` says

@@ -1,7 +1,6 @@
 //! Cancellation by Ctrl-C and other signals.
 
 use std::io;
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -43,15 +42,13 @@ fn is_default(signal: i32) -> bool {
 pub(super) fn run(
     stopped: Option<&str>,
     work: impl FnOnce(&Signals) -> Result<u8, Failure>,
-) -> ExitCode {
-    let result = Signals::listen().map_err(Failure::from).and_then(|signals| {
-        process::adopt_orphans();
-        let result = work(&signals);
-        let Some(status) = signals.status() else { return result };
-        stopped.into_iter().for_each(output::error);
-        Ok(status)
-    });
-    output::ended(result)
+) -> Result<u8, Failure> {
+    let signals = Signals::listen()?;
+    process::adopt_orphans();
+    let result = work(&signals);
+    let Some(status) = signals.status() else { return result };
+    stopped.into_iter().for_each(output::error);
+    Ok(status)
 }
 
 /// The signals that request termination. The first one cancels the work at the next safe point; the second one ends the

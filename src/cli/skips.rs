@@ -1,25 +1,17 @@
 //! `urdd skips`.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-use clap::{Args, Subcommand};
+use clap::Subcommand;
 
-use super::editing::{self, Edited};
-use super::inputs;
+use super::inputs::{Edited, edited, left_out, some_read, with_srdf};
 use super::output::{self, Failure, about, shown};
 use urdd_export::{ImportedSkips, import_srdf};
 use urdd_format::registry::ModuleKind;
 
-/// Arguments of `urdd skips`.
-#[derive(Args)]
-pub struct SkipsArguments {
-    #[command(subcommand)]
-    command: SkipsCommand,
-}
-
+/// The commands of `urdd skips`.
 #[derive(Subcommand)]
-enum SkipsCommand {
+pub enum SkipsCommand {
     /// Import the pairs of links in an SRDF as edits of a URDD.
     #[command(
         after_help = "Pairs that the URDD skips but the SRDF does not disable stay skipped. Lines without a link, or with one that the URDD \
@@ -47,16 +39,15 @@ enum SkipsCommand {
 }
 
 /// Runs `urdd skips`.
-pub fn run(arguments: &SkipsArguments) -> ExitCode {
-    let SkipsCommand::Import { srdf, urdd, more, force } = &arguments.command;
-    inputs::with_srdf(srdf, more, |text| import(srdf, text, urdd, *force))
+pub fn run(command: &SkipsCommand) -> Result<u8, Failure> {
+    let SkipsCommand::Import { srdf, urdd, more, force } = command;
+    with_srdf(srdf, more, |text| import(srdf, text, urdd, *force))
 }
 
 fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
-    editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
+    edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
         let imported = import_srdf(robot, text, force).map_err(about(srdf))?;
-        editing::some_read(imported.added + imported.already, &imported.wrong)
-            .map_err(about(srdf))?;
+        some_read(imported.added + imported.already, &imported.wrong).map_err(about(srdf))?;
         if imported.added == 0 {
             return Ok(Edited::unchanged(told(&shown(urdd), &imported, false)));
         }
@@ -73,7 +64,7 @@ fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
         output::counted(imported.added, "edit"),
         output::counted(imported.already, "pair")
     );
-    told += &editing::left_out(&imported.wrong);
+    told += &left_out(&imported.wrong);
     if imported.unlisted > 0 {
         told += &format!(
             "  {} skipped that the SRDF does not disable\n",

@@ -1,11 +1,10 @@
 //! `urdd validate`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
-use super::foreign;
+use super::inputs::advice;
 use super::output::{self, Color, Failure};
 use super::reporting::ReportArguments;
 use super::words::Class;
@@ -39,12 +38,8 @@ pub struct ValidateArguments {
 }
 
 /// Runs `urdd validate`.
-pub fn run(arguments: &ValidateArguments, color: Color) -> ExitCode {
-    output::ended(validate(arguments, color))
-}
-
-fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> {
-    let mut settings = arguments.report.settings()?;
+pub fn run(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> {
+    let mut settings = arguments.report.settings_file()?.settings;
     settings.class = arguments.class.map(Into::into).or(settings.class);
     settings.deep |= arguments.deep;
     let mut rules = rules::all();
@@ -55,7 +50,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> 
         urdd_validate::validate_with(&arguments.paths, &settings, &rules)
     });
     let run = run.map_err(|error| match error {
-        ValidateError::Discover(error) => foreign::advice(&error),
+        ValidateError::Discover(error) => advice(&error),
         error => error.to_string(),
     });
     arguments.report.write(&run?, &settings, false, color)

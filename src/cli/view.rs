@@ -1,8 +1,8 @@
 //! `urdd view`.
 
+use std::collections::HashMap;
 use std::io::{BufRead, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -11,17 +11,18 @@ use clap::Args;
 use super::configurations::Lines;
 use super::generate_output::{FAILED, Format, Printer};
 use super::output::{self, Failure, one_line};
-use super::packages::PackageArguments;
-use super::robots::RobotArguments;
 use super::signals::Signals;
-use super::viewed;
-use super::xacro::{self, XacroArguments};
+use super::sources::{PackageArguments, RobotArguments, XacroArguments, split};
+use urdd_directory::discover::DiscoverError;
+use urdd_directory::file_type::FileType;
 use urdd_directory::temporary::Temporary;
 use urdd_format::escape;
-use urdd_generate::Settings;
 use urdd_robot::Robot;
-use urdd_source::process;
-use urdd_view::{Collection, ExportError, Live, Server, Shown, export, may_hold_page, page_with};
+use urdd_source::robots::{self, BatchError, Job};
+use urdd_source::{Files, Settings, format_of, process};
+use urdd_view::{
+    Collection, ExportError, Live, Server, Shown, Source, export, may_hold_page, page_with,
+};
 
 /// Pause before the rest of a robot is generated.
 const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
@@ -76,50 +77,37 @@ pub struct ViewArguments {
 /// Maximum length of a line of standard input, in bytes.
 const MAX_LINE: u64 = 1 << 20;
 
-/// Runs `urdd view`.
-pub fn run(arguments: &ViewArguments) -> ExitCode {
-    match view(arguments) {
-        Ok(status) => ExitCode::from(status),
-        Err((status, message)) => {
-            output::error(&escape::line(&message));
-            ExitCode::from(status)
-        }
-    }
+/// Runs `urdd view`. All words of its errors may be of others.
+pub fn run(arguments: &ViewArguments) -> Result<u8, Failure> {
+    view(arguments).map_err(|error| escape::line(&error.to_string()).into())
 }
 
-/// An exit status, and what to say.
-type Stop = (u8, String);
-
-fn usage(message: impl ToString) -> Stop {
-    (output::USAGE, message.to_string())
-}
-
-fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
-    let signals = Signals::listen().map_err(usage)?;
+fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
+    let signals = Signals::listen()?;
     process::adopt_orphans();
-    let (paths, xacro_arguments) = xacro::split(&arguments.paths);
+    let (paths, xacro_arguments) = split(&arguments.paths);
     if arguments.compare && paths.len() != 2 {
         let count = output::counted(paths.len(), "path");
-        return Err(usage(format!(
+        Err(format!(
             "--compare takes two robots, before and after: `urdd view --compare BEFORE AFTER`; found {count}"
-        )));
+        ))?;
     }
-    let settings = Settings {
-        source: urdd_source::Settings {
+    let settings = urdd_generate::Settings {
+        source: Settings {
             xacro: arguments.xacro.settings(xacro_arguments),
-            robots: arguments.declared.declared().map_err(usage)?.into(),
-            ..arguments.packages.settings().map_err(usage)?
+            robots: arguments.declared.declared()?.into(),
+            ..arguments.packages.settings()?
         },
         cancellation: signals.cancellation(),
-        ..Settings::default()
+        ..urdd_generate::Settings::default()
     };
     // Generated URDDs exist as long as this value.
-    let temporary = Temporary::begin(&std::env::temp_dir(), "shown").map_err(usage)?;
+    let temporary = Temporary::begin(&std::env::temp_dir(), "shown")?;
     let drops = temporary.path().join("dropped");
     let collection = Collection::default()
         .with_drops(drops, arguments.xacro.xacro)
         .with_settings(settings.clone());
-    let counts = viewed::add(&paths, &settings.source, &collection).map_err(usage)?;
+    let counts = add(&paths, &settings.source, &collection)?;
     let robots = collection.robots();
     let opens = match arguments.compare {
         true => Some(comparison(&paths, &counts, &robots)?),
@@ -145,18 +133,16 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         }
         // A site shows the others; a comparison is of both.
         if unmade.len() == robots.len() || (opens.is_some() && !unmade.is_empty()) {
-            return Err((FAILED, "there is nothing to show".to_owned()));
+            output::error("there is nothing to show");
+            return Ok(FAILED);
         }
-        if !unmade.is_empty() {
-            let status = written(&collection, folder, None, &signals)?;
-            let count = output::counted(unmade.len(), "robot");
-            output::error(&format!(
-                "without {count} that could not be made: {}",
-                unmade.join(", ")
-            ));
-            return Ok(status.max(FAILED));
+        write_site(&collection, folder, opens.as_deref(), &signals)?;
+        if unmade.is_empty() {
+            return Ok(0);
         }
-        return written(&collection, folder, opens.as_deref(), &signals);
+        let count = output::counted(unmade.len(), "robot");
+        output::error(&format!("without {count} that could not be made: {}", unmade.join(", ")));
+        return Ok(FAILED);
     }
     // A robot by itself is opened at once, as are two that are compared; others when somebody chooses them.
     if opens.is_some() || robots.len() == 1 {
@@ -167,11 +153,11 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         (true, [robot]) => Some(Arc::clone(robot)),
         (true, several) => {
             let count = several.len();
-            return Err(usage(format!("--follow shows one robot, and there are {count}")));
+            Err(format!("--follow shows one robot, and there are {count}"))?
         }
     };
     let collection = Arc::new(collection);
-    let server = Server::bind(Arc::clone(&collection), arguments.port).map_err(usage)?;
+    let server = Server::bind(Arc::clone(&collection), arguments.port)?;
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
         if let Some(robot) = followed {
@@ -186,7 +172,6 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
         let address = format!("{}{begin}", server.address());
         let count = output::counted(robots.len(), "robot");
         let printed = output::print(&format!("{count}: {address}\nCtrl-C stops it.\n"));
-        let printed = printed.map_err(usage);
         if printed.is_err() {
             signals.cancellation().cancel();
         }
@@ -199,22 +184,27 @@ fn view(arguments: &ViewArguments) -> Result<u8, Stop> {
             ));
         }
         server.run(&signals.cancellation());
-        printed.map(|()| 0)
+        printed?;
+        Ok(0)
     })
 }
 
 /// The view that shows the second robot beside the first, as the page has it in its address.
-fn comparison(paths: &[PathBuf], counts: &[usize], robots: &[Arc<Shown>]) -> Result<String, Stop> {
+fn comparison(
+    paths: &[PathBuf],
+    counts: &[usize],
+    robots: &[Arc<Shown>],
+) -> Result<String, String> {
     for (path, count) in paths.iter().zip(counts) {
         if *count != 1 {
             let path = path.display();
-            return Err(usage(format!(
+            return Err(format!(
                 "{path}: found {count} robots; --compare takes one robot at each path: name one of them"
-            )));
+            ));
         }
     }
     let [before, after] = robots else {
-        return Err(usage(format!("--compare takes two robots; found {}", robots.len())));
+        return Err(format!("--compare takes two robots; found {}", robots.len()));
     };
     Ok(format!("r={}&v={}", after.id, before.id))
 }
@@ -265,38 +255,32 @@ fn follow(shown: &Shown) -> Result<(), Failure> {
 }
 
 /// Writes the site. `opens` is the view that it shows first.
-fn written(
+fn write_site(
     collection: &Collection,
     folder: &Path,
     opens: Option<&str>,
     signals: &Signals,
-) -> Result<u8, Stop> {
+) -> Result<(), Failure> {
     let mut tell = |robot: &Shown| {
         let _ = writeln!(std::io::stderr().lock(), "{}", one_line(&robot.name));
     };
     if folder.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
         if opens.is_some() {
-            return Err(usage(
-                "a page in one file shows one robot; for a comparison, give --export a folder",
-            ));
+            Err("a page in one file shows one robot; for a comparison, give --export a folder")?;
         }
         let robots = collection.robots();
         let [robot] = robots.as_slice() else {
             let count = robots.len();
-            return Err(usage(format!(
+            Err(format!(
                 "a page in one file shows one robot, but {count} were given; give one of them, or a folder to --export"
-            )));
+            ))?
         };
         if !may_hold_page(folder) {
-            return Err(usage(ExportError::InTheWay(vec![folder.to_owned()])));
+            Err(ExportError::InTheWay(vec![folder.to_owned()]))?;
         }
-        let page = page_with(robot).map_err(usage)?;
-        output::write_alone(folder, &page, true).map_err(usage)?;
-        return Ok(0);
+        return Ok(output::write_alone(folder, &page_with(robot)?, true)?);
     }
-    let stay =
-        export(collection, folder, opens, &signals.cancellation(), &mut tell).map_err(usage)?;
-    for file in stay {
+    for file in export(collection, folder, opens, &signals.cancellation(), &mut tell)? {
         output::error(&escape::line(&format!(
             "{}: kept, since it was changed after the last export; the site does not need it any more",
             file.display()
@@ -308,6 +292,87 @@ fn written(
          python3 -m http.server --bind 127.0.0.1 --directory {shown}\n",
         collection.robots().len()
     );
-    output::print(&escape::lines(&told)).map_err(usage)?;
-    Ok(0)
+    Ok(output::print(&escape::lines(&told))?)
+}
+
+/// Adds the robots at these paths. Returns how many there are at each.
+fn add(
+    paths: &[PathBuf],
+    settings: &Settings,
+    collection: &Collection,
+) -> Result<Vec<usize>, String> {
+    let named = named(paths, settings)?;
+    let one = |path: &PathBuf| {
+        let before = collection.robots().len();
+        match named.get(path) {
+            Some(jobs) => jobs.iter().for_each(|job| add_source(job.clone(), collection)),
+            None => add_folder(path, settings, collection)?,
+        }
+        Ok(collection.robots().len() - before)
+    };
+    paths.iter().map(one).collect()
+}
+
+/// The robots of files, by path: URDFs, xacro files, and what is imported.
+fn named(paths: &[PathBuf], settings: &Settings) -> Result<HashMap<PathBuf, Vec<Job>>, String> {
+    let is_source = |path: &&PathBuf| {
+        let is_named = matches!(FileType::of(path), Some(FileType::Xacro | FileType::Urdf));
+        path.is_file() && (is_named || format_of(path, &Files::Disk).is_some())
+    };
+    let files: Vec<PathBuf> = paths.iter().filter(is_source).cloned().collect();
+    let jobs = robots::jobs(&files, settings).map_err(|error| error.to_string())?;
+    let of = |file: PathBuf| {
+        let place = file.canonicalize().ok();
+        let its = jobs.iter().filter(|job| job.source.canonicalize().ok() == place);
+        // Often the file is `robot.urdf`, and the folder has the robot's name.
+        let parent = place.as_deref().and_then(Path::parent).and_then(Path::file_name);
+        let named = |job: &Job| match parent {
+            Some(parent) if job.name == "robot" => {
+                Job { name: parent.to_string_lossy().into_owned(), ..job.clone() }
+            }
+            _ => job.clone(),
+        };
+        let its = its.map(named).collect();
+        (file, its)
+    };
+    Ok(files.into_iter().map(of).collect())
+}
+
+/// Adds the URDDs at or below a folder, or else its URDFs.
+fn add_folder(path: &Path, settings: &Settings, collection: &Collection) -> Result<(), String> {
+    match collection.add(path) {
+        Err(DiscoverError::NoUrdd { .. }) if path.is_dir() => {}
+        other => return other.map_err(|error| error.to_string()),
+    }
+    let batch = robots::found(&[path.to_owned()], settings).map_err(|error| match error {
+        BatchError::Empty { path } => {
+            format!("{path}: there is no URDD, and no .urdf or .xacro file, at any depth")
+        }
+        error => error.to_string(),
+    })?;
+    batch.asides(0).iter().for_each(|aside| output::error(aside));
+    let mut jobs = batch.jobs;
+    let count = jobs.len();
+    if !settings.xacro.expand_urdf {
+        jobs.retain(|job| !FileType::Xacro.is_of(&job.source));
+    }
+    let left = count - jobs.len();
+    if left > 0 {
+        let files = output::counted(left, ".xacro file");
+        let told = format!("{}: left out {files}; --xacro runs them", path.display());
+        if jobs.is_empty() {
+            return Err(told);
+        }
+        output::error(&escape::line(&told));
+    }
+    for job in jobs {
+        add_source(job, collection);
+    }
+    Ok(())
+}
+
+fn add_source(Job { source, name, arguments, .. }: Job, collection: &Collection) {
+    // The working directory may change later.
+    let file = std::path::absolute(&source).unwrap_or(source);
+    collection.add_source(name, Source { file, packages: Vec::new(), arguments });
 }

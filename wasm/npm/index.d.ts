@@ -2,6 +2,7 @@ import type {
   About,
   Clearances,
   CollisionModel,
+  Description,
   Explanation,
   InverseQuestion,
   InverseSolution,
@@ -56,13 +57,6 @@ export type Program =
 
 /** The files of a folder on disk, for Node. */
 export function folder(path: string): Promise<Source>;
-
-/** A robot description among files. */
-export interface Description {
-  path: string;
-  name: string;
-  format: "urdf" | "xacro" | "mjcf" | "sdf";
-}
 
 /** What is chosen of a description that is no URDF. */
 export interface ImportOptions {

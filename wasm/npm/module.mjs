@@ -3,69 +3,102 @@
 export class Urdd {
   /** Told of the progress of a long job: an object with `what`, `done` and `of`. */
   tell = () => undefined;
+  /** Gives the content of a file that was named and not given; null if there is none. */
+  content = () => null;
+  /** Writes a question as JSON. */
+  write = asked;
+  /** What is said where the module has no memory left. */
+  noMemory = "the module has no memory left";
 
   constructor(instance) {
     this.exports = instance.exports;
   }
 
-  static async of(bytes) {
-    const module = await WebAssembly.compile(bytes);
-    // The module that generates imports these functions; the other imports nothing. All files are given to it at once.
-    const progress = (at, length) => urdd.tell(urdd.#text(at, length));
+  /** Of the module's bytes, or of what was compiled of them. */
+  static async of(source) {
+    const module =
+      source instanceof WebAssembly.Module
+        ? source
+        : await WebAssembly.compile(source);
+    // The module that generates imports these functions; the other imports nothing.
+    const progress = (at, length) =>
+      urdd.tell(JSON.parse(urdd.#text(at, length)));
+    const read = (at, length) =>
+      urdd.#lent(urdd.content(urdd.#text(at, length)));
     const instance = await WebAssembly.instantiate(module, {
-      urdd: { progress, read: () => 0 },
+      urdd: { progress, read },
     });
     const urdd = new Urdd(instance);
     return urdd;
   }
 
-  /** The files in a zip archive. */
+  /** The module's memory, bytes. */
+  get memory() {
+    return this.exports.memory.buffer.byteLength;
+  }
+
+  /** Whether it validates and explains: the module of a page in one file does not. */
+  get validates() {
+    return "urdd_validate" in this.exports;
+  }
+
+  /** The files in a zip archive of a URDD. */
   zip(name, zip) {
-    const nameBytes = encode(name);
-    const files = this.#with([nameBytes, zip], (at) =>
-      this.exports.urdd_files_of_zip(
-        at[0],
-        nameBytes.length,
-        at[1],
-        zip.length,
-      ),
+    const files = this.#with([encode(name), zip], (...words) =>
+      this.exports.urdd_files_of_zip(...words),
     );
     if (files === 0) {
-      this.#with([zip], (at) =>
-        this.#json(this.exports.urdd_zip_fault(at[0], zip.length)),
+      this.#with([zip], (...words) =>
+        this.#json(this.exports.urdd_zip_fault(...words)),
       );
+      throw new Error("this zip archive has no URDD");
     }
     return files;
   }
 
+  /** The files in a zip archive, whatever they are. */
+  unzipped(zip) {
+    return this.#with([zip], (...words) =>
+      this.#json(this.exports.urdd_files_of_any_zip(...words)),
+    ).files;
+  }
+
   /** Files by path: of each its bytes, or its size, where its bytes may come later by `give`. */
   files(name, files) {
-    const bytes = encode(name);
-    const handle = this.#with([bytes], (at) =>
-      this.exports.urdd_files_new(at[0], bytes.length),
+    const handle = this.#with([encode(name)], (...words) =>
+      this.exports.urdd_files_new(...words),
     );
     for (const [path, content] of Object.entries(files)) {
-      if (typeof content !== "number") this.give(handle, path, content);
-      else {
-        const at = encode(path);
-        this.#with([at], ([place]) =>
-          this.exports.urdd_files_name(handle, place, at.length, content),
-        );
-      }
+      if (typeof content === "number") this.name(handle, path, content);
+      else this.give(handle, path, content);
     }
     return handle;
   }
 
+  /** Names a file, with its size. */
+  name(files, path, size) {
+    this.#with([encode(path)], (...words) =>
+      this.exports.urdd_files_name(files, ...words, Math.min(size, 0xffffffff)),
+    );
+  }
+
   give(files, path, content) {
-    const name = encode(path);
-    this.#with([name, content], (at) =>
-      this.exports.urdd_files_give(
-        files,
-        at[0],
-        name.length,
-        at[1],
-        content.length,
-      ),
+    this.#with([encode(path), content], (...words) =>
+      this.exports.urdd_files_give(files, ...words),
+    );
+  }
+
+  /** Sets the content of a file, in place of any that it had. */
+  put(files, path, content) {
+    this.#with([encode(path), content], (...words) =>
+      this.exports.urdd_files_put(files, ...words),
+    );
+  }
+
+  /** States that nobody knows where a file belongs; without a path, that names may lead out of the files. */
+  lose(files, path) {
+    this.#with([encode(path)], (...words) =>
+      this.exports.urdd_files_lost(files, ...words),
     );
   }
 
@@ -74,17 +107,15 @@ export class Urdd {
   }
 
   read(files, path) {
-    const name = encode(path);
-    return this.#with([name], (at) =>
-      this.#bytes(this.exports.urdd_files_read(files, at[0], name.length)),
+    return this.#with([encode(path)], (...words) =>
+      this.#bytes(this.exports.urdd_files_read(files, ...words)),
     );
   }
 
   /** `positions` (x, y, z of each vertex) and `indices` (three of each triangle). */
   mesh(files, path) {
-    const name = encode(path);
-    const bytes = this.#with([name], (at) =>
-      this.#bytes(this.exports.urdd_mesh(files, at[0], name.length)),
+    const bytes = this.#with([encode(path)], (...words) =>
+      this.#bytes(this.exports.urdd_mesh(files, ...words)),
     );
     const [vertices] = new Uint32Array(bytes.buffer, 0, 2);
     return {
@@ -94,17 +125,15 @@ export class Urdd {
   }
 
   validate(files, name) {
-    const bytes = encode(name);
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_validate(files, at[0], bytes.length)),
+    return this.#with([encode(name)], (...words) =>
+      this.#json(this.exports.urdd_validate(files, ...words)),
     );
   }
 
   /** `question`: the path of the URDF, and the programs that it is `for`. */
   lint(files, question) {
-    const bytes = encode(asked(question));
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_lint(files, at[0], bytes.length)),
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_lint(files, ...words),
     );
   }
 
@@ -118,39 +147,33 @@ export class Urdd {
    * from the files of `donor`, which this made before.
    */
   generate(files, question, donor = 0) {
-    const bytes = encode(asked(question));
-    return this.#with([bytes], (at) =>
-      this.#json(
-        this.exports.urdd_generate(files, donor, at[0], bytes.length),
-      ),
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_generate(files, donor, ...words),
     );
   }
 
   /** The URDF of an MJCF or SDF among files, likewise. */
   importRobot(files, question) {
-    const bytes = encode(asked(question));
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_import(files, at[0], bytes.length)),
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_import(files, ...words),
     );
   }
 
   /** The robot of a URDD for another program, likewise. */
   export(files, question) {
-    const bytes = encode(asked(question));
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_export(files, at[0], bytes.length)),
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_export(files, ...words),
     );
   }
 
   explain(code) {
-    const bytes = encode(code);
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_explain(at[0], bytes.length)),
+    return this.#with([encode(code)], (...words) =>
+      this.#json(this.exports.urdd_explain(...words)),
     );
   }
 
   closeFiles(files) {
-    this.exports.urdd_files_close(files);
+    if (files !== 0) this.exports.urdd_files_close(files);
   }
 
   open(files) {
@@ -166,42 +189,62 @@ export class Urdd {
     const bytes = new Uint8Array(new Float64Array(values).buffer);
     const answer = this.#with([bytes], (at) =>
       this.#bytes(
-        this.exports.urdd_robot_link_poses_batch(handle, at[0], values.length),
+        this.exports.urdd_robot_link_poses_batch(handle, at, values.length),
       ),
     );
     return new Float64Array(answer.buffer);
   }
 
   ask(handle, question) {
-    const bytes = encode(asked(question));
-    return this.#with([bytes], (at) =>
-      this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)),
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_robot_ask(handle, ...words),
+    );
+  }
+
+  #asked(question, call) {
+    return this.#with([encode(this.write(question))], (...words) =>
+      this.#json(call(...words)),
     );
   }
 
   #text(pointer, length) {
     const { buffer } = this.exports.memory;
     const bytes = new Uint8Array(buffer, pointer >>> 0, length);
-    return JSON.parse(new TextDecoder().decode(bytes));
+    return new TextDecoder().decode(bytes);
   }
 
+  /** The address of an answer with these bytes; 0 without any, or without memory for it. */
+  #lent(bytes) {
+    if (bytes === null) return 0;
+    const at = this.exports.urdd_alloc(bytes.length + 5) >>> 0;
+    if (at === 0) return 0;
+    const { buffer } = this.exports.memory;
+    new DataView(buffer).setUint32(at, bytes.length + 1, true);
+    const answer = new Uint8Array(buffer, at + 4, bytes.length + 1);
+    answer[0] = 1;
+    answer.set(bytes, 1);
+    return at;
+  }
+
+  /** Calls with the address and the length of each input. */
   #with(inputs, call) {
-    const places = inputs.map((bytes) => {
+    const words = inputs.flatMap((bytes) => {
       const at = this.exports.urdd_alloc(bytes.length) >>> 0;
-      if (at === 0) throw new Error("the module has no memory left");
+      if (at === 0) throw new Error(this.noMemory);
       new Uint8Array(this.exports.memory.buffer, at, bytes.length).set(bytes);
-      return at;
+      return [at, bytes.length];
     });
     try {
-      return call(places);
+      return call(...words);
     } finally {
-      places.forEach((at, k) => this.exports.urdd_free(at, inputs[k].length));
+      for (let k = 0; k < words.length; k += 2)
+        this.exports.urdd_free(words[k], words[k + 1]);
     }
   }
 
   #answer(pointer) {
     const at = pointer >>> 0;
-    if (at === 0) throw new Error("the module has no memory left");
+    if (at === 0) throw new Error(this.noMemory);
     const buffer = this.exports.memory.buffer;
     const length = new DataView(buffer).getUint32(at, true);
     const bytes = new Uint8Array(buffer, at + 4, length).slice();
@@ -211,8 +254,9 @@ export class Urdd {
 
   #json(pointer) {
     const answer = JSON.parse(new TextDecoder().decode(this.#answer(pointer)));
-    if (answer !== null && typeof answer === "object" && "error" in answer)
-      throw new Error(answer.error);
+    const isObject = answer !== null && typeof answer === "object";
+    if (isObject && "error" in answer && !("urdds" in answer))
+      throw new Error(String(answer.error));
     return answer;
   }
 

@@ -76,35 +76,20 @@ pub fn about(robot: &Robot) -> Result<Value, String> {
 
 fn links(part: &Urdd, modules: Option<&ConsumerModules>) -> Value {
     let known = part.robot();
-    let inertial = |link: usize| -> Option<Value> {
-        let inertial = known?.links.get(link)?.inertial.as_ref()?;
-        Some(inertial_of(inertial))
+    let inertial = |link: usize| Some(inertial_of(known?.links.get(link)?.inertial.as_ref()?));
+    let link = |(k, (name, parent)): (usize, (&String, Option<usize>))| -> Value {
+        json!({ "name": name, "parent_joint": parent, "inertial": inertial(k) })
     };
     match (modules, known) {
         (Some(modules), _) => {
-            let links = modules.chain.links_in_chain.iter().enumerate();
-            links
-                .map(|(k, link)| {
-                    json!({
-                        "name": link.name,
-                        "parent_joint": link.parent_joint_idx.map(|joint| joint.get()),
-                        "inertial": inertial(k),
-                    })
-                })
-                .collect()
+            let links = modules.chain.links_in_chain.iter();
+            let links = links.map(|link| (&link.name, link.parent_joint_idx.map(|idx| idx.get())));
+            links.enumerate().map(link).collect()
         }
         (None, Some(robot)) => {
             let parent = |name: &str| robot.joints.iter().position(|joint| joint.child == name);
-            let links = robot.links.iter().enumerate();
-            links
-                .map(|(k, link)| {
-                    json!({
-                        "name": link.name,
-                        "parent_joint": parent(&link.name),
-                        "inertial": inertial(k),
-                    })
-                })
-                .collect()
+            let links = robot.links.iter().map(|link| (&link.name, parent(&link.name)));
+            links.enumerate().map(link).collect()
         }
         (None, None) => json!([]),
     }

@@ -2,11 +2,9 @@
 
 use std::borrow::Cow;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde::Deserialize;
 use urdd_robot::{Obstacle, Proximity, RobotError, World};
-
-use crate::pose::pose;
 
 /// A body: `{"name": "shelf", "position": [0, 0, 1], "box": {"half_extents": [1, 0.2, 0.02]}}`. Metres.
 #[derive(Clone, PartialEq, Deserialize)]
@@ -126,4 +124,11 @@ pub fn carrying<'a>(
     let with = with.without(pairs).map_err(said)?;
     let with = with.without_bodies(without_bodies.iter().map(String::as_str));
     with.map(Cow::Owned).map_err(said)
+}
+
+/// The pose of a position, in metres, and a quaternion w, x, y, z, which is normalised.
+pub fn pose(position: [f64; 3], [w, x, y, z]: [f64; 4]) -> Result<Isometry3<f64>, String> {
+    let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
+    let turn = turn.ok_or("`quaternion_wxyz` is not a rotation")?;
+    Ok(Isometry3::from_parts(Translation3::from(position), turn))
 }

@@ -1,13 +1,34 @@
 //! What planners ask of the robot's shapes, with what its links carry: among its own links, or among obstacles.
 
+use std::str::FromStr;
+
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{
     EdgeSettings, FirstContact, ObstacleDistance, Overlap, PairDistance, Queries, RobotError,
+    ShapeKind,
 };
 
 use crate::bodies::{Attached, Body};
-use crate::kind::Kind;
+
+/// A kind of shapes: `pieces` by default.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Kind(pub ShapeKind);
+
+impl Default for Kind {
+    fn default() -> Self {
+        Kind(ShapeKind::Pieces)
+    }
+}
+
+impl TryFrom<String> for Kind {
+    type Error = <ShapeKind as FromStr>::Err;
+
+    fn try_from(name: String) -> Result<Self, Self::Error> {
+        name.parse().map(Kind)
+    }
+}
 
 /// Between which shapes.
 #[derive(Default, Deserialize)]

@@ -1,18 +1,18 @@
-//! A URDD of a description.
+//! A URDD of a description, and the progress of making it, which the host is told of.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_directory::range::OutOfRange;
 use urdd_directory::source::Memory;
 use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::ModuleKind;
 use urdd_generate::{
-    Generated, MeshFormats, PIECES, SAMPLES, Selection, Settings, generate_in_memory,
+    Generated, MeshFormats, PIECES, Progress, SAMPLES, Selection, Settings, generate_in_memory,
 };
 
 use crate::around::Given;
 use crate::files::Files;
 use crate::import::{Ball, Massless};
-use crate::progress::Told;
 use crate::{answer, import, memory};
 
 /// What is asked. The options are those of `urdd.generate` in Python.
@@ -127,4 +127,37 @@ fn said(made: &Generated, files: usize) -> Value {
         "modules": modules,
         "notes": notes,
     })
+}
+
+#[cfg(target_arch = "wasm32")]
+#[link(wasm_import_module = "urdd")]
+unsafe extern "C" {
+    /// Tells the host of progress: JSON with `what`, `done` and `of`.
+    fn progress(text: *const u8, length: usize);
+}
+
+/// Tells the host.
+struct Told;
+
+impl Told {
+    fn tell(what: &str, done: usize, of: usize) {
+        let text = json!({ "what": what, "done": done, "of": of }).to_string();
+        #[cfg(target_arch = "wasm32")]
+        // SAFETY: the host only reads the bytes, and does so before it returns.
+        unsafe {
+            progress(text.as_ptr(), text.len());
+        }
+        #[cfg(not(target_arch = "wasm32"))]
+        drop(text);
+    }
+}
+
+impl Progress for Told {
+    fn module(&self, kind: ModuleKind, done: usize, total: usize) {
+        Told::tell(kind.name(), done, total);
+    }
+
+    fn part(&self, kind: ModuleKind, done: usize, total: usize) {
+        Told::tell(&format!("{}: step", kind.name()), done, total);
+    }
 }

@@ -1,4 +1,4 @@
-//! A URDF of an MJCF or SDF.
+//! The descriptions among files, and a URDF of an MJCF or SDF.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::source::Memory;
 use urdd_import::import_whole;
 use urdd_source::ImportOptions;
+use urdd_source::dropped::{Dropped, descriptions};
 
 use crate::around::Given;
 use crate::files::Files;
@@ -89,4 +90,20 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
         .map_err(|(path, fault)| format!("`{}`: {fault}", path.escape_debug()))?;
     let files = Files::of(root).into_address();
     Ok(json!({ "files": files, "urdf": imported.urdf, "report": report }))
+}
+
+/// The descriptions among these files: `path`, `name` and `format` (`urdf`, `xacro`, `mjcf`, `sdf`) of each.
+///
+/// # Safety
+/// `files` is open.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_descriptions(files: *mut Files) -> *mut u8 {
+    // SAFETY: guaranteed by the caller.
+    let files = unsafe { &*files };
+    answer::result(Given::of(files).map(|given| {
+        let one = |Dropped { job, kind }: &Dropped| {
+            json!({ "path": given.path(&job.source), "name": job.name, "format": kind.name() })
+        };
+        Value::from(descriptions(given.files()).iter().map(one).collect::<Vec<_>>())
+    }))
 }

@@ -4,9 +4,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{InverseSettings, Proximity, Queries, Robot, RobotError, Target, Verdict, World};
 
-use crate::bodies::{Attached, Body};
-use crate::kind::Kind;
-use crate::pose::pose;
+use crate::bodies::{Attached, Body, pose};
+use crate::collisions::Kind;
 
 /// Searches from `q` for a configuration in which a point of a link is at a position, and the link has a rotation, if
 /// given.

@@ -16,8 +16,6 @@ mod asked;
 mod bodies;
 #[cfg(feature = "robot")]
 mod collisions;
-#[cfg(feature = "make")]
-mod descriptions;
 #[cfg(any(feature = "validate", feature = "lint"))]
 mod explain;
 #[cfg(feature = "make")]
@@ -29,8 +27,6 @@ mod generate;
 mod import;
 #[cfg(feature = "robot")]
 mod inverse;
-#[cfg(feature = "robot")]
-mod kind;
 #[cfg(feature = "lint")]
 mod lint;
 mod memory;
@@ -40,10 +36,6 @@ mod mesh;
 mod model;
 #[cfg(feature = "robot")]
 mod pairs;
-#[cfg(feature = "robot")]
-mod pose;
-#[cfg(feature = "make")]
-mod progress;
 #[cfg(target_arch = "wasm32")]
 mod random;
 #[cfg(feature = "robot")]

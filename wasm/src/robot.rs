@@ -13,10 +13,9 @@ use urdd_robot::{
 
 use crate::about::about;
 use crate::bodies::{Obstacles, carrying};
-use crate::collisions::{About, Among, pair, to_obstacle};
+use crate::collisions::{About, Among, Kind, pair, to_obstacle};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;
-use crate::kind::Kind;
 use crate::pairs::Pairs;
 use crate::sources::sources;
 use crate::{answer, memory, model};

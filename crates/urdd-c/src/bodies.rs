@@ -2,13 +2,12 @@
 
 use std::ffi::c_char;
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Failure, Status, Text, run};
 use crate::handle::{at, make};
 use crate::memory::{enough, put, read_text, values};
 use crate::names::nth;
 use crate::obstacle::Obstacle;
 use crate::proximity::Proximity;
-use crate::text::Text;
 
 /// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
 /// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
@@ -98,9 +97,6 @@ pub unsafe extern "C" fn urdd_proximity_body_name(
 }
 
 /// The caller's texts.
-///
-/// # Safety
-/// As for [`values`], and each is null or ends with a zero byte.
 unsafe fn texts<'a>(data: *const *const c_char, count: usize) -> Result<Vec<&'a str>, Failure> {
     unsafe {
         let names = values("names", data, count)?;

@@ -3,12 +3,11 @@
 use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Failure, Owned, Status, Text, run};
 use crate::handle::{at, free, handle, make};
 use crate::memory::{plain, put, put_all, put_numbers};
 use crate::robot::Robot;
 use crate::rows::Rows;
-use crate::text::{Owned, Text};
 
 /// The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
 pub struct CollisionModel {

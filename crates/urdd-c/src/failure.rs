@@ -1,14 +1,13 @@
-//! Status codes, and the text of the last error.
+//! Calls: what they return, texts that cross the border and that of the last error, and where the arrays of a call are.
 
 use std::cell::RefCell;
+use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 use urdd_validate::ValidateError;
 
-use crate::span::begin;
-use crate::text::{Owned, Text, constant};
 use crate::threads::ready;
 
 /// What a function returns. After any other than `URDD_STATUS_OK`, `urdd_error_message` says what is wrong.
@@ -115,7 +114,7 @@ pub extern "C" fn urdd_error_message() -> Text {
 pub(crate) fn run(act: impl FnOnce() -> Result<(), Failure>) -> Status {
     let act = || {
         ready();
-        begin();
+        let _ = ARRAYS.try_with(|arrays| arrays.borrow_mut().clear());
         act()
     };
     let failure = match catch_unwind(AssertUnwindSafe(act)) {
@@ -129,4 +128,78 @@ pub(crate) fn run(act: impl FnOnce() -> Result<(), Failure>) -> Status {
     // A thread that ends has no text any more, and the status still tells what it can.
     let _ = LAST.try_with(|last| last.replace(Owned::new(&failure.message)));
     failure.status
+}
+
+/// A text in UTF-8: `length` bytes at `data`, and a zero byte after them. A name can contain zero bytes itself.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct Text {
+    /// Its first byte; never null.
+    pub data: *const c_char,
+    /// Number of bytes, without the zero byte.
+    pub length: usize,
+}
+
+/// A text with its zero byte, which a handle or a thread owns.
+#[derive(Debug, Clone)]
+pub(crate) struct Owned(Box<[u8]>);
+
+impl Owned {
+    pub fn new(text: &str) -> Self {
+        Owned([text.as_bytes(), b"\0"].concat().into())
+    }
+
+    /// The same text for C, alive as long as `self`.
+    pub fn text(&self) -> Text {
+        Text { data: self.0.as_ptr().cast(), length: self.0.len() - 1 }
+    }
+}
+
+impl Default for Owned {
+    fn default() -> Self {
+        Owned::new("")
+    }
+}
+
+/// A text of the program. `with_zero` ends with a zero byte.
+pub(crate) const fn constant(with_zero: &'static str) -> Text {
+    Text { data: with_zero.as_ptr().cast(), length: with_zero.len() - 1 }
+}
+
+/// Where an array of the caller's is.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    pub what: &'static str,
+    pub address: usize,
+    pub bytes: usize,
+    pub is_written: bool,
+}
+
+thread_local! {
+    /// The arrays of the call that this thread is in: one that is written overlaps no other.
+    static ARRAYS: RefCell<Vec<Span>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Span {
+    /// The first array of this call that it clashes with. It counts among them from now on.
+    pub fn first_clash(self) -> Option<Span> {
+        // A thread that ends has no list any more.
+        let clash = ARRAYS.try_with(|arrays| {
+            let mut arrays = arrays.borrow_mut();
+            let other = arrays.iter().find(|other| other.clashes(&self)).copied();
+            arrays.push(self);
+            other
+        });
+        clash.ok().flatten()
+    }
+
+    /// Whether one of two arguments would be written over the other.
+    fn clashes(&self, other: &Span) -> bool {
+        (self.is_written || other.is_written)
+            && self.what != other.what
+            && self.bytes > 0
+            && other.bytes > 0
+            && self.address < other.address.saturating_add(other.bytes)
+            && other.address < self.address.saturating_add(self.bytes)
+    }
 }

@@ -168,9 +168,6 @@ impl FreeOf<'_> {
 }
 
 /// The settings, and what a solution must be free of.
-///
-/// # Safety
-/// `settings` is null or one that can be read, with its arrays and handles.
 unsafe fn settings<'a>(
     settings: *const Settings,
     dofs: usize,
@@ -220,9 +217,6 @@ unsafe fn settings<'a>(
 }
 
 /// A handle, unless it is null.
-///
-/// # Safety
-/// `handle` is null or open.
 unsafe fn optional<'a, T: Handle>(handle: *const T) -> Result<Option<&'a T>, Failure> {
     (!handle.is_null()).then(|| unsafe { at(handle) }).transpose()
 }

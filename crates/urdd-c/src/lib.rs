@@ -16,9 +16,7 @@ mod failure;
 mod handle;
 mod inverse;
 mod kinematics;
-mod limits;
 mod memory;
-mod named_configurations;
 mod names;
 mod obstacle;
 mod planning;
@@ -28,24 +26,21 @@ mod robot;
 mod rows;
 mod skips;
 mod space;
-mod span;
-mod text;
 mod threads;
 mod validate;
-mod workspace;
 mod world;
 
 use std::sync::LazyLock;
 
 use urdd_format::registry::PROGRAM_VERSION;
 
+use failure::Owned;
+
 pub use bodies::*;
 pub use collision_model::*;
 pub use failure::*;
 pub use inverse::*;
 pub use kinematics::*;
-pub use limits::*;
-pub use named_configurations::*;
 pub use names::*;
 pub use obstacle::*;
 pub use planning::*;
@@ -53,7 +48,6 @@ pub use proximity::*;
 pub use robot::*;
 pub use skips::*;
 pub use space::*;
-pub use text::*;
 pub use validate::*;
 pub use world::*;
 
@@ -73,4 +67,4 @@ pub extern "C" fn urdd_version() -> Text {
     VERSION.text()
 }
 
-static VERSION: LazyLock<text::Owned> = LazyLock::new(|| text::Owned::new(PROGRAM_VERSION));
+static VERSION: LazyLock<Owned> = LazyLock::new(|| Owned::new(PROGRAM_VERSION));

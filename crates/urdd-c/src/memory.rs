@@ -1,12 +1,13 @@
-//! Arrays and texts of the caller's.
+//! Arrays and texts of the caller's, and what a thread keeps.
 
+use std::cell::RefCell;
 use std::ffi::{CStr, c_char};
 use std::slice;
 
+use nalgebra::Isometry3;
 use urdd_robot::has_room;
 
-use crate::failure::{Failure, Status};
-use crate::span::Span;
+use crate::failure::{Failure, Span, Status};
 
 /// Types for which any memory full of zeros is a value.
 ///
@@ -196,4 +197,17 @@ pub(crate) unsafe fn read_text<'a>(
     let bytes = unsafe { CStr::from_ptr(text) };
     enough(what, bytes.count_bytes(), 4)?;
     bytes.to_str().map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
+}
+
+thread_local! {
+    /// Kept from one call to the next, so that calls on one configuration do not allocate.
+    static POSES: RefCell<Vec<Isometry3<f64>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Runs with this thread's poses. A thread that is ending keeps none any more, and starts from nothing.
+pub(crate) fn with_poses<T>(act: impl FnOnce(&mut Vec<Isometry3<f64>>) -> T) -> T {
+    let mut poses = POSES.try_with(RefCell::take).unwrap_or_default();
+    let found = act(&mut poses);
+    let _ = POSES.try_with(|kept| kept.replace(poses));
+    found
 }

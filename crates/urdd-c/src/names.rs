@@ -1,12 +1,54 @@
-//! Links, joints and DOFs: their numbers, names and indices.
+//! Links, joints, DOFs and named configurations: their numbers, names and indices.
 
 use std::ffi::c_char;
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Failure, Owned, Status, Text, constant, run};
 use crate::handle::at;
-use crate::memory::{check, put, put_numbers, read_text, room};
+use crate::memory::{check, put, put_all, put_numbers, read_text, room};
 use crate::robot::{Names, Robot};
-use crate::text::{Owned, Text, constant};
+
+/// Writes the number of configurations that a person named; 0 without named_configurations_module.
+///
+/// Errors: `UNUSABLE`: named_configurations_module.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_num_named_configurations(
+    handle: *const Robot,
+    out: *mut usize,
+) -> Status {
+    run(|| unsafe { put("out", out, at(handle)?.configuration_names()?.len()) })
+}
+
+/// Writes the name of a named configuration. It lives as long as the robot.
+///
+/// Errors: `OUT_OF_RANGE`; `UNUSABLE`: named_configurations_module.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_configuration_name(
+    handle: *const Robot,
+    index: usize,
+    out: *mut Text,
+) -> Status {
+    run(|| unsafe {
+        let name = nth("named configuration", at(handle)?.configuration_names()?, index)?;
+        put("out", out, name.text())
+    })
+}
+
+/// Writes a named configuration: `dofs` values, rad or m.
+///
+/// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `UNUSABLE`: named_configurations_module.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_named_configuration(
+    handle: *const Robot,
+    name: *const c_char,
+    configuration: *mut f64,
+    dofs: usize,
+) -> Status {
+    run(|| unsafe {
+        let known = at(handle)?.robot.named_configuration(read_text("name", name)?)?;
+        let shape = (1, known.len());
+        put_all(("configuration", configuration, dofs), shape, known.iter().copied())
+    })
+}
 
 /// Writes the number of links, joints and DOFs. Each of the three can be null.
 ///

@@ -22,10 +22,7 @@ const MESH: usize = 4096;
 
 handle!(Obstacle, "urdd_obstacle");
 
-/// The pose at `matrix`; null is the identity.
-///
-/// # Safety
-/// `matrix` is null, or there are 16 values at it.
+/// The pose at `matrix`, 16 values; null is the identity.
 pub(crate) unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failure> {
     if matrix.is_null() {
         return Ok(Isometry3::identity());
@@ -41,9 +38,6 @@ pub(crate) fn pose_of(matrix: &[f64]) -> Result<Isometry3<f64>, Failure> {
 }
 
 /// Makes an obstacle with a name at a pose.
-///
-/// # Safety
-/// As for [`make`] and [`placed`]; `name` is null or ends with a zero byte.
 unsafe fn named(
     name: *const c_char,
     pose: *const f64,

@@ -37,7 +37,6 @@ plain!(Overlap, ObstacleOverlap);
 
 impl Asked for Proximity {
     type Of = urdd_robot::Proximity;
-    type Found = urdd_robot::PairDistance;
     type Pair = PairDistance;
     type Overlap = Overlap;
 
@@ -52,7 +51,6 @@ impl Asked for Proximity {
 
 impl Asked for WorldProximity {
     type Of = urdd_robot::WorldProximity<Arc<urdd_robot::Proximity>>;
-    type Found = urdd_robot::ObstacleDistance;
     type Pair = ObstacleDistance;
     type Overlap = ObstacleOverlap;
 

@@ -5,13 +5,12 @@ use std::sync::{Arc, OnceLock};
 
 use urdd_robot::{PairDistance as RobotPair, Queries, RobotError, ShapeKind};
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Failure, Owned, Status, run};
 use crate::handle::{at, free, handle, make};
 use crate::memory::{plain, put_all, put_numbers, read_text};
 use crate::queries::Asked;
 use crate::robot::Robot;
 use crate::rows::Rows;
-use crate::text::Owned;
 
 /// The shapes of one kind of a robot, prepared for distances.
 pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>, OnceLock<Vec<Owned>>);

@@ -15,9 +15,8 @@ type Given = (*const f64, usize, usize);
 
 /// A handle whose pairs can be asked about. The functions have the contract of the interface.
 pub(crate) trait Asked: Handle + 'static {
-    type Of: Queries<Pair = Self::Found>;
-    /// What an answer says of a pair, in Rust and in C.
-    type Found: Into<Self::Pair>;
+    type Of: Queries<Pair: Into<Self::Pair>>;
+    /// What an answer says of a pair.
     type Pair: Plain + Send;
     type Overlap: Plain;
 

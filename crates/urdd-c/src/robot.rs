@@ -7,11 +7,10 @@ use urdd_directory::source::Archive;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_robot::RobotError;
 
-use crate::failure::{Failure, Status};
+use crate::failure::{Failure, Owned, Status};
 use crate::handle::{free, handle, make};
 use crate::memory::{enough, read_text, values};
 use crate::rows::Rows;
-use crate::text::Owned;
 
 /// A robot, as its URDD describes it.
 pub struct Robot {
@@ -59,9 +58,6 @@ impl Robot {
     }
 
     /// The caller's configurations.
-    ///
-    /// # Safety
-    /// As for [`Rows::new`].
     pub(crate) unsafe fn rows<'a>(
         &self,
         what: &'static str,

@@ -7,11 +7,10 @@ use urdd_validate::Run;
 use urdd_validate::report::json;
 use urdd_validate::settings::Settings;
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Failure, Owned, Status, Text, run};
 use crate::handle::{at, free, handle, make};
 use crate::memory::{put, read_text, values};
 use crate::robot::archive;
-use crate::text::{Owned, Text};
 
 /// What validation found.
 pub struct Report {
@@ -33,8 +32,6 @@ impl Report {
     }
 }
 
-/// # Safety
-/// `settings` is null or ends with a zero byte.
 unsafe fn settings_of(settings: *const c_char) -> Result<Settings, Failure> {
     if settings.is_null() {
         return Ok(Settings::default());

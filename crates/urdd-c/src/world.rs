@@ -7,11 +7,10 @@ use urdd_robot::{ObstacleDistance as RobotDistance, Queries, World, WorldProximi
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{at, at_mut, free, handle, make};
-use crate::memory::{enough, plain, put_all, put_numbers, values};
+use crate::memory::{enough, plain, put_all, put_numbers, values, with_poses};
 use crate::obstacle::{Obstacle, pose_of};
 use crate::proximity::Proximity;
 use crate::queries::Asked;
-use crate::workspace::with_poses;
 
 /// The shapes of a robot and obstacles, prepared for distances.
 pub struct WorldProximity(pub(crate) RobotWorld<Arc<urdd_robot::Proximity>>);

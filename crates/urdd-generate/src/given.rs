@@ -11,7 +11,7 @@ use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::ConfigurationEdit;
-use urdd_source::import::Imported;
+use urdd_import::Imported;
 use urdd_source::note::{Note, NoteKind};
 
 #[derive(Default, Clone, Copy)]

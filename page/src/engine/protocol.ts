@@ -350,6 +350,13 @@ export interface Explanation {
   explanation: string;
 }
 
+/** A robot description among files. */
+export interface Description {
+  path: string;
+  name: string;
+  format: "urdf" | "xacro" | "mjcf" | "sdf";
+}
+
 export interface FileEntry {
   path: string;
   size: number;

@@ -1,6 +1,6 @@
 /** The files of one robot, and those that the module already has. */
 
-import type { UrddModule } from "./module";
+import type { Urdd } from "./module";
 import type { FileEntry, RobotSource } from "./protocol";
 
 /** Number of files fetched at once. */
@@ -39,18 +39,18 @@ export class Store {
   private readonly places = new Map<string, string>();
 
   constructor(
-    private readonly module: UrddModule,
+    private readonly module: Urdd,
     private readonly source: RobotSource,
   ) {
     if (source.kind === "zip") {
-      this.open = module.filesOfZip(source.name, new Uint8Array(source.bytes));
+      this.open = module.zip(source.name, new Uint8Array(source.bytes));
       const listed = module.list(this.handle);
       this.name = listed.name;
       this.sizes = new Map(listed.files.map((file) => [file.path, file.size]));
       for (const path of this.sizes.keys()) this.given.add(path);
       return;
     }
-    this.open = module.newFiles(source.name);
+    this.open = module.files(source.name, {});
     this.name = source.name;
     if (source.kind === "local") {
       for (const { path, file } of source.files) this.local.set(path, file);
@@ -59,7 +59,7 @@ export class Store {
       this.sizes = new Map(source.files.map((file) => [file.path, file.size]));
       for (const { path, at } of source.files) if (at !== undefined) this.places.set(path, at);
     }
-    for (const [path, size] of this.sizes) module.nameFile(this.handle, path, size);
+    for (const [path, size] of this.sizes) module.name(this.handle, path, size);
   }
 
   /** The files in the module. A query that waited for a file may come after they are closed. */
@@ -70,7 +70,8 @@ export class Store {
 
   /** Closes a robot of these files, and the files. */
   close(robot: number): void {
-    this.module.close(this.handle, robot);
+    if (robot !== 0) this.module.close(robot);
+    this.module.closeFiles(this.handle);
     this.open = null;
   }
 
@@ -104,7 +105,7 @@ export class Store {
     const work = async (): Promise<void> => {
       for (let path = waiting.shift(); path !== undefined && this.open !== null; path = waiting.shift()) {
         try {
-          this.module.giveFile(this.handle, path, await this.read(path));
+          this.module.give(this.handle, path, await this.read(path));
           this.given.add(path);
           this.faults.delete(path);
         } catch (error) {

@@ -2,20 +2,29 @@
 
 import { decompress } from "brotli/decompress";
 import { check, isUrddArchive } from "../given";
-import { UrddModule } from "./module";
+import { compiled, contents, started } from "./module";
+import type { Urdd } from "./module";
 import { serve } from "./serve";
 import type { Handlers, OnProgress } from "./serve";
 import { Store } from "./store";
 import type { About, Calls, Clearances, CollisionModel, LinkMesh, MeshPaths, ShapeKind } from "./protocol";
 
-let module: UrddModule | null = null;
+const NO_VALIDATOR = "This page has no validator: drop the robot on the page of `urdd view`.";
+
+let module: Urdd | null = null;
 let store: Store | null = null;
 let robot = 0;
 let about: About | null = null;
 
-function engine(): UrddModule {
+function engine(): Urdd {
   if (!module) throw new Error("the engine is not loaded");
   return module;
+}
+
+/** The module of a page in one file does not validate. */
+function validator(): Urdd {
+  if (!engine().validates) throw new Error(NO_VALIDATOR);
+  return engine();
 }
 
 function opened(): { store: Store; about: About } {
@@ -31,7 +40,8 @@ function open(): number {
 
 const handlers: Handlers<Calls> = {
   async init({ wasm }) {
-    module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice());
+    const source = typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice();
+    module = await started(await compiled(source));
     return null;
   },
 
@@ -42,13 +52,13 @@ const handlers: Handlers<Calls> = {
     about = null;
     store = new Store(engineNow, source);
     await store.ensure(store.needed("about"), (done, of) => onProgress(done, of, "modules"));
-    robot = engineNow.openRobot(store.handle);
+    robot = engineNow.open(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
     return { about, files: store.list(), folder: store.name };
   },
 
   linkPoses({ q }) {
-    return engine().linkPoses(open(), q);
+    return engine().linkPosesBatch(open(), q);
   },
 
   random({ k }) {
@@ -121,7 +131,7 @@ const handlers: Handlers<Calls> = {
   },
 
   explain({ code }) {
-    return engine().explain(code) as Calls["explain"][1];
+    return validator().explain(code) as Calls["explain"][1];
   },
 
   async unzip({ zip }) {
@@ -133,14 +143,14 @@ const handlers: Handlers<Calls> = {
       listed.length,
       listed.reduce((sum, { size }) => sum + size, 0),
     );
-    return engine().contents(files);
+    return contents(engine(), files);
   },
 
   async validate({ name }, onProgress) {
     const { store } = opened();
     const all = store.list().map((file) => file.path);
     await store.ensure(all, (done, of) => onProgress(done, of, "files"));
-    return engine().validate(store.handle, name) as Calls["validate"][1];
+    return validator().validate(store.handle, name) as Calls["validate"][1];
   },
 };
 
@@ -169,14 +179,7 @@ function learned(q: number[]): Calls["proximity"][1]["model"] {
 function triangles(store: Store, link: number, piece: number, path: string | null): LinkMesh {
   if (path === null) return { link, piece, error: "it is outside of this URDD" };
   try {
-    const bytes = engine().mesh(store.handle, path);
-    const [vertices = 0, faces = 0] = new Uint32Array(bytes.buffer, 0, 2);
-    return {
-      link,
-      piece,
-      positions: new Float32Array(bytes.buffer, 8, 3 * vertices),
-      indices: new Uint32Array(bytes.buffer, 8 + 12 * vertices, 3 * faces),
-    };
+    return { link, piece, ...engine().mesh(store.handle, path) };
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) throw error;
     return { link, piece, error: `${path}: ${store.fault(path) ?? (error as Error).message}` };

@@ -1,7 +1,7 @@
 /** Workers that make robots. Their module is loaded when the first is started. */
 
 import { Link } from "../engine/link";
-import { compiled } from "../engine/wasm";
+import { compiled } from "../engine/module";
 import { named } from "../named";
 import type { Given, MakerCalls } from "./protocol";
 

@@ -1,6 +1,8 @@
 /** Messages between the page and a worker that makes robots. */
 
-import type { Report } from "../engine/protocol";
+import type { Description, Report } from "../engine/protocol";
+
+export type { Description };
 
 /** A file that was dropped, was in a .zip, or was made. */
 export interface Given {
@@ -16,13 +18,6 @@ export function lost(given: Given): Given {
 
 export function sizeOf(files: readonly Given[]): number {
   return files.reduce((sum, { file }) => sum + file.size, 0);
-}
-
-/** A description among files. */
-export interface Description {
-  path: string;
-  name: string;
-  format: "urdf" | "xacro" | "mjcf" | "sdf";
 }
 
 export interface MakeOptions {

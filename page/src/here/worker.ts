@@ -1,10 +1,12 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
+import { contents, started } from "../engine/module";
+import type { Urdd } from "../engine/module";
+import type { Report } from "../engine/protocol";
 import { serve } from "../engine/serve";
 import type { OnProgress } from "../engine/serve";
-import { MakeModule } from "./module";
 import { packed } from "./pack";
-import type { Given, MakerCalls } from "./protocol";
+import type { Description, Exported, Given, Imported, Made, MakerCalls } from "./protocol";
 import { bytes } from "../ui/format";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
@@ -17,7 +19,7 @@ declare class FileReaderSync {
   readAsArrayBuffer(file: Blob): ArrayBuffer;
 }
 
-let module: MakeModule | null = null;
+let module: Urdd | null = null;
 /** What is told of the job that runs. */
 let tell: OnProgress = () => undefined;
 const taken = new Map<string, Blob>();
@@ -25,7 +27,7 @@ let files = 0;
 const read = new Set<Blob>();
 let size = 0;
 
-function maker(): MakeModule {
+function maker(): Urdd {
   if (!module) throw new Error("the module is not loaded");
   return module;
 }
@@ -55,27 +57,29 @@ function content(path: string): Uint8Array {
 }
 
 async function opened(all: Given[]): Promise<number> {
-  const address = maker().newFiles("robot");
-  for (const { path, file } of all) maker().giveFile(address, path, new Uint8Array(await file.arrayBuffer()));
+  const address = maker().files("robot", {});
+  for (const { path, file } of all) maker().give(address, path, new Uint8Array(await file.arrayBuffer()));
   return address;
 }
 
 serve<MakerCalls>(
   {
     async init({ module: compiled }) {
-      module = await MakeModule.of(compiled, ({ what, done, of }) => tell(done, of, what), content);
+      module = await started(compiled);
+      module.tell = ({ what, done, of }) => tell(done, of, what);
+      module.content = content;
       return null;
     },
 
     take({ files: all }) {
       maker().closeFiles(files);
-      files = maker().newFiles("");
+      files = maker().files("", {});
       taken.clear();
       // Names may lead out of the files, as of a URDF that was dropped alone.
       maker().lose(files, "");
       for (const { path, file, isLost } of all) {
         taken.set(path, file);
-        maker().nameFile(files, path, file.size);
+        maker().name(files, path, file.size);
         if (isLost && !HAS_PLACE.test(path)) maker().lose(files, path);
       }
       return null;
@@ -83,7 +87,7 @@ serve<MakerCalls>(
 
     descriptions() {
       begin();
-      return maker().descriptions(files);
+      return maker().descriptions(files) as Description[];
     },
 
     put({ path, text }) {
@@ -93,29 +97,29 @@ serve<MakerCalls>(
 
     lint({ path }) {
       begin();
-      return maker().lint(files, path);
+      return maker().lint(files, { urdf: path, with_text: true }) as Report;
     },
 
     async generate({ path, donor, options }, onProgress) {
       const from = donor.length > 0 ? await opened(donor) : 0;
       tell = onProgress;
       begin();
-      const made = maker().generate(files, from, { path, ...options });
+      const made = maker().generate(files, { path, ...options }, from) as Made;
       maker().closeFiles(from);
-      return { ...made, files: maker().contents(made.files) };
+      return { ...made, files: contents(maker(), made.files) };
     },
 
     import({ path }) {
       begin();
-      const made = maker().imported(files, path);
-      return { main: made.urdf, files: maker().contents(made.files) };
+      const made = maker().importRobot(files, { path }) as Imported;
+      return { main: made.urdf, files: contents(maker(), made.files) };
     },
 
     async export({ urdd, format, output, actuators }) {
       const from = await opened(urdd);
-      const made = maker().exported(from, { format, output, actuators });
+      const made = maker().export(from, { format, output, actuators }) as Exported;
       maker().closeFiles(from);
-      return { main: made.main, notes: made.notes, files: maker().contents(made.files) };
+      return { main: made.main, notes: made.notes, files: contents(maker(), made.files) };
     },
 
     zip({ files: all }) {

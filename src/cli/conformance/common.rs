@@ -1,17 +1,20 @@
-//! Shared code of the commands that run an external program.
+//! Shared code of the commands that run an external program: arguments, the progress of a run, and its log.
 
-use std::fmt::Display;
-use std::fs;
-use std::io::{BufRead, BufReader, Read};
+use std::fmt::{self, Display};
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use parking_lot::Mutex;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::follow::{Follow, cannot_write};
 use crate::cli::output::{self, Failure, about};
 use crate::cli::signals::{self, Signals};
 use urdd_conformance::skips::{self, Skip};
@@ -23,11 +26,6 @@ const MAX_SKIP_BYTES: u64 = 1 << 20;
 
 /// Maximum length of a log line, in bytes. A command's output is limited to 2,000 in it.
 const MAX_LOG_LINE: u64 = 1 << 20;
-
-/// Exit status: everything passed, except for skipped items.
-const PASSED: u8 = 0;
-/// Exit status: something failed, or a skip is stale.
-const FAILED: u8 = 1;
 
 /// Arguments of both commands.
 #[derive(Args)]
@@ -60,7 +58,7 @@ pub struct RunArguments {
 
     /// Number of commands that run at the same time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
+    pub jobs: Option<u16>,
 
     /// Keeps the folders that the command runs on in this folder, which must be new or empty.
     #[arg(long, value_name = "DIR")]
@@ -84,11 +82,6 @@ impl RunArguments {
     /// The time limit.
     pub fn limit(&self) -> Duration {
         Duration::from_secs(self.timeout)
-    }
-
-    /// The requested number of concurrent commands.
-    pub fn jobs(&self) -> Option<usize> {
-        self.jobs.map(usize::from)
     }
 
     /// Creates the progress display and the log.
@@ -129,13 +122,18 @@ impl RunArguments {
         Ok(skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
     }
 
-    /// Prints a result, and writes it to the file of `--output`.
-    pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), Failure> {
-        let json = report::json(result)?;
+    /// Prints a result, and writes it to the file of `--output`. `human` writes it for people.
+    pub fn print<T: Serialize>(
+        &self,
+        result: &T,
+        human: impl Fn(&T, &mut String) -> fmt::Result,
+    ) -> Result<(), Failure> {
+        let (json, mut text) = (report::json(result)?, String::new());
+        human(result, &mut text)?;
         if let Some(file) = &self.output {
             output::write_file(file, &json)?;
         }
-        Ok(output::print(if self.format == Format::Json { &json } else { human })?)
+        Ok(output::print(if self.format == Format::Json { &json } else { &text })?)
     }
 }
 
@@ -152,9 +150,145 @@ fn is_log(file: &Path) -> bool {
     has("end") && (has("id") || has("robot"))
 }
 
-/// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, or
-/// an error message.
-pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> ExitCode {
+/// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, except
+/// for skipped items; a failed item and a stale skip have the exit status 1.
+pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; all started processes have ended";
-    signals::run(Some(stopped), |signals| Ok(if result(signals)? { PASSED } else { FAILED }))
+    signals::run(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
+}
+
+/// Time between two lines where standard error is not a terminal.
+const INTERVAL: Duration = Duration::from_secs(10);
+
+/// The message for a file that cannot be written.
+fn cannot_write(file: &Path, error: &std::io::Error) -> String {
+    format!("{}: cannot be written: {error}", file.display())
+}
+
+/// A progress bar on a terminal, or else a line every ten seconds; and the log.
+pub struct Follow {
+    bar: ProgressBar,
+    state: Arc<Mutex<State>>,
+    /// Dropped at the end: no more lines.
+    lines: Option<Sender<()>>,
+}
+
+#[derive(Default)]
+struct State {
+    log: Option<(PathBuf, File)>,
+    /// Number of items to run.
+    of: usize,
+    done: usize,
+    wrong: usize,
+    /// Why the log could not be written.
+    failed: Option<String>,
+}
+
+impl State {
+    fn line(&self) -> String {
+        format!("{} of {}, {} wrong", self.done, self.of, self.wrong)
+    }
+}
+
+impl Follow {
+    /// Begins to follow a run. `log` is an open file with its path.
+    pub fn new(log: Option<(PathBuf, File)>) -> Follow {
+        if std::io::stderr().is_terminal() {
+            return Follow::with(ProgressDrawTarget::stderr(), log);
+        }
+        let mut follow = Follow::with(ProgressDrawTarget::hidden(), log);
+        follow.print_every(INTERVAL, |line| {
+            // Nobody may read it.
+            let _ = writeln!(std::io::stderr().lock(), "{line}");
+        });
+        follow
+    }
+
+    fn with(target: ProgressDrawTarget, log: Option<(PathBuf, File)>) -> Follow {
+        let bar = ProgressBar::with_draw_target(None, target);
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} {eta}") {
+            bar.set_style(style);
+        }
+        let state = State { log, ..State::default() };
+        Follow { bar, state: Arc::new(Mutex::new(state)), lines: None }
+    }
+
+    fn print_every(&mut self, interval: Duration, print: impl Fn(&str) + Send + 'static) {
+        let (end, ended) = channel();
+        let state = self.state.clone();
+        self.lines = Some(end);
+        thread::spawn(move || {
+            while ended.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
+                print(&state.lock().line());
+            }
+        });
+    }
+
+    /// Sets the number of items to run.
+    pub fn start(&self, of: usize) {
+        self.state.lock().of = of;
+        self.bar.set_length(of as u64);
+        self.bar.tick();
+    }
+
+    /// Prints a line while it runs.
+    pub fn say(&self, line: &str) {
+        match self.lines {
+            // Nobody may read it.
+            Some(_) => drop(writeln!(std::io::stderr().lock(), "{line}")),
+            None => self.bar.println(line),
+        }
+    }
+
+    /// Records a finished item.
+    pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
+        let mut state = self.state.lock();
+        state.done += 1;
+        state.wrong += usize::from(wrong);
+        if let (Some(result), Some((path, file))) = (result, &mut state.log) {
+            // A single write, so that an interrupted run leaves complete lines.
+            let line = serde_json::to_string(result).map_err(std::io::Error::from);
+            let written = line.and_then(|line| file.write_all((line + "\n").as_bytes()));
+            if let Err(error) = written {
+                let message = cannot_write(path, &error);
+                state.log = None;
+                state.failed = Some(message);
+            }
+        }
+        if state.wrong > 0 {
+            self.bar.set_message(format!("{} wrong", state.wrong));
+        }
+        self.bar.inc(1);
+    }
+
+    /// Ends the run.
+    pub fn finish(mut self) -> Result<(), String> {
+        self.lines.take();
+        self.bar.finish_and_clear();
+        self.state.lock().failed.take().map_or(Ok(()), Err)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_while_it_runs_and_end_with_it() {
+        let (printed, lines) = channel();
+        let mut follow = Follow::with(ProgressDrawTarget::hidden(), None);
+        follow.start(3);
+        follow.done(true, None::<&()>);
+        follow.done(false, None::<&()>);
+        follow.print_every(Duration::from_millis(5), move |line| {
+            let _ = printed.send(line.to_owned());
+        });
+        let wait = Duration::from_secs(60);
+        assert_eq!(lines.recv_timeout(wait).as_deref(), Ok("2 of 3, 1 wrong"));
+        assert!(lines.recv_timeout(wait).is_ok());
+        follow.finish().expect("no log to write");
+        // The thread ends, and its end of the channel with it.
+        while lines.recv_timeout(wait).is_ok() {}
+        assert_eq!(lines.recv_timeout(wait), Err(RecvTimeoutError::Disconnected));
+    }
 }

@@ -1,26 +1,27 @@
-//! `urdd conformance`: one file per subcommand.
+//! `urdd conformance`: `export` here, and a file for each of the other commands.
 
 mod common;
-mod export;
-mod follow;
 mod producer;
 mod validator;
 
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand};
+use clap::Subcommand;
 
-/// Arguments of `urdd conformance`.
-#[derive(Args)]
-pub struct ConformanceArguments {
-    #[command(subcommand)]
-    command: Command,
-}
+use super::output::{self, Failure};
+use crate::suite;
+use urdd_conformance::catalogue::CATALOGUE;
+use urdd_conformance::export::export;
 
+/// The commands of `urdd conformance`.
 #[derive(Subcommand)]
-enum Command {
+pub enum ConformanceCommand {
     /// Write the suite into a folder.
-    Export(export::ExportArguments),
+    Export {
+        /// Folder to write the suite into, new or empty: robots, URDDs, and suite.json with the expected results.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
     /// Run a producer on the suite's robots, and score the URDDs that it writes.
     Producer(producer::ProducerArguments),
     /// Run a validator on every case, and score its verdicts.
@@ -28,10 +29,26 @@ enum Command {
 }
 
 /// Runs `urdd conformance`.
-pub fn run(arguments: &ConformanceArguments) -> ExitCode {
-    match &arguments.command {
-        Command::Export(arguments) => export::run(arguments),
-        Command::Producer(arguments) => producer::run(arguments),
-        Command::Validator(arguments) => validator::run(arguments),
+pub fn run(command: &ConformanceCommand) -> Result<u8, Failure> {
+    match command {
+        ConformanceCommand::Export { folder } => exported(folder),
+        ConformanceCommand::Producer(arguments) => producer::run(arguments),
+        ConformanceCommand::Validator(arguments) => validator::run(arguments),
     }
+}
+
+fn exported(folder: &Path) -> Result<u8, Failure> {
+    let exported = export(&suite::carried()?, folder)?;
+    let (valid, cases) = (exported.valid, exported.cases);
+    let mut text = format!("{valid} valid URDDs and {cases} cases; {CATALOGUE} lists them\n");
+    for case in &exported.left_out {
+        text += &format!("left out, since this operating system cannot store it: {case}\n");
+    }
+    for robot in &exported.other_bytes {
+        text += &format!(
+            "valid/{robot} is correct, but its bytes differ from those that the suite was checked with, due to the platform\n"
+        );
+    }
+    output::print(&text)?;
+    Ok(0)
 }

@@ -1,7 +1,6 @@
 //! `urdd conformance producer`.
 
 use std::fmt::Write;
-use std::process::ExitCode;
 
 use clap::Args;
 
@@ -39,7 +38,7 @@ pub struct ProducerArguments {
 }
 
 /// Runs `urdd conformance producer`.
-pub fn run(arguments: &ProducerArguments) -> ExitCode {
+pub fn run(arguments: &ProducerArguments) -> Result<u8, Failure> {
     common::run(|signals| result(arguments, signals))
 }
 
@@ -50,7 +49,7 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Fail
         robots: arguments.robots.clone(),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,
-        jobs: arguments.run.jobs().unwrap_or(1),
+        jobs: arguments.run.jobs.map_or(1, usize::from),
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
@@ -64,9 +63,7 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Fail
     let result = run_producer(&plan, &suite, &observe);
     follow.finish()?;
     let result = result?;
-    let mut text = String::new();
-    human(&result, &mut text)?;
-    arguments.run.print(&result, &text)?;
+    arguments.run.print(&result, human)?;
     Ok(result.passed)
 }
 

@@ -1,7 +1,6 @@
 //! `urdd conformance validator`.
 
 use std::fmt::Write;
-use std::process::ExitCode;
 
 use clap::Args;
 use semver::Version;
@@ -54,7 +53,7 @@ pub struct ValidatorArguments {
 }
 
 /// Runs `urdd conformance validator`.
-pub fn run(arguments: &ValidatorArguments) -> ExitCode {
+pub fn run(arguments: &ValidatorArguments) -> Result<u8, Failure> {
     common::run(|signals| result(arguments, signals))
 }
 
@@ -72,7 +71,7 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Fai
         only: arguments.only.clone(),
         legacy: !arguments.no_legacy,
         reject_status: arguments.reject_status,
-        jobs: arguments.run.jobs(),
+        jobs: arguments.run.jobs.map(usize::from),
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
@@ -91,9 +90,7 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Fai
     let result = run_validator(&plan, &suite, &observe);
     follow.finish()?;
     let result = result?;
-    let mut text = String::new();
-    human(&result, &mut text)?;
-    arguments.run.print(&result, &text)?;
+    arguments.run.print(&result, human)?;
     Ok(result.passed)
 }
 

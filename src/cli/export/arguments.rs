@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::mjcf::MjcfArguments;
 use crate::cli::words::{Shapes, Skip};
-use urdd_export::{Detail, Fit, Format, Ros, SAMPLES, SPHERES, TOTAL_SPHERES};
+use urdd_export::{
+    ActuatorKind, BANDWIDTH, Detail, Fit, Format, Ros, SAMPLES, SPHERES, TOTAL_SPHERES,
+};
 
 /// Arguments of `urdd export`.
 #[derive(Args)]
@@ -96,8 +97,22 @@ pub struct ExportArguments {
     #[arg(long, value_name = "LINK")]
     pub root: Option<String>,
 
-    #[command(flatten)]
-    pub mjcf: MjcfArguments,
+    /// MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = Actuators::None)]
+    pub actuators: Actuators,
+
+    /// MJCF and USD: the frequency below which a joint follows its actuator, Hz.
+    /// Default: that of `NAME.export.toml`, or 10.
+    #[arg(long, value_name = "HZ", value_parser = |word: &str| BANDWIDTH.parse::<f64>(word))]
+    pub bandwidth: Option<f64>,
+
+    /// MJCF: a gyroscope and an accelerometer at each IMU frame of `NAME.export.toml`.
+    #[arg(long)]
+    pub sensors: bool,
+
+    /// MJCF: writes a scene with floor and light beside the file: `NAME_scene.xml`.
+    #[arg(long)]
+    pub scene: bool,
 
     /// cuRobo: writes the whole robot file, for the URDF of this path. Default: the name of the source.
     #[arg(long, value_name = "URDF", num_args = 0..=1, require_equals = true)]
@@ -185,5 +200,24 @@ impl Target {
     /// Whether it is a single file.
     pub fn is_alone(self) -> bool {
         matches!(self, Target::Srdf | Target::Curobo | Target::Foam)
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Actuators {
+    /// No actuators.
+    None,
+    /// They are told positions, rad or m.
+    Position,
+    /// They are told velocities, rad/s or m/s.
+    Velocity,
+    /// They are told torques or forces, N m or N.
+    Motor,
+}
+
+impl Actuators {
+    /// The kind, which has the same word; `None` for no actuators.
+    pub fn kind(self) -> Option<ActuatorKind> {
+        ActuatorKind::named(self.to_possible_value()?.get_name())
     }
 }

@@ -6,8 +6,6 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::names::{safe, widest};
-use super::order;
 use super::parts::{self, PartInfo};
 use super::skipped::{self, SkippedContact};
 use super::statics::Statics;
@@ -15,6 +13,7 @@ use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_export::JointOrder;
 use urdd_format::dof::Quantity;
+use urdd_format::escape;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -179,17 +178,8 @@ pub struct ModuleInfo {
     pub unusable: Option<String>,
 }
 
-/// Those of a URDD that has skips: others are not opened again.
-fn skipped_contacts(urdd: &Urdd, path: &Path) -> Option<Vec<SkippedContact>> {
-    urdd.document(ModuleKind::LinkShapesSkips)?;
-    SkippedContact::all(path)
-}
-
 impl Info {
     /// Reads the URDD at `path`. `name` is its name in reports.
-    ///
-    /// # Errors
-    /// If its folder cannot be read.
     pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
         let urdd = Urdd::read(path)?;
         let robot = urdd.robot();
@@ -223,7 +213,9 @@ impl Info {
             parts: composition.map_or_else(Vec::new, |of| parts::tree(&of.parts, robot)),
             collision_model: model,
             geometry: GeometryInfo::of(&urdd),
-            skipped_contacts: skipped_contacts(&urdd, path),
+            // A URDD without skips is not opened again.
+            skipped_contacts: (urdd.document(ModuleKind::LinkShapesSkips))
+                .and_then(|_| SkippedContact::all(path)),
             modules: urdd
                 .modules()
                 .map(|module| {
@@ -272,9 +264,6 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
 }
 
 /// Writes the contents of a URDD for people.
-///
-/// # Errors
-/// If writing fails.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let or = |text: &Option<String>, without: &str| safe(text.as_deref().unwrap_or(without));
     writeln!(out, "{}", safe(&info.path))?;
@@ -326,7 +315,60 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
         )?;
     }
     if let Some(orders) = &info.order {
-        order::write(orders, out)?;
+        write_orders(orders, out)?;
     }
     info.statics.as_ref().map_or(Ok(()), |statics| statics.write(out))
+}
+
+/// Writes the joints for people: a column for each order, with the programs that have it.
+fn write_orders(orders: &[JointOrder], out: &mut impl Write) -> fmt::Result {
+    columns("order", "of joints that move", orders, |order| &order.joints, out)?;
+    columns("actuators", "of exports that have them", orders, |order| &order.actuators, out)
+}
+
+fn columns(
+    what: &str,
+    of: &str,
+    orders: &[JointOrder],
+    list: fn(&JointOrder) -> &Vec<String>,
+    out: &mut impl Write,
+) -> fmt::Result {
+    let mut columns: Vec<(&Vec<String>, Vec<&str>)> = Vec::new();
+    for order in orders.iter().filter(|order| !list(order).is_empty()) {
+        match columns.iter_mut().find(|(known, _)| *known == list(order)) {
+            Some((_, programs)) => programs.push(order.program),
+            None => columns.push((list(order), vec![order.program])),
+        }
+    }
+    if columns.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "  {what:9} {of}")?;
+    let heads: Vec<String> = columns.iter().map(|(_, programs)| programs.join(", ")).collect();
+    let widths =
+        columns.iter().zip(&heads).map(|((names, _), head)| widest(names.iter()).max(head.len()));
+    let widths: Vec<usize> = widths.collect();
+    let mut line = |first: String, cell: &dyn Fn(usize) -> String| {
+        let cells = widths.iter().enumerate().map(|(k, width)| format!("  {:width$}", cell(k)));
+        writeln!(out, "{}", format!("    {first:>3}{}", cells.collect::<String>()).trim_end())
+    };
+    line(String::new(), &|column| heads[column].clone())?;
+    let longest = columns.iter().map(|(names, _)| names.len()).max().unwrap_or(0);
+    for row in 0..longest {
+        line(row.to_string(), &|column| {
+            columns[column].0.get(row).map_or(String::new(), |name| safe(name))
+        })?;
+    }
+    Ok(())
+}
+
+/// A name on one line.
+fn safe(text: &str) -> String {
+    escape::line(text).into_owned()
+}
+
+/// The width of the longest of these names, in characters.
+fn widest<'a>(names: impl Iterator<Item = &'a String>) -> usize {
+    let widths = names.map(|name| safe(name).chars().count());
+    widths.max().unwrap_or(0)
 }

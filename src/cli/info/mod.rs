@@ -1,8 +1,6 @@
 //! `urdd info`.
 
 mod contents;
-mod names;
-mod order;
 mod parts;
 mod robots;
 mod skipped;
@@ -10,12 +8,11 @@ mod statics;
 
 use std::fmt::Display;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
 use super::inputs;
-use super::output::{self, Failure, one_line};
+use super::output::{Failure, one_line};
 use contents::Info;
 use robots::robot_files;
 use statics::{Statics, StaticsArguments};
@@ -52,12 +49,8 @@ enum Format {
     Json,
 }
 
-/// Runs `urdd info`.
-pub fn run(arguments: &InfoArguments) -> ExitCode {
-    output::printed(tell(arguments))
-}
-
-fn tell(arguments: &InfoArguments) -> Result<String, Failure> {
+/// Runs `urdd info`. Returns what to print.
+pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
     let (mut infos, mut files) = (Vec::new(), Vec::new());
     for path in &arguments.paths {
         let found = match discover(path) {

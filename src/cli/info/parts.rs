@@ -92,9 +92,6 @@ pub(super) fn base(base: Option<&CompositionBase>, robot: Option<&Robot>) -> Opt
 }
 
 /// Writes the tree for people.
-///
-/// # Errors
-/// If writing fails.
 pub(super) fn write(parts: &[PartInfo], margin: &str, out: &mut impl Write) -> fmt::Result {
     for part in parts {
         write!(out, "{margin}{}", escape::line(&part.id))?;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::super::output::{self, about, shown};
-use super::super::packages::around;
+use crate::cli::output::{self, about, shown};
+use crate::cli::sources::around;
 use urdd_directory::file_type::FileType;
 use urdd_format::escape;
 use urdd_source::arguments::{XacroArgument, arguments};
@@ -29,22 +29,19 @@ struct ArgumentInfo {
     is_needed: bool,
 }
 
-impl From<XacroArgument> for ArgumentInfo {
-    fn from(XacroArgument { name, default, values, is_needed, .. }: XacroArgument) -> Self {
-        ArgumentInfo { name, default, values, is_needed }
-    }
-}
-
 /// The xacro files of robots at or below a path. Nothing is run.
-///
-/// # Errors
-/// If there are none.
 pub fn robot_files(path: &Path) -> Result<Vec<RobotFile>, BatchError> {
     let settings = around();
     let of = |source: PathBuf| {
         let found = arguments(&source, &settings);
         let found = found.inspect_err(|error| output::error(&about(&source)(error)));
-        let arguments = found.unwrap_or_default().into_iter().map(ArgumentInfo::from).collect();
+        let info = |XacroArgument { name, default, values, is_needed, .. }| ArgumentInfo {
+            name,
+            default,
+            values,
+            is_needed,
+        };
+        let arguments = found.unwrap_or_default().into_iter().map(info).collect();
         RobotFile { source: source.to_string_lossy().replace('\\', "/"), arguments }
     };
     let mut jobs = jobs(&[path.to_owned()], &settings)?;
@@ -53,9 +50,6 @@ pub fn robot_files(path: &Path) -> Result<Vec<RobotFile>, BatchError> {
 }
 
 /// Writes a file, with a line for each argument.
-///
-/// # Errors
-/// If writing fails.
 pub fn write(file: &RobotFile, out: &mut String) -> fmt::Result {
     writeln!(out, "{}", shown(Path::new(&file.source)))?;
     if file.arguments.is_empty() {

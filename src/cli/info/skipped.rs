@@ -53,9 +53,6 @@ impl SkippedContact {
 }
 
 /// Writes the pairs for people.
-///
-/// # Errors
-/// If writing fails.
 pub fn write(found: &[SkippedContact], out: &mut impl Write) -> fmt::Result {
     let Some(SkippedContact { num_samples, .. }) = found.first() else {
         return Ok(());

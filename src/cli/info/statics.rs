@@ -134,9 +134,6 @@ impl Statics {
     }
 
     /// Writes the table for people.
-    ///
-    /// # Errors
-    /// If writing fails.
     pub fn write(&self, out: &mut impl Write) -> fmt::Result {
         const MARGIN: &str = "            ";
         let payload = self.payload.as_ref().map(|PayloadInfo { link, mass }| {

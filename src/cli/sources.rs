@@ -1,0 +1,178 @@
+//! The arguments that say how a description is read: where its mesh files are, how xacro files are expanded, and which
+//! robots a settings file declares of them.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::{Args, ValueEnum};
+
+use super::output::{Failure, one_line, shown};
+use super::reporting::settings_file;
+use urdd_lint::declared;
+use urdd_source::ImportOptions;
+use urdd_source::{Declared, Packages, Settings, XACRO_TIMEOUT, XacroSettings, declared_of};
+use urdd_validate::settings_file::SETTINGS_FILE;
+
+/// Where the mesh files of a URDF are.
+#[derive(Args)]
+pub(super) struct PackageArguments {
+    /// Folder of a ROS package that a URDF names. May be repeated.
+    #[arg(long = "package", value_name = "NAME=PATH")]
+    packages: Vec<String>,
+
+    /// Additional folder that the mesh files of a URDF may be read from, and the parts of a recipe, besides those of the
+    /// robot, its packages and the recipe. May be repeated.
+    #[arg(long = "allow-folder", value_name = "DIR")]
+    allowed_folders: Vec<PathBuf>,
+
+    /// The body of an MJCF that is the root of the robot; default: told by the structure.
+    #[arg(long, value_name = "NAME")]
+    body: Option<String>,
+
+    /// The model of an SDF file that has several.
+    #[arg(long, value_name = "NAME")]
+    model: Option<String>,
+
+    /// How a ball joint of an MJCF or SDF is written: as a spherical joint, which few programs read, or as three revolute
+    /// joints.
+    #[arg(long, value_enum, default_value_t = Ball::Spherical, value_name = "JOINTS")]
+    ball: Ball,
+
+    /// The mass of the links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m², which
+    /// MuJoCo asks of what moves.
+    #[arg(long, value_enum, default_value_t = Massless::None, value_name = "MASS")]
+    massless: Massless,
+}
+
+/// The mass of links between joints.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Massless {
+    /// None.
+    None,
+    /// 1e-9 kg and 1e-9 kg m².
+    Tiny,
+}
+
+/// How a ball joint is written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Ball {
+    /// As one joint of the type `spherical`.
+    Spherical,
+    /// As three revolute joints.
+    Revolute,
+}
+
+/// Settings with the packages that the environment names; the others are the defaults.
+pub(super) fn around() -> Settings {
+    let packages = Packages::from_environment(|name| std::env::var_os(name));
+    Settings { packages, ..Settings::default() }
+}
+
+impl PackageArguments {
+    /// Settings that use them; the others are the defaults.
+    pub(super) fn settings(&self) -> Result<Settings, Failure> {
+        let mut settings = around();
+        for argument in &self.packages {
+            let added = settings.packages.add(argument);
+            added.map_err(|error| format!("--package: {}", one_line(error)))?;
+        }
+        if let Some(folder) = self.allowed_folders.iter().find(|it| !it.is_dir()) {
+            Err(format!("--allow-folder: {} is not a folder", shown(folder)))?;
+        }
+        Ok(Settings {
+            allowed_folders: self.allowed_folders.clone(),
+            import: ImportOptions {
+                body: self.body.clone(),
+                model: self.model.clone(),
+                has_revolute_balls: self.ball == Ball::Revolute,
+                has_tiny_masses: self.massless == Massless::Tiny,
+            },
+            ..settings
+        })
+    }
+}
+
+/// How xacro files are expanded.
+#[derive(Args)]
+pub(super) struct XacroArguments {
+    /// Also expands macros in .urdf files, and the xacro files named in a recipe, found in a folder by `view` or `lint`, or found
+    /// by `lint` as an SRDF of the robot.
+    #[arg(long)]
+    pub(super) xacro: bool,
+
+    /// Time limit for xacro per file, in seconds.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = timeout)]
+    xacro_timeout: Duration,
+}
+
+fn timeout(word: &str) -> Result<Duration, String> {
+    let seconds = XACRO_TIMEOUT.parse(word)?;
+    XacroSettings::seconds(seconds).map_err(|error| error.to_string())
+}
+
+impl XacroArguments {
+    /// Settings that use them, with these arguments for the files.
+    pub(super) fn settings(&self, arguments: Vec<String>) -> XacroSettings {
+        XacroSettings { expand_urdf: self.xacro, arguments, time_limit: self.xacro_timeout }
+    }
+}
+
+/// Splits the words into robots and xacro arguments.
+pub(super) fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
+    let (mut robots, mut arguments) = (Vec::new(), Vec::new());
+    for word in words {
+        let text = word.to_str().unwrap_or_default();
+        let is_argument = text.split_once(":=").is_some_and(|(name, _)| {
+            let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+            !name.is_empty() && name.chars().all(is_of_name)
+        });
+        if is_argument { arguments.push(text.to_owned()) } else { robots.push(word.clone()) }
+    }
+    (robots, arguments)
+}
+
+/// The xacro arguments, where nothing else may be.
+pub(super) fn only_arguments(words: &[PathBuf]) -> Result<Vec<String>, Failure> {
+    match split(words) {
+        (others, arguments) if others.is_empty() => Ok(arguments),
+        (others, _) => Err(format!(
+            "{}: not an argument of xacro, which has the form name:=value",
+            shown(&others[0])
+        ))?,
+    }
+}
+
+/// Where robots are declared.
+#[derive(Args)]
+pub(super) struct RobotArguments {
+    /// Settings file that declares robots of xacro files, as [[robot]]; default: urdd.toml in the current folder, if it
+    /// exists.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+}
+
+impl RobotArguments {
+    /// The robots that the settings file declares.
+    pub(super) fn declared(&self) -> Result<Vec<Declared>, Failure> {
+        Ok(declared(&settings_file(self.config.as_deref())?))
+    }
+
+    /// The arguments of the only robot that it declares of a file; `None` where it declares none.
+    pub(super) fn arguments_of(&self, file: &Path) -> Result<Option<Vec<String>>, Failure> {
+        match declared_of(file, &self.declared()?).as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some(one.arguments.clone())),
+            several @ [first, ..] => {
+                let settings = self.config.as_deref().unwrap_or(Path::new(SETTINGS_FILE));
+                let words = format!(
+                    "{}: {} declares {} robots of it; give the arguments of one, such as `{}`",
+                    shown(file),
+                    shown(settings),
+                    several.len(),
+                    one_line(first.arguments.join(" "))
+                );
+                Err(words.into())
+            }
+        }
+    }
+}
