@@ -11,6 +11,7 @@ use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::read_error::ReadError;
+use urdd_directory::regular;
 use urdd_directory::replacement::{Files, Replacement};
 use urdd_directory::root::Root;
 use urdd_directory::source::is_archive;
