@@ -4,8 +4,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-use super::solids::polytope::Dents;
-use super::solids::polytope::NotConvex;
+use super::solids::polytope::{Dents, NotConvex};
 use urdd_findings::code::Code;
 
 /// Results by key, each computed once.

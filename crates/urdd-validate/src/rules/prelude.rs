@@ -2,6 +2,9 @@
 
 pub(super) use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
+pub(super) use nalgebra::Vector3;
+pub(super) use rayon::prelude::*;
+
 pub(super) use crate::context::Context;
 pub(super) use crate::finding::{Compared, finding_in};
 pub(super) use crate::memo::Farthest;

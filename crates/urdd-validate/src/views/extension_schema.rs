@@ -7,8 +7,7 @@ use jsonschema::error::ValidationErrorKind;
 use jsonschema::{ValidationError, ValidationOptions, Validator};
 use serde_json::Value;
 
-use super::annotated::Counts;
-use super::annotated::{self, Judged};
+use super::annotated::{self, Counts, Judged};
 use super::schema_work::{affordable_work, schemas_in};
 use urdd_directory::json;
 use urdd_directory::root::ReadError;

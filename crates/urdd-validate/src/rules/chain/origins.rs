@@ -1,5 +1,3 @@
-use nalgebra::Vector3;
-
 use crate::rules::prelude::*;
 use urdd_document::pose::rotation_of_quaternion;
 

@@ -1,5 +1,3 @@
-use rayon::prelude::*;
-
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_findings::finding::{KEPT_PLACES, Place};

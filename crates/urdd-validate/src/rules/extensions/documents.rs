@@ -2,8 +2,7 @@ use serde_json::Value;
 use std::sync::Arc;
 
 use crate::rules::prelude::*;
-use crate::views::annotated::Counts;
-use crate::views::annotated::Judged;
+use crate::views::annotated::{Counts, Judged};
 use urdd_document::module::is_extension;
 use urdd_document::schema_check;
 

@@ -4,8 +4,7 @@ use crate::reference::{MimicDofs, Reference};
 use crate::rules::prelude::*;
 use urdd_document::consumer;
 use urdd_kinematics::rotation::canonical;
-use urdd_kinematics::unit;
-use urdd_kinematics::{ConfigurationError, ForwardKinematics};
+use urdd_kinematics::{ConfigurationError, ForwardKinematics, unit};
 
 declare_rule! {
     /// The poses that follow from the modules are not those that follow from the carried URDF.

@@ -1,9 +1,6 @@
-use rayon::prelude::*;
-
 use crate::rules::prelude::*;
 use crate::solids::derived::{Derived, noun};
-use crate::solids::polytope::{Dents, dents};
-use crate::solids::polytope::{NotConvex, not_convex};
+use crate::solids::polytope::{Dents, NotConvex, dents, not_convex};
 use urdd_geometry::surface::extent;
 
 declare_rule! {

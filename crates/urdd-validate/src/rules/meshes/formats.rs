@@ -1,8 +1,7 @@
 use std::io::BufReader;
 
 use crate::rules::prelude::*;
-use crate::solids::derived::in_words;
-use crate::solids::derived::{DerivedFile, noun};
+use crate::solids::derived::{DerivedFile, in_words, noun};
 use crate::solids::file::MeshFault;
 use crate::solids::glb_chunks;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;

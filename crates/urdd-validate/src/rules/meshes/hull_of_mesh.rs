@@ -1,5 +1,3 @@
-use rayon::prelude::*;
-
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, step};

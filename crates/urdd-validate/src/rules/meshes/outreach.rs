@@ -1,5 +1,3 @@
-use nalgebra::Vector3;
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 use crate::rules::prelude::*;

@@ -1,6 +1,3 @@
-use nalgebra::Vector3;
-use rayon::prelude::*;
-
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use urdd_geometry::surface::extent;

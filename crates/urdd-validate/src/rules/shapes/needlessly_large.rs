@@ -1,6 +1,3 @@
-use nalgebra::Vector3;
-use rayon::prelude::*;
-
 use crate::rules::prelude::*;
 use crate::views::enclosure::Enclosure;
 use crate::views::judged::enclosures;

@@ -1,6 +1,5 @@
 use crate::rules::prelude::*;
-use crate::views::tangled::CONTACT;
-use crate::views::tangled::{Tangled, of_pair, sound_pairs};
+use crate::views::tangled::{CONTACT, Tangled, of_pair, sound_pairs};
 use urdd_document::shape_matrices::{Elements, at, reasons, skips};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 
