@@ -4,7 +4,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use urdd_generate::combine::CombineError;
 use urdd_generate::{GenerateError, SourceError};
-use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
 use crate::advice;
@@ -39,18 +38,11 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         RobotError::Open { .. } | RobotError::NoUrdd { .. } | RobotError::List(_) => {
             raise(py, "OpenError", error, &[])
         }
-        RobotError::Missing(module) => raise(
-            py,
-            "ModuleMissingError",
-            advice::of_robot(error),
-            &[("module", text(py, module.name()))],
-        ),
-        RobotError::Unusable { module, .. } => raise(
-            py,
-            "ModuleUnusableError",
-            advice::of_robot(error),
-            &[("module", text(py, module.name()))],
-        ),
+        RobotError::Missing(module) | RobotError::Unusable { module, .. } => {
+            let is_missing = matches!(error, RobotError::Missing(_));
+            let class = if is_missing { "ModuleMissingError" } else { "ModuleUnusableError" };
+            raise(py, class, advice::of_robot(error), &[("module", text(py, module.name()))])
+        }
         RobotError::MotionOpen
         | RobotError::Metadata(_)
         | RobotError::Kinematics(_)
@@ -66,8 +58,8 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
             ],
         ),
         RobotError::OutOfRange { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
-        RobotError::Configuration(error) => of_configuration(py, error),
-        RobotError::Batch { .. }
+        RobotError::Configuration(_)
+        | RobotError::Batch { .. }
         | RobotError::Target(_)
         | RobotError::Setting(_)
         | RobotError::Steps { .. } => raise(py, "ConfigurationError", error, &[]),
@@ -81,10 +73,6 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         }
         _ => raise(py, "UrddError", error, &[]),
     }
-}
-
-fn of_configuration(py: Python<'_>, error: &ConfigurationError) -> PyErr {
-    raise(py, "ConfigurationError", error, &[])
 }
 
 /// The exception of a generation error.

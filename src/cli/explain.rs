@@ -38,7 +38,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<String, Failure> {
     let mut wanted = all();
     if let Some(word) = &arguments.rule {
         let codes = word.parse::<Codes>().ok();
-        wanted.retain(|Explained { rule, .. }| {
+        wanted.retain(|(rule, _)| {
             rule.name == word || codes.is_some_and(|codes| codes.holds(rule.code))
         });
     }
@@ -52,18 +52,14 @@ pub fn run(arguments: &ExplainArguments) -> Result<String, Failure> {
     })
 }
 
-/// A rule to explain.
-struct Explained {
-    rule: &'static Description,
-    is_on_by_default: bool,
-}
+/// A rule to explain, and whether it is on by default.
+type Explained = (&'static Description, bool);
 
 /// The rules of `urdd validate`, then those that only `urdd lint` has.
 fn all() -> Vec<Explained> {
-    let explained = |rule, is_on_by_default| Explained { rule, is_on_by_default };
     let (urdds, urdfs) = (urdd_validate::rules::all(), urdd_lint::rules::all());
-    let of_urdds = urdds.into_iter().map(|rule| explained(&rule.description, true));
-    let of_urdfs = urdfs.into_iter().map(|rule| explained(&rule.description, rule.on_by_default));
+    let of_urdds = urdds.into_iter().map(|rule| (&rule.description, true));
+    let of_urdfs = urdfs.into_iter().map(|rule| (&rule.description, rule.on_by_default));
     of_urdds.chain(of_urdfs).collect()
 }
 
@@ -81,11 +77,11 @@ fn without_rule(wanted: &str, format: Format) -> Result<String, Failure> {
 }
 
 fn list(rules: &[Explained]) -> String {
-    let lengths = rules.iter().map(|explained| explained.rule.name.len());
+    let lengths = rules.iter().map(|(rule, _)| rule.name.len());
     let width = lengths.max().unwrap_or(0);
     let mut text = String::new();
     let mut above = None;
-    for Explained { rule, .. } in rules {
+    for (rule, _) in rules {
         let family = Family::of(rule.code);
         if above.replace(family) != Some(family)
             && let Some(Family { code, name, about }) = family
@@ -100,13 +96,12 @@ fn list(rules: &[Explained]) -> String {
     text
 }
 
-fn in_full(explained: &Explained) -> String {
-    let rule = explained.rule;
+fn in_full((rule, is_on_by_default): &Explained) -> String {
     let (code, name, since) = (rule.code, rule.name, rule.since);
     let clause = rule.clause.map(|clause| format!("SPEC.md clause {clause}; "));
     let clause = clause.unwrap_or_default();
     let severity = rule.severity.as_str();
-    let off = match explained.is_on_by_default {
+    let off = match is_on_by_default {
         true => "",
         false => "off unless --select or [severity] of urdd.toml names it; ",
     };
@@ -151,8 +146,7 @@ fn items(text: &str) -> Vec<String> {
     items
 }
 
-fn as_json(explained: &Explained) -> Value {
-    let rule = explained.rule;
+fn as_json((rule, is_on_by_default): &Explained) -> Value {
     let family = Family::of(rule.code);
     let family = family
         .map(|family| json!({ "code": family.code, "name": family.name, "about": family.about }));
@@ -164,7 +158,7 @@ fn as_json(explained: &Explained) -> Value {
         "clause": rule.clause,
         "since": rule.since,
         "consequence": rule.consequence,
-        "on_by_default": explained.is_on_by_default,
+        "on_by_default": is_on_by_default,
         "summary": rule.summary(),
         "explanation": rule.explanation(),
     })

@@ -14,7 +14,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::Observer;
 use urdd_generate::combine::{CombineError, Combined};
 use urdd_generate::note::{Note, NoteKind};
-use urdd_generate::{GenerateError, Generated, Progress, SourceError};
+use urdd_generate::{GenerateError, Generated, MeshCount, Progress, SourceError};
 use urdd_source::robots::Job;
 
 /// Exit status: a robot could not be made.
@@ -45,9 +45,7 @@ pub(super) struct Printer {
 #[derive(Default)]
 struct Totals {
     unchanged: usize,
-    meshes: usize,
-    meshes_not_found: usize,
-    not_a_mesh: usize,
+    meshes: MeshCount,
 }
 
 /// Progress on a terminal: one bar for the batch, one for each robot in progress.
@@ -84,11 +82,11 @@ impl Printer {
         self.print(&match self.format {
             Format::Json => line(&json!({"summary": {
                 "robots": total, "generated": generated, "unchanged": unchanged, "failed": failed,
-                "meshes": { "named": totals.meshes, "not_found": totals.meshes_not_found },
+                "meshes": { "named": totals.meshes.named, "not_found": totals.meshes.not_found },
             }})),
             Format::Human => {
                 let robots = output::counted(total, "robot");
-                let meshes = not_found(totals.meshes_not_found, totals.not_a_mesh, totals.meshes);
+                let meshes = not_found(totals.meshes);
                 format!(
                     "{robots}: {generated} generated, {unchanged} unchanged, {failed} failed{meshes}\n"
                 )
@@ -160,9 +158,9 @@ impl Observer for Printer {
         if let Ok(made) = outcome {
             let mut totals = self.totals.lock();
             totals.unchanged += usize::from(!made.changed);
-            totals.meshes += made.meshes.named;
-            totals.meshes_not_found += made.meshes.not_found;
-            totals.not_a_mesh += made.meshes.not_a_mesh;
+            totals.meshes.named += made.meshes.named;
+            totals.meshes.not_found += made.meshes.not_found;
+            totals.meshes.not_a_mesh += made.meshes.not_a_mesh;
         }
         match (self.format, outcome) {
             (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
@@ -224,7 +222,7 @@ fn line(value: &Value) -> String {
 }
 
 /// The part of a summary about missing meshes. `not_a_mesh` of those `not_found` are there.
-fn not_found(not_found: usize, not_a_mesh: usize, named: usize) -> String {
+fn not_found(MeshCount { named, not_found, not_a_mesh, .. }: MeshCount) -> String {
     let part = |count: usize, one: &str, more: &str| match count {
         0 => String::new(),
         1 => format!("; 1 of {named} meshes {one}"),
@@ -249,7 +247,7 @@ fn summary(job: &Job, made: &Generated) -> String {
     } else if kept > 0 {
         text += &format!(", {kept} of them kept");
     }
-    text += &not_found(made.meshes.not_found, made.meshes.not_a_mesh, made.meshes.named);
+    text += &not_found(made.meshes);
     if made.meshes.not_usable > 0 {
         let (count, named) = (made.meshes.not_usable, made.meshes.named);
         text += &format!("; {count} of {named} meshes cannot be used");

@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+
 use super::output::{self, Failure, about, one_line, shown};
 use super::signals;
 use super::sources::{around, only_arguments};
@@ -40,26 +42,40 @@ pub fn open(path: &Path) -> Result<Robot, Failure> {
     Ok(Robot::open(path).map_err(one_line)?)
 }
 
+/// What an import from an SRDF reads, and what it edits.
+#[derive(Args)]
+pub struct SrdfArguments {
+    /// The SRDF; also one that is xacro (.srdf.xacro), which the program `xacro` expands.
+    #[arg(value_name = "FILE.srdf")]
+    pub srdf: PathBuf,
+
+    /// The URDD: a folder.
+    #[arg(value_name = "DIR")]
+    pub urdd: PathBuf,
+
+    /// An argument for xacro.
+    #[arg(value_name = "NAME:=VALUE")]
+    more: Vec<PathBuf>,
+}
+
 /// Prints what `work` makes of the text of an SRDF; of one that is xacro, of what xacro makes of it with these words of the
 /// command line.
 pub fn with_srdf(
-    file: &Path,
-    words: &[PathBuf],
+    files: &SrdfArguments,
     work: impl FnOnce(&str) -> Result<String, Failure>,
 ) -> Result<u8, Failure> {
     signals::run(None, |signals| {
-        let text = srdf_or_xacro(file, words, signals.cancellation())?;
+        let text = srdf_or_xacro(files, &signals.cancellation())?;
         output::print(&work(&text)?)?;
         Ok(0)
     })
 }
 
 fn srdf_or_xacro(
-    file: &Path,
-    words: &[PathBuf],
-    cancellation: Cancellation,
+    SrdfArguments { srdf: file, more, .. }: &SrdfArguments,
+    cancellation: &Cancellation,
 ) -> Result<String, Failure> {
-    let arguments = only_arguments(words)?;
+    let arguments = only_arguments(more)?;
     if !FileType::Xacro.is_of(file) {
         return match arguments.first() {
             None => srdf(file),
@@ -72,7 +88,7 @@ fn srdf_or_xacro(
     }
     let settings =
         Settings { xacro: XacroSettings { arguments, ..XacroSettings::default() }, ..around() };
-    Ok(read_source(file, &settings, &cancellation).map_err(one_line)?.text)
+    Ok(read_source(file, &settings, cancellation).map_err(one_line)?.text)
 }
 
 /// The text of an SRDF.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 
-use super::inputs::{self, Edited, edited, left_out, some_read};
+use super::inputs::{self, Edited, SrdfArguments, edited, left_out, some_read};
 use super::output::{self, Failure, about, shown};
 use urdd_export::import_states;
 use urdd_format::escape;
@@ -48,17 +48,8 @@ pub enum ConfigurationsCommand {
         Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
-        /// The SRDF; also one that is xacro (.srdf.xacro), which the program `xacro` expands.
-        #[arg(value_name = "FILE.srdf")]
-        srdf: PathBuf,
-
-        /// The URDD: a folder.
-        #[arg(value_name = "DIR")]
-        urdd: PathBuf,
-
-        /// An argument for xacro.
-        #[arg(value_name = "NAME:=VALUE")]
-        more: Vec<PathBuf>,
+        #[command(flatten)]
+        files: SrdfArguments,
 
         /// Replaces configurations of the same name that differ.
         #[arg(long)]
@@ -82,8 +73,8 @@ pub fn run(command: &ConfigurationsCommand) -> Result<u8, Failure> {
     let text = match command {
         ConfigurationsCommand::List { urdd } => list(urdd),
         ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
-        ConfigurationsCommand::Import { srdf, urdd, more, force } => {
-            return inputs::with_srdf(srdf, more, |text| import(srdf, text, urdd, *force));
+        ConfigurationsCommand::Import { files, force } => {
+            return inputs::with_srdf(files, |text| import(files, text, *force));
         }
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
@@ -136,7 +127,8 @@ fn remove(urdd: &Path, name: &str) -> Result<String, Failure> {
     })
 }
 
-fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
+fn import(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Failure> {
+    let SrdfArguments { srdf, urdd, .. } = files;
     edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
         let imported = import_states(robot, text, force).map_err(about(srdf))?;
         let read = imported.changed + imported.already + imported.out_of_bounds.len();

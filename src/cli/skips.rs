@@ -1,10 +1,8 @@
 //! `urdd skips`.
 
-use std::path::{Path, PathBuf};
-
 use clap::Subcommand;
 
-use super::inputs::{Edited, edited, left_out, some_read, with_srdf};
+use super::inputs::{Edited, SrdfArguments, edited, left_out, some_read, with_srdf};
 use super::output::{self, Failure, about, shown};
 use urdd_export::{ImportedSkips, import_srdf};
 use urdd_format::registry::ModuleKind;
@@ -20,17 +18,8 @@ pub enum SkipsCommand {
         Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
-        /// The SRDF; also one that is xacro (.srdf.xacro), which the program `xacro` expands.
-        #[arg(value_name = "FILE.srdf")]
-        srdf: PathBuf,
-
-        /// The URDD: a folder.
-        #[arg(value_name = "DIR")]
-        urdd: PathBuf,
-
-        /// An argument for xacro.
-        #[arg(value_name = "NAME:=VALUE")]
-        more: Vec<PathBuf>,
+        #[command(flatten)]
+        files: SrdfArguments,
 
         /// Replaces existing edits that the SRDF contradicts.
         #[arg(long)]
@@ -40,11 +29,12 @@ pub enum SkipsCommand {
 
 /// Runs `urdd skips`.
 pub fn run(command: &SkipsCommand) -> Result<u8, Failure> {
-    let SkipsCommand::Import { srdf, urdd, more, force } = command;
-    with_srdf(srdf, more, |text| import(srdf, text, urdd, *force))
+    let SkipsCommand::Import { files, force } = command;
+    with_srdf(files, |text| import(files, text, *force))
 }
 
-fn import(srdf: &Path, text: &str, urdd: &Path, force: bool) -> Result<String, Failure> {
+fn import(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Failure> {
+    let SrdfArguments { srdf, urdd, .. } = files;
     edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
         let imported = import_srdf(robot, text, force).map_err(about(srdf))?;
         some_read(imported.added + imported.already, &imported.wrong).map_err(about(srdf))?;

@@ -196,11 +196,6 @@ impl Target {
     pub fn format(self) -> Option<Format> {
         Format::named(self.to_possible_value()?.get_name())
     }
-
-    /// Whether it is a single file.
-    pub fn is_alone(self) -> bool {
-        matches!(self, Target::Srdf | Target::Curobo | Target::Foam)
-    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

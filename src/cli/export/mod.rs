@@ -24,8 +24,8 @@ pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
 fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {
     let target = arguments.format;
     let output = arguments.output.as_deref().ok_or("give the file to write with -o")?;
-    let to_standard_output = output.as_os_str() == "-";
-    if to_standard_output && !target.is_alone() {
+    let is_alone = matches!(target, Target::Srdf | Target::Curobo | Target::Foam);
+    if output.as_os_str() == "-" && !is_alone {
         Err("this format writes other files beside its own: give a file with -o")?;
     }
     if arguments.update && !matches!(target, Target::Srdf | Target::Moveit) {
