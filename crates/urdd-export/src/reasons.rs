@@ -9,7 +9,7 @@ use super::error::ExportError;
 use super::pairs::ascending;
 use super::shapes::{Shape, Solid};
 use super::structure::Structure;
-use urdd_document::rigid_groups::RigidGroups;
+use urdd_document::tree::RigidGroups;
 use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
 use urdd_geometry::decompose::{self, decompose};

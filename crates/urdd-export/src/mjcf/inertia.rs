@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::super::error::Note;
 use super::super::inertia::ROUNDING;
 use super::super::subject::Subject;
-use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;
+use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 

@@ -24,7 +24,7 @@ use super::output::Export;
 use super::stand::Stand;
 use super::subject::Subject;
 use body::{Bodies, geom_name};
-use urdd_document::rigid_groups::RigidGroups;
+use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 

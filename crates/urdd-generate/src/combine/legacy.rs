@@ -12,7 +12,7 @@ use super::document::document;
 use super::error::PartFault;
 use super::names::mesh_edits;
 use urdd_directory::root::Root;
-use urdd_format::legacy::plain_meshes::PlainMeshesModule;
+use urdd_format::legacy::meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Mesh};
 use urdd_source::{MAX_SOURCE_BYTES, read_urdf};

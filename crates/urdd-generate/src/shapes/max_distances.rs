@@ -2,10 +2,10 @@
 
 use super::ConvexMeshes;
 use crate::meshes::written::WrittenMesh;
+use urdd_format::link_shapes_approximations::LinkShapesMaxDistanceFromOriginModule;
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
-use urdd_format::link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule;
 use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
 use urdd_geometry::farthest;
 use urdd_geometry::oriented_box::OrientedBox;

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_document::draft::SIMPLE_SKIPS_DEPENDENCIES;
+use urdd_document::legacy::SIMPLE_SKIPS_DEPENDENCIES;
 
 declare_rule! {
     /// The URDD follows a draft of the format, which `urdd` 0.1.0 or 0.2.0 wrote.

@@ -1,7 +1,7 @@
 //! The links of rigid groups.
 
-use urdd_document::rigid_groups::RigidGroup;
 use urdd_document::robot::{Link, Robot};
+use urdd_document::tree::RigidGroup;
 
 /// The links of a rigid group, with their indices.
 pub(super) fn links_of<'a>(
