@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::output::{self, one_line};
 use urdd_directory::discover::{Found, discover};
-use urdd_directory::rehash::rehash;
+use urdd_directory::metadata::rehash;
 use urdd_directory::root::Root;
 use urdd_document::module::Module;
 use urdd_document::urdd::Urdd;

@@ -4,7 +4,6 @@
 use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_approximations::*;
 use urdd_format::link_shapes_distance_statistics::*;
-use urdd_format::link_shapes_max_distance_from_origin::*;
 use urdd_format::link_shapes_simple_skips::*;
 use urdd_format::link_shapes_skips::*;
 use urdd_format::shapes::PieceShape;

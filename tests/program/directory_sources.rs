@@ -10,10 +10,10 @@ use std::sync::Arc;
 
 use serde_json::Value;
 use testkit::files;
-use urdd_directory::archive_fault::{ArchiveFault, EntryFault};
 use urdd_directory::digest;
 use urdd_directory::listing::EntryKind;
 use urdd_directory::read_error::ReadError;
+use urdd_directory::read_error::{ArchiveFault, EntryFault};
 use urdd_directory::root::Root;
 use urdd_directory::source::{Archive, Disk, Memory};
 use zip::ZipWriter;

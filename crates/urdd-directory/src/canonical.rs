@@ -1,47 +1,11 @@
-//! The canonical form of a document, as JSON and as YAML.
+//! The canonical form of a document, as JSON and as YAML. SPEC 3.3 defines it.
 //!
-//! It is unique, so that a validator can compare bytes, and producers in any language write the same text.
-//!
-//! # Both languages
-//!
-//! Members keep the order of the document. Indentation is two spaces per level. Every line ends with `\n`, including
-//! the last. A value is *inline* if it is a scalar, an empty object, or a list without objects and lists in it (also
-//! the empty list). An inline list is `[`, its elements separated by `, `, and `]`. An empty object is `{}`. Numbers
-//! follow [`super::number_text::write`].
-//!
-//! # JSON
-//!
-//! An inline value is on one line. In any other value, each member (`"key": value`) or element starts on its own line,
-//! one level deeper than the brackets. In strings, `"` and `\` are escaped with `\`; U+0008, U+0009, U+000A, U+000C and
-//! U+000D are `\b`, `\t`, `\n`, `\f`, `\r`; other characters below U+0020 are `\u` and four lower-case hexadecimal
-//! digits. All other characters are unescaped. (Python: `json.dumps(s, ensure_ascii=False)`.)
-//!
-//! # YAML
-//!
-//! No `---`, no comments. The value of the document begins in column one. *n* is the current indentation (0 for the
-//! document):
-//!
-//! - An inline value is written in its inline form.
-//! - A non-empty object: for each member a line of *n* spaces, the key, and `:`. An inline value follows after one
-//!   space; any other value follows on the next lines, with *n* + 2.
-//! - A list that is not inline: for each element a line of *n* spaces and `-`. An inline element follows after one
-//!   space. An object follows after one space with its first member on the same line and its other members below that
-//!   one, with *n* + 2. A list follows on the next lines, with *n* + 2: the dash is alone on its line.
-//! - `null`, `true`, `false` are written as such.
-//! - A string, as key or as value, is plain if it is an ASCII letter or `_` followed by any number of ASCII letters,
-//!   digits, `_`, `-`, `.` and `/`, and is not one of `y`, `n`, `yes`, `no`, `on`, `off`, `true`, `false`, `null` in
-//!   any mixture of cases. Every other string is in double quotes with the escapes of JSON, plus `\u` and four
-//!   lower-case hexadecimal digits for U+007F to U+009F, U+2028, U+2029, U+FEFF, U+FFFE and U+FFFF. Characters above
-//!   U+FFFF are unescaped, never a pair of escapes.
-//! - A key whose written form is longer than 1,000 characters (parsers reject simple keys over 1,024) is written as
-//!   `? ` and the key; then on the next line *n* spaces and `:`, and the value as after any other key.
+//! It is unique, so that a validator can compare bytes, and producers in any language write the same text. Members keep the
+//! order of the document. An inline value is one that stands on one line in both languages (SPEC 3.3.2).
 
 use std::fmt::{self, Write};
 
-use serde_json::{Map, Value};
-
-use super::number_text;
-use super::string_text::{Language, write_quoted, write_string};
+use serde_json::{Map, Number, Value};
 
 /// Longest YAML key without the `? ` form, characters.
 const LONGEST_SIMPLE_KEY: usize = 1000;
@@ -108,7 +72,7 @@ fn inline(value: &Value, language: Language, out: &mut impl Write) -> fmt::Resul
         Value::Null => out.write_str("null"),
         Value::Bool(true) => out.write_str("true"),
         Value::Bool(false) => out.write_str("false"),
-        Value::Number(number) => number_text::write(number, out),
+        Value::Number(number) => write_number(number, out),
         Value::String(text) => write_string(text, language, out),
         Value::Array(list) => {
             out.write_char('[')?;
@@ -244,4 +208,115 @@ fn spaces(mut count: usize, out: &mut impl Write) -> fmt::Result {
         count -= now;
     }
     Ok(())
+}
+
+/// The output language.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// JSON.
+    Json,
+    /// YAML.
+    Yaml,
+}
+
+/// A string in double quotes, as YAML.
+pub fn yaml_quoted(text: &str) -> String {
+    let mut quoted = String::new();
+    let _ = write_quoted(text, Language::Yaml, &mut quoted);
+    quoted
+}
+
+/// Writes a string: plain if the language allows it and it is safe, else quoted.
+pub fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
+    if language == Language::Yaml && is_plain(text) {
+        out.write_str(text)
+    } else {
+        write_quoted(text, language, out)
+    }
+}
+
+/// Whether every YAML reader takes the unquoted text for a string.
+pub fn is_plain(text: &str) -> bool {
+    const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
+    let mut bytes = text.bytes();
+    bytes.next().is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
+        && bytes.all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.' | b'/'))
+        && !(text.len() <= 5 && WORDS.iter().any(|word| text.eq_ignore_ascii_case(word)))
+}
+
+/// Writes a string in double quotes.
+pub fn write_quoted(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
+    out.write_char('"')?;
+    let mut rest = text;
+    while let Some(at) = rest.find(|c| must_escape(c, language)) {
+        out.write_str(&rest[..at])?;
+        let mut after = rest[at..].chars();
+        match after.next() {
+            Some('"') => out.write_str("\\\"")?,
+            Some('\\') => out.write_str("\\\\")?,
+            Some('\u{8}') => out.write_str("\\b")?,
+            Some('\t') => out.write_str("\\t")?,
+            Some('\n') => out.write_str("\\n")?,
+            Some('\u{c}') => out.write_str("\\f")?,
+            Some('\r') => out.write_str("\\r")?,
+            Some(c) => write!(out, "\\u{:04x}", u32::from(c))?,
+            None => {}
+        }
+        rest = after.as_str();
+    }
+    out.write_str(rest)?;
+    out.write_char('"')
+}
+
+fn must_escape(c: char, language: Language) -> bool {
+    match c {
+        '"' | '\\' | '\0'..='\u{1f}' => true,
+        // Not printable in YAML, or a line break in YAML 1.1.
+        '\u{7f}'..='\u{9f}' | '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => {
+            language == Language::Yaml
+        }
+        _ => false,
+    }
+}
+
+/// Smaller magnitudes have an exponent. The same bound as Python's `repr`.
+const SMALLEST_WITHOUT_EXPONENT: f64 = 1e-4;
+/// Magnitudes from here on have an exponent. The same bound as Python's `repr`.
+const LARGEST_WITHOUT_EXPONENT: f64 = 1e16;
+
+/// Writes a number so that JSON, YAML 1.1 and YAML 1.2 read the same value.
+///
+/// Integers are decimal digits. A float is the shortest decimal that reads back as the same 64-bit float. Zero, of
+/// either sign, is `0.0`. A magnitude of at least 10^-4 and below 10^16 has no exponent and at least one digit on each
+/// side of the point (`0.0001`, `3.0`). Any other has one digit before the point, at least one after it, `e`, a sign,
+/// and the exponent without leading zeros (`1.0e-5`, `1.25e+22`).
+pub fn write_number(number: &Number, out: &mut impl Write) -> fmt::Result {
+    match number.as_f64() {
+        Some(x) if number.is_f64() => write_float(x, out),
+        _ => write!(out, "{number}"),
+    }
+}
+
+/// Writes a float like [`write_number`]. The caller ensures that it is finite.
+pub fn write_float(x: f64, out: &mut impl Write) -> fmt::Result {
+    let magnitude = x.abs();
+    if magnitude == 0.0 {
+        return out.write_str("0.0");
+    }
+    if (SMALLEST_WITHOUT_EXPONENT..LARGEST_WITHOUT_EXPONENT).contains(&magnitude) {
+        // serde_json prints floats several times faster than the standard library.
+        let mut buffer = [0_u8; 40];
+        let mut free = &mut buffer[..];
+        let written = serde_json::to_writer(&mut free, &x).is_ok();
+        let length = 40 - free.len();
+        return match std::str::from_utf8(&buffer[..length]) {
+            Ok(text) if written && text.contains('.') && !text.contains('e') => out.write_str(text),
+            _ => write!(out, "{x:?}"),
+        };
+    }
+    let text = format!("{x:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    write!(out, "{mantissa}{point}e{sign}{exponent}")
 }

@@ -44,12 +44,9 @@ pub fn carried(root: &Root) -> Result<Root, ReadError> {
     let is_own = |path: &str| {
         (path == ROOT_METADATA || named.contains(path)) && !leads_away(root, path, &named)
     };
-    let files: BTreeSet<String> = listing
-        .entries
-        .iter()
-        .filter(|entry| entry.kind == EntryKind::File && entry.utf8 && is_own(&entry.path))
-        .map(|entry| entry.path.clone())
-        .collect();
+    let files = listing.entries.iter();
+    let files = files.filter(|entry| entry.kind == EntryKind::File && entry.utf8);
+    let files = files.map(|entry| entry.path.clone()).filter(|path| is_own(path)).collect();
     Ok(Root::of(Carried { root: root.clone(), files }))
 }
 

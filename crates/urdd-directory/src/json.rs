@@ -6,8 +6,9 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-use super::json_fault::{decode, explain, report_repeated_keys};
+use super::json_scan;
 use super::limits::DEPTH_LIMIT;
+use super::position::{LineIndex, position};
 use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
 
 /// A JSON file with a readable value.
@@ -144,4 +145,131 @@ impl<'de> Visitor<'de> for Seed<'_> {
         }
         Ok(Value::Object(map))
     }
+}
+
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// The text without a byte order mark, which it reports; or the fault that prevents decoding. The language reports them
+/// under these kinds.
+pub(super) fn decode<'a>(
+    bytes: &'a [u8],
+    [byte_order_mark, not_utf8]: [TextFaultKind; 2],
+    faults: &mut TextFaults,
+) -> Result<&'a str, TextFault> {
+    let rest = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let start = bytes.len() - rest.len();
+    if start > 0 {
+        let fault = TextFault::new(
+            byte_order_mark,
+            "the file begins with a byte order mark, which many readers refuse: save it as UTF-8 without one",
+        );
+        faults.push(fault.at(position("", 0)));
+    }
+    std::str::from_utf8(rest).map_err(|error| {
+        let valid = error.valid_up_to();
+        let before = std::str::from_utf8(&rest[..valid]).unwrap_or_default();
+        let offset = start + valid;
+        let message = if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+            "the file is UTF-16: save it as UTF-8".to_owned()
+        } else {
+            format!("byte {offset} is not UTF-8: save the file as UTF-8")
+        };
+        let found = rest[valid..].first().map(|byte| format!("0x{byte:02X}"));
+        TextFault { found, ..TextFault::new(not_utf8, message).at(position(before, valid)) }
+    })
+}
+
+/// Reports the position of every duplicate key.
+fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
+    let lines = LineIndex::new(text);
+    json_scan::repeated_keys(text, |key| {
+        faults.add(TextFaultKind::DuplicateKey, || {
+            let key = key();
+            let name = key.pointer.rsplit('/').next().unwrap_or_default();
+            let message = format!(
+                "the key `{}` occurs twice in its object: readers differ in which one they keep; remove one",
+                name.replace("~1", "/").replace("~0", "~")
+            );
+            TextFault::new(TextFaultKind::DuplicateKey, message)
+                .at(lines.position(key.offset))
+                .of(key.pointer)
+        });
+    });
+}
+
+/// Converts serde_json's error to a fault.
+fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFault {
+    let lines = LineIndex::new(text);
+    // serde_json ends lines at `\n` only, counts columns in bytes, and names the last byte it read.
+    let offset =
+        if error.is_eof() { text.len() } else { offset_of(text, error.line(), error.column()) };
+    let at = |offset: usize, kind, message: String| {
+        TextFault::new(kind, message)
+            .at(lines.position(offset))
+            .of(json_scan::pointer_at(text, offset))
+    };
+    if too_deep {
+        let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
+        return TextFault::new(TextFaultKind::TooDeep, message).at(lines.position(offset));
+    }
+    let (start, word) = word_around(text, offset);
+    if is_non_finite(word) {
+        let message = format!("`{word}` is not a number in JSON: write null or a finite number");
+        return at(start, TextFaultKind::NonFiniteNumber, message).finding(word);
+    }
+    let message = if text.trim().is_empty() {
+        "the file is empty: a JSON value was expected".to_owned()
+    } else if error.is_eof() {
+        format!("the file ends early, before its JSON is complete: {}", reason(error))
+    } else {
+        format!("not JSON: {}", reason(error))
+    };
+    at(offset, TextFaultKind::Syntax, message)
+}
+
+/// serde_json's message without the position, which the fault gives in better units.
+fn reason(error: &serde_json::Error) -> String {
+    let whole = error.to_string();
+    if whole.contains("hex escape") || whole.contains("surrogate") {
+        return "an invalid escape, or half of a surrogate pair: write the character itself"
+            .to_owned();
+    }
+    match whole.rfind(" at line ") {
+        Some(end) => whole[..end].to_owned(),
+        None => whole,
+    }
+}
+
+fn offset_of(text: &str, line: usize, column: usize) -> usize {
+    let start = if line <= 1 {
+        0
+    } else {
+        text.bytes()
+            .enumerate()
+            .filter(|&(_, byte)| byte == b'\n')
+            .nth(line - 2)
+            .map_or(text.len(), |(at, _)| at + 1)
+    };
+    let mut offset = (start + column.saturating_sub(1)).min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// The run of number and word characters around an offset, and its start.
+fn word_around(text: &str, offset: usize) -> (usize, &str) {
+    let bytes = text.as_bytes();
+    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.');
+    let before = bytes[..offset].iter().rev().take_while(|&&byte| is_word(byte)).count();
+    let after = bytes[offset..].iter().take_while(|&&byte| is_word(byte)).count();
+    let start = offset - before;
+    (start, text.get(start..offset + after).unwrap_or_default())
+}
+
+fn is_non_finite(word: &str) -> bool {
+    let bare = word.trim_start_matches(['+', '-']);
+    ["nan", "inf", "infinity"].iter().any(|name| bare.eq_ignore_ascii_case(name))
+        || (bare.starts_with(|c: char| c.is_ascii_digit())
+            && word.parse::<f64>().is_ok_and(f64::is_infinite))
 }

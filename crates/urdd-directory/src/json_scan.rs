@@ -4,7 +4,7 @@
 //! ends early, and never panics.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A duplicate key.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,29 +49,29 @@ pub fn push_segment(pointer: &mut String, segment: &str) {
     }
 }
 
-pub(super) struct Scan<'a> {
+struct Scan<'a> {
     text: &'a str,
     /// Byte offset of the next byte.
-    pub(super) at: usize,
+    at: usize,
 }
 
 impl<'a> Scan<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
+    fn new(text: &'a str) -> Self {
         Self { text, at: 0 }
     }
 
-    pub(super) fn peek(&self) -> Option<u8> {
+    fn peek(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied()
     }
 
-    pub(super) fn skip_space(&mut self) {
+    fn skip_space(&mut self) {
         while matches!(self.peek(), Some(b' ' | b'\t' | b'\n' | b'\r')) {
             self.at += 1;
         }
     }
 
     /// Skips white space, then moves past `byte` if it is next.
-    pub(super) fn eat(&mut self, byte: u8) -> Option<()> {
+    fn eat(&mut self, byte: u8) -> Option<()> {
         self.skip_space();
         (self.peek() == Some(byte)).then(|| self.at += 1)
     }
@@ -95,7 +95,7 @@ impl<'a> Scan<'a> {
         None
     }
 
-    pub(super) fn key(&mut self) -> Option<Cow<'a, str>> {
+    fn key(&mut self) -> Option<Cow<'a, str>> {
         let quoted = self.string()?;
         let inner = quoted.get(1..quoted.len() - 1)?;
         if inner.contains('\\') {
@@ -115,7 +115,7 @@ impl<'a> Scan<'a> {
     }
 
     /// Moves past one whole value.
-    pub(super) fn skip_value(&mut self) -> Option<()> {
+    fn skip_value(&mut self) -> Option<()> {
         let mut depth = 0_usize;
         loop {
             self.skip_space();
@@ -225,5 +225,82 @@ impl<'a> Walk<'a> {
             }
         }
         pointer
+    }
+}
+
+/// Byte offsets of the values at many pointers, in one pass through the text.
+pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
+    let mut wanted = Wanted::default();
+    for (number, pointer) in pointers.iter().enumerate() {
+        let mut parts = pointer.split('/');
+        // A pointer is empty or begins with a slash.
+        if parts.next() != Some("") {
+            continue;
+        }
+        let place = parts.fold(&mut wanted, |place, part| {
+            let key = part.replace("~1", "/").replace("~0", "~");
+            place.below.entry(key).or_default()
+        });
+        place.numbers.push(number);
+    }
+    let mut found = vec![None; pointers.len()];
+    wanted.visit(&mut Scan::new(text), &mut found);
+    found
+}
+
+/// The pointers that end at a value, and those that continue below it.
+#[derive(Default)]
+struct Wanted {
+    numbers: Vec<usize>,
+    below: HashMap<String, Wanted>,
+}
+
+impl Wanted {
+    /// Records the value that begins here, and moves past it.
+    fn visit(&self, scan: &mut Scan<'_>, found: &mut [Option<usize>]) -> Option<()> {
+        scan.skip_space();
+        scan.peek()?;
+        for number in &self.numbers {
+            found[*number] = Some(scan.at);
+        }
+        let list = match scan.peek() {
+            Some(b'[') if !self.below.is_empty() => true,
+            Some(b'{') if !self.below.is_empty() => false,
+            _ => return scan.skip_value(),
+        };
+        scan.at += 1;
+        for index in 0.. {
+            scan.skip_space();
+            if matches!(scan.peek(), Some(b']' | b'}')) {
+                break;
+            }
+            let below = match list {
+                true => self.below.get(index.to_string().as_str()),
+                false => {
+                    let key = scan.key()?;
+                    scan.eat(b':')?;
+                    self.below.get(&*key)
+                }
+            };
+            match below {
+                // For a duplicate key, only the last value counts.
+                Some(below) => {
+                    below.forget(found);
+                    below.visit(scan, found)?;
+                }
+                None => scan.skip_value()?,
+            }
+            if scan.eat(b',').is_none() {
+                break;
+            }
+        }
+        scan.eat(if list { b']' } else { b'}' })
+    }
+
+    fn forget(&self, found: &mut [Option<usize>]) {
+        for number in &self.numbers {
+            found[*number] = None;
+        }
+        self.below.values().for_each(|below| below.forget(found));
     }
 }

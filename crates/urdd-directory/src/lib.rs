@@ -4,8 +4,6 @@
 //! and YAML as text, and the folder of published schemas.
 
 pub mod account;
-pub mod add_module;
-pub mod archive_fault;
 pub mod cancellation;
 pub mod canonical;
 pub mod carried;
@@ -15,27 +13,22 @@ pub mod document;
 pub mod file_entry;
 pub mod file_type;
 pub mod json;
-mod json_fault;
-pub mod json_places;
 pub mod json_scan;
 pub mod layout;
 pub mod limits;
 pub mod listing;
-pub mod module_entry;
-pub mod number_text;
+pub mod metadata;
 pub mod outputs;
 pub mod path;
 pub mod position;
 pub mod range;
 pub mod read_error;
 pub mod regular;
-pub mod rehash;
 pub mod replacement;
 pub mod root;
 pub mod schema_files;
 pub mod source;
 pub mod staging;
-pub mod string_text;
 pub mod take;
 pub mod target_lock;
 pub mod temporary;

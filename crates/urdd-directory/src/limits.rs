@@ -3,6 +3,9 @@
 /// Largest document, bytes.
 pub const MAX_DOCUMENT_BYTES: u64 = 512 << 20;
 
+/// Largest URDF, bytes: of a source, and in a URDD.
+pub const MAX_URDF_BYTES: u64 = 64 << 20;
+
 /// Maximum number of files and folders listed in one URDD.
 pub const MAX_FILES: usize = 100_000;
 

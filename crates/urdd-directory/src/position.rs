@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::json_places;
+use super::json_scan;
 
 /// A position in a text: 1-based line and column. Columns count Unicode scalar values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -105,7 +105,7 @@ pub fn locate(text: &str, pointer: &str) -> Option<Position> {
 /// Like [`locate`], for many pointers in one pass.
 pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
     let index = LineIndex::new(text);
-    let offsets = json_places::find_values(text, pointers).into_iter();
+    let offsets = json_scan::find_values(text, pointers).into_iter();
     offsets.map(|offset| offset.map(|offset| index.position(offset))).collect()
 }
 
@@ -116,4 +116,34 @@ fn scalars(bytes: &[u8]) -> usize {
 
 fn begins_scalar(byte: u8) -> bool {
     byte & 0xC0 != 0x80
+}
+
+/// Byte offsets of ascending character offsets.
+pub(crate) struct Offsets<'t> {
+    text: &'t str,
+    character: usize,
+    byte: usize,
+    is_ascii: bool,
+}
+
+impl<'t> Offsets<'t> {
+    /// Starts at the beginning of a text.
+    pub(crate) fn new(text: &'t str) -> Self {
+        Offsets { text, character: 0, byte: 0, is_ascii: text.is_ascii() }
+    }
+
+    /// The byte offset of a character.
+    pub(crate) fn bytes(&mut self, character: usize) -> usize {
+        if self.is_ascii {
+            return character.min(self.text.len());
+        }
+        if character < self.character {
+            (self.character, self.byte) = (0, 0);
+        }
+        let rest = &self.text[self.byte..];
+        let skipped = rest.char_indices().nth(character - self.character);
+        self.byte += skipped.map_or(rest.len(), |(at, _)| at);
+        self.character = character;
+        self.byte
+    }
 }

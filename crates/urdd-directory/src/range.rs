@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use urdd_format::readable::grouped;
+
 /// The numbers that an option takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
@@ -80,18 +82,4 @@ impl fmt::Display for Range {
         }
         self.unit.filter(|unit| !unit.is_empty()).map_or(Ok(()), |unit| write!(f, " {unit}"))
     }
-}
-
-/// A number with a comma before each three digits of its whole part.
-fn grouped(number: f64) -> String {
-    let text = number.to_string();
-    let end = text.find('.').unwrap_or(text.len());
-    let mut out = String::new();
-    for (at, c) in text.chars().enumerate() {
-        if at > 0 && at < end && (end - at).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(c);
-    }
-    out
 }

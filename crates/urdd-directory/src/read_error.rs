@@ -4,7 +4,6 @@ use std::io;
 
 use thiserror::Error;
 
-use super::archive_fault::ArchiveFault;
 use super::path::PathFault;
 
 /// Why a file could not be read.
@@ -48,4 +47,69 @@ impl From<io::Error> for ReadError {
             _ => ReadError::Io(error.to_string()),
         }
     }
+}
+
+/// Why a zip archive cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum ArchiveFault {
+    #[error("it is not a complete zip archive ({reason}); pack it again")]
+    Broken { reason: String },
+    #[error(
+        "it is a zip64 archive, of more than 65,535 entries or 4 GiB; unpack it, and give the folder"
+    )]
+    Zip64,
+    #[error("it states {stated} entries, but lists {listed}; pack it again")]
+    Count { stated: usize, listed: usize },
+    /// Other programs may extract different files.
+    #[error(
+        "it contains bytes that belong to no entry or to two entries, as if two archives were in one file; pack it again"
+    )]
+    OtherBytes,
+    #[error(
+        "its files have {size} bytes in total; the limit for an archive of its size is {limit}; unpack it, and give the folder"
+    )]
+    Inflates { size: u64, limit: u64 },
+    #[error("its entry `{}` {fault}", start(name).escape_debug())]
+    Entry { name: String, fault: EntryFault },
+    #[error(
+        "it contains no URDD: neither its root nor a top-level folder contains urdd.json or a module folder such as urdf_module"
+    )]
+    NoUrdd,
+    #[error(
+        "it contains several URDDs ({} and {}); unpack it, and give the folder, or pack each one separately",
+        first.escape_debug(), second.escape_debug()
+    )]
+    ManyUrdds { first: String, second: String },
+}
+
+/// The first 200 characters of a name: it may have 65,535 bytes.
+fn start(name: &str) -> &str {
+    const LONGEST: usize = 200;
+    let end = name.char_indices().nth(LONGEST).map_or(name.len(), |(at, _)| at);
+    &name[..end]
+}
+
+/// Why an entry of a zip archive cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum EntryFault {
+    #[error("has a name that is not a path inside the archive")]
+    Path,
+    #[error(
+        "has a name of {length} bytes; the limit is {limit}, and {part} between two slashes; rename it"
+    )]
+    LongName { length: usize, limit: usize, part: usize },
+    #[error("is described differently in its own header and in the archive's list; pack it again")]
+    Header,
+    #[error("occurs twice")]
+    Duplicate,
+    #[error("is encrypted; pack it without a password")]
+    Encrypted,
+    #[error("is compressed by method {method} of zip; pack it with deflate")]
+    Method { method: u16 },
+    #[error("is {size} bytes long; the limit is {limit}")]
+    TooLarge { size: u64, limit: u64 },
+    #[error("is damaged ({reason}); pack it again")]
+    Damaged { reason: String },
 }

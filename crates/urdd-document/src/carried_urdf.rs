@@ -4,11 +4,9 @@ use thiserror::Error;
 
 use super::module::{JsonFile, MetadataFile};
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_URDF_BYTES;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
 use urdd_format::root_metadata::Source;
-
-/// Largest source URDF, bytes.
-const MAX_URDF_BYTES: u64 = 64 << 20;
 
 /// The source URDF in a URDD.
 pub struct CarriedUrdf {
@@ -97,18 +95,12 @@ impl CarriedUrdf {
 
 /// Without root metadata: the only `.urdf` file in the root, or the one named after the folder.
 fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
-    let mut urdfs = listing
-        .entries
-        .iter()
-        .filter(|entry| {
-            entry.kind == EntryKind::File
-                && !entry.path.contains('/')
-                && entry.path.ends_with(".urdf")
-        })
-        .map(|entry| entry.path.clone());
+    let files = listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
+    let in_root = files.map(|entry| &entry.path).filter(|path| !path.contains('/'));
+    let mut urdfs = in_root.filter(|path| path.ends_with(".urdf"));
     match (urdfs.next(), urdfs.next()) {
         (None, _) => Err(NoUrdf::NoneCarried),
-        (Some(only), None) => Ok(only),
+        (Some(only), None) => Ok(only.clone()),
         (Some(_), Some(_)) => {
             let named = format!("{}.urdf", root.folder_name());
             if listing.has_file(&named) { Ok(named) } else { Err(NoUrdf::Several) }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::robot::{Joint, Robot};
+use super::robot::{Joint, Robot, dofs};
 use urdd_format::dof::Quantity;
 use urdd_format::urdf::JointType;
 
@@ -51,23 +51,7 @@ pub fn own_dofs(joint: &Joint) -> usize {
 /// The suffix that a DOF's name adds to its joint's name (empty for a joint with one DOF), and the quantity that it
 /// measures. `place` is its place among the joint's DOFs.
 pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Quantity)> {
-    use Quantity::{Angle, Length};
-    let dofs: &[(&str, Quantity)] = match joint_type {
-        JointType::Fixed => &[],
-        JointType::Revolute | JointType::Continuous => &[("", Angle)],
-        JointType::Prismatic => &[("", Length)],
-        JointType::Planar => &[("/trans_x", Length), ("/trans_y", Length), ("/rot", Angle)],
-        JointType::Floating => &[
-            ("/trans_x", Length),
-            ("/trans_y", Length),
-            ("/trans_z", Length),
-            ("/rot_x", Angle),
-            ("/rot_y", Angle),
-            ("/rot_z", Angle),
-        ],
-        JointType::Spherical => &[("/rot_x", Angle), ("/rot_y", Angle), ("/rot_z", Angle)],
-    };
-    dofs.get(place).copied()
+    dofs(joint_type).get(place).copied()
 }
 
 /// Bounds of an unlimited DOF (SPEC 6.5.3). `place` is its place among the joint's DOFs.
@@ -83,13 +67,12 @@ pub fn bounds_without_limits(joint_type: JointType, place: usize) -> Option<[f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::num_dofs;
 
     #[test]
     fn every_dof_of_every_joint_type_is_described() {
         for joint_type in JointType::ALL.iter().copied() {
             let described = (0..).take_while(|place| describe(joint_type, *place).is_some());
-            assert_eq!(described.count(), num_dofs(joint_type), "{joint_type}");
+            assert_eq!(described.count(), dofs(joint_type).len(), "{joint_type}");
         }
     }
 }

@@ -57,20 +57,12 @@ pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
         version_1_kinds().map(|kind| (kind.name(), kind)).collect();
     let by_folder: HashMap<&str, ModuleKind> =
         version_1_kinds().map(|kind| (kind.folder(), kind)).collect();
-    metadata
-        .modules
-        .iter()
-        .enumerate()
-        .map(|(index, entry)| Entry {
-            index,
-            entry,
-            kind: by_name
-                .get(entry.name.as_str())
-                .or_else(|| by_folder.get(entry.path.as_str()))
-                .copied(),
-            module: modules.get(entry.path.as_str()).copied(),
-        })
-        .collect()
+    let entries = metadata.modules.iter().enumerate().map(|(index, entry)| {
+        let (name, path) = (entry.name.as_str(), entry.path.as_str());
+        let kind = by_name.get(name).or_else(|| by_folder.get(path)).copied();
+        Entry { index, entry, kind, module: modules.get(path).copied() }
+    });
+    entries.collect()
 }
 
 /// The modules of this specification.

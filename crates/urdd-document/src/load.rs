@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Deserialize;
 
 use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
-use super::draft;
+use super::legacy;
 use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
 use super::schema_check::{self, SchemaViolation};
 use urdd_directory::discover::ROOT_METADATA;
@@ -213,7 +213,7 @@ fn read_module(
     if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
         let (read, violations) = schema_check::read(spec, &document.value, newer);
         module.document = read;
-        module.is_draft = module.document.is_none() && draft::is_draft(spec, &document.value);
+        module.is_draft = module.document.is_none() && legacy::is_draft(spec, &document.value);
         if !module.is_draft {
             module.violations = violations;
         }

@@ -131,7 +131,7 @@ pub struct Module {
     pub violations: Vec<SchemaViolation>,
     /// The document, if it fits its schema; raised to version 1 where it can be.
     pub document: Option<ModuleDocument>,
-    /// Whether the document breaks its schema only as a draft does: see [`super::draft`].
+    /// Whether the document breaks its schema only as a draft does: see [`super::legacy`].
     pub is_draft: bool,
 }
 

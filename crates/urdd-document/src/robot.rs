@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 
 use crate::pose::{has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion};
+use urdd_format::dof::Quantity;
 use urdd_format::meshes::GeometryKind;
+pub use urdd_format::urdf::Limit;
 use urdd_format::urdf::{self as v1, JointType};
 
 /// A robot.
@@ -121,19 +123,6 @@ pub struct Joint {
     pub mimic: Option<Mimic>,
 }
 
-/// Limits of a joint.
-#[derive(Debug, Clone, Copy)]
-pub struct Limit {
-    /// Smallest position.
-    pub lower: Option<f64>,
-    /// Largest position.
-    pub upper: Option<f64>,
-    /// Maximum effort.
-    pub effort: Option<f64>,
-    /// Maximum velocity.
-    pub velocity: Option<f64>,
-}
-
 /// A mimic: `multiplier * position of joint + offset`.
 #[derive(Debug, Clone)]
 pub struct Mimic {
@@ -172,7 +161,7 @@ impl Robot {
 impl Joint {
     /// Number of DOFs of a joint of this type, mimic or not (SPEC 5.8).
     pub fn num_dofs(&self) -> usize {
-        num_dofs(self.joint_type)
+        dofs(self.joint_type).len()
     }
 
     /// The mimic, unless the joint is fixed and cannot follow.
@@ -205,13 +194,24 @@ impl Joint {
     }
 }
 
-/// Number of DOFs of a joint of this type (SPEC 5.8).
-pub(crate) fn num_dofs(joint_type: JointType) -> usize {
+/// The DOFs of a joint of this type (SPEC 5.8): of each the suffix that its name adds to its joint's name, and what it
+/// measures.
+pub(crate) fn dofs(joint_type: JointType) -> &'static [(&'static str, Quantity)] {
+    use Quantity::{Angle, Length};
     match joint_type {
-        JointType::Fixed => 0,
-        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
-        JointType::Planar | JointType::Spherical => 3,
-        JointType::Floating => 6,
+        JointType::Fixed => &[],
+        JointType::Revolute | JointType::Continuous => &[("", Angle)],
+        JointType::Prismatic => &[("", Length)],
+        JointType::Planar => &[("/trans_x", Length), ("/trans_y", Length), ("/rot", Angle)],
+        JointType::Floating => &[
+            ("/trans_x", Length),
+            ("/trans_y", Length),
+            ("/trans_z", Length),
+            ("/rot_x", Angle),
+            ("/rot_y", Angle),
+            ("/rot_z", Angle),
+        ],
+        JointType::Spherical => &[("/rot_x", Angle), ("/rot_y", Angle), ("/rot_z", Angle)],
     }
 }
 
@@ -239,20 +239,9 @@ fn from_v1_link(link: &v1::Link, quaternions: bool) -> Link {
             [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz].map(|element| element.unwrap_or(0.0))
         }),
     });
-    Link {
-        name: link.name.clone(),
-        inertial,
-        visual: link
-            .visual
-            .iter()
-            .map(|visual| element(&visual.geometry, visual.origin.as_ref()))
-            .collect(),
-        collision: link
-            .collision
-            .iter()
-            .map(|collision| element(&collision.geometry, collision.origin.as_ref()))
-            .collect(),
-    }
+    let visual = link.visual.iter().map(|of| element(&of.geometry, of.origin.as_ref())).collect();
+    let collision = link.collision.iter().map(|of| element(&of.geometry, of.origin.as_ref()));
+    Link { name: link.name.clone(), inertial, visual, collision: collision.collect() }
 }
 
 fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
@@ -263,12 +252,7 @@ fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
         axis: joint.axis.as_ref().and_then(|axis| axis.xyz).unwrap_or([1.0, 0.0, 0.0]),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
-        limit: joint.limit.as_ref().map(|limit| Limit {
-            lower: limit.lower,
-            upper: limit.upper,
-            effort: limit.effort,
-            velocity: limit.velocity,
-        }),
+        limit: joint.limit,
         mimic: joint.mimic.as_ref().map(|mimic| Mimic {
             joint: mimic.joint.clone(),
             multiplier: mimic.multiplier.unwrap_or(1.0),

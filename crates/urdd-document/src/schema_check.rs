@@ -14,6 +14,10 @@ use serde_json::Value;
 use crate::legacy;
 use urdd_directory::json_scan;
 use urdd_format::registry::{ModuleDocument, ModuleSpec};
+use urdd_format::short::cut;
+
+/// Maximum length of a value in a message, in characters.
+const LONGEST: usize = 80;
 
 /// A schema violation.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -170,7 +174,8 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
             actual(),
         ),
         _ => {
-            let masked = shorten(&error.masked().to_string());
+            let masked = error.masked().to_string();
+            let masked = cut(&masked, LONGEST);
             (format!("the value does not match the schema: {masked}"), None, actual())
         }
     };
@@ -206,13 +211,5 @@ fn nearest_alternative<'a>(
 
 /// A value as text, shortened to fit a line.
 pub fn excerpt(value: &Value) -> String {
-    shorten(&value.to_string())
-}
-
-fn shorten(text: &str) -> String {
-    const LONGEST: usize = 80;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
+    cut(&value.to_string(), LONGEST).into_owned()
 }

@@ -1,7 +1,7 @@
 //! Version-independent view of matrices over link shapes: distances, skips, reasons, error models.
 
 use urdd_format::index::LinkIdx;
-use urdd_format::legacy::link_shapes_lie_alg_error_models::ErrorBounds;
+use urdd_format::legacy::shapes::ErrorBounds;
 use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
 use urdd_format::registry::{ModuleDocument, ModuleKind};

@@ -1,6 +1,8 @@
-//! The kinematic tree of a robot's joints.
+//! The kinematic tree of a robot's joints, its rigid groups (links connected by fixed joints), and its mimic joints,
+//! resolved through chains of mimics (SPEC 5.10).
 
 use super::robot::Robot;
+use urdd_format::urdf::JointType;
 
 /// A kinematic tree.
 #[derive(Debug, Clone)]
@@ -80,5 +82,108 @@ impl Tree {
             std::iter::successors(Some(link), |link| self.parent_link[*link]).collect();
         path.reverse();
         path
+    }
+}
+
+/// Links that never move relative to each other.
+#[derive(Debug, Clone)]
+pub struct RigidGroup {
+    /// Its links, parents before their children.
+    pub links: Vec<usize>,
+    /// The joint that moves it; `None` for the root's group.
+    pub moved_by: Option<usize>,
+}
+
+/// The rigid groups of a robot, from the root downwards.
+#[derive(Debug, Clone)]
+pub struct RigidGroups {
+    /// The groups.
+    pub groups: Vec<RigidGroup>,
+    /// Group of each link.
+    pub of_link: Vec<usize>,
+}
+
+impl RigidGroups {
+    /// The groups of a robot.
+    pub fn new(robot: &Robot, tree: &Tree) -> Self {
+        let mut groups: Vec<RigidGroup> = Vec::new();
+        let mut of_link = vec![0; robot.links.len()];
+        for &link in &tree.order {
+            let joint = tree.parent_joint[link];
+            let fixed =
+                joint.is_some_and(|joint| robot.joints[joint].joint_type == JointType::Fixed);
+            match tree.parent_link[link] {
+                Some(parent) if fixed => {
+                    of_link[link] = of_link[parent];
+                    groups[of_link[parent]].links.push(link);
+                }
+                _ => {
+                    of_link[link] = groups.len();
+                    groups.push(RigidGroup { links: vec![link], moved_by: joint });
+                }
+            }
+        }
+        RigidGroups { groups, of_link }
+    }
+}
+
+/// A resolved mimic joint: `multiplier * position of driver + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolved {
+    /// The joint at the end of the chain: fixed, or with its own DOFs.
+    pub driver: usize,
+    /// Factor.
+    pub multiplier: f64,
+    /// Offset.
+    pub offset: f64,
+}
+
+/// The mimic joints of a robot.
+#[derive(Debug, Clone)]
+pub struct Mimics {
+    /// Resolved mimic of each joint; `None` for joints that are not mimic joints.
+    pub by_joint: Vec<Option<Resolved>>,
+}
+
+impl Mimics {
+    /// Resolves every mimic. `None` if one names an unknown joint, or they form a cycle.
+    pub fn resolve(robot: &Robot) -> Option<Mimics> {
+        let joints = robot.joints.len();
+        let mut by_joint: Vec<Option<Resolved>> = vec![None; joints];
+        let mut done = vec![false; joints];
+        for start in 0..joints {
+            let mut chain = Vec::new();
+            let mut joint = start;
+            while !done[joint] {
+                let Some(mimic) = robot.joints[joint].active_mimic() else {
+                    done[joint] = true;
+                    break;
+                };
+                chain.push(joint);
+                if chain.len() > joints {
+                    return None;
+                }
+                joint = robot.joint(&mimic.joint)?;
+            }
+            // From the end of the chain backwards: each joint follows the one just resolved.
+            for &follower in chain.iter().rev() {
+                let mimic = robot.joints[follower].active_mimic()?;
+                let next = robot.joint(&mimic.joint)?;
+                by_joint[follower] = Some(match by_joint[next] {
+                    None => Resolved {
+                        driver: next,
+                        multiplier: mimic.multiplier,
+                        offset: mimic.offset,
+                    },
+                    Some(resolved) => Resolved {
+                        driver: resolved.driver,
+                        multiplier: mimic.multiplier * resolved.multiplier,
+                        offset: mimic.multiplier * resolved.offset + mimic.offset,
+                    },
+                });
+                done[follower] = true;
+            }
+        }
+        Some(Mimics { by_joint })
     }
 }

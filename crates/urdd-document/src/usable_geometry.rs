@@ -24,12 +24,8 @@ impl<'a> UsableGeometry<'a> {
         let mut usable = UsableGeometry { urdd, lost: HashSet::new(), lost_legacy: HashSet::new() };
         match urdd.document(ModuleKind::OriginalMeshes) {
             Some(ModuleDocument::OriginalMeshes(module)) => {
-                let bare: HashSet<&String> = module
-                    .files
-                    .iter()
-                    .filter(|file| !file.usable)
-                    .map(|file| &file.path)
-                    .collect();
+                let bare = module.files.iter().filter(|file| !file.usable);
+                let bare: HashSet<&String> = bare.map(|file| &file.path).collect();
                 let lost = module.references.iter().filter(|reference| {
                     reference.path.as_ref().is_none_or(|path| bare.contains(path))
                 });

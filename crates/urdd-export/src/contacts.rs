@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::pairs::{ascending, pairs};
 use crate::{Contacts, ExportError, Layout, LinkPair, ModelOptions, Shape, Solid, Structure};
-use urdd_document::rigid_groups::RigidGroups;
+use urdd_document::tree::RigidGroups;
 use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
 use urdd_geometry::decompose::{self, decompose};

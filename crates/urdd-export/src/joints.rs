@@ -4,9 +4,10 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use crate::layout::origin;
 use crate::{Note, Subject};
-use urdd_document::mimics::Resolved;
+use urdd_document::tree::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
+use urdd_document::tree::Resolved;
 use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};
 

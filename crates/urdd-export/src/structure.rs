@@ -1,9 +1,9 @@
 //! The joints of a robot as a tree.
 
 use crate::ExportError;
-use urdd_document::mimics::Mimics;
+use urdd_document::tree::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
-use urdd_document::tree::Tree;
+use urdd_document::tree::{Mimics, Tree};
 use urdd_format::urdf::UrdfModule;
 use urdd_kinematics::rotation::unit_axis;
 use urdd_robot::Robot;

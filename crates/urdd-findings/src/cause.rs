@@ -2,9 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::check::{Check, Outcome};
+use super::check::{Check, Effect, Outcome};
 use super::code::Code;
-use super::effect::Effect;
 use super::places::{parted, retain};
 use super::skip::SkipReason;
 use urdd_directory::position::Position;

@@ -3,13 +3,12 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::code::Code;
 use super::description::Description;
-use super::effect::Effect;
 use super::finding::{Finding, Findings};
-use super::part::NotVerified;
-use super::scope::{Faulted, Scope};
+use super::part::{Faulted, NotVerified, Scope};
 use super::skip::SkipReason;
-use super::worst::worst_first;
+use urdd_directory::position::Position;
 use urdd_format::report::{Place, Severity};
 
 /// The outcome of a rule.
@@ -43,6 +42,17 @@ pub struct Check {
     pub faulted: Faulted,
     /// The parts that it was to judge.
     pub scope: Scope,
+}
+
+/// A finding of a rule that goes away when the fault of another one is mended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Effect {
+    /// Where it is.
+    pub at: Position,
+    /// What it says.
+    pub message: String,
+    /// The finding that it follows from: its rule, and where it is.
+    pub cause: (Code, Position),
 }
 
 impl Check {
@@ -112,4 +122,32 @@ impl Check {
 pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
+}
+
+/// Puts the worst place of a finding first, by magnitude.
+pub(super) fn worst_first(finding: &mut Finding) {
+    // A magnitude that is not finite is the worst.
+    let size = |place: &Place| match &place.magnitude {
+        None => f64::NEG_INFINITY,
+        Some(magnitude) => magnitude.value.unwrap_or(f64::INFINITY),
+    };
+    finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let Some(worst) = finding.more.first_mut() else {
+        return;
+    };
+    if size(worst) > size(&finding.place) {
+        std::mem::swap(&mut finding.place, worst);
+        if let Some(message) = finding.place.message.take() {
+            let first = std::mem::replace(&mut finding.message, message);
+            for other in &mut finding.more {
+                match &other.message {
+                    None => other.message = Some(first.clone()),
+                    Some(same) if *same == finding.message => other.message = None,
+                    Some(_) => {}
+                }
+            }
+        }
+        // Sorts the former first place in among the others.
+        finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    }
 }

@@ -13,60 +13,35 @@ pub struct Family {
     pub about: &'static str,
 }
 
-/// The families, in the order of [`Code::ALL`]; without that of the rule that only tests have.
-pub const FAMILIES: &[Family] = &[
-    new(
-        "DIR",
-        "directory",
-        "Which files and folders a URDD has, and what `urdd.json` says of them.",
-    ),
-    new("JSN", "JSON", "Whether JSON documents can be read, and mean the same to every reader."),
-    new(
-        "YML",
-        "YAML",
-        "Whether YAML documents can be read, and say what the JSON beside them says.",
-    ),
-    new("SCH", "schemas", "Whether each document has the form that its module's schema asks for."),
-    new("EXT", "extensions", "Modules of your own: their schemas, indices and lengths."),
-    new(
-        "URD",
-        "kinematic structure",
-        "Links and joints: names, one root, no circle, mimics, and that they are the URDF's.",
-    ),
-    new(
-        "SRC",
-        "physics in the URDF",
-        "Masses, inertias, limits and mimics that are impossible or missing.",
-    ),
-    new(
-        "DOF",
-        "degrees of freedom",
-        "Which joints move, and which position belongs to which joint.",
-    ),
-    new("CHN", "kinematic chain", "Parents, children, axes, origins and levels of the tree."),
-    new("CON", "connections", "The stored paths between links."),
-    new("BND", "bounds", "Limits of each DOF: positions, velocities, efforts."),
-    new("CMP", "composition", "What a combined robot says of the parts it was made of."),
-    new("MSH", "meshes", "Mesh files, hulls and convex pieces, compared with what they stand for."),
-    new(
-        "SHP",
-        "collision shapes",
-        "Boxes, spheres, skipped pairs of links and distances between links.",
-    ),
-    new("LRN", "learned model", "The learned model of self-collisions, and how often it is wrong."),
-    new("KIN", "kinematics", "Stored poses of links, computed again from the joints."),
-    new("CNF", "named configurations", "Configurations with a name, such as `home`."),
-    new("LEG", "legacy", "URDDs from before version 1."),
-    new(
-        "LNT",
-        "lint",
-        "What programs refuse, leave out or read otherwise in a URDF. Only `urdd lint` has them.",
-    ),
-];
-
-const fn new(code: &'static str, name: &'static str, about: &'static str) -> Family {
-    Family { code, name, about }
+/// A line for each family.
+macro_rules! families {
+    ($($code:ident $name:literal $about:literal;)*) => {
+        &[$(Family { code: stringify!($code), name: $name, about: $about }),*]
+    };
 }
+
+/// The families, in the order of [`Code::ALL`]; without that of the rule that only tests have.
+pub const FAMILIES: &[Family] = families! {
+    DIR "directory" "Which files and folders a URDD has, and what `urdd.json` says of them.";
+    JSN "JSON" "Whether JSON documents can be read, and mean the same to every reader.";
+    YML "YAML" "Whether YAML documents can be read, and say what the JSON beside them says.";
+    SCH "schemas" "Whether each document has the form that its module's schema asks for.";
+    EXT "extensions" "Modules of your own: their schemas, indices and lengths.";
+    URD "kinematic structure" "Links and joints: names, one root, no circle, mimics, and that they are the URDF's.";
+    SRC "physics in the URDF" "Masses, inertias, limits and mimics that are impossible or missing.";
+    DOF "degrees of freedom" "Which joints move, and which position belongs to which joint.";
+    CHN "kinematic chain" "Parents, children, axes, origins and levels of the tree.";
+    CON "connections" "The stored paths between links.";
+    BND "bounds" "Limits of each DOF: positions, velocities, efforts.";
+    CMP "composition" "What a combined robot says of the parts it was made of.";
+    MSH "meshes" "Mesh files, hulls and convex pieces, compared with what they stand for.";
+    SHP "collision shapes" "Boxes, spheres, skipped pairs of links and distances between links.";
+    LRN "learned model" "The learned model of self-collisions, and how often it is wrong.";
+    KIN "kinematics" "Stored poses of links, computed again from the joints.";
+    CNF "named configurations" "Configurations with a name, such as `home`.";
+    LEG "legacy" "URDDs from before version 1.";
+    LNT "lint" "What programs refuse, leave out or read otherwise in a URDF. Only `urdd lint` has them.";
+};
 
 impl Family {
     /// The family of a code; `None` for the rule that only tests have.

@@ -2,9 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::memory::bytes;
-use super::part::{Part, Why};
-use super::scope::{Faulted, Scope};
+use super::part::{Faulted, Part, Scope, Why};
 use super::skip::SkipReason;
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
@@ -308,16 +306,69 @@ impl Findings {
 
 /// A JSON Pointer with each list index replaced by `*`.
 pub fn without_indices(pointer: &str) -> String {
-    let parts: Vec<&str> =
-        pointer
-            .split('/')
-            .map(|part| {
-                if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) {
-                    "*"
-                } else {
-                    part
-                }
-            })
-            .collect();
-    parts.join("/")
+    let is_index = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    let parts = pointer.split('/').map(|part| if is_index(part) { "*" } else { part });
+    parts.collect::<Vec<_>>().join("/")
+}
+
+/// Approximate memory of a place, a fix and an edit without their texts, in bytes. Constants, so that a report is the
+/// same on every machine.
+const PLACE: usize = 320;
+const FIX: usize = 56;
+const EDIT: usize = 64;
+/// And of a program that does something because of it.
+const PROGRAM: usize = 40;
+
+/// Approximate memory of a place, in bytes.
+pub(super) fn bytes(place: &Place) -> usize {
+    let texts = [
+        &place.file,
+        &place.pointer,
+        &place.subject,
+        &place.message,
+        &place.expected,
+        &place.actual,
+    ];
+    let texts = texts.into_iter().flatten().map(String::len);
+    let fixes = place.fixes.iter().map(|fix| {
+        let edits = fix.edits.iter();
+        let edits = edits.map(|edit| EDIT + edit.file.len() + edit.text.len());
+        FIX + fix.message.len() + edits.sum::<usize>()
+    });
+    let related = place.related.iter().map(bytes);
+    let programs = PROGRAM * place.programs.len();
+    PLACE + programs + texts.sum::<usize>() + fixes.sum::<usize>() + related.sum::<usize>()
+}
+
+/// Reports findings at one kind of place: builds the first few and counts the rest. For tables in which every element
+/// may be wrong. When dropped, it reports the count of those that were not built.
+pub struct Fold<'a> {
+    findings: &'a mut Findings,
+    seen: usize,
+    last: Option<Finding>,
+}
+
+impl<'a> Fold<'a> {
+    /// Reports into `findings`.
+    pub fn new(findings: &'a mut Findings) -> Self {
+        Fold { findings, seen: 0, last: None }
+    }
+
+    /// Adds a finding.
+    pub fn add(&mut self, make: impl FnOnce() -> Finding) {
+        self.seen += 1;
+        if self.seen <= KEPT_PLACES || self.findings.wants_each() {
+            self.findings.report(make());
+        } else if self.last.is_none() {
+            self.last = Some(make());
+        }
+    }
+}
+
+impl Drop for Fold<'_> {
+    fn drop(&mut self) {
+        if let Some(last) = self.last.take() {
+            self.findings.report(last.count(self.seen - KEPT_PLACES));
+        }
+    }
 }

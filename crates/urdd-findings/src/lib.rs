@@ -4,31 +4,24 @@
 //! found before, and reports as text, JSON, SARIF and JUnit. Knows no rule: the validator and lint have theirs.
 
 pub mod baseline;
-pub mod bound;
 pub mod cause;
 pub mod check;
 pub mod code;
 pub mod description;
-pub mod effect;
 pub mod examined;
 pub mod family;
 pub mod file_error;
 pub mod finding;
-pub mod fold;
-mod memory;
 pub mod part;
 pub mod places;
 pub mod programs;
 pub mod report;
 pub mod robots;
 pub mod run;
-pub mod scope;
 pub mod selection;
 pub mod settings;
 pub mod settings_file;
 pub mod skip;
-mod unverified;
-mod worst;
 
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,9 @@
-//! Parts of a robot's geometry that rules judge one by one, so that a fault in one part leaves the others judged.
+//! Parts of a robot's geometry that rules judge one by one, so that a fault in one part leaves the others judged: which a
+//! rule judges, and which it did not verify.
+
+use std::collections::{BTreeSet, HashMap};
+
+use thiserror::Error;
 
 use super::code::Code;
 use urdd_format::registry::ModuleKind;
@@ -21,19 +26,21 @@ pub enum Part {
 }
 
 /// Why a part was not verified by a rule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Why {
     /// This rule found a fault in it, or in something it is compared with.
+    #[error("{0} found a fault")]
     Failed(Code),
-    /// Its files, or files it is compared with, cannot be read or differ.
+    #[error("a mesh file cannot be read, or its formats differ")]
     Unreadable,
-    /// A mesh that the URDF names for it is not carried or cannot be read.
+    #[error("a mesh that the URDF names is not carried, or cannot be read")]
     SourceMissing,
-    /// A mesh that the URDF names is outside of the robot's folder and packages, and was not read.
+    #[error("a mesh is outside of the robot's folder and packages; --allow-folder reads it")]
     Outside,
-    /// A mesh that the URDF names is in a package that is not found.
+    #[error("a mesh is in a package that is not found; --package says where it is")]
     NoPackage,
-    /// A mesh that the URDF names is in a format that this program does not read.
+    #[error("a mesh is in a format that is not read here")]
     OtherFormat,
 }
 
@@ -89,21 +96,88 @@ impl std::fmt::Display for Part {
     }
 }
 
-impl std::fmt::Display for Why {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Why::Failed(code) => write!(f, "{code} found a fault"),
-            Why::Unreadable => f.write_str("a mesh file cannot be read, or its formats differ"),
-            Why::SourceMissing => {
-                f.write_str("a mesh that the URDF names is not carried, or cannot be read")
+/// The parts in which a rule found a fault.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Faulted {
+    parts: BTreeSet<Part>,
+    elsewhere: bool,
+}
+
+impl Faulted {
+    /// Adds the parts of a finding. Without parts, the fault does not belong to single parts.
+    pub fn add(&mut self, parts: &[Part]) {
+        self.parts.extend(parts);
+        self.elsewhere |= parts.is_empty();
+    }
+
+    /// The parts.
+    pub fn parts(&self) -> &BTreeSet<Part> {
+        &self.parts
+    }
+
+    /// Whether there are faults besides those of single parts.
+    pub fn elsewhere(&self) -> bool {
+        self.elsewhere
+    }
+
+    /// Whether a convex piece, or something besides single parts, is faulty.
+    pub fn has_pieces(&self) -> bool {
+        self.elsewhere || self.parts.iter().any(|part| matches!(part, Part::Piece { .. }))
+    }
+}
+
+/// The parts that a rule judges.
+#[derive(Debug, Clone, Default)]
+pub struct Scope {
+    unsound: HashMap<Part, Code>,
+    judged: usize,
+    not_verified: BTreeSet<NotVerified>,
+}
+
+impl Scope {
+    /// All parts except those in which other rules found a fault, given with the rule.
+    pub fn without(unsound: HashMap<Part, Code>) -> Self {
+        Scope { unsound, ..Scope::default() }
+    }
+
+    /// The same parts, none of them judged yet.
+    pub fn afresh(&self) -> Self {
+        Scope::without(self.unsound.clone())
+    }
+
+    /// Whether to judge a part against other parts: not if one of them is unsound. Records what is not judged.
+    pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
+        let mut needed = std::iter::once(&part).chain(by);
+        match needed.find_map(|needed| self.unsound.get(needed)) {
+            Some(code) => {
+                self.leave_out(part, Why::Failed(*code));
+                false
             }
-            Why::Outside => f.write_str(
-                "a mesh is outside of the robot's folder and packages; --allow-folder reads it",
-            ),
-            Why::NoPackage => {
-                f.write_str("a mesh is in a package that is not found; --package says where it is")
+            None => {
+                self.judged += 1;
+                true
             }
-            Why::OtherFormat => f.write_str("a mesh is in a format that is not read here"),
         }
+    }
+
+    /// Records that a part was not verified.
+    pub fn leave_out(&mut self, part: Part, why: Why) {
+        self.not_verified.insert(NotVerified { part, why });
+    }
+
+    /// The rule whose fault left nothing to judge, if so.
+    pub fn nothing_left(&self) -> Option<Code> {
+        if self.judged > 0 {
+            return None;
+        }
+        self.not_verified.iter().find_map(|one| match one.why {
+            Why::Failed(code) => Some(code),
+            _ => None,
+        })
+    }
+
+    /// The parts that were not verified.
+    pub fn not_verified(&self) -> Vec<NotVerified> {
+        self.not_verified.iter().copied().collect()
     }
 }

@@ -36,37 +36,13 @@ pub fn subject(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> 
 }
 
 /// What parts of links and joints have below their names: elements of URDF, and what readers name besides.
-const INSIDE: &[&str] = &[
-    "inertial",
-    "visual",
-    "collision",
-    "origin",
-    "geometry",
-    "material",
-    "color",
-    "texture",
-    "mass",
-    "inertia",
-    "com",
-    "axis",
-    "limit",
-    "lower",
-    "upper",
-    "effort",
-    "velocity",
-    "acceleration",
-    "deceleration",
-    "jerk",
-    "dynamics",
-    "damping",
-    "friction",
-    "mimic",
-    "calibration",
-    "safety_controller",
-    "safety",
-    "parent",
-    "child",
-];
+const INSIDE: &str = "inertial visual collision origin geometry material color texture mass inertia com axis limit lower \
+    upper effort velocity acceleration deceleration jerk dynamics damping friction mimic calibration safety_controller \
+    safety parent child";
+
+fn is_inside(word: &str) -> bool {
+    INSIDE.split(' ').any(|known| known == word)
+}
 
 /// The kind of a part of a robot: `collision` of `link/arm/collision/0`, `link` of `link/arm/tip`, whose name has a slash,
 /// `transmission` of `transmission/wrist_3`; `?` for something that is no part.
@@ -77,7 +53,7 @@ pub fn kind(part: &str) -> &str {
         ["robot" | "", .., last] => last,
         // A link may be called `limit`.
         [kind, _] => kind,
-        [.., last] if INSIDE.contains(&last) => last,
+        [.., last] if is_inside(last) => last,
         [.., of @ ("visual" | "collision"), _] => of,
         [first, ..] => first,
         [] => part,
@@ -90,7 +66,7 @@ pub fn owner(part: &str) -> &str {
     while let Some((above, last)) = owner.rsplit_once('/') {
         let is_shape = ["/visual", "/collision"].iter().any(|shape| above.ends_with(shape));
         let is_index = is_shape && last.bytes().all(|byte| byte.is_ascii_digit());
-        if !is_index && !INSIDE.contains(&last) {
+        if !is_index && !is_inside(last) {
             break;
         }
         owner = above;

@@ -33,51 +33,46 @@ pub const FRAMES: &[&str] = &["world", "root", "link", "parent_link", "joint", "
 /// Between the words of a choice.
 const OR: &str = " or ";
 
-/// What indices and lengths count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Thing {
-    /// A link of the robot.
-    Link,
-    /// A joint of the robot.
-    Joint,
-    /// A degree of freedom.
-    Dof,
-    /// A `visual` element of a link.
-    Visual,
-    /// A `collision` element of a link.
-    Collision,
-    /// A convex piece of a link.
-    Piece,
-    /// A link that has a shape.
-    FullShape,
-    /// A convex piece of any link.
-    DecompositionShape,
-    /// A part of a composed robot.
-    Part,
-    /// A pair of links with an output of the self-collision model.
-    Pair,
-    /// A sampled configuration.
-    Sample,
-    /// Something else, which the description names.
-    Other,
+/// What indices and lengths count, each with its word in `x-index`, and that in `x-length`.
+macro_rules! things {
+    ($($(#[$doc:meta])* $thing:ident $index:literal $length:expr;)*) => {
+        /// What indices and lengths count.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Thing { $($(#[$doc])* $thing,)* }
+
+        /// Everything that is counted, in the order of [`Thing`]: its word in `x-index`, and that in `x-length` if lists
+        /// have one element for each.
+        pub const THINGS: [(Thing, &str, Option<&str>); 12] =
+            [$((Thing::$thing, $index, $length)),*];
+    };
 }
 
-/// Everything that is counted, in the order of [`Thing`]: its word in `x-index`, and that in `x-length` if lists have
-/// one element for each.
-pub const THINGS: [(Thing, &str, Option<&str>); 12] = [
-    (Thing::Link, "link", Some("links")),
-    (Thing::Joint, "joint", Some("joints")),
-    (Thing::Dof, "dof", Some("dofs")),
-    (Thing::Visual, "visual", None),
-    (Thing::Collision, "collision", None),
-    (Thing::Piece, "piece", Some("pieces")),
-    (Thing::FullShape, "full_shape", Some("full_shapes")),
-    (Thing::DecompositionShape, "decomposition_shape", Some("decomposition_shapes")),
-    (Thing::Part, "part", Some("parts")),
-    (Thing::Pair, "pair", Some("pairs")),
-    (Thing::Sample, "sample", None),
-    (Thing::Other, "other", None),
-];
+things! {
+    /// A link of the robot.
+    Link "link" Some("links");
+    /// A joint of the robot.
+    Joint "joint" Some("joints");
+    /// A degree of freedom.
+    Dof "dof" Some("dofs");
+    /// A `visual` element of a link.
+    Visual "visual" None;
+    /// A `collision` element of a link.
+    Collision "collision" None;
+    /// A convex piece of a link.
+    Piece "piece" Some("pieces");
+    /// A link that has a shape.
+    FullShape "full_shape" Some("full_shapes");
+    /// A convex piece of any link.
+    DecompositionShape "decomposition_shape" Some("decomposition_shapes");
+    /// A part of a composed robot.
+    Part "part" Some("parts");
+    /// A pair of links with an output of the self-collision model.
+    Pair "pair" Some("pairs");
+    /// A sampled configuration.
+    Sample "sample" None;
+    /// Something else, which the description names.
+    Other "other" None;
+}
 
 impl Thing {
     /// The word of `x-index`.

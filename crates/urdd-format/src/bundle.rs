@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::schema::{Subject, Variant};
+use super::schema::{Subject, Variant, each_schema};
 
 /// The schema of an object with a property for `urdd.json` and one for each module. Each shared
 /// definition occurs once.
@@ -65,19 +65,13 @@ fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> S
 
 /// Prefixes the name in every `$ref`.
 fn refer(schema: &mut Value, prefix: &str) {
-    match schema {
-        Value::Object(object) => {
-            for (key, value) in object {
-                match (key.as_str(), &mut *value) {
-                    ("$ref", Value::String(reference)) => {
-                        let name = reference.strip_prefix("#/$defs/").unwrap_or(reference);
-                        *reference = format!("#/$defs/{prefix}{name}");
-                    }
-                    _ => refer(value, prefix),
-                }
-            }
+    let Ok(schema) = schema.try_into() else {
+        return;
+    };
+    each_schema(schema, &|object| {
+        if let Some(Value::String(reference)) = object.get_mut("$ref") {
+            let name = reference.strip_prefix("#/$defs/").unwrap_or(reference);
+            *reference = format!("#/$defs/{prefix}{name}");
         }
-        Value::Array(list) => list.iter_mut().for_each(|value| refer(value, prefix)),
-        _ => {}
-    }
+    });
 }

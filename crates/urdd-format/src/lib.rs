@@ -44,7 +44,6 @@ pub mod kinematics_samples;
 pub mod legacy;
 pub mod link_shapes_approximations;
 pub mod link_shapes_distance_statistics;
-pub mod link_shapes_max_distance_from_origin;
 pub mod link_shapes_simple_skips;
 pub mod link_shapes_skips;
 pub mod meshes;
@@ -71,6 +70,5 @@ pub mod shapes;
 #[doc(hidden)]
 pub mod short;
 pub mod skips;
-pub mod tagged;
 mod types;
 pub mod urdf;

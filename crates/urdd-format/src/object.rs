@@ -5,7 +5,6 @@
 //! a missing `Option` as `None`, a unit variant from an object) and stricter in others (`1.0` is
 //! not an integer). These macros close both gaps. They also allow the keys that SPEC reserves:
 //! `x_…` in every object, and `$schema` at the top of a document.
-//! [`tagged`](super::tagged) declares choices between kinds.
 
 use std::fmt;
 
@@ -112,18 +111,10 @@ macro_rules! string_enum {
             }
         }
 
-        impl schemars::JsonSchema for $name {
-            fn schema_name() -> std::borrow::Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                $crate::object::string_enum_schema(
-                    &[$($doc),*],
-                    &[$(($crate::object::word!($variant $($word)?), &[$($vdoc),*] as &[&str])),*],
-                )
-            }
-        }
+        $crate::object::schema! { $name, false, |_generator| $crate::object::string_enum_schema(
+            &[$($doc),*],
+            &[$(($crate::object::word!($variant $($word)?), &[$($vdoc),*] as &[&str])),*],
+        ) }
     };
 }
 
@@ -160,18 +151,8 @@ macro_rules! integer {
             }
         }
 
-        impl schemars::JsonSchema for $name {
-            fn inline_schema() -> bool {
-                true
-            }
-
-            fn schema_name() -> std::borrow::Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                $crate::object::integer_schema(&[$($doc),*], $keyword, $says)
-            }
+        $crate::object::schema! {
+            $name, true, |_generator| $crate::object::integer_schema(&[$($doc),*], $keyword, $says)
         }
     )*};
 }
@@ -212,23 +193,32 @@ macro_rules! pattern {
             }
         }
 
+        $crate::object::schema! {
+            $name, true, |_generator| $crate::object::pattern_schema(&[$($doc),*], $regex)
+        }
+    )*};
+}
+
+/// Says the schema of a type, and whether it stands where it is used instead of being a definition of its own.
+macro_rules! schema {
+    ($name:ident, $is_inline:literal, |$generator:ident| $schema:expr) => {
         impl schemars::JsonSchema for $name {
             fn inline_schema() -> bool {
-                true
+                $is_inline
             }
 
             fn schema_name() -> std::borrow::Cow<'static, str> {
                 stringify!($name).into()
             }
 
-            fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                $crate::object::pattern_schema(&[$($doc),*], $regex)
+            fn json_schema($generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                $schema
             }
         }
-    )*};
+    };
 }
 
-pub(crate) use {integer, object, pattern, string_enum, word};
+pub(crate) use {integer, object, pattern, schema, string_enum, word};
 
 /// The position in `fields` of the object's next known key. Skips extension keys; any other key is
 /// an error.

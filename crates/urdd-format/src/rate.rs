@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::readable::grouped;
+
 /// The 97.5 % quantile of the standard normal distribution.
 const Z: f64 = 1.959963984540054;
 
@@ -67,17 +69,4 @@ impl fmt::Display for Rate {
 /// Two decimals, as many as are significant for a proportion below 10 %.
 fn percent(share: f64) -> String {
     format!("{:.2}", 100.0 * share)
-}
-
-/// With a comma between thousands.
-fn grouped(number: u32) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -28,6 +28,20 @@ pub fn metres(length: f64) -> String {
     format!("{} m", number(length, 3))
 }
 
+/// A number with a comma before each three digits of its whole part.
+pub fn grouped(number: impl Into<f64>) -> String {
+    let text = number.into().to_string();
+    let end = text.find('.').unwrap_or(text.len());
+    let mut out = String::new();
+    for (at, c) in text.chars().enumerate() {
+        if at > 0 && at < end && (end - at).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(c);
+    }
+    out
+}
+
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -2,6 +2,7 @@
 //! `urdd_directory::schema_files` reads and writes them.
 
 use schemars::Schema;
+use schemars::transform::transform_subschemas;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -10,6 +11,7 @@ use super::annotations::KEYWORDS;
 use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
 use super::diff_report::{DIFF_REPORT_VERSION, DiffReport};
 use super::hexadecimal::hexadecimal;
+use super::nearest::nearest;
 use super::registry::{ModuleSpec, Profile, modules};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
@@ -251,7 +253,8 @@ pub fn files(variant: Variant) -> Vec<SchemaFile> {
 /// sorted. Schemas with equal validating parts accept the same documents. The annotations of SPEC 11.3
 /// are part of it: a released field keeps its unit, frame, index space and length.
 pub fn validating_part(schema: &Value) -> Value {
-    let mut part = each_schema(schema, &|object| {
+    let mut part = Schema::try_from(schema.clone()).unwrap_or_default();
+    each_schema(&mut part, &|object| {
         for annotation in ["title", "description", "$id", "$comment", "examples"] {
             object.shift_remove(annotation);
         }
@@ -261,6 +264,7 @@ pub fn validating_part(schema: &Value) -> Value {
             }
         }
     });
+    let mut part = part.to_value();
     part.sort_all_objects();
     part
 }
@@ -275,7 +279,7 @@ pub fn validating_hash(schema: &Value) -> String {
 fn published(mut schema: Schema, id: String, variant: Variant, annotated: bool) -> Value {
     schema.insert("$id".to_owned(), json!(id));
     name_definitions(&mut schema);
-    each_schema(schema.as_value(), &|object| {
+    each_schema(&mut schema, &|object| {
         // The bit width is an implementation detail, and validators warn about unknown formats.
         object.shift_remove("format");
         if !annotated {
@@ -303,7 +307,8 @@ fn published(mut schema: Schema, id: String, variant: Variant, annotated: bool) 
             }
         }
         object.extend(rest);
-    })
+    });
+    schema.to_value()
 }
 
 /// Some code generators declare an extra type for integer list elements that have bounds or a
@@ -341,50 +346,19 @@ fn flowing(text: &str) -> String {
     flowing
 }
 
-/// Applies `change` to a schema and to every schema within it. Property names and enumeration
+/// Applies `change` to every schema within a schema, and to itself. Property names and enumeration
 /// values are not schemas, even if they look like keywords.
-fn each_schema(schema: &Value, change: &impl Fn(&mut Map<String, Value>)) -> Value {
-    let Value::Object(object) = schema else {
-        return schema.clone();
-    };
-    let mut object: Map<String, Value> = object
-        .iter()
-        .map(|(keyword, value)| (keyword.clone(), each_schema_of(keyword, value, change)))
-        .collect();
-    change(&mut object);
-    Value::Object(object)
-}
-
-fn each_schema_of(
-    keyword: &str,
-    value: &Value,
-    change: &impl Fn(&mut Map<String, Value>),
-) -> Value {
-    match (keyword, value) {
-        ("properties" | "patternProperties" | "$defs", Value::Object(named)) => Value::Object(
-            named
-                .iter()
-                .map(|(name, schema)| (name.clone(), each_schema(schema, change)))
-                .collect(),
-        ),
-        ("prefixItems" | "anyOf" | "oneOf" | "allOf", Value::Array(schemas)) => {
-            Value::Array(schemas.iter().map(|schema| each_schema(schema, change)).collect())
-        }
-        ("items" | "additionalProperties", schema) => each_schema(schema, change),
-        (_, other) => other.clone(),
+pub(super) fn each_schema(schema: &mut Schema, change: &dyn Fn(&mut Map<String, Value>)) {
+    transform_subschemas(&mut |inner: &mut Schema| each_schema(inner, change), schema);
+    if let Some(object) = schema.as_object_mut() {
+        change(object);
     }
 }
 
-/// All versions of the module with this name, else of those with the most similar name.
+/// All versions of the module with this name, else of the one with the most similar name.
 fn near_ids(id: &str) -> Vec<String> {
     let name = id.split('@').next().unwrap_or_default();
-    let mut near: Vec<(usize, String)> = Subject::all()
-        .map(|subject| (strsim::levenshtein(name, subject.name()), subject.id()))
-        .collect();
-    near.sort_by_key(|(distance, _)| *distance);
-    let nearest = near.first().map_or(0, |(distance, _)| *distance);
-    near.into_iter()
-        .take_while(|(distance, _)| *distance == nearest && *distance <= name.len() / 3)
-        .map(|(_, id)| id)
-        .collect()
+    let near = nearest(Subject::all().map(Subject::name), name);
+    let of_name = Subject::all().filter(|subject| near.as_deref() == Some(subject.name()));
+    of_name.map(Subject::id).collect()
 }

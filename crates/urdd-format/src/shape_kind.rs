@@ -5,10 +5,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use super::legacy::{
-    link_shapes_distance_statistics as legacy_statistics,
-    link_shapes_simple_skips as legacy_simple_skips, link_shapes_skips as legacy_skips,
-};
+use super::legacy::shapes as legacy;
 use super::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
@@ -16,46 +13,41 @@ use super::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason, S
 use super::link_shapes_skips::LinkShapesSkipsModule;
 use super::registry::ModuleKind;
 
-/// A kind of shapes that approximate links.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ShapeKind {
+/// The kinds, in the order of the specification (8.1), each with its name.
+macro_rules! shape_kinds {
+    ($($(#[$doc:meta])* $kind:ident $name:literal;)*) => {
+        /// A kind of shapes that approximate links.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum ShapeKind { $($(#[$doc])* $kind,)* }
+
+        impl ShapeKind {
+            /// Every kind, in the order of the specification (8.1).
+            pub const ALL: [ShapeKind; 6] = [$(ShapeKind::$kind),*];
+
+            /// Its short name, as used on command lines.
+            pub fn name(self) -> &'static str {
+                match self { $(ShapeKind::$kind => $name,)* }
+            }
+        }
+    };
+}
+
+shape_kinds! {
     /// The convex hull of each link.
-    Hulls,
+    Hulls "hulls";
     /// The bounding box of each hull.
-    Boxes,
+    Boxes "boxes";
     /// The bounding sphere of each hull.
-    Spheres,
+    Spheres "spheres";
     /// The convex pieces of each link.
-    Pieces,
+    Pieces "pieces";
     /// The bounding box of each piece.
-    PieceBoxes,
+    PieceBoxes "piece-boxes";
     /// The bounding sphere of each piece.
-    PieceSpheres,
+    PieceSpheres "piece-spheres";
 }
 
 impl ShapeKind {
-    /// Every kind, in the order of the specification (8.1).
-    pub const ALL: [ShapeKind; 6] = [
-        ShapeKind::Hulls,
-        ShapeKind::Boxes,
-        ShapeKind::Spheres,
-        ShapeKind::Pieces,
-        ShapeKind::PieceBoxes,
-        ShapeKind::PieceSpheres,
-    ];
-
-    /// Its short name, as used on command lines.
-    pub fn name(self) -> &'static str {
-        match self {
-            ShapeKind::Hulls => "hulls",
-            ShapeKind::Boxes => "boxes",
-            ShapeKind::Spheres => "spheres",
-            ShapeKind::Pieces => "pieces",
-            ShapeKind::PieceBoxes => "piece-boxes",
-            ShapeKind::PieceSpheres => "piece-spheres",
-        }
-    }
-
     /// The key of the kind in documents, or the beginning of its keys.
     pub fn key(self) -> &'static str {
         SkipReasons::KEYS[self as usize]
@@ -172,9 +164,9 @@ macro_rules! of_kinds {
 }
 
 of_kinds! { LinkShapesDistanceStatisticsModule => DistanceStatistics }
-of_kinds! { legacy_statistics::LinkShapesDistanceStatisticsModule => legacy_statistics::DistanceStatistics }
+of_kinds! { legacy::LinkShapesDistanceStatisticsModule => legacy::DistanceStatistics }
 of_kinds! { SkipReasons => Vec<Vec<SkipReason>> }
 of_kinds! { simple LinkShapesSimpleSkipsModule }
-of_kinds! { simple legacy_simple_skips::LinkShapesSimpleSkipsModule }
+of_kinds! { simple legacy::LinkShapesSimpleSkipsModule }
 of_kinds! { edited LinkShapesSkipsModule }
-of_kinds! { edited legacy_skips::LinkShapesSkipsModule }
+of_kinds! { edited legacy::LinkShapesSkipsModule }

@@ -50,7 +50,8 @@ pub fn name(name: &str) -> Cow<'_, str> {
     if name.len() <= LONGEST_NAME { name.into() } else { cut(name, LONGEST_NAME) }
 }
 
-fn cut(text: &str, longest: usize) -> Cow<'_, str> {
+/// A text of at most so many characters, and `…` where there are more.
+pub fn cut(text: &str, longest: usize) -> Cow<'_, str> {
     match text.char_indices().nth(longest) {
         Some((end, _)) => format!("{}…", &text[..end]).into(),
         None => text.into(),

@@ -233,6 +233,7 @@ module! {
     }
 
     /// Limits of a joint: rad, rad/s, N m for turning joints; m, m/s, N for sliding ones.
+    #[derive(Copy)]
     pub struct Limit {
         /// Smallest position.
         pub lower: Option<f64> where { unit: "rad or m" },

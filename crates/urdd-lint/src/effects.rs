@@ -8,9 +8,9 @@ use super::subject::Subject;
 use super::unknown::What;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;
+use urdd_findings::check::Effect;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
-use urdd_findings::effect::Effect;
 use urdd_format::report::Place;
 use urdd_xml::element::{Edit, apply};
 

@@ -10,11 +10,10 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+pub use urdd_directory::limits::MAX_URDF_BYTES as MAX_SOURCE_BYTES;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 
-/// Maximum size of a URDF in bytes. The validator has the same limit.
-pub const MAX_SOURCE_BYTES: u64 = 64 << 20;
 /// Maximum number of files in memory.
 const MOST_FILES: usize = 20_000;
 /// Maximum size of all files in memory, bytes.

@@ -10,7 +10,7 @@ use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::finding::Findings;
 use urdd_findings::part::Part;
-use urdd_findings::scope::{Faulted, Scope};
+use urdd_findings::part::{Faulted, Scope};
 use urdd_findings::skip::SkipReason;
 use urdd_format::registry::{ModuleKind, Profile};
 

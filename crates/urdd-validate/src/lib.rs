@@ -66,8 +66,8 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
-use urdd_findings::bound;
 use urdd_findings::examined::Examined;
+use urdd_findings::places;
 use urdd_format::report::Kind;
 
 /// Why a run has no result.
@@ -113,7 +113,7 @@ pub fn validate_with<P: AsRef<Path>>(
         let mut excludes = settings.excludes.iter();
         !excludes.any(|exclude| exclude.matches(&found.name))
     });
-    let kept = bound::of_each(found.len());
+    let kept = places::of_each(found.len());
     let examined = found.par_iter().map(|(kind, found)| {
         let mut examined = Examined::caught(*kind, &found.name, || match (kind, &found.closed) {
             (Kind::Urdf, _) => bare_urdf::examine(found, rules),
@@ -122,7 +122,7 @@ pub fn validate_with<P: AsRef<Path>>(
                 Ok(examine(Urdd::read(&found.path)?, &found.name, settings, rules))
             }
         });
-        bound::trim(&mut examined.checks, kept);
+        places::trim(&mut examined.checks, kept);
         examined
     });
     let examined = examined.collect();
@@ -166,7 +166,7 @@ fn run_of(
         Ok(examine(load()?, name, settings, &rules::all()))
     });
     settings.cancellation.check()?;
-    bound::trim(&mut examined.checks, bound::of_each(1));
+    places::trim(&mut examined.checks, places::of_each(1));
     let folders = vec![PathBuf::from(name)];
     Ok(Run::of(vec![examined], folders, 0, settings))
 }

@@ -4,7 +4,7 @@ use roxmltree::{Descendants, Node, ParsingOptions, TextPos};
 
 use crate::error::XmlError;
 use crate::limits::{Kind, MAX_NODES};
-use crate::{count, declaration, strict};
+use crate::{count, strict};
 
 /// A document within the limits. Only [`parse`] makes one.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub struct Document<'t>(roxmltree::Document<'t>);
 pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     count::check(text, kind)?;
     if kind == Kind::Robot {
-        declaration::check(text)?;
+        strict::check_declaration(text)?;
         strict::check(text)?;
     }
     let options = ParsingOptions {

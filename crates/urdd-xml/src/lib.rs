@@ -11,7 +11,6 @@
 //! [`Counted`].
 
 mod count;
-mod declaration;
 mod document;
 pub mod element;
 mod error;
@@ -23,10 +22,8 @@ pub mod other_parts;
 mod strict;
 pub mod tinyxml2;
 pub mod vocabulary;
-mod words;
 pub mod writer;
 
-pub use declaration::wrong_version;
 pub use document::{Counted, Document, parse};
 pub use error::XmlError;
 pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
@@ -34,4 +31,4 @@ pub use markup::root_name;
 pub use mended::{Mended, parse_leniently};
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};
-pub use strict::is_character;
+pub use strict::{is_character, wrong_version};

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use urdd_directory::text_fault::TextFaultKind as Kind;
-use urdd_directory::{canonical, json, json_places, json_scan};
+use urdd_directory::{canonical, json, json_scan};
 
 use super::text::{check_faults, leaves};
 
@@ -36,7 +36,7 @@ pub fn json(bytes: &[u8]) {
     assert_eq!(canonical::json_string(&again.value), text);
 
     for (pointer, value) in leaves(&document.value, LOOKED_UP) {
-        let found = json_places::find_values(&document.text, &[&pointer]);
+        let found = json_scan::find_values(&document.text, &[&pointer]);
         let offset = found[0].expect("it is there");
         let mut rest = serde_json::Deserializer::from_str(&document.text[offset..]).into_iter();
         let found: Option<Result<Value, _>> = rest.next();

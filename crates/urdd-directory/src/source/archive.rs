@@ -16,7 +16,6 @@ use flate2::bufread::DeflateDecoder;
 use super::tree::{Item, Node, Tree};
 use super::zip_list::{self, Listed, Packed, entry_fault};
 use super::{OpenFile, Source};
-use crate::archive_fault::{ArchiveFault, EntryFault};
 use crate::file_type::FileType;
 use crate::layout::ROOT_METADATA;
 use crate::limits::{
@@ -24,7 +23,7 @@ use crate::limits::{
     MAX_PART_BYTES, SMALL_ARCHIVE_BYTES,
 };
 use crate::listing::Listing;
-use crate::read_error::ReadError;
+use crate::read_error::{ArchiveFault, EntryFault, ReadError};
 use crate::regular;
 use urdd_format::registry::ModuleKind;
 

@@ -2,11 +2,8 @@
 
 mod archive;
 mod disk;
-mod disk_source;
-mod growing;
 mod memory;
 mod snapshot;
-mod stamp;
 #[doc(hidden)]
 pub mod tree;
 mod zip_list;
@@ -20,10 +17,8 @@ use super::listing::Listing;
 use super::read_error::ReadError;
 
 pub use archive::{Archive, is_archive};
-pub use disk::{Disk, is_urdd};
-pub use growing::Growing;
-pub use memory::Memory;
-pub use stamp::Stamp;
+pub use disk::{Disk, Stamp, is_urdd};
+pub use memory::{Growing, Memory};
 
 /// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;

@@ -1,4 +1,5 @@
-//! A folder on disk as it was when it was opened. A later read gives what was there then, or [`ReadError::Changed`].
+//! A folder on disk as storage: as it is at each question, or as it was when it was opened. A later read of the latter
+//! gives what was there then, or [`ReadError::Changed`].
 //!
 //! Opening lists the folder, and takes a stamp of each file: device, inode number, size, and the time of the last status
 //! change (ctime) in nanoseconds. No content is read. Reading compares the stamp of the open file after its last byte, so
@@ -14,6 +15,7 @@
 //! on Windows, which has no ctime, if the mtime is reset.
 
 use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
@@ -21,8 +23,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use super::disk::Disk;
-use super::stamp::{Seen, Stamp};
+use super::disk::{Disk, Seen, Stamp};
 use super::{OpenFile, Source};
 use crate::layout::ROOT_METADATA;
 use crate::listing::{Entry, EntryKind, Listing};
@@ -104,6 +105,39 @@ impl Look {
             Seen::Itself(stamp) => Some((at, *stamp)),
             Seen::Leads(_) | Seen::Other => None,
         }
+    }
+}
+
+impl Source for Disk {
+    fn folder_name(&self) -> String {
+        let name = self.canonical.file_name().unwrap_or(OsStr::new(""));
+        name.to_string_lossy().into_owned()
+    }
+
+    fn list(&self) -> Result<Listing, ReadError> {
+        Ok(self.walk()?.0)
+    }
+
+    fn open(&self, relative: &str) -> Result<(OpenFile, u64), ReadError> {
+        let target = fs::canonicalize(self.canonical.join(relative))?;
+        if !target.starts_with(&self.canonical) {
+            return Err(ReadError::LeavesRoot);
+        }
+        let file = regular::open(&target)?;
+        let size = file.metadata()?.len();
+        Ok((Box::new(file), size))
+    }
+
+    fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
+        Some(Arc::new(self.beside(folder_name)?))
+    }
+
+    fn kept(&self) -> Option<Arc<dyn Source>> {
+        Some(Arc::new(Snapshot::of(self.clone())))
+    }
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.path)
     }
 }
 

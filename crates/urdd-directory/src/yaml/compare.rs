@@ -10,13 +10,12 @@ use super::super::json_scan::push_segment;
 use super::super::limits::DEPTH_LIMIT;
 use super::super::position::Position;
 use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
-use super::end::{DISPUTED, End};
-use super::keys::{Keys, TORN};
+use super::disputes::{DISPUTED, End, Keys, TORN, Tabs};
 use super::message;
-use super::open::{Mapping, Member, Open, Shape, pointer};
+use super::open::{
+    Forced, Mapping, Member, Node, Open, Shape, Target, apply_tag, pointer, tag_fault,
+};
 use super::scalar::{self, Reading};
-use super::tabs::Tabs;
-use super::tag::{self, Forced, Node, Target};
 
 /// Reports how the YAML in `text` differs from `json`, and every construct that JSON lacks.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
@@ -318,8 +317,8 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let Some(tag) = tag else {
             return target;
         };
-        let variant = tag::apply(tag, node, &mut target);
-        self.add(at, TextFaultKind::YamlTag, || tag::fault(tag, variant));
+        let variant = apply_tag(tag, node, &mut target);
+        self.add(at, TextFaultKind::YamlTag, || tag_fault(tag, variant));
         target
     }
 

@@ -3,10 +3,10 @@
 use saphyr_parser::ScanError;
 use serde_json::Value;
 
-use super::super::canonical;
-use super::super::string_text::yaml_quoted;
+use super::super::canonical::{self, yaml_quoted};
 use super::super::text_fault::{TextFault, TextFaultKind};
 use super::scalar::{Reading, Readings};
+use urdd_format::short::cut;
 
 /// Longer excerpts are truncated.
 const LONGEST_EXCERPT: usize = 80;
@@ -22,11 +22,7 @@ pub fn describe(value: &Value) -> String {
 
 /// The beginning of a text, on one line.
 pub fn excerpt(text: &str) -> String {
-    let mut short: String = text.chars().take(LONGEST_EXCERPT).collect();
-    if short.len() < text.len() {
-        short.push('…');
-    }
-    short.replace(['\n', '\r'], " ")
+    cut(text, LONGEST_EXCERPT).replace(['\n', '\r'], " ")
 }
 
 /// A value that differs from the JSON.

@@ -1,14 +1,11 @@
 //! Checks that a YAML file mirrors a JSON document.
 
 mod compare;
-mod end;
-mod keys;
+mod disputes;
 mod message;
 mod open;
 pub mod places;
 pub mod scalar;
-mod tabs;
-mod tag;
 pub mod transcript;
 
 use std::fmt;
@@ -16,7 +13,7 @@ use std::fmt;
 use serde_json::Value;
 
 use super::canonical;
-use super::json_fault::decode;
+use super::json::decode;
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use message::excerpt;

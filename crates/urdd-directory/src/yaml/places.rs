@@ -8,6 +8,7 @@ use serde_json::{Map, Number, Value};
 
 use super::super::json_scan::push_segment;
 use super::super::limits::DEPTH_LIMIT;
+use super::super::position::Offsets;
 use super::scalar::{Reading, classify};
 
 /// Bytes of pointers for each byte of a text: long keys are in the pointers of all that is below them.
@@ -172,32 +173,4 @@ fn scalar(text: &str, is_plain: bool) -> Option<Value> {
         Reading::NonFinite => return None,
         Reading::Text | Reading::Timestamp | Reading::Special => Value::String(text.to_owned()),
     })
-}
-
-/// Byte offsets of ascending character offsets.
-struct Offsets<'t> {
-    text: &'t str,
-    character: usize,
-    byte: usize,
-    is_ascii: bool,
-}
-
-impl<'t> Offsets<'t> {
-    fn new(text: &'t str) -> Self {
-        Offsets { text, character: 0, byte: 0, is_ascii: text.is_ascii() }
-    }
-
-    fn bytes(&mut self, character: usize) -> usize {
-        if self.is_ascii {
-            return character.min(self.text.len());
-        }
-        if character < self.character {
-            (self.character, self.byte) = (0, 0);
-        }
-        let rest = &self.text[self.byte..];
-        let skipped = rest.char_indices().nth(character - self.character);
-        self.byte += skipped.map_or(rest.len(), |(at, _)| at);
-        self.character = character;
-        self.byte
-    }
 }

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_directory::archive_fault::{ArchiveFault, EntryFault};
 use urdd_directory::limits::MAX_ARCHIVE_BYTES;
 use urdd_directory::listing::EntryKind;
 use urdd_directory::read_error::ReadError;
+use urdd_directory::read_error::{ArchiveFault, EntryFault};
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 

@@ -1,6 +1,6 @@
 //! Finds many positions of a JSON text in one pass.
 
-use urdd_directory::json_places::*;
+use urdd_directory::json_scan::*;
 
 #[test]
 fn broken_text_ends_the_search() {

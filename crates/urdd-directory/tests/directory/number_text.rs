@@ -1,7 +1,7 @@
 //! The canonical form of numbers, for JSON and YAML.
 
 use serde_json::Number;
-use urdd_directory::number_text::*;
+use urdd_directory::canonical::{write_float, write_number};
 
 #[test]
 fn floats_have_one_spelling() {
@@ -35,7 +35,7 @@ fn integers_stay_integers() {
     for n in ["0", "-1", "18446744073709551615", "-9223372036854775808"] {
         let number: Number = n.parse().unwrap();
         let mut text = String::new();
-        write(&number, &mut text).unwrap();
+        write_number(&number, &mut text).unwrap();
         assert_eq!(text, n);
     }
 }

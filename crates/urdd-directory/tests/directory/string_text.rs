@@ -1,6 +1,6 @@
 //! The canonical form of strings. `canonical` specifies it.
 
-use urdd_directory::string_text::*;
+use urdd_directory::canonical::{Language, is_plain, write_quoted, yaml_quoted};
 
 #[test]
 fn characters_that_yaml_cannot_hold_are_escaped() {

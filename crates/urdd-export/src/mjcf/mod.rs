@@ -19,7 +19,7 @@ use body::{Bodies, geom_name};
 
 use crate::output::fill;
 use crate::{Export, ExportError, Files, MjcfOptions, Note, Stand, Subject};
-use urdd_document::rigid_groups::RigidGroups;
+use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::{Element, escaped, head};
 

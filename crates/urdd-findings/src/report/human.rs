@@ -12,8 +12,8 @@ use urdd_format::registry::ModuleKind;
 
 use super::fill::by_reason;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{list, plural, unit};
-use super::{programs, summary, unverified};
+use super::words::{list, plural, unit, unverified};
+use super::{programs, summary};
 use crate::code::Code;
 use crate::skip::SkipReason;
 use urdd_format::report::{
@@ -263,7 +263,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         let reason = safe(&open.reason);
         writeln!(out, "  {label} {}: {reason}", list(&open.codes))?;
     }
-    for text in unverified::describe(urdd) {
+    for text in unverified(urdd) {
         writeln!(out, "  {label} {text}")?;
     }
     for (reason, codes) in by_reason(&urdd.checks, Skipped::Ignored) {

@@ -6,14 +6,12 @@ mod fill;
 pub mod github;
 pub mod human;
 pub mod junit;
-pub mod markdown;
 pub mod place;
 pub mod programs;
 pub mod sarif;
 pub mod style;
 #[doc(hidden)]
 pub mod summary;
-mod unverified;
 mod words;
 
 use serde::Serialize;
@@ -21,9 +19,8 @@ use serde::Serialize;
 use urdd_format::escape;
 
 pub(crate) use fill::fill;
-pub use github::github;
+pub use github::{github, markdown};
 pub use junit::junit;
-pub use markdown::markdown;
 pub use sarif::sarif;
 
 /// A report, or other output, as JSON, indented, with a newline at its end.

@@ -8,8 +8,7 @@ use std::fmt::{self, Write};
 use super::causes::{Cause, causes};
 use super::programs;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::unverified::{self, not_verified};
-use super::words::{plural, unit};
+use super::words::{MODEL_NOT_VERIFIED, not_verified, plural, unit};
 use crate::code::Code;
 use urdd_format::escape::line as safe;
 use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
@@ -186,7 +185,7 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     }
     if models > 0 {
         let urdds = plural(models, unit(report));
-        writeln!(out, "    {}, in {urdds}", unverified::MODEL)?;
+        writeln!(out, "    {}, in {urdds}", MODEL_NOT_VERIFIED)?;
     }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
     reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));

@@ -1,6 +1,9 @@
-//! Wording shared by several renderers.
+//! Wording shared by several renderers, such as which links and which self-collision model were not verified.
 
-use urdd_format::report::{Kind, Report, Urdd};
+use std::collections::{BTreeMap, BTreeSet};
+
+use urdd_format::escape::line as safe;
+use urdd_format::report::{Kind, LinkNotVerified, Report, Urdd};
 
 /// A list of codes; if there are many, their number and families.
 pub(super) fn list(codes: &[String]) -> String {
@@ -25,4 +28,51 @@ pub(super) fn plural(count: usize, unit: &str) -> String {
     // `dynamics` is its own plural.
     let stays = count == 1 || unit.ends_with('s');
     format!("{count} {unit}{}", if stays { "" } else { "s" })
+}
+
+/// Maximum number of links listed per reason.
+const LINKS: usize = 8;
+
+/// States how many links were not verified.
+pub(super) fn not_verified(links: usize) -> String {
+    format!("the geometry of {} was not verified", plural(links, "link"))
+}
+
+/// States that a self-collision model was not verified.
+pub(super) const MODEL_NOT_VERIFIED: &str =
+    "the rates of the self-collision model were not verified";
+
+/// One line for the links that were not verified, and one for the self-collision model.
+pub(super) fn unverified(urdd: &Urdd) -> Vec<String> {
+    let model = urdd.model_not_verified.as_ref().map(|model| {
+        let reasons = model.reasons.join(", ");
+        format!("{MODEL_NOT_VERIFIED} (by {}: {})", list(&model.codes), safe(&reasons))
+    });
+    describe_links(urdd).into_iter().chain(model).collect()
+}
+
+/// The number of links that were not verified, and their indices by reason; `None` if all were verified.
+fn describe_links(urdd: &Urdd) -> Option<String> {
+    let links = &urdd.geometry_not_verified;
+    if links.is_empty() {
+        return None;
+    }
+    let mut by_reasons: BTreeMap<&[String], Vec<&LinkNotVerified>> = BTreeMap::new();
+    for link in links {
+        by_reasons.entry(&link.reasons).or_default().push(link);
+    }
+    let described = by_reasons.into_iter().map(|(reasons, links)| {
+        let named = links.iter().take(LINKS).map(|link| link.link.to_string());
+        let mut text = named.collect::<Vec<_>>().join(", ");
+        if links.len() > LINKS {
+            text += &format!(" and {} more", links.len() - LINKS);
+        }
+        let codes: BTreeSet<String> = links.iter().flat_map(|link| link.codes.clone()).collect();
+        let codes = Vec::from_iter(codes);
+        let word = if links.len() == 1 { "link" } else { "links" };
+        let reasons = reasons.join(", ");
+        format!("{word} {text} by {}: {}", list(&codes), safe(&reasons))
+    });
+    let described: Vec<String> = described.collect();
+    Some(format!("{} ({})", not_verified(links.len()), described.join("; ")))
 }

@@ -1,10 +1,9 @@
 //! The memory of a run of many URDDs: what is cut is counted.
 
 use super::DESCRIPTION;
-use crate::bound::*;
 use crate::check::{Check, Outcome};
-use crate::finding::Finding;
-use crate::memory::bytes;
+use crate::finding::{Finding, bytes};
+use crate::places::*;
 use urdd_format::report::Place;
 
 #[test]

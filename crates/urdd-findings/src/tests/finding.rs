@@ -1,7 +1,7 @@
 //! Findings, and folding of similar ones.
 
+use crate::finding::bytes;
 use crate::finding::*;
-use crate::memory::bytes;
 
 #[test]
 fn a_flood_is_folded_by_kind_of_place() {

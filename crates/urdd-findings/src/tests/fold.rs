@@ -1,7 +1,6 @@
 //! Reports many similar findings without building each of them.
 
-use crate::finding::{Finding, Findings, KEPT_PLACES};
-use crate::fold::*;
+use crate::finding::{Finding, Findings, Fold, KEPT_PLACES};
 
 #[test]
 fn all_are_counted_and_a_few_are_built() {

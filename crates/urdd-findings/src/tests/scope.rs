@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use crate::code::Code;
-use crate::part::{Part, Why};
-use crate::scope::*;
+use crate::part::*;
 
 #[test]
 fn an_unsound_part_is_left_out_and_said() {

@@ -1,7 +1,7 @@
 //! Orders the places of a finding.
 
+use crate::check::worst_first;
 use crate::finding::{Finding, Findings};
-use crate::worst::*;
 
 #[test]
 fn the_worst_place_comes_first() {

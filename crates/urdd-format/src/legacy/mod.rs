@@ -8,21 +8,18 @@
 //!
 //! `link_shapes_max_distance_from_origin_module` 0.0.3 has the structure of version 1.0.0.
 
-pub mod adjusted_robot;
-pub mod bounds;
-pub mod chain;
-pub mod combined_robot;
-pub mod connections;
-pub mod convex_decomposition_meshes;
-pub mod convex_hull_meshes;
-pub mod creator;
-pub mod dof;
-pub mod first_look_vis;
-pub mod link_shapes_approximations;
-pub mod link_shapes_distance_statistics;
-pub mod link_shapes_lie_alg_error_models;
-pub mod link_shapes_simple_skips;
-pub mod link_shapes_skips;
-pub mod original_meshes;
-pub mod plain_meshes;
+pub mod composition;
+pub mod kinematics;
+pub mod meshes;
+pub mod shapes;
 pub mod urdf;
+
+use crate::types::module;
+
+module! {
+    /// Says that a person has looked at the robot in the converter's viewer. No robot data.
+    pub struct FirstLookVisModule {
+        /// Always null.
+        pub done: (),
+    }
+}

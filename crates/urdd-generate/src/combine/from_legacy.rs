@@ -9,9 +9,10 @@ use super::error::{CombineError, Note, PartFault};
 use super::recipe::{Attachment, BASE, Frozen, JointLimit, Part, Recipe, Sources, Word};
 use super::sources::document;
 use urdd_directory::root::Root;
-use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
-use urdd_format::legacy::combined_robot::{AttachedRobot, AttachmentPoint, CombinedRobotModule};
-use urdd_format::legacy::creator::{Action, AddChain, CreatorModule};
+use urdd_format::legacy::composition::{
+    Action, AddChain, AdjustedRobotModule, AttachedRobot, AttachmentPoint, CombinedRobotModule,
+    CreatorModule,
+};
 use urdd_format::registry::ModuleKind;
 use urdd_kinematics::rotation::{canonical, to_rpy};
 

@@ -12,7 +12,7 @@ use super::error::PartFault;
 use super::names::mesh_edits;
 use super::sources::document;
 use urdd_directory::root::Root;
-use urdd_format::legacy::plain_meshes::PlainMeshesModule;
+use urdd_format::legacy::meshes::PlainMeshesModule;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Mesh};

@@ -11,7 +11,7 @@ use crate::meshes::written::WrittenMesh;
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
-use urdd_format::link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule;
+use urdd_format::link_shapes_approximations::LinkShapesMaxDistanceFromOriginModule;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
 use urdd_geometry::hull::{ConvexHull, HullError};

@@ -9,8 +9,8 @@ use urdd_xml::{Node, NodeId};
 use urdd_directory::position::Position;
 use urdd_findings::cause::at;
 use urdd_findings::check::Check;
+use urdd_findings::check::Effect;
 use urdd_findings::code::Code;
-use urdd_findings::effect::Effect;
 use urdd_findings::places::parted;
 use urdd_format::report::{Consequence, Fix, Place, Severity};
 

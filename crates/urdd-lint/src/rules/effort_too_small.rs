@@ -2,9 +2,9 @@ use nalgebra::Isometry3;
 
 use super::prelude::*;
 use crate::pose::{at_default, default_position};
-use urdd_document::mimics::Mimics;
 use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Robot};
+use urdd_document::tree::Mimics;
 use urdd_format::readable;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::{Load, gather};

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_document::draft::SIMPLE_SKIPS_DEPENDENCIES;
+use urdd_document::legacy::SIMPLE_SKIPS_DEPENDENCIES;
 
 declare_rule! {
     /// A module of the conformance class is not there.

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
+use urdd_format::legacy::composition::AdjustedRobotModule;
 
 declare_rule! {
     /// The index mappings of `adjusted_robot_module` do not agree with each other, or with the two robots.

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_document::rigid_groups::RigidGroup;
+use urdd_document::tree::RigidGroup;
 use urdd_document::robot::{Link, Robot};
 
 declare_rule! {

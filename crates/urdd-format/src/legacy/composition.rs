@@ -1,11 +1,88 @@
-//! `creator_module`, without a version: how a chain was assembled from mesh files.
+//! Legacy modules, without a version, of robots that were made from others: `adjusted_robot_module`,
+//! `combined_robot_module` and `creator_module`.
 //!
-//! Our copy of the published robots contains no such module. Its structure is known from the
+//! Our copy of the published robots contains no `creator_module`. Its structure is known from the
 //! converter that reads it, and from a published environment. That environment uses words for the
 //! first four actions that were replaced later; both forms are accepted.
 
-use super::urdf::{Axis, JointType, Limit};
+use super::urdf::{Axis, Dynamics, JointType, Limit, Origin, SafetyController};
+use crate::index::{JointIdx, LinkIdx, RobotIdx};
 use crate::types::module;
+
+module! {
+    /// How this robot was made from another (the base robot) by cutting branches off and fixing joints.
+    pub struct AdjustedRobotModule {
+        /// Name of this robot.
+        pub name: String,
+        /// Name of the base robot: its folder, beside this one's.
+        pub base_robot_name: String,
+        /// Links of the base robot that were cut off, each with everything below it.
+        pub dead_end_link_names: Vec<String>,
+        /// Joints of the base robot that were made fixed: name, and the value of each of its DOFs
+        /// (rad or m), which went into the joint's origin.
+        pub fixed_base_joints: Vec<(String, Vec<f64>)>,
+        /// Every link of the base robot that is gone.
+        pub deleted_base_links: Vec<String>,
+        /// Every joint of the base robot that is gone.
+        pub deleted_base_joints: Vec<String>,
+        /// For each link of this robot, its index in the base robot.
+        pub adjusted_link_idx_to_base_link_idx_mapping: Vec<LinkIdx>,
+        /// For each link of the base robot, its index in this one; null if it is gone.
+        pub base_link_idx_to_adjusted_link_idx_mapping: Vec<Option<LinkIdx>>,
+        /// For each joint of this robot, its index in the base robot.
+        pub adjusted_joint_idx_to_base_joint_idx_mapping: Vec<JointIdx>,
+        /// For each joint of the base robot, its index in this one; null if it is gone.
+        pub base_joint_idx_to_adjusted_joint_idx_mapping: Vec<Option<JointIdx>>,
+    }
+}
+
+module! {
+    /// How this robot was put together: robots that are attached in order, each by a joint. Link and
+    /// joint names of robot i get the prefix `robot_i_`.
+    pub struct CombinedRobotModule {
+        /// Name of this robot.
+        pub name: String,
+        /// The robots, in the order in which they were attached. The place in this list is the robot
+        /// index.
+        pub attached_robots: Vec<AttachedRobot>,
+    }
+
+    /// A robot, and the joint that attaches its root link.
+    pub struct AttachedRobot {
+        /// Name of the robot: its folder, beside this one's.
+        pub robot_name: String,
+        /// What it is attached to.
+        pub attachment_point: AttachmentPoint,
+        /// How the joint moves.
+        pub joint_type: JointType,
+        /// Pose of the robot's root link, at zero, in the frame of what it is attached to.
+        pub origin: Origin,
+        /// The joint's axis. Not carried over into the combined `urdf_module`.
+        pub axis: Axis,
+        /// The joint's limits.
+        pub limit: Limit,
+        /// The joint's damping and friction.
+        pub dynamics: Option<Dynamics>,
+        /// The joint's soft limits.
+        pub safety_controller: Option<SafetyController>,
+    }
+
+    /// What a robot is attached to.
+    pub enum AttachmentPoint {
+        /// The link that stands for the world.
+        World,
+        /// A link of a robot that was attached before.
+        Link(RobotLink),
+    }
+
+    /// A link of an attached robot.
+    pub struct RobotLink {
+        /// The robot.
+        pub robot_idx: RobotIdx,
+        /// Name of the link in that robot, without a prefix.
+        pub link_name: String,
+    }
+}
 
 module! {
     /// How a chain (a robot, or an environment) was put together: actions, in order.

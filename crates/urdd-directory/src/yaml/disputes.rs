@@ -1,9 +1,86 @@
-//! Tabs outside quotes and comments. YAML 1.2 allows them where YAML 1.1 readers reject the file.
+//! Where YAML readers disagree: the end of a file without a final line break, keys in braces whose colon is on another
+//! line, and tabs outside quotes and comments.
 
 use saphyr_parser::{ScalarStyle, Span};
 
-use super::super::position::Position;
+use super::super::position::{Offsets, Position, position};
 use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
+
+/// Message for a scalar at the end of a file without a final line break.
+pub const DISPUTED: &str =
+    "readers disagree about the end of this text, since its last line has no line break: add one";
+
+/// The end of a text.
+pub struct End<'y> {
+    text: &'y str,
+    /// Number of characters, if the final line break is missing.
+    open: Option<usize>,
+}
+
+impl<'y> End<'y> {
+    /// Finds the end.
+    pub fn new(text: &'y str) -> Self {
+        let is_open = !text.ends_with(['\n', '\r']);
+        Self { text, open: is_open.then(|| text.chars().count()) }
+    }
+
+    /// Whether a block scalar ends at the end of the file without a line break. Some readers add one.
+    pub fn is_disputed(&self, scalar: &str, style: ScalarStyle, span: Span) -> bool {
+        matches!(style, ScalarStyle::Literal | ScalarStyle::Folded)
+            && scalar.ends_with('\n')
+            && self.open.is_some_and(|count| span.end.index() >= count)
+    }
+
+    /// Limits a position to the end of the text: the parser assumes a final line break, and may report a line that does
+    /// not exist.
+    pub fn at_most(&self, at: Position) -> Position {
+        at.min(position(self.text, self.text.len()))
+    }
+}
+
+/// Message for a key in a flow mapping whose colon is on another line. YAML 1.2 allows it; YAML 1.1 readers reject it.
+pub const TORN: &str = "a key in braces and its `:` on different lines make YAML 1.1 readers such as PyYAML refuse the file: write both on one line";
+
+/// A forward scan of a text.
+pub struct Keys<'y> {
+    text: &'y str,
+    offsets: Offsets<'y>,
+}
+
+impl<'y> Keys<'y> {
+    /// Starts at the beginning of a text.
+    pub fn new(text: &'y str) -> Self {
+        Self { text, offsets: Offsets::new(text) }
+    }
+
+    /// Whether a line break is inside a key or before its colon. Explicit keys after `?` are exempt.
+    pub fn is_torn(&mut self, key: Span) -> bool {
+        let start = self.offsets.bytes(key.start.index());
+        let end = self.offsets.bytes(key.end.index());
+        let before = &self.text[..start];
+        let space = before.trim_end();
+        if space.len() < before.len() && space.ends_with('?') {
+            return false;
+        }
+        let key = self.text[start..end].trim_end();
+        if key.contains(['\n', '\r']) {
+            return true;
+        }
+        let mut broken = false;
+        let mut rest = &self.text[start + key.len()..];
+        loop {
+            rest = rest.trim_start_matches([' ', '\t']);
+            if rest.starts_with(['\n', '\r']) {
+                broken = true;
+                rest = &rest[1..];
+            } else if rest.starts_with('#') {
+                rest = rest.trim_start_matches(|c| !matches!(c, '\n' | '\r'));
+            } else {
+                return broken && rest.starts_with(':');
+            }
+        }
+    }
+}
 
 const BETWEEN_TOKENS: &str = "a tab between tokens or in an unquoted scalar makes YAML 1.1 readers such as PyYAML refuse the file: write spaces";
 const IN_BLOCK_SCALAR: &str =
