@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use super::output::{self, Failure, one_line, shown};
-use urdd_directory::metadata::{add_module, write_folder};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::metadata::{add_module, write_folder};
 use urdd_directory::root::Root;
 use urdd_directory::schema_files::{self, SchemaFault};
 use urdd_document::module::is_extension;

@@ -4,7 +4,6 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use crate::layout::origin;
 use crate::{Note, Subject};
-use urdd_document::tree::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_document::tree::Resolved;

@@ -1,7 +1,6 @@
 //! The joints of a robot as a tree.
 
 use crate::ExportError;
-use urdd_document::tree::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
 use urdd_document::tree::{Mimics, Tree};
 use urdd_format::urdf::UrdfModule;

@@ -13,7 +13,7 @@ use super::skips::{SIMPLE, SKIPS, Skips};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::ReadError;
-use urdd_directory::{canonical, file_entry, json, module_entry};
+use urdd_directory::{canonical, file_entry, json};
 use urdd_document::kept::keep;
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
 use urdd_format::named_configurations::{
@@ -59,7 +59,7 @@ impl Robot {
             let own = files.iter();
             let own = own.map(|(path, bytes)| (path.clone(), bytes.as_slice()));
             let (name, folder) = (kind.name(), kind.folder());
-            module_entry::insert(modules, name, VERSION, folder, kind.depends_on(), own);
+            file_entry::insert_module(modules, name, VERSION, folder, kind.depends_on(), own);
         }
         file_entry::reseal(&mut metadata, |path| files.get(path).map(Vec::as_slice));
         let metadata = canonical::json_string(&metadata).into_bytes();

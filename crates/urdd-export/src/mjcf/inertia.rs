@@ -8,7 +8,6 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::inertia::{ROUNDING, tensor};
 use crate::{Note, Subject};
-use urdd_document::tree::RigidGroups;
 use urdd_document::robot::Inertial;
 use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};

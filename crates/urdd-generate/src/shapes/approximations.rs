@@ -8,10 +8,10 @@ use crate::distinct::for_each_content;
 use crate::error::{GenerateError, Result};
 use crate::made::{Shared, made_with};
 use crate::meshes::written::WrittenMesh;
+use urdd_format::link_shapes_approximations::LinkShapesMaxDistanceFromOriginModule;
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
-use urdd_format::link_shapes_approximations::LinkShapesMaxDistanceFromOriginModule;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
 use urdd_geometry::hull::{ConvexHull, HullError};

@@ -1,6 +1,6 @@
 use crate::rules::prelude::*;
-use urdd_document::tree::RigidGroup;
 use urdd_document::robot::{Link, Robot};
+use urdd_document::tree::RigidGroup;
 
 declare_rule! {
     /// A mass is negative, or 0 where something moves.
