@@ -36,9 +36,7 @@ const LINK: u32 = 0o120_777;
 const FOLDER: u32 = 0o040_755;
 
 /// Writes a URDD as a zip archive.
-///
-/// # Errors
-/// If it cannot be written, or has too much for an archive without zip64.
+/// Fails if it cannot be written, or has too much for an archive without zip64.
 pub fn write(tree: &Tree, packed: Packed, path: &Path) -> Result<(), TreeError> {
     if let Some(folder) = path.parent() {
         make_folder(folder)?;

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{ChildStdin, ChildStdout, Command};
+use std::process::{ChildStdin, ChildStdout};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use parking_lot::Mutex;
 
 use crate::printed_codes::Scan;
-use crate::process::{End, Ran, Tail};
+use crate::process::{End, Ran, Tail, command};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_source::process::Running;
 
@@ -42,9 +42,6 @@ impl<'a> Batch<'a> {
 
     /// Asks a process for its verdict on a URDD: the first word of its answer is the exit status that a command would have
     /// had. A process that gives no verdict in time, or none at all, is ended, and the next URDD gets another one.
-    ///
-    /// # Errors
-    /// If cancelled.
     pub fn ask(
         &self,
         path: &Path,
@@ -96,10 +93,7 @@ impl<'a> Batch<'a> {
 
 impl Judge {
     fn start(words: &[String]) -> std::io::Result<Judge> {
-        let mut words = words.iter();
-        let mut command = Command::new(words.next().cloned().unwrap_or_default());
-        command.args(words);
-        let (mut running, input) = Running::start_with_input(command)?;
+        let (mut running, input) = Running::start_with_input(command(words, String::clone))?;
         let (stdout, stderr) = running.streams();
         let (sender, answers) = channel();
         thread::spawn(move || {

@@ -1,4 +1,7 @@
-//! The changes that a case applies to its base.
+//! The changes that a case applies to its base, and what follows from them: mirrors, and the sizes and hashes in
+//! `urdd.json`.
+
+use std::collections::BTreeSet;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -7,8 +10,8 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use crate::tree::{FilePath, Node, Tree};
-use urdd_directory::canonical;
-use urdd_directory::json;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::{canonical, file_entry, json};
 
 /// Largest text that a repetition makes, bytes.
 const MAX_REPEATED: usize = 1 << 27;
@@ -250,4 +253,32 @@ pub fn text_of(document: &Value, on_one_line: bool) -> Vec<u8> {
 pub fn mirror_of(document: &FilePath) -> Option<FilePath> {
     let folder = document.as_str()?.strip_suffix("module.json")?;
     Some(FilePath::from(format!("{folder}module.yaml").as_str()))
+}
+
+/// Adds a canonical `module.yaml` to every `module.json` without one.
+pub fn add_mirrors(tree: &mut Tree) {
+    let documents: Vec<FilePath> = tree.nodes.keys().cloned().collect();
+    for path in documents {
+        let Some(mirror) = mirror_of(&path) else { continue };
+        if tree.nodes.contains_key(&mirror) {
+            continue;
+        }
+        let document = path.as_str().and_then(|path| tree.file(path));
+        if let Some(Ok(document)) = document.map(json::read) {
+            let text = canonical::yaml_string(&document.value);
+            tree.put(mirror, text.into_bytes());
+        }
+    }
+}
+
+/// Updates the size and hash of every file that `urdd.json` lists, except files in `kept`, missing files and symbolic
+/// links. Does nothing if `urdd.json` is not JSON.
+pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
+    let Some(Ok(document)) = tree.file(ROOT_METADATA).map(json::read) else { return };
+    let mut metadata = document.value;
+    let listed = |path: &str| tree.file(path).filter(|_| !kept.contains(path));
+    if file_entry::reseal(&mut metadata, listed) {
+        let text = canonical::json_string(&metadata);
+        tree.put(ROOT_METADATA.into(), text.into_bytes());
+    }
 }

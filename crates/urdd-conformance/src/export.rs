@@ -8,11 +8,10 @@ use crate::case::{Case, Kind};
 use crate::catalogue::{CATALOGUE, Catalogue, items};
 use crate::data::{Data, INVALID, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
-use crate::run_error::RunError;
+use crate::running::{Result, RunError, Workplace};
 use crate::suite::Suite;
 use crate::tree::{Tree, TreeError, remove_folder, write_file};
 use crate::valid;
-use crate::workplace::Workplace;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::registry::{PROGRAM_VERSION, SPEC_VERSION};
 
@@ -37,7 +36,7 @@ pub struct Exported {
 ///
 /// # Errors
 /// If the folder is not empty, or cannot be written.
-pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, RunError> {
+pub fn export(suite: &Suite, folder: &Path) -> Result<Exported> {
     let place = Workplace::new(Some(folder))?;
     let (folder, data) = (place.path(), &suite.data);
     let robots = folder.join(ROBOTS);
@@ -78,7 +77,7 @@ pub fn write_valid(
     robots: &Path,
     folder: &Path,
     cancellation: &Cancellation,
-) -> Result<Vec<String>, RunError> {
+) -> Result<Vec<String>> {
     let mut other_bytes = Vec::new();
     for robot in names {
         let target = folder.join(robot);
@@ -93,8 +92,8 @@ pub fn write_valid(
 }
 
 /// Writes every case. Returns those that this operating system cannot represent.
-fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, RunError> {
-    let write = |case: &Case| -> Result<Option<String>, RunError> {
+fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>> {
+    let write = |case: &Case| -> Result<Option<String>> {
         let case_folder = folder.join(INVALID).join(case.id());
         match case.write(&suite.tree(case)?, &case_folder.join(case.urdd())) {
             Ok(()) => Ok(None),

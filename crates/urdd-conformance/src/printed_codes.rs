@@ -32,9 +32,7 @@ impl Scan {
         self.rest.extend(piece);
         let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
         for window in self.rest.windows(LENGTH + 2) {
-            let [before, code @ .., after] = window else {
-                continue;
-            };
+            let [before, code @ .., after] = window else { continue };
             let (letters, digits) = code.split_at(3);
             let has_form =
                 letters.iter().all(u8::is_ascii_uppercase) && digits.iter().all(u8::is_ascii_digit);
@@ -64,9 +62,7 @@ pub fn score<'a>(
     }
     let (mut of, mut missing, mut extra) = (0, Vec::new(), Vec::new());
     for (item, codes) in ran {
-        let Some(code) = item.code.as_deref() else {
-            continue;
-        };
+        let Some(code) = item.code.as_deref() else { continue };
         let is_printed = codes.iter().any(|printed| printed.as_str() == code);
         match (item.kind, item.verdict) {
             (Kind::Valid, _) | (Kind::Invalid, Verdict::Accept) => continue,

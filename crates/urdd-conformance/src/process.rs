@@ -157,10 +157,7 @@ impl Template {
                 word.replace(&format!("{{{name}}}"), &path.to_string_lossy())
             })
         };
-        let mut words = self.words.iter();
-        let mut command = Command::new(words.next().cloned().unwrap_or_default());
-        command.args(words.map(filled));
-        let mut running = match Running::start(command) {
+        let mut running = match Running::start(command(&self.words, filled)) {
             Ok(running) => running,
             Err(error) => return Ok(Ran::without_output(End::NotStarted(error.to_string()))),
         };
@@ -177,6 +174,14 @@ impl Template {
         codes.extend(more);
         Ok(Ran { end, stdout, stderr, codes })
     }
+}
+
+/// A command of these words; `filled` is applied to its arguments.
+pub(crate) fn command(words: &[String], filled: impl Fn(&String) -> String) -> Command {
+    let mut words = words.iter();
+    let mut command = Command::new(words.next().cloned().unwrap_or_default());
+    command.args(words.map(filled));
+    command
 }
 
 fn end(status: ExitStatus) -> End {

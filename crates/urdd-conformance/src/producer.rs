@@ -8,15 +8,13 @@ use parking_lot::Mutex;
 use rayon::prelude::*;
 
 use crate::data::{Data, ROBOTS};
-use crate::examined::{codes, examine};
 use crate::process::{End, Ran, Template};
-use crate::refused::{self, REFUSED, Refused};
-use crate::run_error::{RunError, with_threads};
-use crate::skips::{Skip, SkipError};
+use crate::refused::{self, REFUSED, Refused, codes, examine};
+use crate::running::{Result, RunError, Workplace, with_threads};
+use crate::skips::{self, Skip};
 use crate::suite::Suite;
 use crate::valid;
-use crate::workplace::Workplace;
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RefusedScore, RobotModule, RobotScore,
     ScoreStatus,
@@ -75,7 +73,7 @@ impl Sources {
     }
 
     /// Keeps those that were asked for; nothing asked for is all.
-    fn choose(&mut self, asked: &[String]) -> Result<(), RunError> {
+    fn choose(&mut self, asked: &[String]) -> Result<()> {
         if let Some(unknown) = asked.iter().find(|id| !self.has(id)) {
             return Err(RunError::UnknownRobot(unknown.clone(), self.robots.join(", ")));
         }
@@ -84,16 +82,12 @@ impl Sources {
         Ok(())
     }
 
-    fn check_skips(&self, skips: &[Skip]) -> Result<(), SkipError> {
+    fn is_known(&self, skip: &Skip) -> bool {
         let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
-        let is_known = |skip: &&Skip| match skip.words.as_slice() {
+        match skip.words.as_slice() {
             [id] => self.has(id),
             [robot, module] => self.robots.contains(robot) && is_module(module),
             _ => false,
-        };
-        match skips.iter().find(|skip| !is_known(skip)) {
-            Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
-            None => Ok(()),
         }
     }
 }
@@ -106,17 +100,17 @@ pub fn run(
     plan: &Plan,
     suite: &Suite,
     observe: &(dyn Fn(&Event) + Sync),
-) -> Result<ProducerResult, RunError> {
+) -> Result<ProducerResult> {
     let data = &suite.data;
     let mut sources = Sources { robots: valid::robots(data), to_refuse: refused::all(suite)? };
-    sources.check_skips(&plan.skips)?;
+    skips::check(&plan.skips, |skip| sources.is_known(skip))?;
     sources.choose(&plan.robots)?;
     let Sources { robots: names, to_refuse } = &sources;
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(names.len() + to_refuse.len()));
     // The lines of the skip list that took effect.
     let used = Mutex::new(BTreeSet::new());
-    let one = |name: &String| -> Result<RobotScore, RunError> {
+    let one = |name: &String| -> Result<RobotScore> {
         let mut score = robot(plan, data, name, &folder.path().join(name))?;
         used.lock().extend(apply_skips(plan, &mut score));
         if score.status == ScoreStatus::Passed {
@@ -125,7 +119,7 @@ pub fn run(
         observe(&Event::Scored(&score));
         Ok(score)
     };
-    let refuse = |urdf: &Refused| -> Result<RefusedScore, RunError> {
+    let refuse = |urdf: &Refused| -> Result<RefusedScore> {
         let mut score = refused(plan, urdf, &folder.path().join(REFUSED).join(&urdf.id))?;
         let skips = plan.skips.iter().filter(|skip| skip.words.first() == Some(&urdf.id));
         if score.status != ScoreStatus::Passed {
@@ -138,7 +132,7 @@ pub fn run(
         observe(&Event::Refused(&score));
         Ok(score)
     };
-    let all = || -> Result<(Vec<RobotScore>, Vec<RefusedScore>), RunError> {
+    let all = || -> Result<(Vec<RobotScore>, Vec<RefusedScore>)> {
         let robots = names.par_iter().map(one).collect::<Result<_, _>>()?;
         Ok((robots, to_refuse.par_iter().map(refuse).collect::<Result<_, _>>()?))
     };
@@ -164,11 +158,15 @@ pub fn run(
     })
 }
 
+/// Runs the command on a URDF.
+fn ran(plan: &Plan, urdf: &Path, out: &Path) -> Result<Ran, Cancelled> {
+    plan.command.run(&[("urdf", urdf), ("out", out)], plan.limit, &plan.cancellation)
+}
+
 /// Runs the command on a URDF to refuse.
-fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore, RunError> {
-    let (urdf_path, out) = urdf.write(folder)?;
-    let paths: [(&str, &Path); 2] = [("urdf", &urdf_path), ("out", &out)];
-    let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
+fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
+    let (path, out) = urdf.write(folder)?;
+    let ran = ran(plan, &path, &out)?;
     let score = urdf.score(ran, &out, plan.class, &plan.cancellation);
     plan.cancellation.check()?;
     Ok(score)
@@ -180,13 +178,11 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
 }
 
 /// Runs the command on a robot, in its own folder.
-fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore, RunError> {
+fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(data, &robots)?;
-    let urdf = robots.join(format!("{name}.urdf"));
     let out = folder.join(name);
-    let paths: [(&str, &Path); 2] = [("urdf", &urdf), ("out", &out)];
-    let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
+    let ran = ran(plan, &robots.join(format!("{name}.urdf")), &out)?;
     let examined = match ran.end {
         End::Status(0) => examine(&out, plan.class, &plan.cancellation),
         _ => Err(None),

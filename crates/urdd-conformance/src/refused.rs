@@ -1,10 +1,12 @@
 //! URDFs that have no URDD as they are: a producer refuses or repairs them. They are sources of cases, and a few more.
+//! And the validator's result on what a producer wrote.
 
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use crate::case::Kind;
 use crate::data::Damage;
-use crate::examined::{codes, examine};
 use crate::process::{End, Ran};
 use crate::suite::Suite;
 use crate::tree::{FilePath, Tree, TreeError};
@@ -13,8 +15,10 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_format::conformance::{RefusedOutcome, RefusedScore, ScoreStatus};
-use urdd_format::report::{Severity, Urdd, Verdict};
+use urdd_format::report::{Finding, Severity, Urdd, Verdict};
 use urdd_format::root_metadata::{ConformanceClass, RootMetadata};
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 /// The folder of those that are not sources of cases, and of all in an exported suite.
 pub const REFUSED: &str = "refused";
@@ -146,4 +150,35 @@ fn repaired(
         return Err(Some(why.to_owned()));
     }
     Ok(urdd)
+}
+
+/// The validator's result, or the reason why there is none.
+pub(crate) fn examine(
+    out: &Path,
+    class: ConformanceClass,
+    cancellation: &Cancellation,
+) -> Result<Urdd, Option<String>> {
+    if !out.is_dir() {
+        return Err(Some("the command created no folder at {out}".to_owned()));
+    }
+    let settings =
+        Settings { class: Some(class), cancellation: cancellation.clone(), ..Settings::default() };
+    let run = validate(&[out.to_owned()], &settings).map_err(|error| {
+        let text = error.to_string();
+        Some(text.replace(&out.display().to_string(), "{out}"))
+    })?;
+    let mut urdds = run.report.urdds;
+    match (urdds.pop(), urdds.is_empty()) {
+        (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
+        (Some(urdd), true) if out.file_name() == Some(OsStr::new(&urdd.path)) => Ok(urdd),
+        _ => Err(Some(
+            "{out} itself must be the URDD: one URDD, without a folder around it".to_owned(),
+        )),
+    }
+}
+
+/// The codes of findings, sorted.
+pub(crate) fn codes<'a>(findings: impl Iterator<Item = &'a Finding>) -> Vec<String> {
+    let codes: BTreeSet<&str> = findings.map(|finding| finding.code.as_str()).collect();
+    codes.into_iter().map(str::to_owned).collect()
 }

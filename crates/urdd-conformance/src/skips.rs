@@ -58,6 +58,17 @@ pub fn read(text: &str, most: usize, form: &'static str) -> Result<Vec<Skip>, Sk
     Ok(skips)
 }
 
+/// Checks that each skip is about something.
+///
+/// # Errors
+/// The first one that is not.
+pub fn check(skips: &[Skip], is_known: impl Fn(&Skip) -> bool) -> Result<(), SkipError> {
+    match skips.iter().find(|skip| !is_known(skip)) {
+        Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
+        None => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::case::{Case, RuleCases};
+use crate::change::{add_mirrors, rehash};
 use crate::data::{BASES, CASES, COMPUTED, Damage, Data, Files, URDD};
-use crate::seal;
 use crate::tree::Tree;
 
 /// Bases and cases.
@@ -30,7 +30,7 @@ impl Suite {
         let base = |name: &str| {
             let files = data.below(&format!("{BASES}/{name}"));
             let mut tree = Tree::of(files, URDD);
-            seal::add_mirrors(&mut tree);
+            add_mirrors(&mut tree);
             (name.to_owned(), tree)
         };
         let bases = names.into_iter().map(base).collect();
@@ -64,7 +64,7 @@ impl Suite {
             let misfit = |error| Damage::new(case.id(), format!("{}: {error}", change.file));
             change.apply(&mut tree).map_err(misfit)?;
         }
-        seal::rehash(&mut tree, &case.hashes_kept);
+        rehash(&mut tree, &case.hashes_kept);
         Ok(tree)
     }
 }

@@ -15,14 +15,12 @@ use crate::case::{Case, Kind, Verdict};
 use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
-use crate::printed_codes;
 use crate::process::{End, Ran, Template};
-use crate::run_error::{RunError, with_threads};
-use crate::skips::{Skip, SkipError};
+use crate::running::{Result, RunError, Workplace, relative, with_threads};
+use crate::skips::{self, Skip};
 use crate::suite::Suite;
 use crate::tree::{TreeError, remove_folder};
-use crate::valid;
-use crate::workplace::{Workplace, relative};
+use crate::{printed_codes, valid};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
 use urdd_format::index::Count;
@@ -107,9 +105,9 @@ pub fn run(
     plan: &Plan,
     suite: &Suite,
     observe: &(dyn Fn(&Event) + Sync),
-) -> Result<ValidatorResult, RunError> {
+) -> Result<ValidatorResult> {
     let (data, all) = (&suite.data, urdds(suite));
-    check_skips(&plan.skips, &all)?;
+    skips::check(&plan.skips, |skip| all.iter().any(|urdd| covers(skip, &urdd.item)))?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
     let chosen = all.into_iter().filter(|Chosen { item, .. }| {
         item.spec_versions.matches(&plan.spec_version)
@@ -136,7 +134,7 @@ pub fn run(
         })?;
     }
     let batch = plan.is_batch.then(|| Batch::new(plan.command.words()));
-    let judge = |urdd: &Chosen| -> Result<Option<Ran>, RunError> {
+    let judge = |urdd: &Chosen| -> Result<Option<Ran>> {
         let ran = judge(plan, batch.as_ref(), suite, urdd, &folder)?;
         match &ran {
             Some(ran) => observe(&Event::Judged(Judged {
@@ -152,7 +150,7 @@ pub fn run(
         }
         Ok(ran)
     };
-    let all = || -> Result<Vec<Option<Ran>>, RunError> { chosen.par_iter().map(judge).collect() };
+    let all = || -> Result<Vec<Option<Ran>>> { chosen.par_iter().map(judge).collect() };
     let ran = match plan.jobs {
         None => all(),
         Some(jobs) => with_threads(jobs, all),
@@ -171,9 +169,7 @@ fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
         (Verdict::Reject, "relative/invalid", "a URDD with a fault"),
     ] {
         let fits = |urdd: &&Chosen| urdd.item.verdict == verdict && !is_legacy(&urdd.item);
-        let Some(Chosen { item, case, .. }) = urdds.iter().find(fits) else {
-            continue;
-        };
+        let Some(Chosen { item, case, .. }) = urdds.iter().find(fits) else { continue };
         let folder = match case {
             Some(case) => format!("{id}/{}", case.urdd()),
             None => item.folder.clone(),
@@ -201,7 +197,7 @@ fn judge(
     suite: &Suite,
     urdd: &Chosen,
     folder: &Workplace,
-) -> Result<Option<Ran>, RunError> {
+) -> Result<Option<Ran>> {
     plan.cancellation.check()?;
     let path = folder.path().join(&urdd.item.folder);
     if let Some(case) = urdd.case {
@@ -227,15 +223,13 @@ fn judge(
 
 /// How the verdict on a URDD is wrong; `None` if it is right.
 fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
-    let verdict = match end {
-        End::Status(0) => Verdict::Accept,
-        End::Status(status) if *status == plan.reject_status => Verdict::Reject,
-        _ => return Some(CaseFault::Undecided),
-    };
-    match (expected, verdict) {
-        (Verdict::Accept, Verdict::Accept) | (Verdict::Reject, Verdict::Reject) => None,
-        (Verdict::Reject, Verdict::Accept) => Some(CaseFault::Missed),
-        (Verdict::Accept, Verdict::Reject) => Some(CaseFault::FalseAlarm),
+    match (end, expected) {
+        (End::Status(0), Verdict::Accept) => None,
+        (End::Status(0), Verdict::Reject) => Some(CaseFault::Missed),
+        (End::Status(status), _) if *status != plan.reject_status => Some(CaseFault::Undecided),
+        (End::Status(_), Verdict::Reject) => None,
+        (End::Status(_), Verdict::Accept) => Some(CaseFault::FalseAlarm),
+        _ => Some(CaseFault::Undecided),
     }
 }
 
@@ -254,14 +248,6 @@ fn family(code: &str) -> &str {
     code.get(..3).unwrap_or(code)
 }
 
-fn check_skips(skips: &[Skip], urdds: &[Chosen]) -> Result<(), SkipError> {
-    let unknown = |skip: &&Skip| !urdds.iter().any(|urdd| covers(skip, &urdd.item));
-    match skips.iter().find(unknown) {
-        Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
-        None => Ok(()),
-    }
-}
-
 /// How cases were judged; `None` for right.
 type Faults = Vec<Option<CaseFault>>;
 
@@ -277,8 +263,7 @@ fn counted(faults: &[Option<CaseFault>]) -> CaseScore {
 }
 
 fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
-    let (mut totals, mut sound) = (Faults::new(), Faults::new());
-    let mut legacy = Faults::new();
+    let (mut totals, mut sound, mut legacy) = (Faults::new(), Faults::new(), Faults::new());
     let mut crashed = Vec::new();
     let mut families: BTreeMap<&str, Faults> = BTreeMap::new();
     let mut codes: BTreeMap<&str, Faults> = BTreeMap::new();

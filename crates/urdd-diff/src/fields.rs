@@ -23,7 +23,7 @@ pub(super) struct Fields(Vec<Field>);
 impl Fields {
     pub fn text(&mut self, name: impl Into<String>, value: Option<&str>) {
         if let Some(value) = value {
-            self.keyed(name, "", value.to_owned(), value.to_owned());
+            self.keyed(name, value.to_owned(), value.to_owned());
         }
     }
 
@@ -57,14 +57,8 @@ impl Fields {
     }
 
     /// Adds a value that is compared by another text than the one that people see.
-    pub fn keyed(
-        &mut self,
-        name: impl Into<String>,
-        unit: &'static str,
-        key: String,
-        shown: String,
-    ) {
-        self.0.push(Field { name: name.into(), unit, key, shown, numbers: Vec::new() });
+    pub fn keyed(&mut self, name: impl Into<String>, key: String, shown: String) {
+        self.0.push(Field { name: name.into(), unit: "", key, shown, numbers: Vec::new() });
     }
 
     /// Adds the values of a pose as the URDF writes it; what is absent is 0. A quaternion counts where the URDF's version
@@ -187,7 +181,7 @@ fn whole(fields: &Fields, other: &Fields) -> Fields {
                 let short = field.name[name.len() + 1..].to_owned();
                 inside.0.push(Field { name: short, ..field.clone() });
             }
-            whole.keyed(name, "", inside.key(), inside.summary());
+            whole.keyed(name, inside.key(), inside.summary());
         }
     }
     whole

@@ -175,7 +175,7 @@ fn add_shape(geometry: &Geometry, fields: &mut Fields, mesh: impl Fn(&str) -> (S
     match geometry {
         Geometry::Mesh(of) => {
             let (key, shown) = mesh(&of.filename);
-            fields.keyed("mesh", "", key, shown);
+            fields.keyed("mesh", key, shown);
             fields.numbers("scale", "", Some(of.scale.unwrap_or([1.0; 3])));
         }
         Geometry::Box(of) => fields.numbers("size", "m", Some(of.size)),

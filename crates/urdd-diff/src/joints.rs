@@ -28,7 +28,7 @@ fn fields(joint: &Joint, quaternions: bool) -> Fields {
         let axis = joint.axis.as_ref().and_then(|axis| axis.xyz).unwrap_or([1.0, 0.0, 0.0]);
         // Only the direction has a meaning.
         let direction = unit(axis).map_or(axis, Into::into);
-        fields.keyed("axis", "", numbers(&direction), numbers(&axis));
+        fields.keyed("axis", numbers(&direction), numbers(&axis));
     }
     if let Some(limit) = &joint.limit {
         add_limit(limit, joint.joint_type, &mut fields);

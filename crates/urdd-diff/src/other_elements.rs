@@ -33,7 +33,7 @@ pub(super) fn numbered(parts: impl Iterator<Item = (String, Fields)>) -> Vec<(St
 /// Adds the elements to the values of a link or joint that contains them.
 pub(super) fn add(elements: &[String], account: &Account, fields: &mut Fields) {
     for (label, part) in parts(elements, account) {
-        fields.keyed(label, "", part.key(), part.summary());
+        fields.keyed(label, part.key(), part.summary());
     }
 }
 

@@ -4,9 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 
 use serde_json::{Value, json};
-use urdd_conformance::change::mirror_of;
+use urdd_conformance::change::{add_mirrors, mirror_of};
 use urdd_conformance::data::{BASES, COPIES, URDD};
-use urdd_conformance::seal::add_mirrors;
 use urdd_conformance::tree::{Node, Tree};
 use urdd_directory::canonical;
 

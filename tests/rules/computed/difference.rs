@@ -5,8 +5,7 @@ use std::collections::BTreeSet;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
-use urdd_conformance::change::{Change, mirror_of, text_of};
-use urdd_conformance::seal::rehash;
+use urdd_conformance::change::{Change, mirror_of, rehash, text_of};
 use urdd_conformance::tree::{FilePath, Node, Tree};
 use urdd_directory::{canonical, digest, file_entry, json as json_text};
 

@@ -1,0 +1,118 @@
+//! What runs of producers and validators share: the working folder, the threads, and why there is no result.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use crate::data::Damage;
+use crate::skips::SkipError;
+use crate::tree::{TreeError, make_folder};
+use urdd_directory::cancellation::Cancelled;
+use urdd_directory::temporary::Temporary;
+use urdd_generate::GenerateError;
+
+/// What runs return.
+pub(crate) type Result<T, E = RunError> = std::result::Result<T, E>;
+
+/// Why the suite cannot be written, or a producer or a validator cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A case of the suite is damaged.
+    #[error("the suite is damaged: {0}")]
+    Damage(#[from] Damage),
+    /// The robot does not exist.
+    #[error(
+        "there is no robot `{0}`; the robots are {1}, and those to refuse, such as `URD005/link-held-by-two-joints` \
+         (`urdd conformance export` writes them into `refused`)"
+    )]
+    UnknownRobot(String, String),
+    /// No case matches the version and the ids.
+    #[error("no case to run; `urdd conformance export` writes all cases, and their list")]
+    NoCase,
+    /// The skip list names something that does not exist.
+    #[error("the skip list: {0}")]
+    Skip(#[from] SkipError),
+    /// The folder to write into is not empty.
+    #[error("{}: this folder is not empty; give a new one", .0.display())]
+    NotEmpty(PathBuf),
+    /// A temporary folder cannot be created.
+    #[error("a temporary folder cannot be created: {0}")]
+    Temporary(std::io::Error),
+    /// The thread pool cannot be created.
+    #[error("cannot run {0} commands at a time: {1}")]
+    Jobs(usize, rayon::ThreadPoolBuildError),
+    /// A file or folder cannot be written, read or removed.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// A valid URDD cannot be generated.
+    #[error("{0}: {1}")]
+    Generate(String, Box<GenerateError>),
+    /// The run was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Runs `work` with a number of threads.
+///
+/// # Errors
+/// If the threads cannot be created, or `work` fails.
+pub fn with_threads<T: Send>(
+    jobs: usize,
+    work: impl FnOnce() -> Result<T, RunError> + Send,
+) -> Result<T, RunError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .build()
+        .map_err(|error| RunError::Jobs(jobs, error))?
+        .install(work)
+}
+
+/// A temporary or a persistent folder.
+pub struct Workplace {
+    path: PathBuf,
+    /// Removes the folder on drop, if it is temporary.
+    _temporary: Option<Temporary>,
+}
+
+impl Workplace {
+    /// A temporary folder, or the folder `keep`, which must be new or empty.
+    ///
+    /// # Errors
+    /// If it cannot be created, or is not empty.
+    pub fn new(keep: Option<&Path>) -> Result<Workplace, RunError> {
+        let Some(path) = keep else {
+            let folder = Temporary::begin(&std::env::temp_dir(), "conformance");
+            let folder = folder.map_err(RunError::Temporary)?;
+            return Ok(Workplace { path: folder.path().to_owned(), _temporary: Some(folder) });
+        };
+        let failed = |error| TreeError::Read(path.to_owned(), error);
+        make_folder(path)?;
+        if fs::read_dir(path).map_err(failed)?.next().is_some() {
+            return Err(RunError::NotEmpty(path.to_owned()));
+        }
+        // Absolute, because the command may change its current folder.
+        let path = std::path::absolute(path).map_err(failed)?;
+        Ok(Workplace { path, _temporary: None })
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// A path relative to the current folder; `None` if one of the two cannot be found, or they are on different drives.
+pub fn relative(path: &Path) -> Option<PathBuf> {
+    // `..` of a symbolic link leads to the folder around its target.
+    let here = std::env::current_dir().ok()?.canonicalize().ok()?;
+    let path = path.canonicalize().ok()?;
+    let (mut up, mut down) = (here.components().peekable(), path.components().peekable());
+    while up.peek().is_some() && up.peek() == down.peek() {
+        up.next();
+        down.next();
+    }
+    let is_name = |part: &Component| matches!(part, Component::Normal(_));
+    let (up, down): (Vec<_>, Vec<_>) = (up.collect(), down.collect());
+    let all = up.iter().chain(&down).all(is_name);
+    let climb = up.iter().map(|_| Component::ParentDir);
+    all.then(|| climb.chain(down.iter().copied()).collect())
+}
