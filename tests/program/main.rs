@@ -14,6 +14,7 @@ mod conformance;
 mod diff;
 mod directory_sources;
 mod export;
+mod file_types;
 mod fuzz_findings;
 mod generate;
 mod imports;
