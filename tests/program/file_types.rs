@@ -19,7 +19,10 @@ fn folder() -> tempfile::TempDir {
         ("arm.URDF", urdf.as_slice()),
         ("box.mjcf", MJCF.as_bytes()),
         ("far.xml", far.as_bytes()),
-        ("old.xml", b"<gazebo version=\"1.2\"><model name=\"a\"><link name=\"l\"/></model></gazebo>"),
+        (
+            "old.xml",
+            b"<gazebo version=\"1.2\"><model name=\"a\"><link name=\"l\"/></model></gazebo>",
+        ),
         ("quoted.xml", quoted.as_bytes()),
     ] {
         fs::write(folder.path().join(name), bytes).expect("written");

@@ -6,8 +6,8 @@ use fearless_simd::Level;
 use rayon::prelude::*;
 
 use super::gjk::EXACT;
+use super::kernel::Shape;
 use super::motion::{Motion, PoseLanes};
-use super::shape::Shape;
 use crate::lanes::LANES;
 
 /// A shape and the index of its body.
