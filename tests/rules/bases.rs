@@ -17,7 +17,8 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("toy", base(Fixture::toy)),
         ("toy_core", base(|| Fixture::core(&toy_robot()))),
         ("composition", base(composed)),
-        ("extension", base(extended)),
+        ("extension", base(|| extended(Fixture::toy()))),
+        ("extension_core", base(|| extended(Fixture::core(&toy_robot())))),
         ("learned", base(testkit::model::fixture)),
         ("lone_box", base(fits::lone_box)),
         ("named_configurations", base(configured)),
@@ -27,10 +28,9 @@ pub fn shared() -> Vec<(&'static str, Make)> {
     ]
 }
 
-/// The toy and an extension whose schema allows everything.
-fn extended() -> Fixture {
+/// A toy and an extension whose schema allows everything.
+fn extended(mut toy: Fixture) -> Fixture {
     const EXTENSION: &str = "x_acme_gripper_module";
-    let mut toy = Fixture::toy();
     toy.put_file(&format!("{EXTENSION}/schema.json"), *b"true\n");
     toy.add_module(EXTENSION, json!({"grip": 1}));
     toy

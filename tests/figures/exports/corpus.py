@@ -525,6 +525,9 @@ def write(items, exports, only):
         items = merged(items, earlier["items"], exports)
         before = made["programs"].split(", ")
         versions = before + [version for version in versions if version not in before]
+    if of_shapes:
+        # What is refused is refused with other shapes too.
+        items = {name: item for name, item in items.items() if name not in ("refused", "exceptions")}
     pages.write("exports_of_shapes" if of_shapes else "exports", items, *versions, how=how)
 
 
