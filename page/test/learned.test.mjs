@@ -79,6 +79,14 @@ async function moved(page, q) {
   return page.locator(".learned").textContent();
 }
 
+/** Moves, and waits for this line: an answer to the pose before may come in between. */
+async function says(page, q, pattern) {
+  await moved(page, q);
+  const isThere = (source) => new RegExp(source).test(document.querySelector(".learned").textContent);
+  await page.waitForFunction(isThere, pattern.source, { timeout: 10000 }).catch(() => {});
+  assert.match(await page.locator(".learned").textContent(), pattern);
+}
+
 async function proximity(page, name) {
   await open(page, name);
   await page.click("#tab-Proximity");
@@ -130,11 +138,11 @@ inPage(set, "a model that is wrong is said to be, and one that cannot be read, a
   const free = all.find(({ in_collision }) => !in_collision).values;
   const colliding = all.find(({ in_collision }) => in_collision).values;
   await proximity(page, "wary");
-  assert.match(await moved(page, colliding), /^Model: may be in contact \(minimum clearance −/);
-  assert.match(await moved(page, free), /^Model: predicted in contact, but is free \(minimum clearance −/);
+  await says(page, colliding, /^Model: may be in contact \(minimum clearance −/);
+  await says(page, free, /^Model: predicted in contact, but is free \(minimum clearance −/);
   await proximity(page, "blind");
-  assert.match(await moved(page, free), /^Model: clear \(/);
-  assert.match(await moved(page, colliding), /^Model: predicted clear, but is in collision: missed \(/);
+  await says(page, free, /^Model: clear \(/);
+  await says(page, colliding, /^Model: predicted clear, but is in collision: missed \(/);
 
   const answer = await proximity(page, "broken");
   assert.ok(answer.nearest.length > 0);
