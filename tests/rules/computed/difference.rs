@@ -26,24 +26,18 @@ pub fn difference(old: &Tree, new: &Tree) -> Value {
             push(&mut tree, json!({ "file": name(path), "patch": patch }));
         }
     }
-    // Of the root metadata, sizes and hashes of what has changed follow.
-    let (root, others): (Vec<_>, Vec<_>) =
-        new.nodes.iter().partition(|(path, _)| path.as_str() == Some(ROOT));
-    for (path, node) in others.into_iter().chain(root) {
+    for (path, node) in &new.nodes {
         let Node::File(bytes) = node else { panic!("{path}: a computed case has files alone") };
-        let mut sealed = tree.clone();
-        if path.as_str() == Some(ROOT) {
-            rehash(&mut sealed, &untrue_entries(new));
+        if path.as_str() != Some(ROOT) && !same(&tree, new, path) {
+            push(&mut tree, written(path, bytes));
         }
-        if !same(&sealed, new, path) {
-            push(
-                &mut tree,
-                match std::str::from_utf8(bytes) {
-                    Ok(text) => json!({ "file": name(path), "write": text }),
-                    Err(_) => json!({ "file": name(path), "write_base64": STANDARD.encode(bytes) }),
-                },
-            );
-        }
+    }
+    // Sizes and hashes of what has changed follow.
+    let mut sealed = tree.clone();
+    rehash(&mut sealed, &untrue_entries(new));
+    let root = FilePath::from(ROOT);
+    if let (false, Some(bytes)) = (same(&sealed, new, &root), new.file(ROOT)) {
+        push(&mut tree, written(&root, bytes));
     }
     for path in old.nodes.keys().filter(|path| !new.nodes.contains_key(path)) {
         push(&mut tree, json!({ "file": name(path), "delete": true }));
@@ -51,6 +45,13 @@ pub fn difference(old: &Tree, new: &Tree) -> Value {
     let difference = json!({ "changes": changes, "hashes_kept": untrue_entries(new) });
     assert!(makes(old, &difference, new), "the changes make another URDD");
     difference
+}
+
+fn written(path: &FilePath, bytes: &[u8]) -> Value {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => json!({ "file": name(path), "write": text }),
+        Err(_) => json!({ "file": name(path), "write_base64": STANDARD.encode(bytes) }),
+    }
 }
 
 fn name(path: &FilePath) -> &str {
