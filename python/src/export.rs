@@ -11,8 +11,7 @@ use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_export::{
-    ActuatorKind, Choices, Detail, ExportError, Fit, Format, Ros, Setup, SetupError, SphereBudget,
-    joint_groups_of_srdf,
+    Choices, Detail, ExportError, Fit, Setup, SetupError, SphereBudget, joint_groups_of_srdf,
 };
 
 use crate::advice;
@@ -61,18 +60,12 @@ impl Options {
         });
         let detail = match self.detail {
             None => Detail::Full,
-            Some(given) => Detail::new(given).map_err(of_range)?,
+            Some(given) => Detail::new(given).map_err(of_value)?,
         };
         let fit = self.fit.map(|(volume, standoff)| Fit::new(volume, standoff));
         let shapes = self.shapes.parse::<urdd_export::Shapes>();
-        let actuator = |word: String| {
-            let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
-            ActuatorKind::named(&word).ok_or_else(|| none_of("are no actuators", &word, words))
-        };
-        let ros = |word: String| {
-            let words = Ros::ALL.iter().map(|ros| ros.word());
-            Ros::named(&word).ok_or_else(|| none_of("is no distribution", &word, words))
-        };
+        let ros = self.ros.map(|word| word.parse());
+        let actuators = self.actuators.map(|word| word.parse());
         Ok(Choices {
             shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
             reasons: reasons.transpose().map_err(PyValueError::new_err)?,
@@ -84,13 +77,13 @@ impl Options {
             mesh_folder: self.mesh_folder,
             output: self.output,
             package: self.package,
-            ros: self.ros.map(ros).transpose()?,
+            ros: ros.transpose().map_err(of_value)?,
             robot_file: self.robot_file,
             floating_base: self.floating_base,
             merge_fixed: self.merge_fixed,
             root: self.root,
-            fit: fit.transpose().map_err(of_range)?,
-            actuators: self.actuators.map(actuator).transpose()?,
+            fit: fit.transpose().map_err(of_value)?,
+            actuators: actuators.transpose().map_err(of_value)?,
             bandwidth: self.bandwidth,
             sensors: self.sensors,
             scene: self.scene,
@@ -106,13 +99,11 @@ fn subject(
     format: &str,
     options: Options,
 ) -> PyResult<(Arc<urdd_robot::Robot>, urdd_export::Options)> {
-    let words = Format::ALL.iter().map(|format| format.word());
-    let format = Format::named(format).ok_or_else(|| none_of("is no format", format, words))?;
+    let format = format.parse().map_err(of_value)?;
     let path = robot.path.clone();
     let robot = Arc::clone(robot.read(py)?);
     let options = options.choices(py, &path, &robot)?.options(format);
-    let options = options.map_err(|misfit| PyValueError::new_err(misfit.to_string()))?;
-    Ok((robot, options))
+    Ok((robot, options.map_err(of_value)?))
 }
 
 /// Where a free base is in a configuration, or in a named one: x, y, z, and the quaternion w, x, y, z.
@@ -196,16 +187,11 @@ fn of_setup(py: Python<'_>, error: SetupError) -> PyErr {
 fn of_export(py: Python<'_>, error: ExportError) -> PyErr {
     match error {
         ExportError::Robot(error) => of_robot(py, &error),
-        ExportError::Range(error) => of_range(error),
+        ExportError::Range(error) => of_value(error),
         error => raise(py, "ExportError", advice::of_export(&error), &[]),
     }
 }
 
-fn of_range(error: impl Display) -> PyErr {
+fn of_value(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
-}
-
-fn none_of(what: &str, word: &str, words: impl Iterator<Item = &'static str>) -> PyErr {
-    let (word, words) = (word.escape_debug(), words.collect::<Vec<_>>().join(", "));
-    PyValueError::new_err(format!("there {what} `{word}`; there are: {words}"))
 }

@@ -181,14 +181,14 @@ fn write_robots(
             }
         }
     }
-    if count > 0 {
-        output::write_file(file, &SettingsFile::with_lines(file, &lines)?)?;
-    }
-    output::print(&format!(
-        "{told}{}: added {}\n",
-        shown(file),
-        output::counted(count, "robot file")
-    ))?;
+    let done = match count {
+        0 => "nothing to add".to_owned(),
+        _ => {
+            output::write_file(file, &SettingsFile::with_lines(file, &lines)?)?;
+            format!("added {}", output::counted(count, "robot file"))
+        }
+    };
+    output::print(&format!("{told}{}: {done}\n", shown(file)))?;
     Ok(0)
 }
 

@@ -68,7 +68,8 @@ fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
     let lines = "\n[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { type = [\"long\", \"short\"] }\n";
     assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap(), format!("{own}{lines}"));
     // Whoever runs it again adds nothing.
-    run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    let (status, said) = run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    assert_eq!((status, said.trim()), (Some(0), "urdd.toml: nothing to add"));
     assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap(), format!("{own}{lines}"));
 }
 

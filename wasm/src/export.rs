@@ -8,8 +8,7 @@ use serde_json::{Value, json};
 use urdd_directory::range::Range;
 use urdd_directory::source::Memory;
 use urdd_export::{
-    ActuatorKind, Choices, Fit, Format, Ros, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES,
-    export as exported,
+    Choices, Fit, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES, export as exported,
 };
 use urdd_robot::Robot;
 
@@ -63,8 +62,7 @@ pub unsafe extern "C" fn urdd_export(
 fn export(files: &Files, question: &[u8]) -> Result<Value, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
     let robot = Robot::of(files.root.clone());
-    let format = Format::named(&question.format)
-        .ok_or_else(|| format!("there is no format `{}`", question.format.escape_debug()))?;
+    let format = question.format.parse().map_err(words)?;
     let made = exported(&robot, &choices(&question, &robot)?.options(format).map_err(words)?);
     let made = made.map_err(words)?;
     let main = made.path.unwrap_or(question.output);
@@ -103,17 +101,10 @@ fn choices(question: &Question, robot: &Robot) -> Result<Choices, String> {
         choices.shapes = word.parse().map_err(words)?;
     }
     if let Some(word) = &question.actuators {
-        let kind = ActuatorKind::named(word);
-        choices.actuators =
-            Some(kind.ok_or_else(|| format!("there are no actuators `{}`", word.escape_debug()))?);
+        choices.actuators = Some(word.parse().map_err(words)?);
     }
     if let Some(word) = &question.ros {
-        let ros = Ros::named(word);
-        choices.ros = Some(ros.ok_or_else(|| {
-            let all: Vec<&str> = Ros::ALL.iter().map(|ros| ros.word()).collect();
-            let (word, all) = (word.escape_debug(), all.join(", "));
-            format!("there is no distribution `{word}`; there are: {all}")
-        })?);
+        choices.ros = Some(word.parse().map_err(words)?);
     }
     choices.samples = count(SAMPLES, question.samples)?.unwrap_or(choices.samples);
     choices.visuals = choices.visuals.filter(|_| question.visuals != Some(false));

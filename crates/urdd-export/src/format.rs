@@ -1,5 +1,33 @@
 //! The formats, and kinds of actuators in them.
 
+use std::str::FromStr;
+
+use thiserror::Error;
+
+/// A word that is none of a list.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there {what} `{}`; there are: {}", .word.escape_debug(), .known.join(", "))]
+pub struct UnknownWord {
+    /// What there is none of, with its verb.
+    what: &'static str,
+    word: String,
+    known: Vec<&'static str>,
+}
+
+/// The one of these with a word.
+pub(super) fn with_word<T: Copy>(
+    word: &str,
+    all: &[T],
+    word_of: fn(T) -> &'static str,
+    what: &'static str,
+) -> Result<T, UnknownWord> {
+    let found = all.iter().copied().find(|one| word_of(*one) == word);
+    found.ok_or_else(|| {
+        let known = all.iter().map(|one| word_of(*one)).collect();
+        UnknownWord { what, word: word.to_owned(), known }
+    })
+}
+
 /// An export format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
@@ -70,10 +98,13 @@ impl Format {
     pub fn word(self) -> &'static str {
         self.words().0
     }
+}
 
-    /// The format of a word.
-    pub fn named(word: &str) -> Option<Format> {
-        Format::ALL.iter().copied().find(|format| format.word() == word)
+impl FromStr for Format {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Format, UnknownWord> {
+        with_word(word, Format::ALL, Format::word, "is no format")
     }
 }
 
@@ -102,9 +133,12 @@ impl ActuatorKind {
             ActuatorKind::Motor => "motor",
         }
     }
+}
 
-    /// The kind of a word.
-    pub fn named(word: &str) -> Option<ActuatorKind> {
-        ActuatorKind::ALL.iter().copied().find(|kind| kind.word() == word)
+impl FromStr for ActuatorKind {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<ActuatorKind, UnknownWord> {
+        with_word(word, ActuatorKind::ALL, ActuatorKind::word, "are no actuators")
     }
 }

@@ -85,7 +85,7 @@ pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
-pub use format::{ActuatorKind, Format};
+pub use format::{ActuatorKind, Format, UnknownWord};
 pub use groups::JointGroup;
 pub use options::{
     BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,

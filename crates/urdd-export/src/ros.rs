@@ -1,5 +1,9 @@
 //! Distributions of ROS 2.
 
+use std::str::FromStr;
+
+use crate::format::{UnknownWord, with_word};
+
 /// A distribution of ROS 2, whose MoveIt and ros2_control read a package.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub enum Ros {
@@ -22,17 +26,20 @@ impl Ros {
         }
     }
 
-    /// The distribution of a word.
-    pub fn named(word: &str) -> Option<Ros> {
-        Ros::ALL.iter().copied().find(|ros| ros.word() == word)
-    }
-
     /// What MoveIt does with a joint without a limit of velocity or acceleration.
     pub(super) fn without_limit(self) -> &'static str {
         match self {
             Ros::Humble => "MoveIt of Humble takes 1 (rad or m, per s or s²) for each",
             Ros::Jazzy => "MoveIt of Jazzy then fails every plan that moves them",
         }
+    }
+}
+
+impl FromStr for Ros {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Ros, UnknownWord> {
+        with_word(word, Ros::ALL, Ros::word, "is no distribution")
     }
 }
 

@@ -156,7 +156,7 @@ fn shapes() -> impl TypedValueParser<Value = urdd_export::Shapes> {
 /// The distributions of ROS 2.
 fn ros() -> impl TypedValueParser<Value = Ros> {
     PossibleValuesParser::new(Ros::ALL.iter().map(|ros| ros.word()))
-        .try_map(|word| Ros::named(&word).ok_or("not a distribution"))
+        .try_map(|word| word.parse::<Ros>())
 }
 
 /// A part of all triangles, or a number of them.
@@ -194,7 +194,7 @@ pub enum Target {
 impl Target {
     /// The format, which has the same word; `None` for what is no robot.
     pub fn format(self) -> Option<Format> {
-        Format::named(self.to_possible_value()?.get_name())
+        self.to_possible_value()?.get_name().parse().ok()
     }
 }
 
@@ -213,6 +213,6 @@ pub enum Actuators {
 impl Actuators {
     /// The kind, which has the same word; `None` for no actuators.
     pub fn kind(self) -> Option<ActuatorKind> {
-        ActuatorKind::named(self.to_possible_value()?.get_name())
+        self.to_possible_value()?.get_name().parse().ok()
     }
 }

@@ -228,7 +228,7 @@ fn what_does_not_belong_to_the_robot_is_refused() {
     let options =
         Choices { setup: Some(Setup::guess(&other).expect("guesses")), ..Choices::default() };
     for format in ["drake", "mjcf", "curobo", "moveit", "sdf"] {
-        let format = Format::named(format).expect(format);
+        let format: Format = format.parse().unwrap();
         let error = export(&robot, format, &options).expect_err("another robot's");
         assert!(matches!(error, ExportError::OtherSetup { .. }), "{error}");
     }
