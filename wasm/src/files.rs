@@ -1,5 +1,7 @@
 //! The files of a URDD: a zip archive, or files that the host provides one by one, on request.
 
+#[cfg(feature = "make")]
+use std::collections::BTreeMap;
 #[cfg(feature = "lint")]
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -33,12 +35,20 @@ struct Given {
 
 impl Files {
     /// The files of a source.
-    pub fn of(source: impl Source + 'static) -> Self {
+    fn of(source: impl Source + 'static) -> Self {
         Files { root: Root::of(source), given: None }
     }
 
+    /// The address of new files, for the host. `name` names their folder.
+    #[cfg(feature = "make")]
+    pub fn address_of(name: &str, files: BTreeMap<String, Arc<[u8]>>) -> Result<usize, String> {
+        let memory = Memory::new(name, files);
+        let named = |(path, fault): (String, _)| format!("`{}`: {fault}", path.escape_debug());
+        Ok(Files::of(memory.map_err(named)?).into_address())
+    }
+
     /// The address of the open files, for the host.
-    pub fn into_address(self) -> usize {
+    fn into_address(self) -> usize {
         Box::into_raw(Box::new(self)) as usize
     }
 
