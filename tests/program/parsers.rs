@@ -236,6 +236,46 @@ fn files_with(words: &[&str]) -> BTreeSet<String> {
     found
 }
 
+/// Who stores files, or shows some of those of another. What reads URDDs and what reads descriptions ask these alone.
+const SOURCES: &[(&str, &str)] = &[
+    ("crates/urdd-directory/src/carried.rs", "the files of a URDD among others"),
+    ("crates/urdd-directory/src/root.rs", "any of them"),
+    ("crates/urdd-directory/src/source/archive.rs", "a zip archive"),
+    ("crates/urdd-directory/src/source/memory.rs", "memory, and what a browser gives"),
+    ("crates/urdd-directory/src/source/snapshot.rs", "a folder on disk"),
+];
+
+#[test]
+fn files_are_stored_in_one_place() {
+    assert_listed(
+        &["Source for "],
+        SOURCES,
+        "use `Memory`, `Archive` or `Disk` of `urdd_directory`",
+    );
+    let set = ["MAX_SET_"];
+    let users: Vec<String> = files_with(&set).into_iter().collect();
+    assert_eq!(
+        users,
+        [LIMITS, "crates/urdd-source/src/files.rs"],
+        "{set:?}: `Files::of` checks it"
+    );
+}
+
+/// The limits of files.
+const LIMITS: &str = "crates/urdd-directory/src/limits.rs";
+
+#[test]
+fn a_limit_of_files_has_one_name_and_one_place() {
+    let limits = fs::read_to_string(repository().join(LIMITS)).expect("the limits");
+    let names = limits.lines().filter_map(|line| line.strip_prefix("pub const ")?.split_once(':'));
+    let names: Vec<String> = names.map(|(name, _)| format!("const {name}:")).collect();
+    assert!(names.len() > 15, "{names:?}");
+    for name in &names {
+        let found: Vec<String> = files_with(&[name]).into_iter().collect();
+        assert_eq!(found, [LIMITS], "`{name}`: use this one, or give another limit another name");
+    }
+}
+
 fn assert_listed(words: &[&str], list: &[(&str, &str)], advice: &str) {
     let found = files_with(words);
     let listed: BTreeSet<String> = list.iter().map(|(file, _)| (*file).to_owned()).collect();

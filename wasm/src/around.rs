@@ -8,9 +8,6 @@ use urdd_source::{Files as Around, MAX_SOURCE_BYTES, Packages, Settings};
 
 use crate::files::Files;
 
-/// Maximum size of a mesh file, bytes.
-const MAX_FILE_BYTES: u64 = 1 << 30;
-
 /// The files around descriptions.
 pub struct Given {
     /// The folder that they are in; empty for the root.
@@ -27,18 +24,14 @@ impl Given {
     pub fn of(files: &Files) -> Result<Self, String> {
         let listing = files.root.list().map_err(|error| error.to_string())?;
         let all = listing.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
-        let paths: Vec<String> = all.map(|entry| entry.path).collect();
+        let all: Vec<(String, u64)> = all.map(|entry| (entry.path, entry.size)).collect();
         // In a folder of its name, as on a disk: programs look for packages by the names of folders.
         let name = files.root.folder_name();
         let is_plain = !name.contains(['/', '\\']) && !name.starts_with('.');
         let folder = if is_plain { name } else { "robot".to_owned() };
-        let mut content = Vec::new();
-        for path in &paths {
-            let found = files.content(path, MAX_FILE_BYTES);
-            let found = found.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
-            content.push((place(&folder, path), found));
-        }
-        let around = Around::of(content).map_err(|error| error.to_string())?;
+        let around = Around::of(files.root.clone(), &folder, all.iter().cloned());
+        let around = around.map_err(|error| error.to_string())?;
+        let paths = all.into_iter().map(|(path, _)| path).collect();
         let mut given = Given { folder, paths, files: around, is_searched: false };
         if let Some(lost) = files.lost() {
             given.files = given.files.clone().searched(|file| lost.contains(&given.path(file)));
@@ -47,9 +40,12 @@ impl Given {
         Ok(given)
     }
 
-    /// The path of a file among them, seen from the root of all.
+    /// The path of a file among them, relative to the root of all, so that messages name it as a person does.
     pub fn place(&self, path: &str) -> PathBuf {
-        place(&self.folder, path).into()
+        match &*self.folder {
+            "" => path.into(),
+            folder => format!("{folder}/{path}").into(),
+        }
     }
 
     /// The paths of the files.
@@ -86,9 +82,4 @@ impl Given {
         }
         Ok(Settings { packages, files: self.files.clone(), ..Settings::default() })
     }
-}
-
-/// Relative to the root of all, so that messages name a file as a person does.
-fn place(folder: &str, path: &str) -> String {
-    if folder.is_empty() { path.to_owned() } else { format!("{folder}/{path}") }
 }

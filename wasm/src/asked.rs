@@ -3,45 +3,24 @@
 use std::io;
 use std::sync::Arc;
 
-use urdd_source::Lender;
-
-#[cfg(target_arch = "wasm32")]
+#[cfg(all(target_arch = "wasm32", feature = "lint"))]
 #[link(wasm_import_module = "urdd")]
 unsafe extern "C" {
     /// The content of a file by its path: an answer of `answer::bytes_or_error`; null if the host has none.
     fn read(path: *const u8, length: usize) -> *mut u8;
 }
 
-/// A file that the host has.
-#[derive(Debug)]
-pub struct Asked {
-    path: String,
-    size: u64,
-}
-
-impl Asked {
-    /// The file of this path, which has so many bytes.
-    pub fn of(path: &str, size: u64) -> Self {
-        Asked { path: path.to_owned(), size }
+/// The content of a file that the host named; `None` if it has none.
+pub fn bytes(path: &str) -> io::Result<Option<Arc<[u8]>>> {
+    let Some(given) = given(path) else { return Ok(None) };
+    match given.split_first() {
+        Some((1, bytes)) => Ok(Some(bytes.into())),
+        Some((_, error)) => Err(io::Error::other(String::from_utf8_lossy(error))),
+        None => Err(io::ErrorKind::UnexpectedEof.into()),
     }
 }
 
-impl Lender for Asked {
-    fn size(&self) -> u64 {
-        self.size
-    }
-
-    fn bytes(&self) -> io::Result<Arc<[u8]>> {
-        let given = given(&self.path).ok_or_else(|| io::Error::other("its bytes are not there"))?;
-        match given.split_first() {
-            Some((1, bytes)) => Ok(Arc::from(bytes)),
-            Some((_, error)) => Err(io::Error::other(String::from_utf8_lossy(error))),
-            None => Err(io::ErrorKind::UnexpectedEof.into()),
-        }
-    }
-}
-
-#[cfg(target_arch = "wasm32")]
+#[cfg(all(target_arch = "wasm32", feature = "lint"))]
 fn given(path: &str) -> Option<Vec<u8>> {
     use crate::memory::{bytes, urdd_free_answer};
     // SAFETY: the host reads the path before it returns. Its answer begins with its length, and is not used again.
@@ -57,7 +36,7 @@ fn given(path: &str) -> Option<Vec<u8>> {
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(not(all(target_arch = "wasm32", feature = "lint")))]
 fn given(_: &str) -> Option<Vec<u8>> {
     None
 }

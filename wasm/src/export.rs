@@ -6,7 +6,6 @@ use std::sync::Arc;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_directory::range::Range;
-use urdd_directory::source::Memory;
 use urdd_export::{
     Choices, Fit, SAMPLES, SPHERES, Setup, SphereBudget, TOTAL_SPHERES, export as exported,
 };
@@ -69,11 +68,9 @@ fn export(files: &Files, question: &[u8]) -> Result<Value, String> {
     let mut all: BTreeMap<String, Arc<[u8]>> =
         made.files.into_iter().map(|(path, bytes)| (path, bytes.into())).collect();
     all.insert(main.clone(), made.text.into_bytes().into());
-    let root = Memory::new("", all)
-        .map_err(|(path, fault)| format!("`{}`: {fault}", path.escape_debug()))?;
+    let files = Files::address_of("", all)?;
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     let report: Value = serde_json::from_str(&made.report).map_err(words)?;
-    let files = Files::of(root).into_address();
     Ok(json!({ "files": files, "main": main, "notes": notes, "report": report }))
 }
 

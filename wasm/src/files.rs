@@ -1,105 +1,55 @@
 //! The files of a URDD: a zip archive, or files that the host provides one by one, on request.
 
+#[cfg(feature = "make")]
 use std::collections::BTreeMap;
 #[cfg(feature = "lint")]
 use std::collections::BTreeSet;
-use std::io::{Cursor, Read};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+#[cfg(feature = "lint")]
+use std::sync::{Mutex, PoisonError};
 
 use serde_json::{Value, json};
-use urdd_directory::listing::{Entry, EntryKind, Listing};
-use urdd_directory::root::{ReadError, Root};
-use urdd_directory::source::{Archive, OpenFile, Source};
+use urdd_directory::limits::MAX_FILE_BYTES;
+use urdd_directory::listing::{Entry, EntryKind};
+use urdd_directory::regular;
+use urdd_directory::root::Root;
+use urdd_directory::source::{Archive, Memory, Source};
 
-#[cfg(feature = "lint")]
-use crate::asked::Asked;
-use crate::{answer, memory};
-#[cfg(feature = "lint")]
-use urdd_source::Content;
+use crate::{answer, asked, memory};
 
 /// The files, and those that the host provides.
 #[derive(Debug, Clone)]
 pub struct Files {
     pub root: Root,
-    given: Option<Arc<Given>>,
+    given: Option<Given>,
 }
 
 /// Files that the host provides: each has its size from the start, and its content once the host provides it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Given {
-    name: String,
-    files: Mutex<BTreeMap<String, Held>>,
+    files: Memory,
     /// Files of which nobody knows where they belong; `None` if each file is where it belongs.
     #[cfg(feature = "lint")]
-    lost: Mutex<Option<BTreeSet<String>>>,
-}
-
-/// A file's size, and its content.
-type Held = (u64, Option<Arc<[u8]>>);
-
-/// The same files behind an [`Arc`], as a source.
-#[derive(Debug)]
-struct Shared(Arc<Given>);
-
-impl Source for Shared {
-    fn folder_name(&self) -> String {
-        self.0.name.clone()
-    }
-
-    fn list(&self) -> Result<Listing, ReadError> {
-        let files = self.0.files.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut entries: BTreeMap<String, (EntryKind, u64)> = BTreeMap::new();
-        for (path, (size, _)) in files.iter() {
-            for (slash, _) in path.match_indices('/') {
-                entries.insert(path[..slash].to_owned(), (EntryKind::Folder, 0));
-            }
-            entries.insert(path.clone(), (EntryKind::File, *size));
-        }
-        let entry = |(path, (kind, size))| Entry { path, kind, size, utf8: true };
-        Ok(Listing { entries: entries.into_iter().map(entry).collect(), ..Listing::default() })
-    }
-
-    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
-        let files = self.0.files.lock().unwrap_or_else(PoisonError::into_inner);
-        match files.get(path) {
-            Some((size, Some(bytes))) if *size == bytes.len() as u64 => {
-                Ok((Box::new(Cursor::new(Arc::clone(bytes))), *size))
-            }
-            Some((_, Some(_))) => Err(ReadError::Changed),
-            Some((_, None)) => Err(ReadError::Io("its bytes are not there yet".to_owned())),
-            None => Err(ReadError::Missing),
-        }
-    }
+    lost: Arc<Mutex<Option<BTreeSet<String>>>>,
 }
 
 impl Files {
     /// The files of a source.
-    pub fn of(source: impl Source + 'static) -> Self {
+    fn of(source: impl Source + 'static) -> Self {
         Files { root: Root::of(source), given: None }
     }
 
-    /// The address of the open files, for the host.
-    pub fn into_address(self) -> usize {
-        Box::into_raw(Box::new(self)) as usize
+    /// The address of new files, for the host. `name` names their folder.
+    #[cfg(feature = "make")]
+    pub fn address_of(name: &str, files: BTreeMap<String, Arc<[u8]>>) -> Result<usize, String> {
+        let memory = Memory::new(name, files);
+        let named = |(path, fault): (String, _)| format!("`{}`: {fault}", path.escape_debug());
+        Ok(Files::of(memory.map_err(named)?).into_address())
     }
 
-    /// The content of a file of at most `limit` bytes. What the host gave is shared, and what it named is asked for when it
-    /// is needed.
-    #[cfg(feature = "lint")]
-    pub fn content(&self, path: &str, limit: u64) -> Result<Content, String> {
-        if let Some(given) = &self.given {
-            let files = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-            match files.get(path) {
-                Some((_, Some(bytes))) if bytes.len() as u64 <= limit => {
-                    return Ok(Content::Here(Arc::clone(bytes)));
-                }
-                Some((size, None)) => {
-                    return Ok(Content::Elsewhere(Arc::new(Asked::of(path, *size))));
-                }
-                _ => {}
-            }
-        }
-        Ok(Content::Here(self.read(path, limit)?.into()))
+    /// The address of the open files, for the host.
+    fn into_address(self) -> usize {
+        Box::into_raw(Box::new(self)) as usize
     }
 
     /// The files of which nobody knows where they belong; `None` if each file is where it belongs.
@@ -112,12 +62,7 @@ impl Files {
     /// Reads a file of at most `limit` bytes.
     pub fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, String> {
         let (file, size) = self.root.open(path).map_err(|error| error.to_string())?;
-        if size > limit {
-            return Err(format!("it has {size} bytes, more than {limit}"));
-        }
-        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
-        file.take(limit).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-        Ok(bytes)
+        regular::read_sized(file, size, limit).map_err(|error| error.to_string())
     }
 }
 
@@ -130,16 +75,11 @@ pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut 
     // SAFETY: guaranteed by the caller.
     let name = String::from_utf8_lossy(unsafe { memory::bytes(name, length) }).into_owned();
     let given = Given {
-        name,
-        files: Mutex::default(),
+        files: Memory::empty(&name, asked::bytes),
         #[cfg(feature = "lint")]
-        lost: Mutex::default(),
+        lost: Arc::default(),
     };
-    let given = Arc::new(given);
-    Box::into_raw(Box::new(Files {
-        root: Root::of(Shared(Arc::clone(&given))),
-        given: Some(given),
-    }))
+    Box::into_raw(Box::new(Files { root: Root::of(given.files.clone()), given: Some(given) }))
 }
 
 /// Adds a file with its size. Its content may follow later.
@@ -156,9 +96,7 @@ pub unsafe extern "C" fn urdd_files_name(
     // SAFETY: guaranteed by the caller.
     let (files, path) = unsafe { (&*files, memory::bytes(path, path_length)) };
     if let Some(given) = &files.given {
-        let path = String::from_utf8_lossy(path).into_owned();
-        let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-        known.entry(path).or_insert((size.into(), None));
+        given.files.name(&String::from_utf8_lossy(path), size.into());
     }
 }
 
@@ -178,10 +116,7 @@ pub unsafe extern "C" fn urdd_files_give(
     let (files, path, data) =
         unsafe { (&*files, memory::bytes(path, path_length), memory::bytes(data, length)) };
     if let Some(given) = &files.given {
-        let path = String::from_utf8_lossy(path).into_owned();
-        let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-        let (_, content) = known.entry(path).or_insert((data.len() as u64, None));
-        content.get_or_insert_with(|| Arc::from(data));
+        given.files.give(&String::from_utf8_lossy(path), data);
     }
 }
 
@@ -202,9 +137,7 @@ pub unsafe extern "C" fn urdd_files_put(
     let (files, path, data) =
         unsafe { (&*files, memory::bytes(path, path_length), memory::bytes(data, length)) };
     if let Some(given) = &files.given {
-        let path = String::from_utf8_lossy(path).into_owned();
-        let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-        known.insert(path, (data.len() as u64, Some(Arc::from(data))));
+        given.files.put(&String::from_utf8_lossy(path), data);
     }
 }
 
@@ -284,9 +217,6 @@ pub unsafe extern "C" fn urdd_files_list(files: *mut Files) -> *mut u8 {
         json!({ "name": files.root.folder_name(), "files": regular.map(file).collect::<Vec<_>>() })
     }))
 }
-
-/// Maximum size of a file that is returned, in bytes.
-const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// The content of a file: an answer of [`answer::bytes_or_error`].
 ///

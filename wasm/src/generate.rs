@@ -3,7 +3,6 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_directory::range::OutOfRange;
-use urdd_directory::source::Memory;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::{
@@ -107,11 +106,8 @@ fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Val
     settings.check().map_err(refused)?;
     let made = generate_in_memory(&path, &settings, &Told);
     let (made, files) = made.map_err(|error| error.to_string())?;
-    let root = Memory::new(&made.robot_name, files).map_err(|(path, fault)| {
-        // Paths of our own are plain.
-        format!("`{}`: {fault}", path.escape_debug())
-    })?;
-    Ok(said(&made, Files::of(root).into_address()))
+    let files = Files::address_of(&made.robot_name, files)?;
+    Ok(said(&made, files))
 }
 
 fn said(made: &Generated, files: usize) -> Value {

@@ -1,12 +1,8 @@
 //! The descriptions among files, and a URDF of an MJCF or SDF.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::source::Memory;
 use urdd_import::import_whole;
 use urdd_source::ImportOptions;
 use urdd_source::dropped::{Dropped, descriptions};
@@ -85,10 +81,7 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
     let (imported, _) = imported.map_err(|error| error.to_string())?;
     let report = serde_json::from_str::<Value>(&imported.report.to_json());
     let report = report.map_err(|error| error.to_string())?;
-    let made: BTreeMap<String, Arc<[u8]>> = imported.files;
-    let root = Memory::new("", made)
-        .map_err(|(path, fault)| format!("`{}`: {fault}", path.escape_debug()))?;
-    let files = Files::of(root).into_address();
+    let files = Files::address_of("", imported.files)?;
     Ok(json!({ "files": files, "urdf": imported.urdf, "report": report }))
 }
 

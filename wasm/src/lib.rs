@@ -10,7 +10,6 @@ mod about;
 mod answer;
 #[cfg(feature = "lint")]
 mod around;
-#[cfg(feature = "lint")]
 mod asked;
 #[cfg(feature = "robot")]
 mod bodies;

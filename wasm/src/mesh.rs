@@ -1,12 +1,11 @@
 //! Triangles of a mesh file.
 
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_geometry::read::{GltfUp, Options, read_with};
 
 use crate::files::Files;
 use crate::{answer, memory};
 
-/// Maximum size of a mesh file, in bytes.
-const MAX_MESH_BYTES: u64 = 1 << 29;
 /// Maximum number of triangles of a mesh file.
 const MAX_TRIANGLES: usize = 5_000_000;
 
@@ -24,7 +23,7 @@ pub unsafe extern "C" fn urdd_mesh(files: *mut Files, path: *const u8, length: u
 }
 
 fn triangles(files: &Files, path: &str) -> Result<Vec<u8>, String> {
-    let bytes = files.read(path, MAX_MESH_BYTES)?;
+    let bytes = files.read(path, MAX_DOCUMENT_BYTES)?;
     let options =
         Options { gltf_up: GltfUp::Keep, max_triangles: MAX_TRIANGLES, ..Options::default() };
     let scene =

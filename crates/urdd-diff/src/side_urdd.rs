@@ -9,7 +9,7 @@ use crate::shapes::{Place, Shapes, mesh_at, shapes};
 use crate::side::{DiffError, Side};
 use urdd_directory::account::Account;
 use urdd_directory::layout::setup_beside;
-use urdd_directory::limits::MAX_SETUP_BYTES;
+use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::path::beside;
 use urdd_directory::regular;
 use urdd_document::mesh_files::MeshFiles;
@@ -64,7 +64,7 @@ pub(super) fn open(urdd: Urdd, path: &Path, shown: String) -> Result<Side, DiffE
 fn setup(urdd: &Path) -> Option<Companion> {
     let path = setup_beside(urdd);
     path.symlink_metadata().ok()?;
-    let bytes = regular::read(&path, MAX_SETUP_BYTES).map_err(|error| error.to_string());
+    let bytes = regular::read(&path, MAX_TOML_BYTES).map_err(|error| error.to_string());
     Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
 }
 

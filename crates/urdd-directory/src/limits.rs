@@ -9,6 +9,12 @@ pub const MAX_URDF_BYTES: u64 = 64 << 20;
 /// Maximum number of files and folders listed in one URDD.
 pub const MAX_FILES: usize = 100_000;
 
+/// Maximum number of files around a description that are not on the disk.
+pub const MAX_SET_FILES: usize = 20_000;
+
+/// Largest total size of these files, bytes.
+pub const MAX_SET_BYTES: u64 = 2 << 30;
+
 /// Deepest folder below a URDD's root, and below a searched folder.
 pub const MAX_FOLDER_DEPTH: usize = 32;
 
@@ -28,6 +34,9 @@ pub const MAX_INFLATION: u64 = 250;
 /// Inflated size that is allowed regardless of archive size, bytes.
 pub const SMALL_ARCHIVE_BYTES: u64 = 64 << 20;
 
+/// Largest file that is given to a browser or copied for one, bytes.
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
 /// Longest name of an entry in a zip archive, bytes: the path limit of Linux.
 pub const MAX_NAME_BYTES: usize = 4096;
 
@@ -37,8 +46,12 @@ pub const MAX_PART_BYTES: usize = 1020;
 /// Largest `VERSION` file of a module, bytes.
 pub const MAX_VERSION_BYTES: u64 = 1024;
 
-/// Largest `NAME.export.toml`, bytes.
-pub const MAX_SETUP_BYTES: u64 = 1 << 20;
+/// Largest TOML file, bytes: `NAME.export.toml`, a recipe, `urdd.toml`.
+pub const MAX_TOML_BYTES: u64 = 1 << 20;
+
+/// Largest file that says what a package or a model has, bytes: `package.xml`, `model.config`, `CMakeLists.txt`,
+/// `setup.py`, a launch file.
+pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
 /// Largest SRDF, and largest xacro file that is searched for names, bytes.
 pub const MAX_SRDF_BYTES: u64 = 16 << 20;

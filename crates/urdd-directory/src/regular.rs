@@ -42,7 +42,7 @@ pub fn read_up_to(from: impl Read, limit: u64) -> Result<Vec<u8>, ReadError> {
 ///
 /// # Errors
 /// If it is larger, or cannot be read.
-pub(crate) fn read_sized(file: impl Read, size: u64, limit: u64) -> Result<Vec<u8>, ReadError> {
+pub fn read_sized(file: impl Read, size: u64, limit: u64) -> Result<Vec<u8>, ReadError> {
     let fits =
         |size: u64| if size > limit { Err(ReadError::TooLarge { size, limit }) } else { Ok(()) };
     fits(size)?;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::document::Document;
-use super::source::Growing;
+use super::source::Memory;
 use super::staging::StagingError;
 use super::take;
 use urdd_format::hexadecimal::hexadecimal;
@@ -20,7 +20,7 @@ use urdd_format::root_metadata::{self, FileEntry};
 #[derive(Debug, Clone)]
 pub struct Writer {
     root: PathBuf,
-    memory: Option<Growing>,
+    memory: Option<Memory>,
 }
 
 impl Writer {
@@ -30,7 +30,7 @@ impl Writer {
     }
 
     /// A writer into memory.
-    pub fn in_memory(files: Growing) -> Self {
+    pub fn in_memory(files: Memory) -> Self {
         Self { root: PathBuf::new(), memory: Some(files) }
     }
 
@@ -132,7 +132,7 @@ impl Writer {
         if let Some(files) = &self.memory {
             let mut bytes = Vec::new();
             write(&mut bytes).map_err(failed)?;
-            files.add(path, bytes);
+            files.put(path, bytes);
             return Ok(());
         }
         let place = self.place(path)?;

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use super::file_error::{self, FileError, FileFault};
 use super::robots::DeclaredRobot;
 use super::settings::{Parsed, Settings, SettingsError};
+use urdd_directory::limits::MAX_TOML_BYTES;
 
 /// The usual name of a settings file.
 pub const SETTINGS_FILE: &str = "urdd.toml";
-/// Maximum size of a settings file, in bytes.
-const MAX_SETTINGS_BYTES: u64 = 1 << 20;
 
 /// The settings file in a folder, or in the nearest one above it. `None` for a relative folder.
 pub fn nearest(folder: &Path) -> Option<PathBuf> {
@@ -42,7 +41,7 @@ impl SettingsFile {
     pub fn with_lines(file: &Path, lines: &str) -> Result<String, SettingsFileError> {
         let mut text = String::new();
         if file.exists() {
-            file_error::read(file, MAX_SETTINGS_BYTES, |found| {
+            file_error::read(file, MAX_TOML_BYTES, |found| {
                 text.push_str(found);
                 Parsed::new(found).map(drop)
             })?;
@@ -64,7 +63,7 @@ impl SettingsFile {
     /// # Errors
     /// If it cannot be read, or [`Settings::from_toml`] refuses it.
     pub fn read(file: &Path) -> Result<SettingsFile, SettingsFileError> {
-        let parsed = file_error::read(file, MAX_SETTINGS_BYTES, Parsed::new)?;
+        let parsed = file_error::read(file, MAX_TOML_BYTES, Parsed::new)?;
         Ok(SettingsFile::of(parsed, file.parent().unwrap_or(Path::new(""))))
     }
 

@@ -18,7 +18,7 @@ use super::settings::{Progress, Settings};
 use super::{metadata, size, stages};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::Root;
-use urdd_directory::source::Growing;
+use urdd_directory::source::Memory;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_directory::{canonical, regular};
@@ -143,7 +143,7 @@ pub fn generate_in_memory(
     let given = imported.as_ref().map(Given::from).unwrap_or_default();
     let decisions = given.decisions(true, Decisions::default());
     let context = Context::new(&source, &settings, None, decisions, progress)?;
-    let files = Growing::default();
+    let files = Memory::default();
     let writer = Writer::in_memory(files.clone());
     let written = write(&context, None, &writer, Root::of(files.clone()))?;
     writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;

@@ -14,7 +14,7 @@ use urdd_source::{Files, Trail, read_source};
 /// Maximum number of SRDFs that xacro is run for to find those of a robot.
 const MAX_EXPANDED: usize = 10;
 /// Maximum number of SRDFs that are read to find those of a robot.
-const MAX_FILES: usize = 100;
+const MAX_SRDFS: usize = 100;
 /// How far up from the URDF's folder MoveIt's packages are looked for.
 const LEVELS: usize = 3;
 const FOLDERS: [&str; 2] = ["config", "srdf"];
@@ -139,7 +139,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
             let path = folder.join(&name);
             let has_stem = stem(&path) == wanted;
             let Ok(file) = urdf.files.canonicalize(&path) else { continue };
-            if found.len() == MAX_FILES || !seen.insert(file) {
+            if found.len() == MAX_SRDFS || !seen.insert(file) {
                 continue;
             }
             let Ok(bytes) = urdf.files.read(&path, MAX_SRDF_BYTES) else { continue };

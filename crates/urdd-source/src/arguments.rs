@@ -15,6 +15,7 @@ use crate::roots::Place;
 use crate::settings::Settings;
 pub use crate::xacro_argument::XacroArgument;
 use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::read_error::ReadError;
 use urdd_xml::Node;
@@ -23,9 +24,8 @@ use urdd_xml::element::{attribute, name};
 /// Maximum number of names of a folder that are looked at, and of values that are suggested.
 const MAX_NAMES: usize = 1000;
 pub(crate) const MAX_VALUES: usize = 100;
-/// Maximum number of launch files, and of bytes of one.
+/// Maximum number of launch files.
 const MAX_LAUNCHES: usize = 100;
-const MAX_LAUNCH_BYTES: u64 = 1 << 20;
 /// Charged for a path that is looked for.
 const LOOK_UP: usize = 1 << 10;
 /// The elements of xacro itself: all others call macros.
@@ -342,7 +342,7 @@ impl<'a> Texts<'a> {
         let mut all = BTreeMap::new();
         for name in names.into_iter().take(MAX_LAUNCHES) {
             let Ok(found) = self.gate.at(&folder.join(name)) else { continue };
-            let text = self.gate.bytes(&found, MAX_LAUNCH_BYTES).unwrap_or_default();
+            let text = self.gate.bytes(&found, MAX_MANIFEST_BYTES).unwrap_or_default();
             for (name, values) in choices(&String::from_utf8_lossy(&text)) {
                 let is_known = self.found.contains_key(&name) && values.len() <= MAX_VALUES;
                 if is_known && !values.is_empty() {

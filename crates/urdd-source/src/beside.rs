@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::gate::Gate;
-use urdd_directory::limits::{MAX_SETUP_BYTES, MAX_SRDF_BYTES};
+use urdd_directory::limits::{MAX_SRDF_BYTES, MAX_TOML_BYTES};
 use urdd_format::named_configurations::ConfigurationEdit;
 
 /// The text of a file, or why it cannot be read.
@@ -36,7 +36,7 @@ impl Beside {
         let at = |ending: &str, limit| companion(&urdf.with_extension(ending), limit, gate);
         Beside {
             srdf: at("srdf", MAX_SRDF_BYTES),
-            setup: at("export.toml", MAX_SETUP_BYTES),
+            setup: at("export.toml", MAX_TOML_BYTES),
             import: None,
         }
     }

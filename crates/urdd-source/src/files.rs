@@ -1,8 +1,7 @@
-//! The files around a description: on the disk, or a set in memory.
+//! The files around a description: on the disk, or a set of another source.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
-use std::fmt;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
@@ -11,13 +10,12 @@ use std::sync::Arc;
 use thiserror::Error;
 
 pub use urdd_directory::limits::MAX_URDF_BYTES as MAX_SOURCE_BYTES;
+use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
+use urdd_directory::root::Root;
+use urdd_directory::source::{Memory, OpenFile, Source};
 
-/// Maximum number of files in memory.
-const MOST_FILES: usize = 20_000;
-/// Maximum size of all files in memory, bytes.
-const MOST_BYTES: u64 = 2 << 30;
 /// Files that say what the folder is that they are in.
 const MANIFESTS: [&str; 2] = ["package.xml", "model.config"];
 
@@ -27,46 +25,18 @@ pub enum Files {
     /// On the disk.
     #[default]
     Disk,
-    /// In memory, by absolute path. There is no other file, and all of them may be read.
+    /// In memory, or in another source, by absolute path. There is no other file, and all of them may be read.
     Memory(Arc<Held>),
 }
 
-/// Files in memory, by absolute path.
-#[derive(Debug, Clone, Default)]
+/// Files that are not on the disk, by absolute path.
+#[derive(Debug, Clone)]
 pub struct Held {
-    files: BTreeMap<PathBuf, Content>,
+    source: Root,
+    /// The path and the size of each in the source.
+    files: BTreeMap<PathBuf, (String, u64)>,
     /// Of files whose place may be unknown, by their last names: the paths, and whether it is.
     searched: BTreeMap<OsString, Vec<(PathBuf, bool)>>,
-}
-
-/// The content of a file in memory, or who has it.
-#[derive(Debug, Clone)]
-pub enum Content {
-    /// Its bytes.
-    Here(Arc<[u8]>),
-    /// Who has its bytes, and gives them each time that they are asked for.
-    Elsewhere(Arc<dyn Lender>),
-}
-
-/// Who has the bytes of a file.
-pub trait Lender: fmt::Debug + Send + Sync {
-    /// The number of bytes.
-    fn size(&self) -> u64;
-
-    /// The bytes.
-    ///
-    /// # Errors
-    /// If they cannot be had.
-    fn bytes(&self) -> io::Result<Arc<[u8]>>;
-}
-
-impl Content {
-    fn size(&self) -> u64 {
-        match self {
-            Content::Here(bytes) => bytes.len() as u64,
-            Content::Elsewhere(lender) => lender.size(),
-        }
-    }
 }
 
 impl Held {
@@ -78,6 +48,14 @@ impl Held {
     /// Whether there is a file at exactly this path.
     pub fn has(&self, path: &Path) -> bool {
         self.files.contains_key(path)
+    }
+
+    fn open(&self, path: &Path, limit: u64) -> Result<(OpenFile, u64), ReadError> {
+        let place = self.place(path).ok_or(ReadError::Missing)?;
+        match self.files.get(&place).ok_or(ReadError::NotAFile)? {
+            (_, size) if *size > limit => Err(ReadError::TooLong { limit }),
+            (path, _) => self.source.open(path),
+        }
     }
 
     fn is_dir(&self, folder: &Path) -> bool {
@@ -118,9 +96,9 @@ impl Held {
 pub enum MemoryFault {
     #[error("`{0}` is not the relative path of a file")]
     Path(String),
-    #[error("there are more than {MOST_FILES} files")]
+    #[error("there are more than {MAX_SET_FILES} files")]
     TooMany,
-    #[error("the files are larger than {} MiB together", MOST_BYTES >> 20)]
+    #[error("the files are larger than {} MiB together", MAX_SET_BYTES >> 20)]
     TooLarge,
 }
 
@@ -132,30 +110,42 @@ impl Files {
     pub fn in_memory(
         files: impl IntoIterator<Item = (String, Arc<[u8]>)>,
     ) -> Result<Files, MemoryFault> {
-        Files::of(files.into_iter().map(|(path, bytes)| (path, Content::Here(bytes))))
+        let memory = Memory::default();
+        let put = |(path, bytes): (String, Arc<[u8]>)| {
+            let size = bytes.len() as u64;
+            memory.put(&path, bytes);
+            (path, size)
+        };
+        Files::of(memory.clone(), "", files.into_iter().map(put))
     }
 
-    /// As [`Files::in_memory`], of which some may be elsewhere until they are needed.
+    /// Files of a source that is not the disk, by their paths and sizes there. Their common folder is the one of this name
+    /// in `/`, or `/` itself. A file is opened when it is read.
     ///
     /// # Errors
-    /// As there.
-    pub fn of(files: impl IntoIterator<Item = (String, Content)>) -> Result<Files, MemoryFault> {
+    /// As for [`Files::in_memory`].
+    pub fn of(
+        source: impl Source + 'static,
+        folder: &str,
+        files: impl IntoIterator<Item = (String, u64)>,
+    ) -> Result<Files, MemoryFault> {
         let (mut all, mut bytes) = (BTreeMap::new(), 0_u64);
-        for (path, content) in files {
-            let plain = plain(Path::new(&path)).filter(|path| path.parent().is_some());
-            let Some(plain) = plain else {
+        for (path, size) in files {
+            let place = plain(&Path::new(folder).join(path.trim_start_matches('/')));
+            let Some(place) = place.filter(|place| place.parent().is_some()) else {
                 return Err(MemoryFault::Path(path));
             };
-            bytes = bytes.saturating_add(content.size());
-            all.insert(plain, content);
-            if all.len() > MOST_FILES {
+            bytes = bytes.saturating_add(size);
+            all.insert(place, (path, size));
+            if all.len() > MAX_SET_FILES {
                 return Err(MemoryFault::TooMany);
             }
-            if bytes > MOST_BYTES {
+            if bytes > MAX_SET_BYTES {
                 return Err(MemoryFault::TooLarge);
             }
         }
-        Ok(Files::Memory(Arc::new(Held { files: all, searched: BTreeMap::new() })))
+        let held = Held { source: Root::of(source), files: all, searched: BTreeMap::new() };
+        Ok(Files::Memory(Arc::new(held)))
     }
 
     /// The same set in memory, of which files are found by their last names where nothing is at the path that is asked for:
@@ -181,15 +171,12 @@ impl Files {
     /// # Errors
     /// If there is none, it is no regular file, it cannot be read, or it is longer.
     pub fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-        let Files::Memory(files) = self else {
-            return regular::read(path, limit);
-        };
-        let path = self.canonicalize(path).map_err(|_| ReadError::Missing)?;
-        match files.files.get(&path) {
-            Some(content) if content.size() > limit => Err(ReadError::TooLong { limit }),
-            Some(Content::Here(bytes)) => Ok(bytes.to_vec()),
-            Some(Content::Elsewhere(lender)) => Ok(lender.bytes()?.to_vec()),
-            None => Err(ReadError::NotAFile),
+        match self {
+            Files::Disk => regular::read(path, limit),
+            Files::Memory(files) => {
+                let (file, size) = files.open(path, limit)?;
+                regular::read_sized(file, size, limit)
+            }
         }
     }
 
@@ -198,13 +185,12 @@ impl Files {
     /// # Errors
     /// If there is none, it is no regular file, or it cannot be read.
     pub(crate) fn head(&self, path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
-        let Files::Disk = self else {
-            let mut bytes = self.read(path, u64::MAX)?;
-            bytes.truncate(usize::try_from(most).unwrap_or(usize::MAX));
-            return Ok(bytes);
+        let file = match self {
+            Files::Disk => Box::new(regular::open(path)?),
+            Files::Memory(files) => files.open(path, u64::MAX)?.0,
         };
         let mut head = Vec::new();
-        regular::open(path)?.take(most).read_to_end(&mut head)?;
+        file.take(most).read_to_end(&mut head)?;
         Ok(head)
     }
 

@@ -11,7 +11,7 @@ use urdd_directory::file_type::FileType;
 use urdd_directory::regular;
 
 /// Maximum number of folders, and of files, that are listed.
-const MAX_FILES: usize = 2000;
+const MAX_LISTED: usize = 2000;
 /// Files that xacro reads.
 const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
@@ -54,7 +54,7 @@ fn beside(file: &Path) -> Vec<PathBuf> {
     let (mut found, mut waiting, mut visited) = (Vec::new(), vec![folder.to_owned()], 0);
     while let Some(folder) = waiting.pop() {
         visited += 1;
-        if visited > MAX_FILES || found.len() > MAX_FILES {
+        if visited > MAX_LISTED || found.len() > MAX_LISTED {
             break;
         }
         for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {

@@ -5,16 +5,15 @@ use std::path::Path;
 use crate::files::Files;
 use crate::installed::Installed;
 use crate::{cmake, setup_py};
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
 
-/// Maximum size of a CMakeLists.txt or setup.py, in bytes.
-const MAX_BYTES: u64 = 1 << 20;
 /// Maximum number of files and folders that a package installs one by one.
 const MAX_RULES: usize = 1000;
 
 /// Reads what the package in a folder says.
 pub fn installed(folder: &Path, files: &Files) -> Installed {
     let read = |name: &str| {
-        let bytes = files.read(&folder.join(name), MAX_BYTES).ok()?;
+        let bytes = files.read(&folder.join(name), MAX_MANIFEST_BYTES).ok()?;
         Some(String::from_utf8_lossy(&bytes).into_owned())
     };
     let mut installed = match (read("CMakeLists.txt"), read("setup.py")) {

@@ -54,7 +54,7 @@ pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
 pub use decode::decode;
 pub use error::{SourceError, XacroFault};
-pub use files::{Content, Files, Lender, MAX_SOURCE_BYTES, MemoryFault};
+pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use format::{Format, format_of, root_of};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile, inspect_alone};

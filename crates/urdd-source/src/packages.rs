@@ -8,6 +8,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::files::{Files, is_broad};
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
@@ -20,8 +21,6 @@ pub(super) const MOST_NAMES: usize = 1000;
 const MOST_INSTALLED: usize = 2000;
 /// Files that say that a folder has no packages for others. colcon's own folders, `build`, `install` and `log`, have one.
 pub(super) const IGNORED: [&str; 3] = ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"];
-/// Maximum size of a `package.xml` in bytes.
-const MAX_PACKAGE_XML: u64 = 1 << 20;
 
 /// The variables of Gazebo that list folders of models.
 const MODEL_PATHS: [&str; 4] =
@@ -178,7 +177,7 @@ fn is_named(folder: &Path, name: &str) -> bool {
 
 /// The name in a folder's `package.xml`, if that is there and is well-formed.
 pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
-    let bytes = files.read(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
+    let bytes = files.read(&folder.join("package.xml"), MAX_MANIFEST_BYTES).ok()?;
     let text = String::from_utf8(bytes).ok()?;
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
     let mut elements = document.root_element().children();

@@ -26,7 +26,7 @@ use urdd_source::{Settings as SourceSettings, robots};
 /// Maximum size of one drop, bytes.
 pub const MAX_BODY: u64 = 256 << 20;
 /// Maximum number of files of one drop.
-const MAX_FILES: usize = 10_000;
+const MAX_ITEMS: usize = 10_000;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -108,8 +108,8 @@ fn of_zip(bytes: &[u8], wanted: &dyn Fn() -> Result<()>) -> Result<(Vec<Item>, V
 
 /// Whether number and paths are such that they can be written.
 fn check(items: &[Item]) -> Result<()> {
-    if items.len() > MAX_FILES {
-        return refused(400, format!("more than {MAX_FILES} files"));
+    if items.len() > MAX_ITEMS {
+        return refused(400, format!("more than {MAX_ITEMS} files"));
     }
     for item in items {
         let name = &item.path;

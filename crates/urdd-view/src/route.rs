@@ -7,10 +7,8 @@ use crate::collection::{Collection, Making, Shown};
 use crate::reply::{Body, Reply};
 use crate::report::report_of;
 use crate::{assets, drops, picture, revision};
+use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
-
-/// Maximum size of a file that is sent or copied, in bytes.
-pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
 /// The resource that a URL identifies.
 #[derive(Debug, PartialEq, Eq)]

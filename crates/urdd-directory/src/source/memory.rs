@@ -1,7 +1,8 @@
-//! A URDD in memory: complete, or being written.
+//! Files in memory: those of a URDD or of a description, complete or while they are added.
 
 use std::collections::BTreeMap;
-use std::io::Cursor;
+use std::io::{self, Cursor};
+use std::ops::Bound;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::tree::{Item, Node, Tree};
@@ -10,14 +11,24 @@ use crate::listing::Listing;
 use crate::path::{self, PathFault};
 use crate::read_error::ReadError;
 
-/// The bytes of each file, by path relative to the root, with forward slashes.
-type Files = BTreeMap<String, Arc<[u8]>>;
+/// Gives the bytes of a file that is in memory by its size alone; `None` if they are not there yet.
+pub type Lend = fn(&str) -> io::Result<Option<Arc<[u8]>>>;
 
-/// A URDD in memory: a name and the bytes of each file.
-#[derive(Debug)]
+/// The size and the bytes of each file, by path relative to the root, with forward slashes.
+type Files = BTreeMap<String, (u64, Option<Arc<[u8]>>)>;
+
+/// Files in memory, to which others may be added. Copies share them.
+#[derive(Debug, Clone)]
 pub struct Memory {
     name: String,
-    tree: Tree<Arc<[u8]>>,
+    files: Arc<Mutex<Files>>,
+    lend: Lend,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Memory::empty("", |_| Ok(None))
+    }
 }
 
 impl Memory {
@@ -25,15 +36,56 @@ impl Memory {
     ///
     /// # Errors
     /// The first path that SPEC 2.8 forbids, or that is both a file and a folder.
-    pub fn new(name: &str, files: Files) -> Result<Self, (String, PathFault)> {
-        let item = |(path, data): (String, Arc<[u8]>)| {
+    pub fn new(
+        name: &str,
+        files: BTreeMap<String, Arc<[u8]>>,
+    ) -> Result<Self, (String, PathFault)> {
+        let mut all = Files::new();
+        for (path, bytes) in files {
             path::check(&path).map_err(|fault| (path.clone(), fault))?;
-            let size = data.len() as u64;
-            Ok(Item { path, utf8: true, node: Node::File { size, data } })
-        };
-        let items = files.into_iter().map(item).collect::<Result<_, _>>()?;
-        let tree = Tree::new(items).map_err(|path| (path, PathFault::Taken))?;
-        Ok(Memory { name: name.to_owned(), tree })
+            all.insert(path, (bytes.len() as u64, Some(bytes)));
+        }
+        if let Some(path) = all.keys().find_map(|path| first_below(&all, path)) {
+            return Err((path.clone(), PathFault::Taken));
+        }
+        let memory = Memory::empty(name, |_| Ok(None));
+        *memory.now() = all;
+        Ok(memory)
+    }
+
+    /// A root folder of this name without files. `lend` gives the bytes of those that are only named.
+    pub fn empty(name: &str, lend: Lend) -> Self {
+        Memory { name: name.to_owned(), files: Arc::default(), lend }
+    }
+
+    /// Adds a file by its size. One that is there stays.
+    pub fn name(&self, path: &str, size: u64) {
+        self.now().entry(path.to_owned()).or_insert((size, None));
+    }
+
+    /// Adds the bytes of a file. One that has bytes keeps them; one of another size than was named cannot be read.
+    pub fn give(&self, path: &str, bytes: &[u8]) {
+        let mut files = self.now();
+        let (_, content) = files.entry(path.to_owned()).or_insert((bytes.len() as u64, None));
+        content.get_or_insert_with(|| bytes.into());
+    }
+
+    /// Adds a file, or replaces it.
+    pub fn put(&self, path: &str, bytes: impl Into<Arc<[u8]>>) {
+        let bytes = bytes.into();
+        self.now().insert(path.to_owned(), (bytes.len() as u64, Some(bytes)));
+    }
+
+    /// The files with bytes so far.
+    pub fn files(&self) -> BTreeMap<String, Arc<[u8]>> {
+        let files = self.now();
+        let with_bytes =
+            files.iter().filter_map(|(path, (_, bytes))| Some((path, bytes.as_ref()?)));
+        with_bytes.map(|(path, bytes)| (path.clone(), Arc::clone(bytes))).collect()
+    }
+
+    fn now(&self) -> MutexGuard<'_, Files> {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -43,47 +95,38 @@ impl Source for Memory {
     }
 
     fn list(&self) -> Result<Listing, ReadError> {
-        Ok(self.tree.listing())
+        let files = self.now();
+        // A name that is a folder too is listed as that.
+        let all = files.iter().filter(|(path, _)| first_below(&files, path).is_none());
+        let item = |(path, (size, _)): (&String, &(u64, _))| Item {
+            path: path.clone(),
+            utf8: true,
+            node: Node::File { size: *size, data: () },
+        };
+        Ok(Tree::new(all.map(item).collect()).map_err(|_| PathFault::Taken)?.listing())
     }
 
     fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
-        let (data, size) = self.tree.file(path)?;
-        Ok((Box::new(Cursor::new(Arc::clone(data))), size))
+        let found = self.now().get(path).cloned();
+        let Some((size, bytes)) = found else {
+            return Err(match first_below(&self.now(), path) {
+                Some(_) => ReadError::NotAFile,
+                None => ReadError::Missing,
+            });
+        };
+        // Nothing is locked while somebody else is asked.
+        let bytes = bytes.map_or_else(|| (self.lend)(path), |bytes| Ok(Some(bytes)))?;
+        match bytes {
+            Some(bytes) if bytes.len() as u64 == size => Ok((Box::new(Cursor::new(bytes)), size)),
+            Some(_) => Err(ReadError::Changed),
+            None => Err(ReadError::Io("its bytes are not there yet".to_owned())),
+        }
     }
 }
 
-/// A URDD in memory to which files are added. Copies share the files.
-#[derive(Debug, Clone, Default)]
-pub struct Growing(Arc<Mutex<Files>>);
-
-impl Growing {
-    /// Adds a file, or replaces it.
-    pub(crate) fn add(&self, path: &str, bytes: Vec<u8>) {
-        self.now().insert(path.to_owned(), bytes.into());
-    }
-
-    /// The files so far.
-    pub fn files(&self) -> BTreeMap<String, Arc<[u8]>> {
-        self.now().clone()
-    }
-
-    fn now(&self) -> MutexGuard<'_, Files> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Source for Growing {
-    fn folder_name(&self) -> String {
-        String::new()
-    }
-
-    fn list(&self) -> Result<Listing, ReadError> {
-        Memory::new("", self.files()).map_err(|(_, fault)| ReadError::from(fault))?.list()
-    }
-
-    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
-        let file = self.now().get(path).cloned().ok_or(ReadError::Missing)?;
-        let size = file.len() as u64;
-        Ok((Box::new(Cursor::new(file)), size))
-    }
+/// The first file in a folder, at any depth.
+fn first_below<'a>(files: &'a Files, folder: &str) -> Option<&'a String> {
+    let below = format!("{folder}/");
+    let mut after = files.range::<str, _>((Bound::Excluded(&*below), Bound::Unbounded));
+    after.next().map(|(file, _)| file).filter(|file| file.starts_with(&below))
 }

@@ -1,4 +1,5 @@
-//! Storage of a URDD's files: a folder, memory, or a zip archive.
+//! Storage of files by path: a folder, memory, or a zip archive. Of a URDD, and of what is around a description that is
+//! not on the disk.
 
 mod archive;
 mod disk;
@@ -18,13 +19,13 @@ use super::read_error::ReadError;
 
 pub use archive::{Archive, is_archive};
 pub use disk::{Disk, Stamp, is_urdd};
-pub use memory::{Growing, Memory};
+pub use memory::{Lend, Memory};
 
 /// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;
 
-/// Storage of one URDD's files. Paths are relative to the URDD's root, with forward slashes. The caller has checked
-/// them against SPEC 2.8.
+/// Storage of files. Paths are relative to its root, with forward slashes. The caller has checked those of a URDD against
+/// SPEC 2.8.
 pub trait Source: fmt::Debug + Send + Sync {
     /// Name of the root folder.
     fn folder_name(&self) -> String;

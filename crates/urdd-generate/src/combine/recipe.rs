@@ -13,9 +13,6 @@ use urdd_directory::position::{self, Position};
 use urdd_format::escape;
 use urdd_source::MAX_SOURCE_BYTES;
 
-/// Maximum size of a recipe in bytes.
-pub(super) const MAX_RECIPE_BYTES: u64 = 1 << 20;
-
 /// The id with which parts refer to `[base]`: `base/link`.
 pub(super) const BASE: &str = "base";
 

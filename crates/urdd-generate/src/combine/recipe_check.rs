@@ -10,7 +10,7 @@ use urdd_format::urdf::JointType;
 use urdd_source::cycles;
 
 /// Maximum length of a robot's name in bytes: files are named after it.
-const MAX_NAME_BYTES: usize = 200;
+const MAX_ROBOT_NAME_BYTES: usize = 200;
 
 /// Maximum length of a prefix in bytes: it is repeated before thousands of names.
 const MAX_PREFIX_BYTES: usize = 100;
@@ -53,7 +53,7 @@ impl Recipe {
     /// Checks that names and prefixes can be written in a URDF, and that numbers are finite.
     fn check_words(&self) -> Result<()> {
         let unlimited = usize::MAX;
-        self.check_word("the name", &self.name, MAX_NAME_BYTES)?;
+        self.check_word("the name", &self.name, MAX_ROBOT_NAME_BYTES)?;
         if let Some(base) = &self.base {
             self.check_word("the link", &base.to, unlimited)?;
             self.check_joint("base", base)?;

@@ -6,7 +6,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::error::{CombineError, did_you_mean};
-use super::recipe::{Attachment, JointLimit, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word, fixed};
+use super::recipe::{Attachment, JointLimit, Part, Recipe, Sources, Word, fixed};
+use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::{position, regular};
 use urdd_format::escape;
 
@@ -55,7 +56,7 @@ impl Recipe {
             return Err(unreadable(words.to_owned()));
         }
         let bytes =
-            regular::read(file, MAX_RECIPE_BYTES).map_err(|error| unreadable(error.to_string()))?;
+            regular::read(file, MAX_TOML_BYTES).map_err(|error| unreadable(error.to_string()))?;
         let text =
             String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
         let folder = match file.parent() {

@@ -9,13 +9,12 @@ use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
 use super::reader::Reader;
 use super::tag::{Tag, is_true};
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_source::{FoundMesh, NotFound};
 use urdd_xml::{Mended, parse_leniently};
 
 /// The files that say which file of a folder is the model.
 const MANIFESTS: &[&str] = &["model.config", "manifest.xml"];
-/// The most bytes of one.
-const MAX_MANIFEST: u64 = 1 << 20;
 /// What an `<include>` says of a model.
 const KNOWN: &[&str] = &["uri", "name", "pose", "placement_frame", "static", "plugin"];
 
@@ -102,7 +101,7 @@ fn find_as(reader: &Reader, tag: Tag, uri: &str) -> Result<Result<FoundMesh, Not
         let Ok(manifest) = gate.find_from(&format!("{trimmed}/{manifest}"), &folder) else {
             continue;
         };
-        let Ok(bytes) = gate.bytes(&manifest, MAX_MANIFEST) else { continue };
+        let Ok(bytes) = gate.bytes(&manifest, MAX_MANIFEST_BYTES) else { continue };
         reader.charge(bytes.len(), tag.place())?;
         let text = String::from_utf8_lossy(&bytes);
         if let Some((model, folder)) = newest(&text).zip(manifest.file.parent()) {

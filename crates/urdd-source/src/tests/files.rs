@@ -2,10 +2,13 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::read_error::ReadError;
+use urdd_directory::source::Memory;
 
 /// A triangle of area 1/2.
 const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
@@ -192,8 +195,11 @@ fn a_set_has_bounds_and_no_path_out_of_it() {
     assert_eq!(files.read(Path::new("a/c.stl"), 3), Err(ReadError::TooLong { limit: 3 }));
     assert!(files.is_dir(Path::new("/a")) && !files.is_dir(Path::new("/a/c.stl")));
     assert_eq!(files.names(Path::new("/")), ["a"]);
-    let many = (0..=20_000).map(|k| (format!("{k}"), Arc::from(&b""[..])));
-    assert_eq!(Files::in_memory(many).unwrap_err(), MemoryFault::TooMany);
+    let of = |all: &mut dyn Iterator<Item = (String, u64)>| Files::of(Memory::default(), "", all);
+    let mut many = (0..=MAX_SET_FILES).map(|k| (k.to_string(), 0));
+    assert_eq!(of(&mut many).unwrap_err(), MemoryFault::TooMany);
+    let mut large = [MAX_SET_BYTES, 1].map(|size| (size.to_string(), size)).into_iter();
+    assert_eq!(of(&mut large).unwrap_err(), MemoryFault::TooLarge);
 }
 
 #[test]
@@ -253,36 +259,30 @@ fn manifests_are_never_searched() {
     assert_eq!(package_name(Path::new("/"), &files).as_deref(), Some("arm_description"));
 }
 
-/// Who has the bytes of a file, and counts who asks.
-#[derive(Debug, Default)]
-struct Counted(std::sync::atomic::AtomicUsize);
-
-impl crate::Lender for Counted {
-    fn size(&self) -> u64 {
-        STL.len() as u64
-    }
-
-    fn bytes(&self) -> std::io::Result<Arc<[u8]>> {
-        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        Ok(Arc::from(STL.as_bytes()))
-    }
-}
-
 #[test]
 fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
-    let lent = Arc::new(Counted::default());
-    let asked = || lent.0.load(std::sync::atomic::Ordering::Relaxed);
-    let elsewhere = crate::Content::Elsewhere(Arc::clone(&lent) as Arc<dyn crate::Lender>);
-    let text = urdf(&["a.stl"]);
-    let here = crate::Content::Here(Arc::from(text.as_bytes()));
-    let files = [("arm.urdf".to_owned(), here), ("a.stl".to_owned(), elsewhere)];
-    let settings = Settings { files: Files::of(files).unwrap(), ..Settings::default() };
+    static ASKED: AtomicUsize = AtomicUsize::new(0);
+    let asked = || ASKED.load(Ordering::Relaxed);
+    let memory = Memory::empty("", |path| {
+        ASKED.fetch_add(1, Ordering::Relaxed);
+        Ok((path == "a.stl").then(|| Arc::from(STL.as_bytes())))
+    });
+    let (text, size) = (urdf(&["a.stl"]), STL.len() as u64);
+    memory.give("arm.urdf", text.as_bytes());
+    memory.name("a.stl", size);
+    memory.name("none.stl", size);
+    let all = [("arm.urdf", text.len() as u64), ("a.stl", size), ("none.stl", size)];
+    let all = all.map(|(path, size)| (path.to_owned(), size));
+    let files = Files::of(memory, "bot", all).unwrap();
+    let settings = Settings { files, ..Settings::default() };
     let source =
-        SourceMeshes::open(Path::new("arm.urdf"), &settings, &Cancellation::default()).unwrap();
+        SourceMeshes::open(Path::new("bot/arm.urdf"), &settings, &Cancellation::default()).unwrap();
     let mesh = source.meshes[0].file.as_ref().expect("a file");
-    assert_eq!(asked(), 0);
+    assert_eq!((mesh.as_path(), asked()), (Path::new("/bot/a.stl"), 0));
     assert_eq!(source.read(mesh).expect("a mesh").triangle_count(), 1);
     assert_eq!(asked(), 1);
     assert_eq!(settings.files.read(mesh, 10), Err(ReadError::TooLong { limit: 10 }));
     assert_eq!(asked(), 1);
+    let none = settings.files.read(Path::new("bot/none.stl"), size).unwrap_err();
+    assert_eq!(none.to_string(), "it cannot be read: its bytes are not there yet");
 }
