@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::read_error::ReadError;
+use urdd_xml::tally;
 
 /// A triangle of area 1/2.
 const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
@@ -285,4 +286,11 @@ fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
     assert_eq!(asked(), 1);
     assert_eq!(settings.files.read(mesh, 10), Err(ReadError::TooLong { limit: 10 }));
     assert_eq!(asked(), 1);
+}
+
+#[test]
+fn a_clean_urdf_is_parsed_once() {
+    tally::take();
+    open(&[("arm.urdf", &urdf(&[]))], "arm.urdf");
+    assert_eq!(tally::take(), [("roxmltree", 1)].into());
 }
