@@ -17,6 +17,7 @@ use urdd_format::report::{self, Kind};
 use urdd_source::{Files, format_of};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
+use urdd_xml::Xml;
 use urdd_xml::other_parts::other_parts;
 
 impl Side {
@@ -39,7 +40,7 @@ impl Side {
         if is_urdf && path.exists() || is_xacro || format_of(path, &Files::Disk).is_some() {
             let (mut side, text) = open_urdf(path, shown, options)?;
             side.validation = validation(options, |settings| {
-                let examined = vec![examine_urdf(&text, &side.path)];
+                let examined = vec![examine_urdf(&Xml::new(&text), &side.path)];
                 Ok(Run::of(examined, vec![path.to_owned()], 0, settings))
             })?;
             return Ok(side);

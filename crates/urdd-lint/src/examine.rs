@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use urdd_xml::Document;
+use urdd_xml::{Document, Xml};
 
 use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
@@ -29,7 +29,7 @@ const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];
 /// A text as the rules see it.
 #[derive(Clone, Copy)]
 struct Job<'a> {
-    text: &'a str,
+    xml: &'a Xml<'a>,
     /// The file's, which may be in another encoding.
     bytes: &'a [u8],
     name: &'a str,
@@ -40,22 +40,18 @@ struct Job<'a> {
 /// The result, and the comments that allow what was not found. `bytes` are those of the file; `name` is the file's in the report; relative mesh names
 /// refer to `folder`.
 pub fn examined(
-    text: &str,
+    xml: &Xml<'_>,
     bytes: &[u8],
     name: &str,
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
-    let job = Job { text, bytes, name, folder, settings };
-    let mut examined = examine_urdf(text, name);
+    let job = Job { xml, bytes, name, folder, settings };
+    let mut examined = examine_urdf(xml, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let parsed = urdd_xml::parse(text, urdd_xml::Kind::Robot);
-    let mended = parsed.is_err().then(|| well_formed(text));
-    let parsed = match &mended {
-        Some((mended, _)) => urdd_xml::parse(mended, urdd_xml::Kind::Robot),
-        None => parsed,
-    };
-    let Ok(document) = parsed else {
+    let mended = xml.document().is_err().then(|| well_formed(xml));
+    let of_mended = mended.as_ref().map(|(text, _)| Xml::new(text));
+    let Ok(document) = of_mended.as_ref().unwrap_or(xml).document() else {
         let skipped = rules_to_run(settings)
             .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
@@ -65,12 +61,12 @@ pub fn examined(
         }
         return (examined, Vec::new());
     };
-    let of_mended = match &mended {
-        Some((mended, _)) => complete(&mut examined, examine_urdf(mended, name)),
+    let taken = match &of_mended {
+        Some(mended) => complete(&mut examined, examine_urdf(mended, name)),
         None => Vec::new(),
     };
     let source = job.source(&examined.checks);
-    let subject = job.subject(&document, &source);
+    let subject = job.subject(document, &source);
     let is_mended = mended.is_some();
     let lines = mended.as_ref().map_or(0, |(_, lines)| *lines);
     let as_it_is = match is_mended {
@@ -89,7 +85,7 @@ pub fn examined(
     });
     let is_of_mended = |check: &&mut Check| {
         let code = check.rule.code;
-        code.family() == FAMILY || of_mended.contains(&code)
+        code.family() == FAMILY || taken.contains(&code)
     };
     for check in examined.checks.iter_mut().filter(is_of_mended) {
         for place in check.findings.iter_mut().flat_map(Finding::places_mut) {
@@ -103,21 +99,20 @@ pub fn examined(
         }
     }
     if is_mended {
-        namespaces::declare(text, name, &mut examined.checks);
+        namespaces::declare(xml, name, &mut examined.checks);
     }
     effects::mark(&mut examined.checks);
     if !is_mended {
         effects::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
     }
-    let stale = allow::apply(&document, name, &mut examined.checks);
+    let stale = allow::apply(document, name, &mut examined.checks);
     (examined, stale)
 }
 
 impl<'a> Job<'a> {
     /// The robot with its mesh files, or why there is none. `checks` are those of the validator.
     fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
-        let source =
-            SourceMeshes::of_text(self.text, self.name, self.folder, &self.settings.source);
+        let source = SourceMeshes::of_xml(self.xml, self.name, self.folder, &self.settings.source);
         source.map_err(|error| refusal(&error, checks))
     }
 
@@ -134,8 +129,8 @@ impl<'a> Job<'a> {
 
     /// Asks the programs; not about files beyond the limits of XML.
     fn ask(self) -> Option<Asked> {
-        let counted = urdd_xml::Counted::new(self.bytes, urdd_xml::Kind::Robot).ok()?;
-        Some(Asked::about(counted, self.text, self.folder, self.settings))
+        let counted = self.xml.counted(self.bytes).ok()?;
+        Some(Asked::about(counted, self.xml.text(), self.folder, self.settings))
     }
 
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
@@ -180,11 +175,12 @@ impl<'a> Job<'a> {
 
     /// What all rules find in another text; `None` if it is no XML.
     fn again(self, text: &str) -> Option<Vec<Check>> {
-        let job = Job { text, bytes: text.as_bytes(), ..self };
-        let document = urdd_xml::parse(text, urdd_xml::Kind::Robot).ok()?;
-        let mut checks = examine_urdf(text, self.name).checks;
+        let xml = &Xml::new(text);
+        let job = Job { xml, bytes: text.as_bytes(), ..self };
+        let document = xml.document().ok()?;
+        let mut checks = examine_urdf(xml, self.name).checks;
         let source = job.source(&checks);
-        let subject = job.subject(&document, &source);
+        let subject = job.subject(document, &source);
         job.run(&subject, &mut checks, |checks| {
             job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks))
         });

@@ -89,14 +89,13 @@ fn mended(
 ) -> Option<Mended> {
     let read =
         urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
-    if Format::of(&read.text).is_some() {
-        // Fixes are for the URDF that an import makes.
+    // Fixes of an MJCF or SDF are for the URDF that an import makes of it.
+    if Format::of(&read.text).is_some() || read.trail.is_some() {
         return None;
     }
-    let size = read.text.len() + BYTE_ORDER_MARK.len();
-    let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
+    let before = String::from_utf8(read.bytes().to_owned()).ok()?;
     let mark = if before.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { "" };
-    if read.trail.is_some() || read.text != before[mark.len()..] {
+    if read.text != before[mark.len()..] {
         return None;
     }
     let (folder, name) = stems(path);

@@ -11,6 +11,7 @@ use urdd_format::report::{ImportedFrom, ImportedPart, StaleIgnore, WrittenAt};
 use urdd_import::Imported;
 use urdd_source::SourceError;
 use urdd_source::written::seen_from;
+use urdd_xml::Xml;
 
 /// What is found in the URDF of an import of the file `name` in `folder`, and the comments in it that matched nothing.
 ///
@@ -25,7 +26,8 @@ pub(crate) fn examined_import(
     let settings =
         LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
     let text = imported.text();
-    let (mut examined, unused) = examined(text, text.as_bytes(), &name, Path::new("/"), &settings);
+    let (mut examined, unused) =
+        examined(&Xml::new(text), text.as_bytes(), &name, Path::new("/"), &settings);
     let find = |kind: &str, part: &str| {
         let (file, line, column) = imported.place(kind, part)?;
         let is_main = file == imported.shown;

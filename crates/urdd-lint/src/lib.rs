@@ -60,6 +60,7 @@ use urdd_import::import;
 use urdd_source::macros::{has_no_link, has_no_name};
 use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
+use urdd_xml::Xml;
 use written::say_where_expanded;
 
 /// Lints URDFs, xacro files, and all of them below folders, in parallel.
@@ -161,13 +162,14 @@ fn lint_file(
                     let fails = matches!(read, Err(SourceError::Xacro { .. }));
                     is_part = fails && found == Found::Included;
                     let read = read?;
-                    let has_no_robot = match found {
-                        Found::Named => false,
-                        Found::InFolder => has_no_link(&read.text),
-                        Found::Included => has_no_link(&read.text) || has_no_name(&read.text),
-                    };
-                    is_part = read.trail.is_some() && has_no_robot;
-                    let examined = of_source(path, &read, settings);
+                    let xml = Xml::new(&read.text);
+                    is_part = read.trail.is_some()
+                        && match found {
+                            Found::Named => false,
+                            Found::InFolder => has_no_link(&xml),
+                            Found::Included => has_no_link(&xml) || has_no_name(&xml),
+                        };
+                    let examined = of_source(path, &read, &xml, settings);
                     text = read.trail.is_none().then_some(read.text);
                     examined
                 }
@@ -190,20 +192,25 @@ fn as_written(path: &Path, files: &Files) -> Option<String> {
     bytes.and_then(|bytes| String::from_utf8(bytes).ok())
 }
 
-/// Lints the text of a file as [`read_source`] gives it. Where xacro made the text, places also say where in the xacro
-/// files that is written. Of the settings, only those that change what the rules compute apply here.
-pub fn lint_source(path: &Path, read: &SourceText, settings: &LintSettings) -> Examined {
-    of_source(path, read, settings).0
+/// Lints the text of a file as [`read_source`] gives it; `xml` is of this text. Where xacro made the text, places also say
+/// where in the xacro files that is written. Of the settings, only those that change what the rules compute apply here.
+pub fn lint_source(
+    path: &Path,
+    read: &SourceText,
+    xml: &Xml<'_>,
+    settings: &LintSettings,
+) -> Examined {
+    of_source(path, read, xml, settings).0
 }
 
 fn of_source(
     path: &Path,
     read: &SourceText,
+    xml: &Xml<'_>,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let name = stems(path).1;
-    let (mut examined, mut unused) =
-        examined(&read.text, read.bytes(), &name, &read.folder, settings);
+    let (mut examined, mut unused) = examined(xml, read.bytes(), &name, &read.folder, settings);
     if let Some(trail) = &read.trail {
         let expansion = (read.text.as_str(), trail, path, name.as_str());
         // A line of the expansion.
@@ -216,5 +223,5 @@ fn of_source(
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
-    examined(text, text.as_bytes(), name, folder, settings).0
+    examined(&Xml::new(text), text.as_bytes(), name, folder, settings).0
 }

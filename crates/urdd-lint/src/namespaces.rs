@@ -5,7 +5,8 @@ use urdd_findings::check::Check;
 use urdd_findings::code::Code;
 use urdd_format::index::Count;
 use urdd_format::report::{Fix, TextEdit};
-use urdd_xml::{Kind, XmlError};
+use urdd_source::undeclared_prefix;
+use urdd_xml::Xml;
 
 /// Prefixes, and the addresses that their authors give them.
 const KNOWN: [(&str, &str); 5] = [
@@ -17,26 +18,17 @@ const KNOWN: [(&str, &str); 5] = [
 ];
 
 /// Adds the fix of a text that is not well-formed for want of the declaration of a known prefix.
-pub fn declare(text: &str, name: &str, checks: &mut [Check]) {
-    let Err(XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(prefix, _))) =
-        urdd_xml::parse(text, Kind::Robot)
-    else {
-        return;
-    };
+pub fn declare(xml: &Xml<'_>, name: &str, checks: &mut [Check]) {
+    let Some(prefix) = undeclared_prefix(xml) else { return };
+    let text = xml.text();
     let known = KNOWN.iter().find(|(known, _)| *known == prefix);
     let robot = "<robot";
     let (Some((_, address)), Some(start)) = (known, text.find(robot)) else { return };
     let at = start + robot.len();
     let declaration = format!(" xmlns:{prefix}=\"{address}\"");
     let mended = [&text[..at], &declaration, &text[at..]].concat();
-    let is_left = |error: &XmlError| {
-        let XmlError::Parser(urdd_xml::ParserError::UnknownNamespace(left, _)) = error else {
-            return false;
-        };
-        *left == prefix
-    };
     // `<robot` may be in a comment.
-    if urdd_xml::parse(&mended, Kind::Robot).err().is_some_and(|error| is_left(&error)) {
+    if undeclared_prefix(&Xml::new(&mended)).as_ref() == Some(&prefix) {
         return;
     }
     let position = LineIndex::new(text).position(at);

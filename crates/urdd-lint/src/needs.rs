@@ -17,6 +17,7 @@ use urdd_source::arguments::{XacroArgument, declaration};
 use urdd_source::macros::has_no_link;
 use urdd_source::robots::Job;
 use urdd_source::{SourceError, XacroFault, read_source};
+use urdd_xml::Xml;
 
 /// What is found in a file that needs these arguments, and why it was not expanded.
 pub fn lint_undeclared(
@@ -117,7 +118,7 @@ fn tried(
         // Without the program nothing is known of them.
         let is_unknown =
             matches!(&read, Err(SourceError::NeedsArguments { .. } | SourceError::NoXacro { .. }));
-        is_unknown || read.is_ok_and(|read| !has_no_link(&read.text))
+        is_unknown || read.is_ok_and(|read| !has_no_link(&Xml::new(&read.text)))
     };
     let first =
         |argument: &XacroArgument| Some((argument.name.clone(), argument.values.first()?.clone()));

@@ -17,6 +17,7 @@ use urdd_document::robot::{Robot, of_urdf};
 use urdd_document::tree::Tree;
 use urdd_lint::pose::at_default;
 use urdd_source::{Settings, SourceMeshes};
+use urdd_xml::Xml;
 
 /// Maximum size of a text, bytes: that of a URDF of several thousand links. `urdd lint` takes larger ones.
 pub const MAX_TEXT_BYTES: usize = 16 << 20;
@@ -188,7 +189,7 @@ pub struct RobotModel {
 impl RobotModel {
     /// The robot of a URDF; `None` if it describes none.
     pub fn new(text: &str, name: &str, folder: &Path, settings: &Settings) -> Option<Self> {
-        let source = SourceMeshes::of_text(text, name, folder, settings).ok()?;
+        let source = SourceMeshes::of_xml(&Xml::new(text), name, folder, settings).ok()?;
         let robot = of_urdf(&source.robot);
         let tree = Tree::new(&robot);
         let poses = tree.as_ref().map(|tree| at_default(&robot, tree));

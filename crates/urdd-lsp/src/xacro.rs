@@ -19,6 +19,7 @@ use urdd_format::report::{Place, WrittenAt};
 use urdd_lint::{lint_source, lint_undeclared};
 use urdd_source::macros::has_no_link;
 use urdd_source::{SourceError, package_name, read_source};
+use urdd_xml::Xml;
 
 /// What is wrong with the text as it is.
 pub fn of_text(snapshot: &Snapshot) -> Vec<Found> {
@@ -53,10 +54,11 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
             return found;
         }
     };
-    if has_no_link(&read.text) {
+    let xml = Xml::new(&read.text);
+    if has_no_link(&xml) {
         return found;
     }
-    let examined = project.apply(snapshot, lint_source(path, &read, settings));
+    let examined = project.apply(snapshot, lint_source(path, &read, &xml, settings));
     found.extend(failures(snapshot, &examined));
     let files = Files { own: fs::canonicalize(path).ok(), included: included(snapshot) };
     for check in &examined.checks {

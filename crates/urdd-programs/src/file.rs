@@ -6,7 +6,9 @@ use urdd_xml::Counted;
 
 use crate::effect::{Effects, Reading};
 use crate::mesh::Mesh;
+use crate::strict;
 use crate::tinyxml::Document;
+use crate::tree::{Parsed, Tree};
 use crate::unknown::{self, Found, Names};
 
 /// What a reader says of its program.
@@ -37,6 +39,8 @@ pub struct File<'a> {
     pub(crate) counted: Counted<'a>,
     /// What tinyxml2 makes of it, for all programs that read by it.
     pub(crate) document: Document<'a>,
+    /// What parsers make of it that keep to the standard ([`strict::trees`]), if it is UTF-8.
+    pub(crate) strict: Option<Parsed<[Tree<'a>; 2]>>,
     meshes: &'a dyn Fn(&str) -> Mesh,
     unknown: [OnceCell<Vec<Found>>; 3],
 }
@@ -45,7 +49,9 @@ impl<'a> File<'a> {
     /// A file as it is on disk. `meshes` says what is there of a mesh, by the name that the URDF gives it.
     pub fn new(counted: Counted<'a>, meshes: &'a dyn Fn(&str) -> Mesh) -> Self {
         let (bytes, document) = (counted.bytes(), Document::of(counted));
-        File { bytes, counted, document, meshes, unknown: Default::default() }
+        let text = std::str::from_utf8(bytes).ok();
+        let strict = text.map(|text| strict::trees(text, counted.document()));
+        File { bytes, counted, document, strict, meshes, unknown: Default::default() }
     }
 
     /// What programs ignore that take such names for those of elements.

@@ -1,11 +1,12 @@
 //! XML as rapidxml in Boost 1.90 reads it: Pinocchio, for geometry. Only whether it refuses a file, and where: the elements
 //! are those that tinyxml2 has found before.
 
-use urdd_xml::Counted;
+use urdd_xml::{Counted, tally};
 
 use crate::tree::{Malformed, Parsed};
 
 pub(crate) fn check(file: Counted<'_>) -> Parsed<()> {
+    tally::count("rapidxml");
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
     let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };

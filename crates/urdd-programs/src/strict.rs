@@ -3,63 +3,52 @@
 use std::borrow::Cow;
 
 use urdd_format::short;
-use urdd_xml::{Kind, Node, ParserError as Error, StringStorage, XmlError};
+use urdd_xml::{Document, Kind, Node, ParserError as Error, StringStorage, XmlError};
 
 use crate::tree::{Attribute, BEYOND, Element, Malformed, Parsed, Tree};
 
 /// How a parser names elements and attributes that have a prefix.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Names {
+enum Names {
     /// `{namespace}name`.
     Expanded,
     /// `prefix:name`.
     Written,
 }
 
-pub(crate) struct Text<'a> {
-    pub text: Cow<'a, str>,
-    /// The place in the file of each byte of the text, if they differ.
-    places: Option<Vec<usize>>,
+/// The text of a file that is not UTF-8.
+pub(crate) struct Text {
+    text: String,
+    /// The place in the file of each byte of the text.
+    places: Vec<usize>,
 }
 
-impl<'a> Text<'a> {
+impl Text {
     /// UTF-8, whatever the file says; bytes that are none become U+FFFD.
-    pub fn utf8(bytes: &'a [u8]) -> Text<'a> {
-        if let Ok(text) = std::str::from_utf8(bytes) {
-            return Text { text: text.into(), places: None };
-        }
-        let mut at = 0;
-        let mut characters = Vec::with_capacity(bytes.len());
+    pub fn utf8(bytes: &[u8]) -> Text {
+        let (mut text, mut places, mut at) = (String::new(), Vec::new(), 0);
         for chunk in bytes.utf8_chunks() {
-            characters.extend(chunk.valid().char_indices().map(|(of, one)| (one, at + of)));
+            for (of, one) in chunk.valid().char_indices() {
+                text.push(one);
+                places.resize(text.len(), at + of);
+            }
             at += chunk.valid().len();
             if !chunk.invalid().is_empty() {
-                characters.push((char::REPLACEMENT_CHARACTER, at));
+                text.push(char::REPLACEMENT_CHARACTER);
+                places.resize(text.len(), at);
             }
             at += chunk.invalid().len();
         }
-        Text::of(characters.into_iter())
-    }
-
-    fn of(characters: impl Iterator<Item = (char, usize)>) -> Text<'a> {
-        let (mut text, mut places) = (String::new(), Vec::new());
-        for (character, place) in characters {
-            text.push(character);
-            places.resize(text.len(), place);
-        }
-        Text { text: text.into(), places: Some(places) }
+        Text { text, places }
     }
 
     /// The place in the file of a place in the text.
     fn place(&self, at: usize) -> usize {
-        match &self.places {
-            Some(places) => places.get(at).or(places.last()).copied().unwrap_or(0),
-            None => at,
-        }
+        self.places.get(at).or(self.places.last()).copied().unwrap_or(0)
     }
 
     /// A tree of the text with its places as they are in the file.
-    pub fn placed<'t>(&self, mut tree: Tree<'t>) -> Tree<'t> {
+    fn placed<'t>(&self, mut tree: Tree<'t>) -> Tree<'t> {
         for element in &mut tree.elements {
             element.tag = self.place(element.tag.start)..self.place(element.tag.end);
             for attribute in &mut element.attributes {
@@ -70,21 +59,34 @@ impl<'a> Text<'a> {
         tree
     }
 
-    pub fn parse(&self, names: Names) -> Parsed<Tree<'_>> {
-        match parse(&self.text, names) {
-            Ok(tree) => Ok(self.placed(tree)),
+    /// As [`trees`] of the text.
+    pub fn trees(&self) -> Parsed<[Tree<'_>; 2]> {
+        match trees(&self.text, None) {
+            Ok(trees) => Ok(trees.map(|tree| self.placed(tree))),
             Err(bad) => Err(Malformed { at: self.place(bad.at), why: bad.why }),
         }
     }
 }
 
-/// Parses text that is well-formed and has its prefixes declared.
-pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
+/// Parses text that is well-formed and has its prefixes declared: the trees of [`Names::Expanded`] and [`Names::Written`].
+/// `known` is the document, if another reader has it.
+pub(crate) fn trees<'a>(text: &'a str, known: Option<&Document<'a>>) -> Parsed<[Tree<'a>; 2]> {
     if let Some((at, why)) = oddity(text) {
         return Err(Malformed { at, why });
     }
-    let document = urdd_xml::parse(text, Kind::Lenient)
-        .map_err(|error| Malformed { at: error.offset(text), why: why(&error) })?;
+    let of = |document: &Document<'a>| {
+        [Names::Expanded, Names::Written].map(|names| tree(document, names))
+    };
+    match known {
+        Some(document) => Ok(of(document)),
+        None => urdd_xml::parse(text, Kind::Lenient)
+            .map(|document| of(&document))
+            .map_err(|error| Malformed { at: error.offset(text), why: why(&error) }),
+    }
+}
+
+fn tree<'a>(document: &Document<'a>, names: Names) -> Tree<'a> {
+    let text = document.input_text();
     let mut tree = Tree::default();
     // The element of each node that has one.
     let mut indices: Vec<usize> = Vec::new();
@@ -96,7 +98,7 @@ pub(crate) fn parse(text: &str, names: Names) -> Parsed<Tree<'_>> {
     }
     // Instructions may be beside the root.
     tree.tops.retain(|&top| tree.elements[top].name != INSTRUCTION);
-    Ok(tree)
+    tree
 }
 
 /// What is not well-formed, and `roxmltree` lets through.

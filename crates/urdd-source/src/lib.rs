@@ -64,6 +64,7 @@ pub use load::{
 };
 pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};
+pub use repair::undeclared_prefix;
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::{ImportOptions, Settings};

@@ -21,6 +21,7 @@ use urdd_directory::path;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_format::urdf::UrdfModule;
 
+use urdd_xml::Xml;
 use urdd_xml::element::apply;
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
@@ -68,7 +69,7 @@ pub fn load(
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
     let read = read(path, settings, cancellation, &mut notes)?;
-    mend(read, notes)
+    mend(&Xml::new(&read.text), &read, notes)
 }
 
 /// The text of a description as an author sees it.
@@ -206,37 +207,41 @@ pub fn load_text(
         .files
         .canonicalize(folder)
         .map_err(|error| SourceError::Read { file: shown.to_owned(), reason: error.to_string() })?;
-    load_text_in(bytes, shown, folder)
+    in_memory(within_limit(bytes, shown)?, shown, folder, "robot", None)
 }
 
-/// As [`load_text`], in a folder that may be missing.
+/// As [`load_text`], of a text that others read too, in a folder that may be missing.
 ///
 /// # Errors
 /// If it is not a valid robot.
-pub fn load_text_in(bytes: Vec<u8>, shown: &str, folder: PathBuf) -> Result<Source, SourceError> {
-    let shown = shown.to_owned();
-    if bytes.len() as u64 > MAX_SOURCE_BYTES {
-        let limit = MAX_SOURCE_BYTES >> 20;
-        return Err(SourceError::Read {
-            file: shown,
-            reason: format!("it is longer than {limit} MiB"),
-        });
-    }
-    in_memory(bytes, shown, folder, "robot".to_owned())
+pub fn load_xml(xml: &Xml<'_>, shown: &str, folder: PathBuf) -> Result<Source, SourceError> {
+    in_memory(within_limit(xml.text().into(), shown)?, shown, folder, "robot", Some(xml))
 }
 
+fn within_limit(bytes: Vec<u8>, shown: &str) -> Result<Vec<u8>, SourceError> {
+    let limit = MAX_SOURCE_BYTES >> 20;
+    let reason = || format!("it is longer than {limit} MiB");
+    let is_within = bytes.len() as u64 <= MAX_SOURCE_BYTES;
+    let error = || SourceError::Read { file: shown.to_owned(), reason: reason() };
+    is_within.then_some(bytes).ok_or_else(error)
+}
+
+/// `known` is what may be the text of these bytes, which others read too.
 fn in_memory(
     bytes: Vec<u8>,
-    shown: String,
+    shown: &str,
     folder: PathBuf,
-    stem: String,
+    stem: &str,
+    known: Option<&Xml<'_>>,
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
-    let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
-    mend(
-        Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path: PathBuf::new() },
-        notes,
-    )
+    let (text, is_verbatim) = decode::decode(&bytes, shown, &mut notes)?;
+    let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
+    let read = Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path };
+    match known.filter(|known| known.text() == read.text) {
+        Some(xml) => mend(xml, &read, notes),
+        None => mend(&Xml::new(&read.text), &read, notes),
+    }
 }
 
 /// A robot, read from memory.
@@ -257,53 +262,56 @@ pub struct SourceRobot {
 /// # Errors
 /// If it cannot be read or is not a valid robot.
 pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
-    let source = in_memory(bytes.to_owned(), name.to_owned(), PathBuf::new(), name.to_owned())?;
+    let source = in_memory(bytes.to_owned(), name, PathBuf::new(), name, None)?;
     Ok(SourceRobot { robot: source.reading.robot, carried: source.carried, notes: source.notes })
 }
 
 /// Reads a robot, and repairs its text until both match.
-fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
-    let Read { shown, bytes, stem, folder, text, mut is_verbatim, trail, path } = read;
-    let (mut text, remarks, first_line) = repair::mend_xml(text);
-    is_verbatim &= remarks.is_empty();
-    let origin = Origin { shown: &shown, first_line, trail: trail.as_ref(), path: &path };
-    let places = origin.offsets(&text, remarks.iter().map(|remark| remark.offset));
+fn mend(found: &Xml<'_>, read: &Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
+    let Read { shown, bytes, stem, trail, path, .. } = read;
+    let (mut repaired, remarks, first_line) = repair::mend_xml(found);
+    let mut is_verbatim = read.is_verbatim && remarks.is_empty();
+    let origin = Origin { shown, first_line, trail: trail.as_ref(), path };
+    let offsets = remarks.iter().map(|remark| remark.offset);
+    let places = origin.offsets(repaired.as_deref().unwrap_or(found.text()), offsets);
     notes.extend(noted(&remarks, places));
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
+        let again = repaired.as_deref().map(Xml::new);
+        let xml = again.as_ref().unwrap_or(found);
         let refused = |faults| SourceError::Refused {
             file: shown.clone(),
-            faults: origin.faults(&text, faults),
+            faults: origin.faults(xml.text(), faults),
         };
-        let mut reading = urdf::read(&text, &stem).map_err(refused)?;
+        let mut reading = urdf::read(xml, stem).map_err(refused)?;
         // Later texts are repaired; positions in them mean nothing to the user.
         let places = mesh_places.get_or_insert_with(|| {
             let remarks = reading.remarks.iter().map(|remark| remark.offset);
             let all = remarks.chain(reading.mesh_offsets.iter().copied());
-            let mut places = origin.offsets(&text, all);
+            let mut places = origin.offsets(xml.text(), all);
             let meshes = places.split_off(reading.remarks.len());
             notes.extend(noted(&reading.remarks, places));
             meshes
         });
         if !reading.edits.is_empty() {
             is_verbatim = false;
-            text = apply(&text, std::mem::take(&mut reading.edits));
+            repaired = Some(apply(xml.text(), std::mem::take(&mut reading.edits)));
             continue;
         }
         return Ok(Source {
-            folder,
-            file_name: file_name(&stem),
-            carried: if is_verbatim { bytes.clone() } else { text.into_bytes() },
-            found: (!is_verbatim).then_some(bytes),
+            folder: read.folder.clone(),
+            file_name: file_name(stem),
+            carried: if is_verbatim { bytes.clone() } else { xml.text().into() },
+            found: (!is_verbatim).then(|| bytes.clone()),
             reading,
             notes,
             mesh_places: std::mem::take(places),
-            shown,
+            shown: shown.clone(),
         });
     }
     let reason = "the repaired URDF needs repairs again".to_owned();
-    Err(SourceError::Internal { file: shown, reason })
+    Err(SourceError::Internal { file: shown.clone(), reason })
 }
 
 fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = Note> {
@@ -371,9 +379,9 @@ impl Origin<'_> {
 
 /// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
 /// 6.1.8.
-pub fn well_formed(text: &str) -> (String, u32) {
-    let (text, _, lines) = repair::mend_xml(text.to_owned());
-    (text, lines)
+pub fn well_formed(xml: &Xml<'_>) -> (String, u32) {
+    let (mended, _, lines) = repair::mend_xml(xml);
+    (mended.unwrap_or_else(|| xml.text().to_owned()), lines)
 }
 
 /// The file name without its extensions, or `robot`.

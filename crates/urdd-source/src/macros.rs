@@ -2,7 +2,7 @@
 
 use urdd_directory::position::LineIndex;
 use urdd_xml::element::{children, name};
-use urdd_xml::{Node, XmlError};
+use urdd_xml::{Document, Node, Xml, XmlError};
 
 /// The prefix of elements that xacro reads.
 const PREFIX: &str = "xacro:";
@@ -65,7 +65,10 @@ pub struct Macro {
 /// # Errors
 /// If it is not well-formed, or beyond the limits.
 pub fn read(text: &str) -> Result<MacroFile, XmlError> {
-    let document = urdd_xml::parse(text, urdd_xml::Kind::Robot)?;
+    urdd_xml::parse(text, urdd_xml::Kind::Robot).map(|document| of(&document))
+}
+
+fn of(document: &Document<'_>) -> MacroFile {
     let root = document.root_element();
     let is_of_xacro = |uri: &str| uri.contains("xacro");
     let mut file = MacroFile {
@@ -73,20 +76,19 @@ pub fn read(text: &str) -> Result<MacroFile, XmlError> {
         has_xacro: root.namespaces().any(|one| is_of_xacro(one.uri())),
         ..MacroFile::default()
     };
-    let lines = LineIndex::new(text);
+    let lines = LineIndex::new(document.input_text());
     file.content = file.content_of(root, &lines);
-    Ok(file)
+    file
 }
 
 /// Whether the expansion of a file has no link; one that is not well-formed may have some.
-pub fn has_no_link(expansion: &str) -> bool {
-    read(expansion).is_ok_and(|file| !file.content.has_link)
+pub fn has_no_link(expansion: &Xml<'_>) -> bool {
+    expansion.document().is_ok_and(|document| !of(document).content.has_link)
 }
 
 /// Whether the expansion of a file has no name for the robot, as that of a part for robots.
-pub fn has_no_name(expansion: &str) -> bool {
-    let document = urdd_xml::parse(expansion, urdd_xml::Kind::Robot);
-    document.is_ok_and(|document| !document.root_element().has_attribute("name"))
+pub fn has_no_name(expansion: &Xml<'_>) -> bool {
+    expansion.document().is_ok_and(|document| !document.root_element().has_attribute("name"))
 }
 
 impl MacroFile {

@@ -8,13 +8,14 @@ use super::around::NearPackage;
 use super::beside::Beside;
 use super::error::SourceError;
 use super::gate::Gate;
-use super::load::{Source, load, load_text_in};
+use super::load::{Source, load, load_xml};
 use super::resolve::{FoundMesh, NotFound, OtherCase};
 use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
+use urdd_xml::Xml;
 
 /// A URDF and the mesh files that it names.
 #[derive(Debug)]
@@ -133,19 +134,19 @@ impl SourceMeshes {
         self.imported.clone().unwrap_or_else(|| Beside::read(path, &self.gate))
     }
 
-    /// As [`SourceMeshes::open`], from a text. Relative names refer to `folder`; `shown` names it in errors.
+    /// As [`SourceMeshes::open`], of a text that others read too. Relative names refer to `folder`; `shown` names it in errors.
     ///
     /// # Errors
     /// If it is not a valid robot.
-    pub fn of_text(
-        text: &str,
+    pub fn of_xml(
+        xml: &Xml<'_>,
         shown: &str,
         folder: &Path,
         settings: &Settings,
     ) -> Result<SourceMeshes, SourceError> {
         // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
         let folder = settings.files.canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-        let source = load_text_in(text.as_bytes().to_owned(), shown, folder)?;
+        let source = load_xml(xml, shown, folder)?;
         Ok(SourceMeshes::of(source, settings, None))
     }
 

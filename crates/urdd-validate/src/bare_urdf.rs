@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::engine::{Outcomes, run_all};
+use super::reference::urdf_text;
 use super::rule::{Need, Rule};
 use super::rules;
 use super::two_robots::Judges;
@@ -24,6 +25,7 @@ use urdd_findings::examined::Examined;
 use urdd_findings::skip::SkipReason;
 use urdd_format::registry::Profile;
 use urdd_format::report::Kind;
+use urdd_xml::Xml;
 
 /// Whether a path is a file with the extension of a URDF.
 pub fn is_urdf(path: &Path) -> bool {
@@ -47,20 +49,22 @@ pub(super) fn found(path: &Path) -> Found {
 pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
     let root = Root::open(&found.path)?;
     let urdf = carried_urdf::read_file(&root, &found.name)?;
-    Ok(judged(alone(root, urdf), &found.name, rules))
+    Ok(judged(Context::new(alone(root, urdf), None), &found.name, rules))
 }
 
 /// Examines the text of a URDF with the rules that need nothing else. `name` is its name in the report.
-pub fn examine_urdf(text: &str, name: &str) -> Examined {
+pub fn examine_urdf(xml: &Xml<'_>, name: &str) -> Examined {
     Examined::caught::<ReadError>(Kind::Urdf, name, || {
-        let urdf = CarriedUrdf::of_bytes(name, text.as_bytes())?;
+        let urdf = CarriedUrdf::of_bytes(name, xml.text().as_bytes())?;
+        // A byte order mark is not part of the URDF.
+        let reading = (urdf.text == xml.text()).then(|| urdf_text::of(xml));
         let no_files = Memory::new(name, BTreeMap::new()).map_err(|_| ReadError::Missing)?;
-        Ok(judged(alone(Root::of(no_files), urdf), name, &rules::all()))
+        let context = Context::new(alone(Root::of(no_files), urdf), None);
+        Ok(judged(context.with_urdf_text(reading), name, &rules::all()))
     })
 }
 
-fn judged(urdf: Urdd, name: &str, rules: &[&'static Rule]) -> Examined {
-    let context = Context::new(urdf, None);
+fn judged(context: Context, name: &str, rules: &[&'static Rule]) -> Examined {
     let rules = rules.iter().copied().filter(|rule| is_for_urdf(rule));
     let mut outcomes = Outcomes::new();
     let by_urdf = context.by_urdf();

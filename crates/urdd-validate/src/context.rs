@@ -85,6 +85,12 @@ impl Context {
         })
     }
 
+    /// Sets what the source URDF says, where somebody has parsed it.
+    pub(super) fn with_urdf_text(self, reading: Option<urdf_text::Reading>) -> Self {
+        let known = reading.map(|reading| Arc::new(Some(reading).into()));
+        Context { urdf_text: known.unwrap_or_default(), ..self }
+    }
+
     /// Whether to check sampled data completely, however long that takes.
     pub fn deep(mut self, deep: bool) -> Self {
         self.deep = deep;

@@ -4,7 +4,7 @@ use roxmltree::{Descendants, Node, ParsingOptions, TextPos};
 
 use crate::error::XmlError;
 use crate::limits::{Kind, MAX_NODES};
-use crate::{count, strict};
+use crate::{count, strict, tally};
 
 /// A document within the limits. Only [`parse`] makes one.
 #[derive(Debug)]
@@ -22,6 +22,7 @@ pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
         strict::check_declaration(text)?;
         strict::check(text)?;
     }
+    tally::count("roxmltree");
     let options = ParsingOptions {
         allow_dtd: kind != Kind::Other,
         nodes_limit: u32::try_from(MAX_NODES).unwrap_or(u32::MAX),
@@ -60,7 +61,10 @@ impl<'t> Document<'t> {
 
 /// The bytes of a file within the limits: what a reader takes that parses XML by its own code.
 #[derive(Debug, Clone, Copy)]
-pub struct Counted<'t>(&'t [u8]);
+pub struct Counted<'t> {
+    pub(crate) bytes: &'t [u8],
+    pub(crate) document: Option<&'t Document<'t>>,
+}
 
 impl<'t> Counted<'t> {
     /// Counts a file, whatever its encoding.
@@ -68,11 +72,17 @@ impl<'t> Counted<'t> {
     /// # Errors
     /// [`XmlError`] if it declares entities, or exceeds a limit.
     pub fn new(bytes: &'t [u8], kind: Kind) -> Result<Self, XmlError> {
-        count::check(&String::from_utf8_lossy(bytes), kind).map(|()| Counted(bytes))
+        count::check(&String::from_utf8_lossy(bytes), kind)?;
+        Ok(Counted { bytes, document: None })
     }
 
     /// The bytes.
     pub fn bytes(self) -> &'t [u8] {
-        self.0
+        self.bytes
+    }
+
+    /// Its document, where that is known.
+    pub fn document(self) -> Option<&'t Document<'t>> {
+        self.document
     }
 }

@@ -20,9 +20,12 @@ mod mended;
 pub mod number;
 pub mod other_parts;
 mod strict;
+#[doc(hidden)]
+pub mod tally;
 pub mod tinyxml2;
 pub mod vocabulary;
 pub mod writer;
+mod xml;
 
 pub use document::{Counted, Document, parse};
 pub use error::XmlError;
@@ -32,3 +35,4 @@ pub use mended::{Mended, parse_leniently};
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};
 pub use strict::{is_character, wrong_version};
+pub use xml::Xml;

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::limits::MAX_ATTRIBUTES;
+use crate::tally;
 
 /// Why a document is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +69,7 @@ impl<'a> Parser<'a> {
     /// # Errors
     /// If it is empty.
     pub fn new(bytes: &'a [u8]) -> Parsed<Self> {
+        tally::count("tinyxml2");
         let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
         let mut parser = Parser { bytes: &bytes[..end], at: 0, open: Vec::new(), declares: true };
         parser.skip_space();

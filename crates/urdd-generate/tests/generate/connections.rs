@@ -6,6 +6,7 @@ use urdd_format::index::LinkIdx;
 use urdd_generate::chain::chain_module;
 use urdd_generate::connections::*;
 use urdd_source::urdf;
+use urdd_xml::Xml;
 
 /// Links in a line; the file lists them from the far end to the root.
 fn line(links: usize) -> ConnectionsModule {
@@ -23,7 +24,7 @@ fn line_chain(links: usize) -> ChainModule {
             "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l{i}\"/><child link=\"l{above}\"/></joint>"
         );
     }
-    let reading = urdf::read(&(xml + "</robot>"), "line").unwrap();
+    let reading = urdf::read(&Xml::new(&(xml + "</robot>")), "line").unwrap();
     chain_module(&reading.robot, &reading.tree)
 }
 
@@ -72,7 +73,7 @@ fn star(links: usize) -> ChainModule {
     let links_in_file: String = (0..links).map(link).collect();
     let joints: String = (1..links).map(joint).collect();
     let xml = format!("<robot name=\"star\">{links_in_file}{joints}</robot>");
-    let reading = urdf::read(&xml, "star").unwrap();
+    let reading = urdf::read(&Xml::new(&xml), "star").unwrap();
     chain_module(&reading.robot, &reading.tree)
 }
 

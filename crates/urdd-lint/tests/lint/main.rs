@@ -14,6 +14,7 @@ mod imports;
 mod in_memory;
 mod large;
 mod messages;
+mod parses;
 mod primitives;
 mod programs;
 mod rules_inertia_beyond_geometry;

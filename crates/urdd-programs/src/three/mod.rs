@@ -6,8 +6,7 @@ mod mesh;
 
 use crate::number::parse_float;
 use crate::prelude::*;
-use crate::strict::{Names, Text};
-use crate::unknown::Names as ElementNames;
+use crate::strict::Text;
 
 pub(crate) const ABOUT: About = About {
     id: "urdf_loader",
@@ -16,7 +15,7 @@ pub(crate) const ABOUT: About = About {
     version: "0.13.1",
     settings: &["three"],
     is_asked: true,
-    names: ElementNames::AnyCase,
+    names: Names::AnyCase,
     never: &[
         "collision dynamics damping friction safety_controller calibration version quat_xyzw",
         FURTHER,
@@ -25,9 +24,16 @@ pub(crate) const ABOUT: About = About {
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
-    let text = Text::utf8(file.bytes);
-    let tree = effects.parsed(text.parse(Names::Written))?;
-    let robot = effects.robot(&tree)?;
+    let (text, of_text);
+    let [_, tree] = match &file.strict {
+        Some(trees) => effects.parsed(trees.as_ref().map_err(|bad| *bad))?,
+        None => {
+            text = Text::utf8(file.bytes);
+            of_text = effects.parsed(text.trees())?;
+            &of_text
+        }
+    };
+    let robot = effects.robot(tree)?;
     let mut reader = Reader { file, effects, materials: HashMap::new(), whites: HashSet::new() };
     reader.robot(robot)
 }

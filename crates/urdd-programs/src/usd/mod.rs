@@ -8,7 +8,7 @@ use tree::{Joint, last};
 
 use crate::number::python;
 use crate::prelude::*;
-use crate::unknown::Names as ElementNames;
+use crate::strict;
 
 pub(crate) const ABOUT: About = About {
     id: "usd",
@@ -17,20 +17,30 @@ pub(crate) const ABOUT: About = About {
     version: "0.3.4",
     settings: &["isaac", "newton"],
     is_asked: true,
-    names: ElementNames::Expanded,
+    names: Names::Expanded,
     never: &["version quat_xyzw", FURTHER],
     read,
 };
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = match std::str::from_utf8(file.bytes) {
-        Ok(text) => parse::without_declarations(text),
+        Ok(text) => text,
         Err(bad) => {
             return effects.refuse(bad.valid_up_to(), Fault::Xml("the file is not UTF-8"));
         }
     };
-    let tree = effects.parsed(crate::strict::parse(&text, crate::strict::Names::Expanded))?;
-    let robot = effects.robot(&tree)?;
+    let (read, of_read);
+    // A parser skips the declaration at the beginning, too.
+    let is_whole = text.rfind("<?xml").unwrap_or(0) == 0 && text.matches("?>").count() < 2;
+    let [tree, _] = match &file.strict {
+        Some(Ok(trees)) if is_whole => trees,
+        _ => {
+            read = parse::without_declarations(text);
+            of_read = effects.parsed(strict::trees(&read, None))?;
+            &of_read
+        }
+    };
+    let robot = effects.robot(tree)?;
     parse::elements(robot, effects)?;
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.robot(robot)

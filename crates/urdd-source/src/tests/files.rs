@@ -9,6 +9,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::source::Memory;
+use urdd_xml::tally;
 
 /// A triangle of area 1/2.
 const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
@@ -285,4 +286,11 @@ fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
     assert_eq!(asked(), 1);
     let none = settings.files.read(Path::new("bot/none.stl"), size).unwrap_err();
     assert_eq!(none.to_string(), "it cannot be read: its bytes are not there yet");
+}
+
+#[test]
+fn a_clean_urdf_is_parsed_once() {
+    tally::take();
+    open(&[("arm.urdf", &urdf(&[]))], "arm.urdf");
+    assert_eq!(tally::take(), [("roxmltree", 1)].into());
 }

@@ -12,6 +12,7 @@ use crate::macros::has_no_link;
 use crate::package_index::PackageIndex;
 use crate::robots::{BatchError, find, jobs};
 use crate::{Files, Packages, Settings};
+use urdd_xml::Xml;
 
 const XACRO: &str = "xmlns:xacro=\"http://www.ros.org/wiki/xacro\"";
 
@@ -258,9 +259,9 @@ fn macros_of_computed_names_may_call_anything_and_a_library_calls_nothing() {
 
 #[test]
 fn an_expansion_without_a_link_is_no_robot() {
-    assert!(has_no_link("<robot name=\"r\"><gazebo/></robot>"));
-    assert!(!has_no_link("<robot name=\"r\"><link name=\"a\"/></robot>"));
-    assert!(!has_no_link("<robot name=\"r\">"));
+    assert!(has_no_link(&Xml::new("<robot name=\"r\"><gazebo/></robot>")));
+    assert!(!has_no_link(&Xml::new("<robot name=\"r\"><link name=\"a\"/></robot>")));
+    assert!(!has_no_link(&Xml::new("<robot name=\"r\">")));
 }
 
 fn put(folder: &Path, files: &[(&str, &str)]) {

@@ -14,6 +14,7 @@ mod xml;
 
 use super::fault::{Fault, PlacedFault};
 use urdd_directory::position;
+use urdd_xml::Xml;
 
 pub use reading::{Reading, Tree, written_axis};
 
@@ -21,10 +22,9 @@ pub use reading::{Reading, Tree, written_axis};
 ///
 /// # Errors
 /// If the text is not a valid robot: all faults, in the order of the text.
-pub fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
-    let document = urdd_xml::parse(text, urdd_xml::Kind::Robot)
-        .map_err(|error| vec![xml::fault(&error, text)])?;
-    let mut reader = reader::read(&document, file_stem);
+pub fn read(xml: &Xml<'_>, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
+    let document = xml.document().map_err(|error| vec![xml::fault(error, xml.text())])?;
+    let mut reader = reader::read(document, file_stem);
     if reader.faults.is_empty() {
         check::check(&mut reader, document.root_element().range().start);
     }
@@ -33,7 +33,7 @@ pub fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
     if faults.is_empty() {
         return Ok(reading);
     }
-    let lines = position::LineIndex::new(text);
+    let lines = position::LineIndex::new(xml.text());
     faults.sort_by_key(|(offset, _)| *offset);
     let faults = faults.into_iter().map(|(offset, mut fault)| {
         let at = lines.position(offset);

@@ -12,14 +12,21 @@ mod reader;
 mod reading;
 mod xml;
 
+use urdd_xml::Xml;
+
 pub use legacy::as_legacy;
 pub use reading::{Fault, Problem, Reading, Repeated};
 
 pub fn read(text: &str) -> Reading {
-    match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
-        Ok(document) => reader::read(&document),
+    of(&Xml::new(text))
+}
+
+/// The same, of a text that others read too.
+pub fn of(xml: &Xml<'_>) -> Reading {
+    match xml.document() {
+        Ok(document) => reader::read(document),
         Err(error) => {
-            Reading { problems: vec![reading::not_xml(&error, text)], ..Reading::default() }
+            Reading { problems: vec![reading::not_xml(error, xml.text())], ..Reading::default() }
         }
     }
 }
