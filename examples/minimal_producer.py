@@ -18,7 +18,7 @@ from xml.parsers import expat
 NUM_SAMPLED = 16  # sampled configurations in kinematics_samples_module: any number will do [9.2]
 MAX_EXPLICIT_LINKS = 300  # up to here connections_module spells out every path [6.4.6]
 MAX_LINKS_IN_PATHS = 2_000_000  # unless the paths hold more links than this
-MODULES = {  # each module, with the modules that it is derived from, in the order of the table [12.1]
+MODULES = {  # each module, with the modules that it is derived from, in the order of the table [2.2.1]
     "urdf_module": [],
     "dof_module": ["urdf_module"],
     "chain_module": ["urdf_module"],

@@ -29,7 +29,7 @@ pub fn shared() -> Vec<(&'static str, Make)> {
 }
 
 /// A toy and an extension whose schema allows everything.
-fn extended(mut toy: Fixture) -> Fixture {
+pub fn extended(mut toy: Fixture) -> Fixture {
     const EXTENSION: &str = "x_acme_gripper_module";
     toy.put_file(&format!("{EXTENSION}/schema.json"), *b"true\n");
     toy.add_module(EXTENSION, json!({"grip": 1}));
@@ -84,7 +84,7 @@ fn composition() -> Value {
     })
 }
 
-fn composed() -> Fixture {
+pub fn composed() -> Fixture {
     Fixture::core_with(&arm_and_gripper(), ModuleKind::Composition, composition())
 }
 

@@ -1,6 +1,7 @@
 //! DOF: robots of other joints.
 
 use serde_json::json;
+use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{JointType, Mimic};
 use urdd_validate::code::Code::*;
 
@@ -45,8 +46,36 @@ fn locked_driver(last: f64) -> Fixture {
     Fixture::core(&robot)
 }
 
+/// Two DOFs of one name, `a/rot`, which a named configuration sets: that of the planar joint is the first.
+fn of_one_name(configuration: [f64; 4]) -> Fixture {
+    let robot = star(&[("a", JointType::Planar), ("a/rot", JointType::Revolute)]);
+    let document = json!({ "configurations": [{
+        "name": "turned",
+        "positions": [{ "dof_name": "a/rot", "position": 0.5 }],
+        "configuration": configuration,
+    }]});
+    Fixture::core_with(&robot, ModuleKind::NamedConfigurations, document)
+}
+
 pub fn cases() -> Vec<Case> {
     vec![
+        changed(
+            CNF004,
+            "two-dofs-of-one-name",
+            false,
+            || of_one_name([0.0, 0.0, 0.5, 0.0]),
+            |_| {},
+        ),
+        changed(
+            CNF004,
+            "second-of-two-dofs-of-one-name",
+            true,
+            || of_one_name([0.0, 0.0, 0.5, 0.0]),
+            |f| {
+                let name = "named_configurations_module";
+                f.set(name, "/configurations/0/configuration", json!([0.0, 0.0, 0.0, 0.5]));
+            },
+        ),
         valid(DOF004, "only-fixed-joints-and-mimics-of-them", || {
             let mut robot = star(&[("a", JointType::Fixed), ("b", JointType::Revolute)]);
             robot.joint_mut("b").mimic =

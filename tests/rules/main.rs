@@ -15,6 +15,7 @@ mod clauses;
 mod computed;
 mod connections;
 mod dof;
+mod extensions;
 mod kinematics;
 mod learned;
 mod mesh_files;
@@ -108,6 +109,7 @@ fn cases() -> Vec<Case> {
         urdf::cases(),
         source::cases(),
         dof::cases(),
+        extensions::cases(),
         chain::cases(),
         connections::cases(),
         bounds::cases(),

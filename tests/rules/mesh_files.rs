@@ -4,6 +4,7 @@ mod bodies;
 mod glb;
 mod originals;
 pub mod placed_scenes;
+mod polygons;
 mod prism;
 
 use serde_json::{Value, json};
@@ -155,8 +156,24 @@ pub fn cases() -> Vec<Case> {
     cases.extend(originals::cases());
     cases.extend(prism::cases());
     cases.extend(placed_scenes::cases());
+    cases.extend(polygons::cases());
     cases.extend(bodies::cases());
     cases
+}
+
+/// Adds a triangle of this height to the OBJ of the base's plain mesh, beside an edge.
+fn one_more(f: &mut Fixture, height: f64) {
+    let mut mesh = read(f, PLAIN, BASE);
+    let [a, b, c] = mesh.triangles[0];
+    let [from, to, other] = mesh.corners([a, b, c]);
+    let between = [0, 1, 2].map(|i| {
+        let middle = (from[i] + to[i]) / 2.0;
+        middle + height * (other[i] - middle)
+    });
+    let last = u32::try_from(mesh.vertices.len()).expect("few");
+    mesh.vertices.push(between.map(|x| f64::from(x as f32)));
+    mesh.triangles.push([a, b, last]);
+    put(f, PLAIN, BASE, "obj", &mesh);
 }
 
 /// MSH013 and MSH014.
@@ -266,6 +283,8 @@ fn files() -> Vec<Case> {
         invalid(MSH014, "triangle-turned-round-in-the-stl", |f| {
             rewrite(f, PIECES, &["stl"], |mesh| mesh.triangles[4].swap(0, 1));
         }),
+        near_miss(MSH014, "triangle-without-height-in-one-format", |f| one_more(f, 0.0)),
+        invalid(MSH014, "small-triangle-in-one-format", |f| one_more(f, 1e-4)),
         near_miss(MSH014, "rounded-otherwise", |f| {
             rewrite(f, PLAIN, &["glb"], |mesh| {
                 mesh.vertices[5] = mesh.vertices[5].map(up);

@@ -1,7 +1,7 @@
 //! MSH.
 
 use serde_json::{Value, json};
-use urdd_format::urdf::{Geometry, Joint, JointType, Link, Sphere};
+use urdd_format::urdf::{Capsule, Cylinder, Geometry, Joint, JointType, Link, Sphere};
 use urdd_validate::code::Code::*;
 
 use crate::{Case, changed, near_miss};
@@ -108,6 +108,7 @@ fn links() -> Vec<Case> {
         }
         Fixture::full(&robot_of(links))
     };
+    let cylinder = |radius: f64, length: f64| Geometry::Cylinder(Cylinder { radius, length });
     // A link "b" that has this geometry, in a URDD without a mesh of it.
     let unseen = |geometry: Geometry| {
         let shown = Link { visual: vec![visual(None, geometry)], ..link("b") };
@@ -134,6 +135,23 @@ fn links() -> Vec<Case> {
             move || unseen(Geometry::Sphere(Sphere { radius: 0.0 })),
             |_| {},
         ),
+        // A disk.
+        changed(MSH011, "disk-without-mesh", true, move || unseen(cylinder(0.1, 0.0)), |_| {}),
+        changed(
+            MSH011,
+            "capsule-without-length-and-mesh",
+            true,
+            move || unseen(Geometry::Capsule(Capsule { radius: 0.1, length: 0.0 })),
+            |_| {},
+        ),
+        changed(
+            MSH011,
+            "cylinder-of-negative-length",
+            false,
+            move || unseen(cylinder(0.1, -0.1)),
+            |_| {},
+        ),
+        changed(MSH011, "cylinder-of-no-radius", false, move || unseen(cylinder(0.0, 0.1)), |_| {}),
         changed(MSH011, "carried-file-without-a-surface", false, crate::mesh_files::bare, |_| {}),
         changed(
             MSH012,

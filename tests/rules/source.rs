@@ -1,3 +1,5 @@
+use serde_json::json;
+use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Axis, Inertia, Inertial, JointType, Limit, Mass, Mimic};
 use urdd_validate::code::Code::{self, *};
 
@@ -124,7 +126,20 @@ fn files() -> Vec<Case> {
             Fixture::full(&robot)
         }
     };
+    // Which of two bounds is the larger does not matter to the default configuration (SPEC 9.4): 0 is between the first
+    // two, and 0.5 is the nearer one of the others.
+    let crossed = || {
+        let mut robot = toy_robot();
+        robot.joint_mut("turn").limit = limit(1.0, -1.0);
+        robot.joint_mut("shoulder").limit = limit(1.0, 0.5);
+        let mut rest = [0.0; 18];
+        (rest[1], rest[17]) = (0.5, 0.25);
+        let rest = json!([{"name": "rest", "positions": [], "configuration": rest}]);
+        let document = json!({ "configurations": rest });
+        Fixture::core_with(&robot, ModuleKind::NamedConfigurations, document)
+    };
     vec![
+        changed(SRC001, "crossed-and-a-default-configuration", true, crossed, |_| {}),
         changed(SRC007, "not-found", true, with_mesh("lost.stl"), |_| {}),
         changed(SRC007, "found", false, with_mesh("found.stl"), |_| {}),
         changed(

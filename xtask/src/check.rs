@@ -11,7 +11,7 @@ const TESTS: &[(&str, &str)] = &[
     ("spec_agrees::the_tables_of_fields", UPDATE),
     (
         "spec_agrees::the_table_of_modules",
-        "list the module in the table of SPEC.md, clause 12.1, where the registry has it",
+        "list the module in the table of SPEC.md, clause 2.2.1, where the registry has it",
     ),
     (
         "spec_agrees::",

@@ -60,7 +60,7 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
     edits.write()?;
     Ok(format!(
         "1. Write its type: {path}. Every key with its meaning, shape, unit and frame.\n\
-         2. What it is derived from, and its words: `{kind}` in {registry}, and the table in {SPEC}, clause 12.1.\n\
+         2. What it is derived from, and its words: `{kind}` in {registry}, and the table in {SPEC}, clause 2.2.1.\n\
          3. Say in {SPEC}, clause {clause}, what it holds.\n\
          4. cargo xtask new-rule BAT001 name-of-the-fault --clause {clause}.1 --family {stem}     (its first rule; three letters of yours for BAT)\n\
          5. cargo xtask update     (schemas, annex A, types for Python)\n\

@@ -11,6 +11,7 @@
 //! [`Counted`].
 
 mod count;
+mod doctype;
 mod document;
 pub mod element;
 mod error;

@@ -1,8 +1,9 @@
 //! Faults that the parser does not see: a wrong XML declaration, reserved names, colons in names, prefixes without a
-//! namespace, references to characters that XML does not have.
+//! namespace, references to characters that XML does not have, document types.
 
 use std::ops::Range;
 
+use super::doctype;
 use super::error::XmlError;
 use super::markup::{self, MarkupKind};
 
@@ -40,6 +41,9 @@ fn fault(text: &str) -> Option<Found> {
                 what.map(|what| (0, what))
             }
             MarkupKind::Tag => tag(&inside[1..inside.len() - 1]).map(|(at, what)| (at + 1, what)),
+            MarkupKind::Declaration if inside.starts_with("<!DOCTYPE") => {
+                doctype::fault(&text[markup.start..])
+            }
             MarkupKind::Text | MarkupKind::Declaration => None,
         };
         if let Some((offset, what)) = fault {
@@ -101,7 +105,7 @@ fn tag(text: &str) -> Option<Found> {
     }
 }
 
-fn is_qualified(name: &str) -> bool {
+pub(super) fn is_qualified(name: &str) -> bool {
     !name.starts_with(':') && !name.ends_with(':') && name.matches(':').count() <= 1
 }
 
@@ -115,16 +119,21 @@ fn references(text: &str, start: usize) -> Option<Found> {
         if !rest.starts_with(';') {
             continue;
         }
-        let number = match digits.strip_prefix('x') {
-            Some(digits) => u32::from_str_radix(digits, 16),
-            None => digits.parse(),
-        };
-        let character = number.ok().and_then(char::from_u32);
-        if !character.is_some_and(is_character) {
+        if !is_character_number(digits) {
             return Some((start + at, NO_CHARACTER));
         }
     }
     None
+}
+
+/// Whether `&#…;` with this between its marks is a reference to a character of XML.
+pub(super) fn is_character_number(digits: &str) -> bool {
+    let number = match digits.strip_prefix('x') {
+        Some(digits) => u32::from_str_radix(digits, 16),
+        None => digits.parse(),
+    };
+    let is_signed = digits.contains('+');
+    !is_signed && number.ok().and_then(char::from_u32).is_some_and(is_character)
 }
 
 /// Whether XML 1.0 allows a character (production 2).

@@ -13,10 +13,10 @@ use crate::{Case, changed};
 use testkit::fixture::Fixture;
 use testkit::robot::*;
 
-const CORNERS: [[f64; 3]; 4] = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.125]];
-const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+pub const CORNERS: [[f64; 3]; 4] = [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.125]];
+pub const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
-type Point = [f64; 3];
+pub type Point = [f64; 3];
 
 /// Where a point of the file is, in place.
 type Placing = fn(Point) -> Point;
@@ -48,7 +48,7 @@ fn row(names: [&'static str; 2], file: impl Into<Vec<u8>>, placing: Placing) -> 
 }
 
 /// Shows the body by a file that the URDF names; its hull and its piece are those of `right`.
-fn show(f: &mut Fixture, file: &[u8], right: &Mesh, shown: &Mesh) {
+pub fn show(f: &mut Fixture, file: &[u8], right: &Mesh, shown: &Mesh) {
     let path = text(f, ORIGINAL, "/files/0/path");
     f.put_file(&path, file);
     let hull = ConvexHull::new(&right.vertices).expect("a hull").into_mesh();
@@ -176,7 +176,7 @@ fn collada_rows() -> Vec<Row> {
 }
 
 /// A GLB of these indices, whose positions are numbers of a type with this many bytes each, padded to four.
-fn glb(json: &Value, chunk: &[u8]) -> Vec<u8> {
+pub fn glb(json: &Value, chunk: &[u8]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let mut chunk = chunk.to_vec();

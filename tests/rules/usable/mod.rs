@@ -31,7 +31,7 @@ fn row(name: &'static str, file: &'static str, bytes: impl Into<Vec<u8>>, usable
 pub fn cases() -> Vec<Case> {
     let rows = [stl_rows(), obj_rows(), scenes::collada_rows(), scenes::gltf_rows(), others()];
     let rows = rows.into_iter().flatten();
-    rows.flat_map(|row| {
+    let rows = rows.flat_map(|row| {
         let Row { name, file, bytes, usable } = row;
         [false, true].map(|caught| {
             let bytes = bytes.clone();
@@ -44,8 +44,8 @@ pub fn cases() -> Vec<Case> {
                 carry(f, file, &bytes, said);
             })
         })
-    })
-    .collect()
+    });
+    rows.chain(side_files()).collect()
 }
 
 /// Two links that show boxes; the second collides with a mesh, which is not there.
@@ -71,6 +71,59 @@ fn carry(f: &mut Fixture, file: &str, bytes: &[u8], usable: bool) {
     f.set(ORIGINAL, "/files", carried);
 }
 
+/// A mesh that names another file, where that file is, and whether it is found by that name.
+fn side_file(name: &'static str, file: &'static str, mesh: String, at: &'static str) -> [Case; 2] {
+    [false, true].map(|caught| {
+        let mesh = mesh.clone();
+        let name = match caught {
+            true => format!("{name}-not-named").leak(),
+            false => name,
+        };
+        changed(MSH016, name, caught, base, move |f| {
+            carry(f, file, mesh.as_bytes(), true);
+            f.put_file(at, *b"0");
+            if !caught {
+                f.set(ORIGINAL, "/files/0/side_files", json!([at]));
+            }
+        })
+    })
+}
+
+/// The last table of 7.5. The files are outside of the module's folder, where only `side_files` speaks of them.
+fn side_files() -> Vec<Case> {
+    let image = "../../../materials/light%20grey.png";
+    let there = "materials/light grey.png";
+    let obj = |library: &str| format!("mtllib {library}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let images =
+        |inside: &str| format!("<library_images><image id=\"i\">{inside}</image></library_images>");
+    let in_reference = images(&format!("<init_from><ref>{image}</ref></init_from>"));
+    let in_itself = images(&format!("<init_from>{image}</init_from>"));
+    let mut cases = Vec::new();
+    cases.extend(side_file("image-of-collada", "part.dae", scenes::with_images(&in_itself), there));
+    cases.extend(side_file(
+        "image-of-collada-in-a-reference",
+        "part.dae",
+        scenes::with_images(&in_reference),
+        there,
+    ));
+    cases.extend(side_file("image-of-gltf", "part.gltf", scenes::with_uri(image), there));
+    // An absolute path, and a URI with a scheme, are taken from the folder of the file.
+    for (name, library, at) in [
+        ("library-by-an-absolute-path", "/a/b.mtl", "a/b.mtl"),
+        ("library-by-a-uri", "file:///a/b.mtl", "file_/a/b.mtl"),
+    ] {
+        let mesh = obj(library);
+        cases.push(changed(MSH016, name, false, base, move |f| {
+            carry(f, "part.obj", mesh.as_bytes(), true);
+            let path = format!("mesh_modules/{ORIGINAL}/meshes/{at}");
+            f.put_file(&path, *b"newmtl grey\n");
+            f.list(&path);
+            f.set(ORIGINAL, "/files/0/side_files", json!([path]));
+        }));
+    }
+    cases
+}
+
 type Triangle = [[f32; 3]; 3];
 const TRIANGLE: Triangle = [[0.0, 0.0, 0.0], [0.25, 0.0, 0.0], [0.0, 0.5, 0.0]];
 const POINT: Triangle = [[0.25, 0.0, 0.0]; 3];
@@ -94,6 +147,8 @@ fn stl_rows() -> Vec<Row> {
     let whole = stl(1, &[TRIANGLE]);
     let cut = |bytes: &[u8], by: usize| bytes[..bytes.len() - by].to_vec();
     let longer = [&whole[..], b"notes"].concat();
+    // Cut off, so that its length does not say what it is.
+    let begins = |start: &[u8]| [start, &cut(&stl(2, &[TRIANGLE; 2]), 20)[start.len()..]].concat();
     let facet = |last: &str| {
         format!(
             "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex {last}\nendloop\nendfacet\n"
@@ -137,10 +192,17 @@ fn stl_rows() -> Vec<Row> {
         ),
         row("stl-as-text-of-no-number", "part.stl", text(&facet("0 one 0")), false),
         row("stl-as-text-without-facets", "part.stl", text(""), false),
+        row("binary-stl-named-stlb", "part.stlb", cut(&stl(2, &[TRIANGLE; 2]), 20), true),
+        row("binary-stl-named-so-otherwise", "part.stlc", cut(&stl(2, &[TRIANGLE; 2]), 20), false),
+        // No white space before, and no other letter case: these are not the first bytes of PLY.
+        row("binary-stl-that-begins-with-a-space", "part.stl", begins(b" ply\n"), true),
+        row("binary-stl-that-begins-in-capitals", "part.stl", begins(b"PLY\n"), true),
+        row("binary-stl-that-begins-with-ply", "part.stl", begins(b"ply\n"), false),
     ]
 }
 
 fn obj_rows() -> Vec<Row> {
+    let latin = [b"# St\xfcck\n".as_slice(), b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"].concat();
     let obj = |rest: &str| format!("# a part\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{rest}\n");
     vec![
         row("obj", "part.obj", obj("f 1 2 3"), true),
@@ -175,6 +237,15 @@ fn obj_rows() -> Vec<Row> {
             false,
         ),
         row("obj-of-no-number", "part.obj", "v 0 0 0\nv x 0 0\nv 0 1 0\nf 1 2 3\n", false),
+        row("obj-of-bytes-in-latin-1", "part.obj", latin, true),
+        row("obj-with-a-substitute", "part.obj", obj("# \u{1a}\u{b}\nf 1 2 3"), true),
+        row("obj-with-a-control-character", "part.obj", obj("# \u{1}\nf 1 2 3"), false),
+        row(
+            "obj-with-a-control-character-behind",
+            "part.obj",
+            obj(&format!("f 1 2 3\n{}\u{1}", "# words\n".repeat(8_192))),
+            true,
+        ),
         row("obj-without-faces", "part.obj", obj(""), false),
         row("obj-named-so-of-other-words", "part.obj", "a shopping list\n", false),
     ]

@@ -3,12 +3,44 @@
 use serde_json::{Value, json};
 
 use super::{Row, row};
+use crate::mesh_files::placed_scenes::glb;
 
 /// A COLLADA document of one triangle; `scene` stands where the scene is.
 fn collada(scene: &str) -> String {
     format!(
         r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="n" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#n" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>{scene}</COLLADA>"##
     )
+}
+
+/// A COLLADA document with these images.
+pub fn with_images(images: &str) -> String {
+    collada("").replace("<library_geometries>", &format!("{images}<library_geometries>"))
+}
+
+/// A glTF document with an image of this URI.
+pub fn with_uri(uri: &str) -> String {
+    let mut gltf = gltf();
+    gltf["images"] = json!([{ "uri": uri }]);
+    gltf.to_string()
+}
+
+/// A COLLADA document of more than 20 million triangles: 300, shown 41 * 41 * 41 times.
+fn many() -> String {
+    let one =
+        r##"<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>"##;
+    let triangles = one.replace("0 1 2", &vec!["0 1 2"; 300].join(" "));
+    let nodes =
+        |id: &str, inside: &str| format!(r##"<node id="{id}">{}</node>"##, inside.repeat(41));
+    let of = |id: &str| format!(r##"<node><instance_node url="#{id}"/></node>"##);
+    let last = r##"<node><instance_geometry url="#g"/></node>"##;
+    let library = format!(
+        "<library_nodes>{}{}{}</library_nodes>",
+        nodes("a", last),
+        nodes("b", &of("a")),
+        nodes("c", &of("b"))
+    );
+    let scene = r##"<library_visual_scenes><visual_scene id="s"><node><instance_node url="#c"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>"##;
+    collada(&format!("{library}{scene}")).replace(one, &triangles)
 }
 
 pub fn collada_rows() -> Vec<Row> {
@@ -36,6 +68,11 @@ pub fn collada_rows() -> Vec<Row> {
         let (begin, end) = ("<node>".repeat(levels - 1), "</node>".repeat(levels - 1));
         let inside = r##"<node><instance_geometry url="#g"/></node>"##;
         collada(&format!("{}{scene}", nodes(&format!("{begin}{inside}{end}"))))
+    };
+    // Elements inside one another, the root one of them.
+    let nested = |levels: usize| {
+        let (begin, end) = ("<a>".repeat(levels - 2), "</a>".repeat(levels - 2));
+        collada(&format!("<extra>{begin}{end}</extra>{shown}{scene}"))
     };
     let placed = |transform: &str| {
         let inside = format!(r##"<node>{transform}<instance_geometry url="#g"/></node>"##);
@@ -151,6 +188,9 @@ pub fn collada_rows() -> Vec<Row> {
             collada(&format!("{looking}{scene}")),
             false,
         ),
+        row("collada-of-256-levels", "part.dae", nested(256), true),
+        row("collada-of-257-levels", "part.dae", nested(257), false),
+        row("collada-of-20-million-triangles", "part.dae", many(), false),
         row("collada-of-a-node-in-itself", "part.dae", collada(&within_itself), false),
     ]
 }
@@ -232,6 +272,8 @@ pub fn gltf_rows() -> Vec<Row> {
         row("gltf-of-a-fan", "part.gltf", with("/meshes/0/primitives/0/mode", json!(6)), true),
         row("gltf-of-points", "part.gltf", with("/meshes/0/primitives/0/mode", json!(0)), false),
         row("gltf", "part.gltf", gltf().to_string(), true),
+        row("glb", "part.stl", glb(&gltf(), &[]), true),
+        row("glb-in-capitals", "part.glb", [b"GLTF", &glb(&gltf(), &[])[4..]].concat(), false),
         row("gltf-of-version-2-alone", "part.gltf", with("/asset/version", json!("2")), false),
         row("gltf-of-version-2.1", "part.gltf", with("/asset/version", json!("2.1")), true),
         row("gltf-of-a-number-as-version", "part.gltf", with("/asset/version", json!(2.0)), false),

@@ -15,7 +15,7 @@ declare_rule! {
     /// By it programs decide what to write again after a change, and what to load with a module. Where
     /// a name is missing, a module stays stale.
     ///
-    /// Write the names of the table in SPEC §12, each once. (An extension names whatever it was
+    /// Write the names of the table in SPEC 2.2.1, each once. (An extension names whatever it was
     /// derived from.)
     DIR018 "wrong-dependencies", Error, clause "2.10", since "0.1.0",
     phase Files, needs [Version1, RootMetadata, NotFailed(DIR021), NotFailed(DIR030)], check wrong_dependencies,
@@ -25,7 +25,7 @@ declare_rule! {
     /// Some programs look a module up by its name, others by its folder. Every module has one folder
     /// that the specification gives it, and its name is the last part of that.
     ///
-    /// Give each module one entry, with the name and the folder of the table in SPEC §12.
+    /// Give each module one entry, with the name and the folder of the table in SPEC 2.2.1.
     DIR021 "module-entry-wrong", Error, clause "2.6", since "0.1.0",
     phase Files, needs [Version1, RootMetadata], check module_entry_wrong,
 
@@ -34,7 +34,7 @@ declare_rule! {
     /// One order for all makes the same URDD the same bytes, whoever writes it: differences between
     /// two versions show what changed and nothing else.
     ///
-    /// Put modules in the order of the table in SPEC §12, extensions after them by name; sort files
+    /// Put modules in the order of the table in SPEC 2.2.1, extensions after them by name; sort files
     /// by path, byte by byte, each once.
     DIR026 "list-out-of-order", Error, clause "2.6", since "0.1.0",
     phase Files, needs [Version1, RootMetadata, Passed(DIR021)], check list_out_of_order,

@@ -1,3 +1,4 @@
+use super::versions::checked_modules;
 use crate::rules::prelude::*;
 use urdd_document::paths::Place;
 
@@ -64,7 +65,8 @@ fn link_leaves_root(context: &Context, findings: &mut Findings) -> Option<()> {
     });
     let module_folders = Kind::ALL.iter().map(|kind| kind.folder());
     let named: HashSet<&str> = here.chain(module_folders).flat_map(with_parents).collect();
-    let modules: HashSet<&str> = context.modules().map(|module| module.folder.as_str()).collect();
+    let modules: HashSet<&str> =
+        checked_modules(context).map(|module| module.folder.as_str()).collect();
     for entry in &context.listing().entries {
         let path = entry.path.as_str();
         // Other files in the root do not belong to the URDD.

@@ -65,7 +65,7 @@ fn version_malformed(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// The modules of the specification, extensions, and the unknown modules that `urdd.json` lists.
-fn checked_modules(context: &Context) -> impl Iterator<Item = &Module> {
+pub(super) fn checked_modules(context: &Context) -> impl Iterator<Item = &Module> {
     let entries = context.metadata().into_iter().flat_map(|metadata| &metadata.modules);
     let listed: HashSet<&str> = entries.map(|entry| entry.path.as_str()).collect();
     context.modules().filter(move |module| {
