@@ -101,6 +101,7 @@ fn table() -> String {
             | Subject::FirstDiffReport
             | Subject::SecondDiffReport
             | Subject::ProducerResult
+            | Subject::FirstValidatorResult
             | Subject::ValidatorResult => (Profile::V1, None, "-"),
             Subject::RootMetadata => (Profile::V1, None, "."),
             Subject::Module(spec) => (spec.profile, spec.kind.class(), spec.kind.folder()),

@@ -11,8 +11,7 @@ const FOLDER: &str = "conformance/clauses";
 /// Between the beginning of a statement and what decides it.
 const BY: &str = " => ";
 /// Why no case decides a statement: the first word behind it.
-const WHY: [&str; 8] =
-    ["means", "example", "producer", "consumer", "elsewhere", "free", "unreadable", "vectors"];
+const WHY: [&str; 7] = ["means", "example", "producer", "consumer", "elsewhere", "free", "vectors"];
 /// A statement that a case could decide, and none does yet: a new one, until somebody has looked at it.
 const OPEN: &str = "open";
 
@@ -134,7 +133,7 @@ fn every_statement_is_decided_or_said_not_to_be() {
         files = lines();
     }
     let suite = urdd::suite::carried().unwrap_or_else(|error| panic!("{error}"));
-    let cases: BTreeSet<String> = suite.cases.iter().map(|case| case.id()).collect();
+    let cases: BTreeSet<String> = suite.all_cases().map(|case| case.id()).collect();
     let known: Vec<(String, String)> = files.into_values().flatten().collect();
     let (mut wrong, mut open) = (Vec::new(), Vec::new());
     let mut counts: BTreeMap<u8, [usize; 3]> = BTreeMap::new();

@@ -6,9 +6,9 @@ use std::path::Path;
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 
-use crate::archive::{self, Packed};
+use crate::archive::{self, Oddities, Packed};
 use crate::change::Change;
-use crate::data::{PACKED, URDD};
+use crate::data::{INVALID, PACKED, UNREADABLE, URDD};
 use crate::tree::{Tree, TreeError};
 
 /// The cases of a rule, as a file of the suite has them.
@@ -25,11 +25,23 @@ pub struct RuleCases {
     near_misses: Vec<Case>,
 }
 
+/// The cases about what cannot be read by a clause, as a file of the suite has them. No rule is about them.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UnreadableCases {
+    /// The clause of SPEC.md.
+    clause: String,
+    unreadable: Vec<Case>,
+    /// URDDs that come near, and are to be accepted.
+    #[serde(default)]
+    near_misses: Vec<Case>,
+}
+
 /// A test case. What is skipped follows from its place in a file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// Code of the rule under test.
+    /// Code of the rule under test; [`UNREADABLE`] for cases about what cannot be read.
     #[serde(skip)]
     pub code: String,
     /// Its name, unique within the rule.
@@ -62,6 +74,9 @@ pub struct Case {
     pub hashes_kept: BTreeSet<String>,
     /// Where the URDD is in a zip archive; `None` for a folder.
     pub packed: Option<Packed>,
+    /// How the archive differs from what a program packs.
+    #[serde(default)]
+    pub archive: Oddities,
 }
 
 /// A part of the suite. Cases are invalid or near misses.
@@ -86,6 +101,8 @@ pub enum Verdict {
     /// The URDD satisfies every MUST; there may be warnings.
     #[default]
     Accept,
+    /// Nothing that can be opened as a URDD: no rule is checked.
+    Unreadable,
 }
 
 /// An expected finding.
@@ -123,10 +140,42 @@ impl RuleCases {
     }
 }
 
+impl UnreadableCases {
+    /// The cases.
+    pub fn cases(self) -> impl Iterator<Item = Case> {
+        let clause = self.clause;
+        let verdict = Verdict::Unreadable;
+        let unreadable = self.unreadable.into_iter().map(move |case| Case { verdict, ..case });
+        let near = self.near_misses.into_iter();
+        unreadable.chain(near.map(|case| Case { kind: Kind::NearMiss, ..case })).map(
+            move |mut case| {
+                let near = if case.kind == Kind::NearMiss { "near " } else { "" };
+                let name = case.name.replace('-', " ");
+                case.title = format!("{near}what cannot be read (SPEC {clause}): {name}");
+                case.code = UNREADABLE.to_owned();
+                case
+            },
+        )
+    }
+}
+
 impl Case {
+    /// Whether it is about what cannot be read.
+    pub fn is_about_reading(&self) -> bool {
+        self.code == UNREADABLE
+    }
+
     /// Its id: code, slash, name.
     pub fn id(&self) -> String {
         format!("{}/{}", self.code, self.name)
+    }
+
+    /// Its folder in an exported suite.
+    pub fn folder(&self) -> String {
+        match self.is_about_reading() {
+            true => self.id(),
+            false => format!("{INVALID}/{}", self.id()),
+        }
     }
 
     /// The name of its URDD within its folder: that of a folder, or of a zip archive.
@@ -144,7 +193,7 @@ impl Case {
     pub fn write(&self, urdd: &Tree, path: &Path) -> Result<(), TreeError> {
         match self.packed {
             None => urdd.write(path),
-            Some(packed) => archive::write(urdd, packed, path),
+            Some(packed) => archive::write(urdd, packed, &self.archive, path),
         }
     }
 }

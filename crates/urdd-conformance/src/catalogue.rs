@@ -1,29 +1,36 @@
-//! A list of everything that a validator should accept or reject.
+//! A list of everything that a validator should accept or reject, or cannot read.
 
 use semver::VersionReq;
 use serde::Serialize;
 
-use crate::case::{Expected, Kind, Verdict};
-use crate::data::INVALID;
+use crate::case::{Case, Expected, Kind, Verdict};
+use crate::data::Damage;
+use crate::profile;
 use crate::suite::Suite;
 use crate::valid;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_format::registry::{Profile, SPEC_VERSION};
+use urdd_format::conformance::ValidatorProfile;
+use urdd_format::registry::{PROGRAM_VERSION, Profile, SPEC_VERSION};
 
-/// The catalogue file of an exported suite.
+/// The catalogue of an exported suite, of all that is accepted or rejected.
 pub const CATALOGUE: &str = "suite.json";
+/// The catalogue in its newer version, with what cannot be read, and profiles.
+pub const CATALOGUE_1_1: &str = "suite-1.1.json";
 
-/// The content of an exported suite, in [`CATALOGUE`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Catalogue {
+/// The content of a catalogue.
+#[derive(Debug, Serialize)]
+struct Catalogue<'a, T> {
+    /// The version of the catalogue's form; the first has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<&'static str>,
     /// The version of the specification that the suite was written for.
-    pub spec_version: String,
+    spec_version: &'static str,
     /// The version of the program that exported it.
-    pub urdd: String,
+    urdd: &'static str,
     /// Every URDD.
-    pub cases: Vec<Item>,
+    cases: Vec<T>,
     /// Cases that this operating system cannot represent on disk.
-    pub left_out: Vec<String>,
+    left_out: Vec<&'a String>,
 }
 
 /// A URDD, and its expected verdict.
@@ -35,7 +42,7 @@ pub struct Item {
     pub folder: String,
     /// Its part of the suite.
     pub kind: Kind,
-    /// Code of the rule under test; null for valid URDDs.
+    /// Code of the rule under test; null for valid URDDs, and where no rule is about it.
     pub code: Option<String>,
     /// Its description.
     pub title: String,
@@ -47,13 +54,30 @@ pub struct Item {
     pub verdict: Verdict,
     /// All findings of `urdd validate`, except infos of other rules.
     pub findings: Vec<Expected>,
+    /// Whether it is about what cannot be read.
+    #[serde(skip)]
+    pub is_about_reading: bool,
+    /// The profiles whose validators can decide it.
+    #[serde(skip)]
+    pub profiles: Vec<ValidatorProfile>,
+}
+
+/// An item of [`CATALOGUE_1_1`].
+#[derive(Debug, Serialize)]
+struct NewerItem<'a> {
+    #[serde(flatten)]
+    item: &'a Item,
+    profiles: &'a [ValidatorProfile],
 }
 
 /// Every URDD of the suite: the valid ones, then the cases.
-pub fn items(suite: &Suite) -> Vec<Item> {
+///
+/// # Errors
+/// If a case is damaged.
+pub fn items(suite: &Suite) -> Result<Vec<Item>, Damage> {
     let valid = valid::robots(&suite.data).into_iter().map(|robot| {
         let id = valid::id(&robot);
-        Item {
+        Ok(Item {
             folder: id.clone(),
             id,
             kind: Kind::Valid,
@@ -63,27 +87,64 @@ pub fn items(suite: &Suite) -> Vec<Item> {
             spec_versions: every_version_one(),
             verdict: Verdict::Accept,
             findings: Vec::new(),
-        }
+            is_about_reading: false,
+            profiles: vec![ValidatorProfile::CoreJson],
+        })
     });
-    let cases = suite.cases.iter().map(|case| {
-        let is_v1 = |base: &crate::tree::Tree| base.file(ROOT_METADATA).is_some();
-        let profile = match suite.bases.get(&case.base).is_some_and(is_v1) {
-            true => Profile::V1,
-            false => Profile::Legacy,
-        };
-        Item {
-            id: case.id(),
-            folder: format!("{INVALID}/{}/{}", case.id(), case.urdd()),
-            kind: case.kind,
-            code: Some(case.code.clone()),
-            title: case.title.clone(),
-            profile: profile.as_str(),
-            spec_versions: case.spec_versions.clone(),
-            verdict: case.verdict,
-            findings: case.expected.clone(),
-        }
-    });
-    valid.chain(cases).collect()
+    valid.chain(suite.all_cases().map(|case| item(suite, case))).collect()
+}
+
+fn item(suite: &Suite, case: &Case) -> Result<Item, Damage> {
+    let is_v1 = |base: &crate::tree::Tree| base.file(ROOT_METADATA).is_some();
+    let edition = match suite.bases.get(&case.base).is_some_and(is_v1) {
+        true => Profile::V1,
+        false => Profile::Legacy,
+    };
+    let is_core_json = edition == Profile::V1 && profile::is_core_json(suite, case)?;
+    Ok(Item {
+        id: case.id(),
+        folder: format!("{}/{}", case.folder(), case.urdd()),
+        kind: case.kind,
+        code: (!case.is_about_reading()).then(|| case.code.clone()),
+        title: case.title.clone(),
+        profile: edition.as_str(),
+        spec_versions: case.spec_versions.clone(),
+        verdict: case.verdict,
+        findings: case.expected.clone(),
+        is_about_reading: case.is_about_reading(),
+        profiles: is_core_json.then_some(ValidatorProfile::CoreJson).into_iter().collect(),
+    })
+}
+
+/// The catalogues, by their names. The first stays as readers of it know it.
+pub(crate) fn files(
+    items: &[Item],
+    left_out: &[String],
+) -> [(&'static str, serde_json::Result<String>); 2] {
+    let is_newer = |id: &str| items.iter().any(|item| item.is_about_reading && item.id == id);
+    let older = items.iter().filter(|item| !item.is_about_reading);
+    let newer = items.iter().map(|item| NewerItem { item, profiles: &item.profiles });
+    [
+        (
+            CATALOGUE,
+            text(None, older.collect(), left_out.iter().filter(|id| !is_newer(id)).collect()),
+        ),
+        (CATALOGUE_1_1, text(Some("1.1"), newer.collect(), left_out.iter().collect())),
+    ]
+}
+
+fn text<T: Serialize>(
+    version: Option<&'static str>,
+    cases: Vec<T>,
+    left_out: Vec<&String>,
+) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(&Catalogue {
+        version,
+        spec_version: SPEC_VERSION,
+        urdd: PROGRAM_VERSION,
+        cases,
+        left_out,
+    })
 }
 
 /// All versions with the major number of the suite's version, from that version on.

@@ -19,6 +19,9 @@ pub const CASES: &str = "cases";
 pub const COMPUTED: &str = "computed";
 /// Cases in an exported suite: one folder per code.
 pub const INVALID: &str = "invalid";
+/// Cases about what cannot be read: one file per clause. Also their folder in an exported suite, and what their ids begin
+/// with.
+pub const UNREADABLE: &str = "unreadable";
 /// The URDD's folder within its case's folder; other files may be beside it.
 pub const URDD: &str = "robot";
 /// The URDD in place of [`URDD`], where a case has it as a zip archive.

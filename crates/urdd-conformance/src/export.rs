@@ -5,15 +5,14 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::case::{Case, Kind};
-use crate::catalogue::{CATALOGUE, Catalogue, items};
-use crate::data::{Data, INVALID, ROBOTS, VALID, VECTORS};
+use crate::catalogue::{self, items};
+use crate::data::{Data, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
 use crate::running::{Result, RunError, Workplace};
 use crate::suite::Suite;
 use crate::tree::{Tree, TreeError, remove_folder, write_file};
 use crate::valid;
 use urdd_directory::cancellation::Cancellation;
-use urdd_format::registry::{PROGRAM_VERSION, SPEC_VERSION};
 
 /// Description of the suite.
 const README: &str = "README.md";
@@ -48,21 +47,16 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported> {
     let other_bytes = write_valid(data, &names, &robots, &valid, &never)?;
     let left_out = write_cases(suite, folder)?;
 
-    let mut items = items(suite);
+    let mut items = items(suite)?;
     items.retain(|item| !left_out.contains(&item.id));
     let valid = items.iter().filter(|item| item.kind == Kind::Valid).count();
     let cases = items.len() - valid;
     let exported = Exported { valid, cases, left_out: left_out.clone(), other_bytes };
-    let catalogue = Catalogue {
-        spec_version: SPEC_VERSION.to_owned(),
-        urdd: PROGRAM_VERSION.to_owned(),
-        cases: items,
-        left_out,
-    };
-    let path = folder.join(CATALOGUE);
-    let text = serde_json::to_string_pretty(&catalogue)
-        .map_err(|error| TreeError::Write(path.clone(), error.into()))?;
-    write_file(&path, (text + "\n").as_bytes())?;
+    for (name, text) in catalogue::files(&items, &left_out) {
+        let path = folder.join(name);
+        let text = text.map_err(|error| TreeError::Write(path.clone(), error.into()))?;
+        write_file(&path, (text + "\n").as_bytes())?;
+    }
     if let Some(readme) = data.file(README) {
         write_file(&folder.join(README), readme)?;
     }
@@ -94,7 +88,7 @@ pub fn write_valid(
 /// Writes every case. Returns those that this operating system cannot represent.
 fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>> {
     let write = |case: &Case| -> Result<Option<String>> {
-        let case_folder = folder.join(INVALID).join(case.id());
+        let case_folder = folder.join(case.folder());
         match case.write(&suite.tree(case)?, &case_folder.join(case.urdd())) {
             Ok(()) => Ok(None),
             Err(TreeError::Unsupported(_)) => {
@@ -104,5 +98,6 @@ fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>> {
             Err(error) => Err(error.into()),
         }
     };
-    suite.cases.par_iter().filter_map(|case| write(case).transpose()).collect()
+    let cases: Vec<&Case> = suite.all_cases().collect();
+    cases.par_iter().filter_map(|case| write(case).transpose()).collect()
 }

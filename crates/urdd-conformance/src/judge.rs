@@ -21,9 +21,11 @@ pub fn found(code: &str, report: &Report) -> Vec<Expected> {
 
 /// The verdict of a report on one URDD.
 pub fn verdict(report: &Report) -> Verdict {
-    match report.count(report::Verdict::Pass) == report.urdds.len() {
-        true => Verdict::Accept,
-        false => Verdict::Reject,
+    let all_are = |verdict| report.count(verdict) == report.urdds.len();
+    match (all_are(report::Verdict::Pass), all_are(report::Verdict::Unreadable)) {
+        (true, _) => Verdict::Accept,
+        (false, true) => Verdict::Unreadable,
+        (false, false) => Verdict::Reject,
     }
 }
 

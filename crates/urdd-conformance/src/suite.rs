@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::case::{Case, RuleCases};
+use crate::case::{Case, RuleCases, UnreadableCases};
 use crate::change::{add_mirrors, rehash};
-use crate::data::{BASES, CASES, COMPUTED, Damage, Data, Files, URDD};
+use crate::data::{BASES, CASES, COMPUTED, Damage, Data, Files, UNREADABLE, URDD};
 use crate::tree::Tree;
 
 /// Bases and cases.
@@ -14,8 +14,10 @@ pub struct Suite {
     pub data: Data,
     /// The base URDDs of cases, by name.
     pub bases: BTreeMap<String, Tree>,
-    /// Cases, in order of code and name.
+    /// Cases of rules, in order of code and name.
     pub cases: Vec<Case>,
+    /// Cases about what cannot be read, in order of name.
+    pub unreadable: Vec<Case>,
 }
 
 impl Suite {
@@ -42,12 +44,27 @@ impl Suite {
                 cases.extend(rule.cases(name.trim_end_matches(".json")));
             }
         }
-        cases.sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
-        let mut pairs = cases.iter().zip(cases.iter().skip(1));
-        match pairs.find(|(one, next)| (&one.code, &one.name) == (&next.code, &next.name)) {
-            Some((one, _)) => Err(Damage::new(one.id(), "two cases have this name")),
-            None => Ok(Suite { data, bases, cases }),
+        let mut unreadable = Vec::new();
+        for (name, text) in data.below(UNREADABLE) {
+            let clause: UnreadableCases = serde_json::from_slice(text)
+                .map_err(|error| Damage::new(format!("{UNREADABLE}/{name}"), error))?;
+            unreadable.extend(clause.cases());
         }
+        for cases in [&mut cases, &mut unreadable] {
+            cases.sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
+            let mut pairs = cases.iter().zip(cases.iter().skip(1));
+            let twice =
+                pairs.find(|(one, next)| (&one.code, &one.name) == (&next.code, &next.name));
+            if let Some((one, _)) = twice {
+                return Err(Damage::new(one.id(), "two cases have this name"));
+            }
+        }
+        Ok(Suite { data, bases, cases, unreadable })
+    }
+
+    /// The cases of rules, then those about what cannot be read.
+    pub fn all_cases(&self) -> impl Iterator<Item = &Case> {
+        self.cases.iter().chain(&self.unreadable)
     }
 
     /// Builds the URDD of a case.

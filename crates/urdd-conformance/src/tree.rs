@@ -130,6 +130,9 @@ pub enum TreeError {
     /// The operating system does not support such names, or symbolic links.
     #[error("{0}: this operating system cannot store it")]
     Unsupported(String),
+    /// An odd entry does not exist.
+    #[error("`archive` names the entry {0:?}, and the archive has none of this name")]
+    NoEntry(String),
 }
 
 impl Tree {

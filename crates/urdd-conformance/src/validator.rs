@@ -1,8 +1,8 @@
 //! Runs an external validator on the suite, and scores its verdicts.
 //!
-//! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects. Any other is not a verdict.
+//! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects, 2 (or an agreed status) says that
+//! nothing can be read as a URDD. Any other is not a verdict.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -11,21 +11,20 @@ use semver::Version;
 use serde::Serialize;
 
 use crate::batch::Batch;
-use crate::case::{Case, Kind, Verdict};
+use crate::case::{Case, Verdict};
 use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
-use crate::process::{End, Ran, Template};
+use crate::process::{Ran, Template};
 use crate::running::{Result, RunError, Workplace, relative, with_threads};
+pub use crate::score::Fault;
+use crate::score::{covers, fault, is_legacy, looks_crashed, scored};
 use crate::skips::{self, Skip};
 use crate::suite::Suite;
 use crate::tree::{TreeError, remove_folder};
-use crate::{printed_codes, valid};
+use crate::valid;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
-use urdd_format::index::Count;
-use urdd_format::registry::Profile;
-use urdd_format::report::Tool;
+use urdd_format::conformance::{ValidatorProfile, ValidatorResult};
 use urdd_validate::code::Code;
 
 /// Settings of a validator run.
@@ -45,8 +44,14 @@ pub struct Plan {
     pub only: Vec<String>,
     /// Whether to include legacy URDDs.
     pub legacy: bool,
+    /// Whether to include cases about what cannot be read.
+    pub unreadable: bool,
+    /// The profile of the validator: only cases that it can decide are run; `None` for a whole one.
+    pub profile: Option<ValidatorProfile>,
     /// The exit status for rejection.
     pub reject_status: i32,
+    /// The exit status for what cannot be read; `None` for 2, where rejecting it is good enough too.
+    pub unreadable_status: Option<i32>,
     /// Number of URDDs to judge in parallel; `None` for the number of processors.
     pub jobs: Option<usize>,
     /// A new folder that keeps the URDDs; `None` for a temporary one.
@@ -63,7 +68,7 @@ pub struct Judged<'a> {
     /// The expected verdict.
     pub expected: Verdict,
     /// How the verdict is wrong; `None` if it is right.
-    pub fault: Option<CaseFault>,
+    pub fault: Option<Fault>,
     /// How the command ended.
     pub end: String,
     /// Whether the command seems to have crashed, so that its exit status is unreliable.
@@ -106,13 +111,15 @@ pub fn run(
     suite: &Suite,
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ValidatorResult> {
-    let (data, all) = (&suite.data, urdds(suite));
+    let (data, all) = (&suite.data, urdds(suite)?);
     skips::check(&plan.skips, |skip| all.iter().any(|urdd| covers(skip, &urdd.item)))?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
     let chosen = all.into_iter().filter(|Chosen { item, .. }| {
         item.spec_versions.matches(&plan.spec_version)
             && (plan.only.is_empty() || begins(item))
             && (plan.legacy || !is_legacy(item))
+            && (plan.unreadable || !item.is_about_reading)
+            && plan.profile.is_none_or(|profile| item.profiles.contains(&profile))
     });
     let chosen: Vec<Chosen> = chosen.collect();
     if chosen.is_empty() {
@@ -140,7 +147,7 @@ pub fn run(
             Some(ran) => observe(&Event::Judged(Judged {
                 id: &urdd.item.id,
                 expected: urdd.item.verdict,
-                fault: fault(plan, urdd.item.verdict, &ran.end),
+                fault: fault(plan, &urdd.item, &ran.end),
                 end: ran.end.to_string(),
                 crashed: looks_crashed(plan, ran),
                 stderr: &ran.stderr,
@@ -160,10 +167,10 @@ pub fn run(
 }
 
 /// Every URDD of the suite, and two of them again with a relative `{dir}`: one to accept, one to reject.
-fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
-    let case_of = |item: &Item| suite.cases.iter().find(|case| case.id() == item.id);
+fn urdds(suite: &Suite) -> Result<Vec<Chosen<'_>>> {
+    let case_of = |item: &Item| suite.all_cases().find(|case| case.id() == item.id);
     let urdd = |item: Item| Chosen { case: case_of(&item), item, is_relative: false };
-    let mut urdds: Vec<Chosen> = items(suite).into_iter().map(urdd).collect();
+    let mut urdds: Vec<Chosen> = items(suite)?.into_iter().map(urdd).collect();
     for (verdict, id, title) in [
         (Verdict::Accept, "relative/valid", "a valid URDD"),
         (Verdict::Reject, "relative/invalid", "a URDD with a fault"),
@@ -183,11 +190,7 @@ fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
         };
         urdds.push(Chosen { item: again, case: *case, is_relative: true });
     }
-    urdds
-}
-
-fn is_legacy(item: &Item) -> bool {
-    item.profile == Profile::Legacy.as_str()
+    Ok(urdds)
 }
 
 /// Runs the command on one URDD; `None` if this operating system cannot represent it.
@@ -219,124 +222,4 @@ fn judge(
         remove_folder(around)?;
     }
     Ok(Some(ran))
-}
-
-/// How the verdict on a URDD is wrong; `None` if it is right.
-fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
-    match (end, expected) {
-        (End::Status(0), Verdict::Accept) => None,
-        (End::Status(0), Verdict::Reject) => Some(CaseFault::Missed),
-        (End::Status(status), _) if *status != plan.reject_status => Some(CaseFault::Undecided),
-        (End::Status(_), Verdict::Reject) => None,
-        (End::Status(_), Verdict::Accept) => Some(CaseFault::FalseAlarm),
-        _ => Some(CaseFault::Undecided),
-    }
-}
-
-/// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
-fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
-    ran.end == End::Status(plan.reject_status) && ran.looks_crashed()
-}
-
-fn covers(skip: &Skip, item: &Item) -> bool {
-    let code = item.code.as_deref().unwrap_or_default();
-    let what = skip.what();
-    what == item.id || what == code || (!code.is_empty() && what == family(code))
-}
-
-fn family(code: &str) -> &str {
-    code.get(..3).unwrap_or(code)
-}
-
-/// How cases were judged; `None` for right.
-type Faults = Vec<Option<CaseFault>>;
-
-fn counted(faults: &[Option<CaseFault>]) -> CaseScore {
-    let count = |fault| Count::saturating(faults.iter().filter(|one| **one == fault).count());
-    CaseScore {
-        of: Count::saturating(faults.len()),
-        right: count(None),
-        missed: count(Some(CaseFault::Missed)),
-        false_alarms: count(Some(CaseFault::FalseAlarm)),
-        undecided: count(Some(CaseFault::Undecided)),
-    }
-}
-
-fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
-    let (mut totals, mut sound, mut legacy) = (Faults::new(), Faults::new(), Faults::new());
-    let mut crashed = Vec::new();
-    let mut families: BTreeMap<&str, Faults> = BTreeMap::new();
-    let mut codes: BTreeMap<&str, Faults> = BTreeMap::new();
-    let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
-    let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
-    let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
-    let printed = printed.filter_map(|(item, ran)| Some((item, &ran.as_ref()?.codes)));
-    let printed_codes = printed_codes::score(printed);
-    for (item, ran) in items.iter().zip(ran) {
-        let Some(ran) = ran else {
-            not_run.push(item.id.clone());
-            continue;
-        };
-        let fault = fault(plan, item.verdict, &ran.end);
-        if is_legacy(item) {
-            legacy.push(fault)
-        } else {
-            totals.push(fault)
-        }
-        if item.kind != Kind::Invalid && !is_legacy(item) {
-            sound.push(fault);
-        }
-        if looks_crashed(plan, &ran) {
-            crashed.push(item.id.clone());
-        }
-        if let Some(code) = item.code.as_deref() {
-            families.entry(family(code)).or_default().push(fault);
-            codes.entry(code).or_default().push(fault);
-        }
-        let mut reason = None;
-        for skip in plan.skips.iter().filter(|skip| covers(skip, item)) {
-            relevant.insert(skip.line);
-            if fault.is_some() {
-                used.insert(skip.line);
-                reason.get_or_insert_with(|| skip.reason.clone());
-            }
-        }
-        if let Some(fault) = fault {
-            wrong.push(WrongCase {
-                id: item.id.clone(),
-                title: item.title.clone(),
-                fault,
-                end: ran.end.to_string(),
-                stderr: ran.stderr,
-                skipped_since: reason,
-            });
-        }
-    }
-    // Skips of cases that were not run are not stale.
-    let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
-    let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
-    let groups = |judged: BTreeMap<&str, Faults>| {
-        let group = |(name, faults): (&str, Faults)| GroupScore {
-            name: name.to_owned(),
-            score: counted(&faults),
-        };
-        judged.into_iter().map(group).collect()
-    };
-    let excused = wrong.iter().all(|case| case.skipped_since.is_some());
-    ValidatorResult {
-        tool: Tool::urdd(),
-        spec_version: plan.spec_version.to_string(),
-        command: plan.command.words().to_vec(),
-        passed: excused && stale_skips.is_empty(),
-        totals: counted(&totals),
-        sound: counted(&sound),
-        legacy: counted(&legacy),
-        families: groups(families),
-        codes: groups(codes),
-        printed_codes,
-        wrong,
-        crashed,
-        not_run,
-        stale_skips,
-    }
 }

@@ -56,7 +56,7 @@ pub enum ArchiveFault {
     #[error("it is not a complete zip archive ({reason}); pack it again")]
     Broken { reason: String },
     #[error(
-        "it is a zip64 archive, of more than 65,535 entries or 4 GiB; unpack it, and give the folder"
+        "it is a zip64 archive, made for more than 65,535 entries or 4 GiB; pack it without zip64, or unpack it and give the folder"
     )]
     Zip64,
     #[error("it states {stated} entries, but lists {listed}; pack it again")]

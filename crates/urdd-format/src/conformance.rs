@@ -5,8 +5,11 @@ use super::report::Tool;
 use super::root_metadata::ConformanceClass;
 use super::types::module;
 
-/// Version of the format of both results.
-pub const RESULT_VERSION: &str = "1.0.0";
+/// Version of the format of a producer's result.
+pub const PRODUCER_RESULT_VERSION: &str = "1.0.0";
+
+/// Version of the format of a validator's result.
+pub const VALIDATOR_RESULT_VERSION: &str = "1.1.0";
 
 module! {
     /// How somebody's producer did on our robots.
@@ -187,6 +190,62 @@ module! {
         pub not_run: Vec<String>,
         /// Entries of the skip list whose cases are now judged correctly, or that name no case that was run.
         pub stale_skips: Vec<String>,
+        /// The profile whose cases alone were run; null for a whole validator.
+        pub profile: Option<ValidatorProfile>,
+        /// Sums over URDDs that cannot be read, and near misses of these. They count nowhere above.
+        pub unreadable: UnreadableScore,
+    }
+
+    /// A part of the specification that a validator can be limited to.
+    pub enum ValidatorProfile {
+        /// Core modules, by their JSON and the source alone: SPEC 12.3.
+        CoreJson = "core-json",
+    }
+
+    /// How URDDs were judged that cannot be read, and near misses of these, which can.
+    pub struct UnreadableScore {
+        /// All that were run.
+        pub of: Count,
+        /// As the suite does.
+        pub right: Count,
+        /// Accepted, and cannot be read.
+        pub missed: Count,
+        /// Rejected like a URDD that breaks a rule, and cannot be read. Wrong only where a status for this was asked for.
+        pub rejected: Count,
+        /// Not accepted, and to be accepted.
+        pub false_alarms: Count,
+        /// Neither accepted, nor rejected, nor unreadable.
+        pub undecided: Count,
+        /// Every case that was judged incorrectly, by id.
+        pub wrong: Vec<UnreadableCase>,
+    }
+
+    /// A case of the third verdict that was judged incorrectly.
+    pub struct UnreadableCase {
+        /// Its id.
+        pub id: String,
+        /// In words.
+        pub title: String,
+        /// How it was judged.
+        pub fault: UnreadableFault,
+        /// How the command ended.
+        pub end: String,
+        /// The last part of what it printed to standard error.
+        pub stderr: String,
+        /// Why it is skipped; else null.
+        pub skipped_since: Option<String>,
+    }
+
+    /// How a case of the third verdict was judged incorrectly.
+    pub enum UnreadableFault {
+        /// Accepted, and cannot be read.
+        Missed = "missed",
+        /// Rejected like a URDD that breaks a rule, and cannot be read.
+        Rejected = "rejected",
+        /// Not accepted, and to be accepted.
+        FalseAlarm = "false_alarm",
+        /// Neither accepted, nor rejected, nor unreadable: another exit status, a signal, the time limit.
+        Undecided = "undecided",
     }
 
     /// How many cases were judged how.

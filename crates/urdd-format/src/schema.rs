@@ -8,7 +8,9 @@ use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use super::annotations::KEYWORDS;
-use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
+use super::conformance::{
+    PRODUCER_RESULT_VERSION, ProducerResult, VALIDATOR_RESULT_VERSION, ValidatorResult,
+};
 use super::diff_report::{DIFF_REPORT_VERSION, DiffReport};
 use super::hexadecimal::hexadecimal;
 use super::nearest::nearest;
@@ -37,6 +39,8 @@ pub enum Subject {
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
     ValidatorResult,
+    /// The same in its first version, without profiles and URDDs that cannot be read.
+    FirstValidatorResult,
 }
 
 /// Intended use of a schema.
@@ -116,6 +120,7 @@ impl Subject {
             Subject::SecondDiffReport,
             Subject::DiffReport,
             Subject::ProducerResult,
+            Subject::FirstValidatorResult,
             Subject::ValidatorResult,
         ])
     }
@@ -144,7 +149,7 @@ impl Subject {
                 "diff_report"
             }
             Subject::ProducerResult => "producer_result",
-            Subject::ValidatorResult => "validator_result",
+            Subject::ValidatorResult | Subject::FirstValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
         }
     }
@@ -152,11 +157,15 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata | Subject::FirstReport | Subject::FirstDiffReport => "1.0.0",
+            Subject::RootMetadata
+            | Subject::FirstReport
+            | Subject::FirstDiffReport
+            | Subject::FirstValidatorResult => "1.0.0",
             Subject::SecondDiffReport => "1.1.0",
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
-            Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
+            Subject::ProducerResult => PRODUCER_RESULT_VERSION,
+            Subject::ValidatorResult => VALIDATOR_RESULT_VERSION,
             Subject::Module(spec) if spec.version.is_empty() => "unversioned",
             Subject::Module(spec) => spec.version,
         }
@@ -187,6 +196,11 @@ impl Subject {
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
+            Subject::FirstValidatorResult => without(
+                schemars::schema_for!(ValidatorResult),
+                &["profile", "unreadable"],
+                &["ValidatorProfile", "UnreadableScore", "UnreadableCase", "UnreadableFault"],
+            ),
             Subject::Module(spec) => spec.schema(),
         };
         let suffix = match variant {

@@ -10,7 +10,7 @@ use clap::Subcommand;
 
 use super::output::{self, Failure};
 use crate::suite;
-use urdd_conformance::catalogue::CATALOGUE;
+use urdd_conformance::catalogue::{CATALOGUE, CATALOGUE_1_1};
 use urdd_conformance::export::export;
 
 /// The commands of `urdd conformance`.
@@ -18,7 +18,7 @@ use urdd_conformance::export::export;
 pub enum ConformanceCommand {
     /// Write the suite into a folder.
     Export {
-        /// Folder to write the suite into, new or empty: robots, URDDs, and suite.json with the expected results.
+        /// Folder to write the suite into, new or empty: robots, URDDs, and suite-1.1.json with the expected results.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
@@ -40,7 +40,9 @@ pub fn run(command: &ConformanceCommand) -> Result<u8, Failure> {
 fn exported(folder: &Path) -> Result<u8, Failure> {
     let exported = export(&suite::carried()?, folder)?;
     let (valid, cases) = (exported.valid, exported.cases);
-    let mut text = format!("{valid} valid URDDs and {cases} cases; {CATALOGUE} lists them\n");
+    let mut text = format!(
+        "{valid} valid URDDs and {cases} cases; {CATALOGUE_1_1} lists them, {CATALOGUE} those that can be read\n"
+    );
     for case in &exported.left_out {
         text += &format!("left out, since this operating system cannot store it: {case}\n");
     }

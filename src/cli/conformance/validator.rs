@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use semver::Version;
 
 use super::common::{self, RunArguments};
@@ -10,19 +10,23 @@ use crate::cli::output::Failure;
 use crate::cli::signals::Signals;
 use crate::suite;
 use urdd_conformance::process::Template;
-use urdd_conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
-use urdd_format::conformance::{CaseFault, CaseScore, PrintedCodes, ValidatorResult};
+use urdd_conformance::validator::{Event, Fault, Judged, Plan, SKIP_FORM, run as run_validator};
+use urdd_format::conformance::{
+    CaseFault, CaseScore, PrintedCodes, UnreadableFault, UnreadableScore, ValidatorProfile,
+    ValidatorResult,
+};
+use urdd_format::index::Count;
 use urdd_format::registry::SPEC_VERSION;
 
 /// Arguments of `urdd conformance validator`.
 #[derive(Args)]
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
-    accepts, 1 (or --reject-status) rejects. Anything else, including a signal or the time limit, is not a verdict and \
-    counts as wrong. Reject what breaks a MUST of the specification, and nothing else: a URDD with warnings is to be \
-    accepted. Codes of rules that the command prints, such as DOF003, are scored apart and decide nothing.\n\nExit \
-    status: 0 every verdict is right or skipped; 1 a verdict is wrong, or a skip is stale; \
-    2 usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
+    accepts, 1 (or --reject-status) rejects, 2 (or --unreadable-status) says that nothing can be read as a URDD. \
+    Anything else, including a signal or the time limit, is not a verdict and counts as wrong. Reject what breaks a \
+    MUST of the specification, and nothing else: a URDD with warnings is to be accepted. Codes of rules that the \
+    command prints, such as DOF003, are scored apart and decide nothing.\n\nExit status: 0 every verdict is right or \
+    skipped; 1 a verdict is wrong, or a skip is stale; 2 usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ValidatorArguments {
     /// Version of the specification that the validator implements; cases of other versions are not run.
@@ -42,6 +46,19 @@ pub struct ValidatorArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(i32).range(1..=255))]
     reject_status: i32,
 
+    /// Exit status with which the command says that nothing can be read as a URDD: a folder without one, or an archive that
+    /// lies. 2 without this option, and rejecting these is right then too.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(i32).range(1..=255))]
+    unreadable_status: Option<i32>,
+
+    /// Leaves out what cannot be read, and near misses of it.
+    #[arg(long)]
+    no_unreadable: bool,
+
+    /// Runs only cases that a validator of this profile can decide.
+    #[arg(long, value_name = "PROFILE")]
+    profile: Option<ProfileName>,
+
     /// Judges many URDDs by one process, for a validator that starts slowly: the command has no {dir}, reads a folder a line
     /// from standard input, and answers each with a line that begins with the exit status it would have had, such as `0` or
     /// `1 DOF003`. It flushes each answer. Each of --jobs has a process of its own.
@@ -50,6 +67,13 @@ pub struct ValidatorArguments {
 
     #[command(flatten)]
     run: RunArguments,
+}
+
+/// A profile on the command line.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ProfileName {
+    /// Core modules, by their JSON and the source alone: no YAML mirrors, extensions, meshes, archives, legacy URDDs.
+    CoreJson,
 }
 
 /// Runs `urdd conformance validator`.
@@ -70,7 +94,10 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Fai
         skips: arguments.run.skips(1, SKIP_FORM)?,
         only: arguments.only.clone(),
         legacy: !arguments.no_legacy,
+        unreadable: !arguments.no_unreadable,
+        profile: arguments.profile.map(|ProfileName::CoreJson| ValidatorProfile::CoreJson),
         reject_status: arguments.reject_status,
+        unreadable_status: arguments.unreadable_status,
         jobs: arguments.run.jobs.map(usize::from),
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
@@ -94,27 +121,27 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Fai
     Ok(result.passed)
 }
 
-fn named(fault: CaseFault) -> &'static str {
+fn named(fault: Fault) -> &'static str {
     match fault {
-        CaseFault::Missed => "missed",
-        CaseFault::FalseAlarm => "FALSE ALARM",
-        CaseFault::Undecided => "no verdict",
+        Fault::Case(CaseFault::Missed) | Fault::Reading(UnreadableFault::Missed) => "missed",
+        Fault::Reading(UnreadableFault::Rejected) => "rejected, and cannot be read",
+        Fault::Case(CaseFault::FalseAlarm) | Fault::Reading(UnreadableFault::FalseAlarm) => {
+            "FALSE ALARM"
+        }
+        Fault::Case(CaseFault::Undecided) | Fault::Reading(UnreadableFault::Undecided) => {
+            "no verdict"
+        }
     }
 }
 
 fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     for case in &result.wrong {
-        let fault = named(case.fault);
-        let skipped = match &case.skipped_since {
-            Some(reason) => format!(" (skipped: {reason})"),
-            None => String::new(),
-        };
-        writeln!(out, "{} {fault}{skipped}: {}; {}", case.id, case.title, case.end)?;
-        if case.fault == CaseFault::Undecided {
-            for line in case.stderr.lines() {
-                writeln!(out, "    {line}")?;
-            }
-        }
+        let said = [&case.id, &case.title, &case.end, &case.stderr];
+        wrong(said, Fault::Case(case.fault), case.skipped_since.as_deref(), out)?;
+    }
+    for case in &result.unreadable.wrong {
+        let said = [&case.id, &case.title, &case.end, &case.stderr];
+        wrong(said, Fault::Reading(case.fault), case.skipped_since.as_deref(), out)?;
     }
     for case in &result.not_run {
         writeln!(out, "{case} not run: this operating system cannot store it")?;
@@ -126,6 +153,9 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     writeln!(out, "all of version 1: {}", score(&result.totals))?;
     if result.legacy.of.get() > 0 {
         writeln!(out, "legacy: {}", score(&result.legacy))?;
+    }
+    if result.unreadable.of.get() > 0 {
+        writeln!(out, "what cannot be read: {}", reading_score(&result.unreadable))?;
     }
     if let Some(printed) = &result.printed_codes {
         codes(printed, out)?;
@@ -143,6 +173,25 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     }
     let verdict = if result.passed { "passed" } else { "FAILED" };
     writeln!(out, "{verdict}")
+}
+
+fn wrong(
+    [id, title, end, stderr]: [&String; 4],
+    fault: Fault,
+    skipped_since: Option<&str>,
+    out: &mut String,
+) -> std::fmt::Result {
+    let skipped = skipped_since.map_or(String::new(), |reason| format!(" (skipped: {reason})"));
+    writeln!(out, "{id} {}{skipped}: {title}; {end}", named(fault))?;
+    if matches!(
+        fault,
+        Fault::Case(CaseFault::Undecided) | Fault::Reading(UnreadableFault::Undecided)
+    ) {
+        for line in stderr.lines() {
+            writeln!(out, "    {line}")?;
+        }
+    }
+    Ok(())
 }
 
 /// Most cases that are named in a line.
@@ -166,12 +215,27 @@ fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {
 }
 
 fn score(score: &CaseScore) -> String {
-    let mut text = format!("{} of {} right", score.right.get(), score.of.get());
-    for (count, what) in [
+    let faults = [
         (score.missed, "missed"),
         (score.false_alarms, "false alarms"),
         (score.undecided, "without a verdict"),
-    ] {
+    ];
+    counted(score.right, score.of, &faults)
+}
+
+fn reading_score(score: &UnreadableScore) -> String {
+    let faults = [
+        (score.missed, "missed"),
+        (score.rejected, "rejected: --unreadable-status tells them from faults"),
+        (score.false_alarms, "false alarms"),
+        (score.undecided, "without a verdict"),
+    ];
+    counted(score.right, score.of, &faults)
+}
+
+fn counted(right: Count, of: Count, faults: &[(Count, &str)]) -> String {
+    let mut text = format!("{} of {} right", right.get(), of.get());
+    for (count, what) in faults {
         if count.get() > 0 {
             let _ = write!(text, ", {} {what}", count.get());
         }

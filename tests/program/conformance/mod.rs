@@ -3,6 +3,8 @@
 mod export;
 mod producer;
 #[cfg(unix)]
+mod unreadable;
+#[cfg(unix)]
 mod validator;
 
 use std::process::Output;

@@ -75,7 +75,7 @@ fn printed_codes_are_scored_apart() {
     // Without valid URDDs, legacy cases, and cases of a SHOULD.
     let suite = urdd::suite::carried().expect("the suite reads");
     let of = |code: &str, kind| {
-        let items = items(&suite).into_iter();
+        let items = items(&suite).expect("the cases read").into_iter();
         let items = items.filter(|item| item.code.as_deref() == Some(code) && item.kind == kind);
         let items = items.filter(|item| item.profile == "1.0");
         items.map(|item| item.id).collect::<Vec<String>>()

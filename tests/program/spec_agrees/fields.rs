@@ -20,7 +20,8 @@ pub fn tables() -> String {
             | Subject::FirstDiffReport
             | Subject::SecondDiffReport
             | Subject::ProducerResult
-            | Subject::ValidatorResult => continue,
+            | Subject::ValidatorResult
+            | Subject::FirstValidatorResult => continue,
             _ => {}
         }
         let schema = subject.schema(Variant::Strict);

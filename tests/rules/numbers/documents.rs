@@ -245,7 +245,13 @@ pub fn numbers() -> Vec<Number> {
             "2.14",
             "at most 4,096 bytes, and 1,020 between two slashes",
             ("4,096", 4096.0),
-            vec![Sides::Elsewhere("cases are folders; crates/urdd-directory tests archives")],
+            vec![
+                there("unreadable/beyond-archive-name", "unreadable/within-archive-name"),
+                there(
+                    "unreadable/beyond-archive-part-of-a-name",
+                    "unreadable/within-archive-part-of-a-name",
+                ),
+            ],
         ),
         number(
             "validators-documents",
@@ -261,9 +267,7 @@ pub fn numbers() -> Vec<Number> {
             "13.1",
             "come to 4 GiB, and to no more than 64 MiB plus 250 times",
             ("64 MiB", 67_108_864.0),
-            vec![Sides::Elsewhere(
-                "limits of this project's validator, and no rule's: docs/security.md",
-            )],
+            vec![there("unreadable/beyond-archive-sizes", "unreadable/within-archive-sizes")],
         ),
         number(
             "triangles-of-a-robot",

@@ -21,13 +21,17 @@ fn everything_that_is_listed_is_there() {
             || ("URD002"..="URD012").contains(&case.code.as_str())
     });
     suite.cases = sample(others, 60).chain(named).collect();
-    let written = suite.cases.len();
+    suite.unreadable.retain(|case| ["empty-folder", "comment"].contains(&case.name.as_str()));
+    let written = suite.all_cases().count();
     let exported = export(&suite, &out).expect("an export");
     assert!(written > all / 60 && exported.cases + exported.left_out.len() == written);
     let text = fs::read(out.join("suite.json")).expect("suite.json");
     let list: Value = serde_json::from_slice(&text).expect("JSON");
     let cases = list["cases"].as_array().expect("a list");
-    assert_eq!(cases.len(), exported.valid + exported.cases);
+    assert_eq!(cases.len(), exported.valid + suite.cases.len() - exported.left_out.len());
+    let verdicts = cases.iter().map(|case| case["verdict"].as_str());
+    assert!(verdicts.flatten().all(|verdict| ["accept", "reject"].contains(&verdict)));
+    assert!(list.get("version").is_none() && cases[0].get("profiles").is_none());
     assert_eq!(exported.valid, 9);
     for case in cases {
         let place = out.join(case["folder"].as_str().expect("a folder"));
@@ -55,6 +59,24 @@ fn everything_that_is_listed_is_there() {
         std::io::copy(&mut entry, &mut std::io::sink()).expect("its content");
     }
     assert!(archive.by_name("robot/urdd.json").is_ok());
+    // The newer list has the same, and what cannot be read.
+    let text = fs::read(out.join("suite-1.1.json")).expect("suite-1.1.json");
+    let newer: Value = serde_json::from_slice(&text).expect("JSON");
+    let newer_cases = newer["cases"].as_array().expect("a list");
+    assert_eq!(newer["version"], "1.1");
+    assert_eq!(newer_cases.len(), exported.valid + exported.cases);
+    for (older, newer) in cases.iter().zip(newer_cases) {
+        let mut newer = newer.clone();
+        let profiles = newer.as_object_mut().and_then(|case| case.remove("profiles"));
+        assert!(profiles.is_some_and(|profiles| profiles.is_array()), "{older}");
+        assert_eq!(&newer, older);
+    }
+    let empty = newer_cases.iter().find(|case| case["id"] == "unreadable/empty-folder");
+    let empty = empty.expect("a case about what cannot be read");
+    assert_eq!((&empty["verdict"], &empty["code"]), (&"unreadable".into(), &Value::Null));
+    assert_eq!(empty["profiles"], serde_json::json!(["core-json"]));
+    let folder = out.join(empty["folder"].as_str().expect("a folder"));
+    assert_eq!(fs::read_dir(folder).expect("a folder").count(), 0);
     assert!(out.join("robots/gripper.urdf").is_file());
     assert!(out.join("README.md").is_file());
     for refused in ["KIN001/poses-beyond-numbers", "URD005/link-held-by-two-joints"] {

@@ -5,6 +5,8 @@
 
 mod cases;
 mod export;
+mod profile;
+mod unreadable;
 mod valid;
 
 use urdd_conformance::suite::Suite;

@@ -95,6 +95,9 @@ impl Archive {
         bytes: impl AsRef<[u8]> + Send + Sync + 'static,
     ) -> Result<Self, ArchiveFault> {
         let bytes = Bytes(Arc::new(bytes));
+        if zip_list::read(bytes.all())?.iter().any(|entry| entry.is_zip64) {
+            return Err(ArchiveFault::Zip64);
+        }
         let mut members = members(&bytes, exact)?;
         let folder = urdd_folder(&members)?;
         if !folder.is_empty() {

@@ -35,6 +35,8 @@ pub struct Listed<'a> {
     pub is_encrypted: bool,
     /// Whether a program of Windows may have written it.
     pub is_of_windows: bool,
+    /// Whether its own header leaves its sizes to an extra field of zip64.
+    pub is_zip64: bool,
     /// The file type bits of its Unix mode; 0 if it has none.
     pub kind: u32,
     /// Its content.
@@ -170,6 +172,7 @@ fn entry<'a>(
         name,
         is_encrypted: flags & ENCRYPTED != 0,
         is_of_windows: MICROSOFT.contains(&fields.0[5]),
+        is_zip64: [18, 22].iter().any(|at| header.word(*at) == u32::MAX),
         kind: if has_mode { (fields.word(38) >> 16) & 0o170_000 } else { 0 },
         packed: Packed { method: fields.short(10), crc, size: size.into(), start, end },
     };

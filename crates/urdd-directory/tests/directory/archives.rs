@@ -102,6 +102,16 @@ fn what_an_archive_states_is_not_believed() {
     assert_eq!(other, Err(ArchiveFault::OtherBytes));
 }
 
+/// SPEC 2.14 allows no zip64: not for an entry whose list has its sizes either, as Python's `force_zip64` writes it.
+#[test]
+fn sizes_in_an_extra_field_are_of_zip64() {
+    let mut bytes = stored(&[("urdd.json", FILE, b"{}")]);
+    assert!(Archive::new("robot", bytes.clone()).is_ok());
+    bytes[18..26].fill(0xff);
+    assert_eq!(Archive::new("robot", bytes.clone()).err(), Some(ArchiveFault::Zip64));
+    assert!(Archive::of_any("robot", bytes).is_ok(), "what other programs pack is read");
+}
+
 #[test]
 fn an_archive_beyond_the_limit_is_not_read() {
     let folder = tempfile::tempdir().unwrap();
