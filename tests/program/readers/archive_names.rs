@@ -1,7 +1,6 @@
 //! The names in a .zip that is dropped on the page, whatever program packed it.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 use urdd_directory::listing::EntryKind;
 use urdd_directory::root::Root;
@@ -32,14 +31,15 @@ pub fn archive_names(bytes: &[u8]) {
         if entry.kind == EntryKind::File && is_named {
             let read = root.read(&entry.path, entry.size).expect("a file");
             assert_eq!(read.len() as u64, entry.size);
-            files.push((entry.path, Arc::<[u8]>::from(read)));
+            files.push((entry.path, read));
         }
     }
-    if let Ok(found) = Files::in_memory(files.iter().cloned()) {
+    let sizes = files.iter().map(|(path, read)| (path.clone(), read.len() as u64));
+    if let Ok(found) = Files::of(root, "drop", sizes) {
         for (name, content) in &files {
-            let path = std::path::Path::new("/").join(name);
+            let path = std::path::Path::new("/drop").join(name);
             let read = found.read(&path, content.len() as u64).expect("a file");
-            assert_eq!(read[..], content[..], "{name}");
+            assert_eq!(read, *content, "{name}");
         }
     }
 }
