@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use crate::source::files;
 use crate::{new_lint_rule, new_rule};
 
 /// The tests to run, by prefix of their path, and what to do if one fails.
@@ -183,12 +184,7 @@ pub fn python_types(root: &Path, arguments: &[&str]) -> Option<bool> {
 /// The TODOs that a scaffold left to the user: `SPEC.md:341`.
 fn left_to_write(root: &Path) -> Vec<String> {
     let mut places = Vec::new();
-    let mut paths: Vec<_> = SCAFFOLDED.iter().map(|path| root.join(path)).collect();
-    while let Some(path) = paths.pop() {
-        if let Ok(entries) = fs::read_dir(&path) {
-            paths.extend(entries.flatten().map(|entry| entry.path()));
-            continue;
-        }
+    for path in files(root, SCAFFOLDED) {
         let text = fs::read_to_string(&path).unwrap_or_default();
         let shown = path.strip_prefix(root).unwrap_or(&path).display();
         for (number, line) in text.lines().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::new_rule::{CODES, add_code, check_name, next_version, register, severity};
+use crate::new_rule::{CODES, add_code, check_new, next_version, register, severity};
 use crate::source::Edits;
 
 pub const RULES: &str = "crates/urdd-lint/src/rules";
@@ -15,7 +15,7 @@ const EVIDENCE: &str = "benches/evaluation/lint/evidence.md";
 /// # Errors
 /// If the code or the name is invalid, or the source does not have the expected form.
 pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<String, String> {
-    check_name(name)?;
+    check_new(root, RULES, name)?;
     let severity = severity(severity_word)?;
     let mut edits = Edits::new(root);
     let candidates = edits.read(EVIDENCE)?;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::source::{Edits, camel, with_module};
+use crate::source::{Edits, camel, files, with_module};
 
 pub const CODES: &str = "crates/urdd-findings/src/code.rs";
 pub const RULES: &str = "crates/urdd-validate/src/rules";
@@ -37,7 +37,7 @@ pub struct NewRule<'a> {
 pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let (code, name) = (new.code, new.name);
     let family = family(code)?;
-    check_name(name)?;
+    check_new(root, RULES, name)?;
     let clause = new.clause.unwrap_or("TODO");
     let severity = severity(new.severity)?;
     let mut edits = Edits::new(root);
@@ -152,7 +152,19 @@ fn family(code: &str) -> Result<&str, String> {
     }
 }
 
-pub fn check_name(name: &str) -> Result<(), String> {
+/// Checks the name of a rule that is not in a folder of rules yet.
+pub fn check_new(root: &Path, rules: &str, name: &str) -> Result<(), String> {
+    check_name(name)?;
+    let declared = format!(" \"{name}\", ");
+    for path in files(root, &[rules]) {
+        if fs::read_to_string(&path).is_ok_and(|text| text.contains(&declared)) {
+            return Err(format!("the rule {name} is there already: {}", path.display()));
+        }
+    }
+    Ok(())
+}
+
+fn check_name(name: &str) -> Result<(), String> {
     let word = |word: &str| {
         !word.is_empty()
             && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Edits of a copy of the source. Nothing is written before [`Edits::write`].
 pub struct Edits<'a> {
@@ -70,6 +70,20 @@ impl<'a> Edits<'a> {
         }
         Ok(())
     }
+}
+
+/// The files below some paths.
+pub fn files(root: &Path, below: &[&str]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut paths: Vec<_> = below.iter().map(|path| root.join(path)).collect();
+    while let Some(path) = paths.pop() {
+        match fs::read_dir(&path) {
+            Ok(entries) => paths.extend(entries.flatten().map(|entry| entry.path())),
+            Err(_) => files.push(path),
+        }
+    }
+    files.sort();
+    files
 }
 
 /// A text with one more line in its sorted list of modules.

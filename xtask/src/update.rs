@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::check::{cargo, python_types};
+use crate::source::files;
 
 /// The places of generated text.
 const GENERATED: &[&str] = &[
@@ -84,15 +85,9 @@ pub fn run(root: &Path) -> Result<bool, String> {
 
 /// Every file of [`GENERATED`] with its bytes.
 fn texts(root: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut texts = BTreeMap::new();
-    let mut paths: Vec<_> = GENERATED.iter().map(|path| root.join(path)).collect();
-    while let Some(path) = paths.pop() {
-        if let Ok(entries) = fs::read_dir(&path) {
-            paths.extend(entries.flatten().map(|entry| entry.path()));
-        } else if let Ok(bytes) = fs::read(&path) {
-            let path = path.strip_prefix(root).unwrap_or(&path);
-            texts.insert(path.display().to_string(), bytes);
-        }
-    }
-    texts
+    let read = |path: PathBuf| {
+        let bytes = fs::read(&path).ok()?;
+        Some((path.strip_prefix(root).unwrap_or(&path).display().to_string(), bytes))
+    };
+    files(root, GENERATED).into_iter().filter_map(read).collect()
 }
