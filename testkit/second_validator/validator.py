@@ -1,0 +1,52 @@
+"""Judging one URDD: the rules in the order in which one presupposes another."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+
+from .directory import META, check_directory
+from .documents import read_documents
+from .modules import TABLE, Urdd
+from .report import Report, Unreadable
+from .tree import Tree, read_archive, read_folder, subtree
+
+RULES = []
+
+
+def is_root(tree: Tree, folder: str) -> bool:
+    """2.14: whether a URDD lies here."""
+    prefix = folder + "/" if folder else ""
+    return prefix + META in tree.files or any(prefix + row[0] in tree.folders for row in TABLE.values())
+
+
+def open_tree(place: str) -> Tree:
+    """2.2, 2.14: the URDD at a place, a folder or a zip archive."""
+    if os.path.isdir(place):
+        return read_folder(place)
+    try:
+        with open(place, "rb") as file:
+            tree = read_archive(file.read())
+    except (OSError, ValueError, zipfile.BadZipFile) as fault:
+        raise Unreadable(str(fault)) from fault
+    if is_root(tree, ""):
+        return tree
+    roots = [folder for folder in tree.children("") if is_root(tree, folder)]
+    if len(roots) != 1:
+        raise Unreadable("not one URDD in the archive")
+    return subtree(tree, roots[0])
+
+
+def judge_tree(tree: Tree) -> Report:
+    """All rules, on a URDD in memory."""
+    urdd = Urdd(tree, Report())
+    if check_directory(urdd):
+        read_documents(urdd)
+        for rule in RULES:
+            rule(urdd)
+    return urdd.report
+
+
+def validate(place: str) -> Report:
+    """All rules, on the URDD at a place."""
+    return judge_tree(open_tree(place))
