@@ -9,9 +9,10 @@ from .directory import META, check_directory
 from .documents import read_documents
 from .modules import TABLE, Urdd
 from .report import Report, Unreadable
+from .urdf_rules import check_urdf
 from .tree import Tree, read_archive, read_folder, subtree
 
-RULES = []
+RULES = [check_urdf]
 
 
 def is_root(tree: Tree, folder: str) -> bool:
