@@ -5,15 +5,14 @@ from __future__ import annotations
 import os
 import zipfile
 
+from .composition import check_composition
+from .derived_rules import check_core
 from .directory import META, check_directory
 from .documents import read_documents
 from .modules import TABLE, Urdd
 from .report import Report, Unreadable
 from .urdf_rules import check_urdf
 from .tree import Tree, read_archive, read_folder, subtree
-
-RULES = [check_urdf]
-
 
 def is_root(tree: Tree, folder: str) -> bool:
     """2.14: whether a URDD lies here."""
@@ -43,8 +42,9 @@ def judge_tree(tree: Tree) -> Report:
     urdd = Urdd(tree, Report())
     if check_directory(urdd):
         read_documents(urdd)
-        for rule in RULES:
-            rule(urdd)
+        check_urdf(urdd)
+        check_core(urdd)
+        check_composition(urdd)
     return urdd.report
 
 
