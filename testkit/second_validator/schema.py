@@ -84,7 +84,7 @@ class Interpreter:
         valid = (
             self.plain(schema, value)
             and self.annotated(schema, value, link)
-            and self.combined(schema, value, mine)
+            and self.combined(schema, value, link, mine)
             and self.inside(schema, value, mine)
             and (not self.tracks or self.left_over(schema, value, mine))
         )
@@ -124,26 +124,26 @@ class Interpreter:
             length_fits(word, len(value), link) for word in words
         )
 
-    def combined(self, schema: dict[str, Any], value: Any, seen: Seen) -> bool:
+    def combined(self, schema: dict[str, Any], value: Any, link: int | None, seen: Seen) -> bool:
         """Keywords that apply schemas to the same value."""
         for name in ("$ref", "$dynamicRef"):
             if name in schema:
                 if not self.judge(find(self.root, schema[name]), value, None, seen):
                     return False
         for one in schema.get("allOf", []):
-            if not self.judge(one, value, None, seen):
+            if not self.judge(one, value, link, seen):
                 return False
         if "anyOf" in schema:
-            if not any([self.judge(one, value, None, seen) for one in schema["anyOf"]]):
+            if not any([self.judge(one, value, link, seen) for one in schema["anyOf"]]):
                 return False
         if "oneOf" in schema:
-            if sum(self.judge(one, value, None, seen) for one in schema["oneOf"]) != 1:
+            if sum(self.judge(one, value, link, seen) for one in schema["oneOf"]) != 1:
                 return False
-        if "not" in schema and self.judge(schema["not"], value, None, Seen()):
+        if "not" in schema and self.judge(schema["not"], value, link, Seen()):
             return False
         if "if" in schema:
-            branch = "then" if self.judge(schema["if"], value, None, seen) else "else"
-            if branch in schema and not self.judge(schema[branch], value, None, seen):
+            branch = "then" if self.judge(schema["if"], value, link, seen) else "else"
+            if branch in schema and not self.judge(schema[branch], value, link, seen):
                 return False
         if isinstance(value, dict):
             for key, one in schema.get("dependentSchemas", {}).items():
@@ -185,7 +185,8 @@ class Interpreter:
         over_links = schema.get("x-length") == "links"
         for place, inner in enumerate(value):
             one = first[place] if place < len(first) else rest
-            if not self.judge(one, inner, place if over_links else None, Seen()):
+            link = place if over_links and place >= len(first) else None
+            if not self.judge(one, inner, link, Seen()):
                 return False
         if self.tracks:
             seen.places |= set(range(len(value) if "items" in schema else len(first)))

@@ -9,6 +9,7 @@ from .composition import check_composition
 from .derived_rules import check_core
 from .directory import META, check_directory
 from .documents import read_documents
+from .extensions import check_extensions
 from .modules import TABLE, Urdd
 from .report import Report, Unreadable
 from .urdf_rules import check_urdf
@@ -45,6 +46,7 @@ def judge_tree(tree: Tree) -> Report:
         check_urdf(urdd)
         check_core(urdd)
         check_composition(urdd)
+        check_extensions(urdd)
     return urdd.report
 
 
