@@ -11,6 +11,7 @@ from .directory import META, check_directory
 from .documents import read_documents
 from .extensions import check_extensions
 from .modules import TABLE, Urdd
+from .original_rules import check_originals
 from .report import Report, Unreadable
 from .urdf_rules import check_urdf
 from .tree import Tree, read_archive, read_folder, subtree
@@ -47,6 +48,7 @@ def judge_tree(tree: Tree) -> Report:
         check_core(urdd)
         check_composition(urdd)
         check_extensions(urdd)
+        check_originals(urdd)
     return urdd.report
 
 
