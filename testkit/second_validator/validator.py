@@ -7,9 +7,11 @@ import zipfile
 
 from .composition import check_composition
 from .derived_rules import check_core
+from .derived_meshes import check_derived_meshes
 from .directory import META, check_directory
 from .documents import read_documents
 from .extensions import check_extensions
+from .mesh_rules import check_mesh_lists
 from .modules import TABLE, Urdd
 from .original_rules import check_originals
 from .report import Report, Unreadable
@@ -49,6 +51,9 @@ def judge_tree(tree: Tree) -> Report:
         check_composition(urdd)
         check_extensions(urdd)
         check_originals(urdd)
+        elements = check_mesh_lists(urdd)
+        if elements:
+            check_derived_meshes(urdd, elements)
     return urdd.report
 
 
