@@ -12,10 +12,13 @@ from .directory import META, check_directory
 from .documents import read_documents
 from .extensions import check_extensions
 from .mesh_rules import check_mesh_lists
+from .matrix_rules import check_all_matrices
+from .model_rules import check_model
 from .modules import TABLE, Urdd
 from .original_rules import check_originals
 from .report import Report, Unreadable
 from .urdf_rules import check_urdf
+from .shape_rules import check_shapes
 from .tree import Tree, read_archive, read_folder, subtree
 
 def is_root(tree: Tree, folder: str) -> bool:
@@ -47,13 +50,17 @@ def judge_tree(tree: Tree) -> Report:
     if check_directory(urdd):
         read_documents(urdd)
         check_urdf(urdd)
-        check_core(urdd)
+        robot = check_core(urdd)
         check_composition(urdd)
         check_extensions(urdd)
         check_originals(urdd)
         elements = check_mesh_lists(urdd)
         if elements:
             check_derived_meshes(urdd, elements)
+        shapes = check_shapes(urdd)
+        if robot and shapes and urdd.report.clean("DOF", "CHN", "BND", "KIN001"):
+            check_all_matrices(urdd, robot, shapes)
+            check_model(urdd, robot, shapes)
     return urdd.report
 
 
