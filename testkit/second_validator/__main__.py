@@ -21,7 +21,9 @@ def judge(place: str) -> tuple[int, list[str]]:
         report: Report = validate(place)
     except Unreadable as reason:
         return UNREADABLE, [f"unreadable: {reason}"]
-    lines = [f"{code} {file}{'#' if pointer else ''}{pointer}" for code, file, pointer in report.errors]
+    lines = [
+        f"{code} {file}{'#' if pointer else ''}{pointer}" for code, file, pointer in report.errors
+    ]
     return (REJECTS if lines else ACCEPTS), lines
 
 

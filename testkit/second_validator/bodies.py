@@ -95,7 +95,7 @@ def farthest_along(points: tuple[Point, ...], direction: Point) -> Point:
 
 @functools.lru_cache(maxsize=500_000)
 def distance_of(a: Body, b: Body, relative: Pose) -> float:
-    """The distance of two bodies, 0 in contact; `relative` is the second link's pose in the first."""
+    """The distance of two bodies, 0 in contact; `relative` is the second link in the first."""
     rotation, shift = relative
     back = transposed(rotation)
     if len(a.points) == 1 and len(b.points) == 1:

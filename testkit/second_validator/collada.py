@@ -6,8 +6,17 @@ import math
 import re
 from xml.parsers import expat
 
-from .faces import MAX_NODES_INSIDE, MAX_TRIANGLES, MAX_VISITS, UNPLACED, Affine, Face, NotMesh, then
-from .faces import Vertex
+from .faces import (
+    MAX_NODES_INSIDE,
+    MAX_TRIANGLES,
+    MAX_VISITS,
+    UNPLACED,
+    Affine,
+    Face,
+    NotMesh,
+    Vertex,
+    then,
+)
 from .numbers import cross, dot, from_axis_angle, norm, number, scaled, sub
 from .xmltree import Builder, Element, Limits, NotXml
 

@@ -18,7 +18,7 @@ from .geometry import (
     resolution,
 )
 from .mesh import format_of
-from .mesh_rules import Elements, LISTS
+from .mesh_rules import LISTS, Elements
 from .modules import Urdd, file_of
 from .numbers import add, distance, dot, scaled
 from .original_rules import read_original

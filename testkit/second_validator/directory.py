@@ -20,7 +20,9 @@ PARENTS = ("mesh_modules", "link_shapes_modules")
 
 def well_formed(path: str) -> bool:
     """2.8: one or more parts joined by `/`."""
-    return all(part not in ("", ".", "..") and not BAD_PART.search(part) for part in path.split("/"))
+    return all(
+        part not in ("", ".", "..") and not BAD_PART.search(part) for part in path.split("/")
+    )
 
 
 def check_path(urdd: Urdd, path: str, file: str, pointer: str) -> bool:

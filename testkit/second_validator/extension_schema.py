@@ -1,4 +1,4 @@
-"""Whether the `schema.json` of an extension is one that any validator can use (11.1, 11.3, 11.4)."""
+"""Whether the `schema.json` of an extension can be used by any validator (11.1, 11.3, 11.4)."""
 
 from __future__ import annotations
 
@@ -27,9 +27,7 @@ FRAME = re.compile(r"world|root|link|parent_link|joint|inertial|shape")
 INDEX = re.compile(
     r"link|joint|dof|visual|collision|piece|full_shape|decomposition_shape|part|pair|sample|other"
 )
-LENGTH = re.compile(
-    r"links|joints|dofs|pieces|full_shapes|decomposition_shapes|parts|pairs"
-)
+LENGTH = re.compile(r"links|joints|dofs|pieces|full_shapes|decomposition_shapes|parts|pairs")
 ANNOTATIONS = {"x-unit": UNIT, "x-frame": FRAME, "x-index": INDEX, "x-length": LENGTH}
 MAX_COMPARISONS = 1_000_000
 COMPARISONS_A_VALUE = 20

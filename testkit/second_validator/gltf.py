@@ -5,10 +5,20 @@ from __future__ import annotations
 import base64
 import binascii
 import struct
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 from urllib.parse import unquote_to_bytes
 
-from .faces import MAX_NODES_INSIDE, MAX_TRIANGLES, MAX_VISITS, UNPLACED, Affine, Face, NotMesh, then
+from .faces import (
+    MAX_NODES_INSIDE,
+    MAX_TRIANGLES,
+    MAX_VISITS,
+    UNPLACED,
+    Affine,
+    Face,
+    NotMesh,
+    then,
+)
 from .jsontext import TextFault, read_json
 from .numbers import from_quaternion
 
@@ -117,7 +127,15 @@ class GltfReader:
             sparse = accessor["sparse"]
             count = sparse["count"]
             where = self.view_rows(sparse["indices"], count, 1)
-            values = self.view_rows({**accessor, **sparse["values"], "byteOffset": sparse["values"].get("byteOffset", 0)}, count, 3)
+            values = self.view_rows(
+                {
+                    **accessor,
+                    **sparse["values"],
+                    "byteOffset": sparse["values"].get("byteOffset", 0),
+                },
+                count,
+                3,
+            )
             for (index,), value in zip(where, values):
                 rows[int(index)] = value
         if accessor.get("normalized") and accessor["componentType"] != 5126:

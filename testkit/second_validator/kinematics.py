@@ -234,7 +234,10 @@ def sampled(robot: Robot, k: int) -> list[float]:
         found.append(lower * (1 - u) + upper * u)
     for first in robot.rotation_vectors():
         u1, u2, u3 = (uniform(k, first + n) for n in range(3))
-        w, z = math.sqrt(u1) * math.cos(2 * math.pi * u3), math.sqrt(u1) * math.sin(2 * math.pi * u3)
+        w, z = (
+            math.sqrt(u1) * math.cos(2 * math.pi * u3),
+            math.sqrt(u1) * math.sin(2 * math.pi * u3),
+        )
         x = math.sqrt(1 - u1) * math.sin(2 * math.pi * u2)
         y = math.sqrt(1 - u1) * math.cos(2 * math.pi * u2)
         sign = -1.0 if w < 0 else 1.0

@@ -5,17 +5,19 @@ from __future__ import annotations
 import functools
 import re
 import struct
-from typing import Callable
+from collections.abc import Callable
 
 from .collada import read_collada
-from .faces import Face, MAX_TRIANGLES, NotMesh, Vertex, triangles_of
+from .faces import MAX_TRIANGLES, Face, NotMesh, Vertex, triangles_of
 from .gltf import read_glb, read_gltf
 from .numbers import cross, norm, number, sub
 
 FIRST = 64 * 1024
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 NOT_TEXT = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
-NOT_MESHES = re.compile(rb"PK\x03\x04|(?:ply|OFF)[\n\r]|Kaydara FBX|BLENDER|\x1f\x8b|version https://git-lfs")
+NOT_MESHES = re.compile(
+    rb"PK\x03\x04|(?:ply|OFF)[\n\r]|Kaydara FBX|BLENDER|\x1f\x8b|version https://git-lfs"
+)
 OBJ_WORDS = (b"v", b"vt", b"vn", b"vp", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl")
 STL_NAMES = (".stl", ".stla", ".stlb")
 HEADER = 84

@@ -124,7 +124,8 @@ def check_pieces(urdd: Urdd) -> None:
     if not urdd.have("convex_decomposition_meshes_module"):
         return
     pieces = [
-        len(of_link) for of_link in urdd.documents["convex_decomposition_meshes_module"]["link_pieces"]
+        len(of_link)
+        for of_link in urdd.documents["convex_decomposition_meshes_module"]["link_pieces"]
     ]
     for name, keys in OVER_PIECES.items():
         for key in keys if urdd.have(name) else ():

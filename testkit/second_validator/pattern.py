@@ -18,8 +18,51 @@ COUNT = re.compile(r"\{[0-9]+(,[0-9]*)?\}")
 GROUP = re.compile(r"\((?:\?:|\?<([A-Za-z_$][A-Za-z0-9_$]*)>)?")
 NAMES = {"Letter": "L", "Number": "N", "Punctuation": "P", "Symbol": "S", "Separator": "Z"}
 NAMES |= {"Uppercase_Letter": "Lu", "Lowercase_Letter": "Ll", "Decimal_Number": "Nd"}
-CATEGORIES = set("L N P S Z M C Lu Ll Lt Lm Lo Nd Nl No Mn Mc Me".split())
-CATEGORIES |= set("Pc Pd Ps Pe Pi Pf Po Sm Sc Sk So Zs Zl Zp Cc Cf Cs Co Cn".split())
+CATEGORIES = set(
+    [
+        "L",
+        "N",
+        "P",
+        "S",
+        "Z",
+        "M",
+        "C",
+        "Lu",
+        "Ll",
+        "Lt",
+        "Lm",
+        "Lo",
+        "Nd",
+        "Nl",
+        "No",
+        "Mn",
+        "Mc",
+        "Me",
+    ]
+)
+CATEGORIES |= set(
+    [
+        "Pc",
+        "Pd",
+        "Ps",
+        "Pe",
+        "Pi",
+        "Pf",
+        "Po",
+        "Sm",
+        "Sc",
+        "Sk",
+        "So",
+        "Zs",
+        "Zl",
+        "Zp",
+        "Cc",
+        "Cf",
+        "Cs",
+        "Co",
+        "Cn",
+    ]
+)
 
 
 class BadPattern(Exception):

@@ -79,7 +79,9 @@ def crosses_itself(corners: list[Point]) -> bool:
 class MeshElement:
     """An element with a mesh: its triangles and polygons in the link's frame."""
 
-    def __init__(self, faces: list[Face], element: Any, version: tuple[int, int], y_up: bool) -> None:
+    def __init__(
+        self, faces: list[Face], element: Any, version: tuple[int, int], y_up: bool
+    ) -> None:
         scale = element["geometry"]["Mesh"]["scale"] or (1.0, 1.0, 1.0)
         self.rotation: Matrix = rotation_of(element["origin"], version)
         self.position = position_of(element["origin"])
@@ -142,7 +144,7 @@ def is_cut(polygon: list[Point], found: list[Triangle], tolerance: float) -> boo
     inner = [edge for edge in edges if (edge[0] + 1) % len(polygon) != edge[1]]
     matched = all((end, start) in edges for start, end in inner)
     slivers = len(polygon) - 2 - len(found)
-    return len(found) == len(polygon) - 2 and matched or (slivers > 0 and covers(polygon, found))
+    return (len(found) == len(polygon) - 2 and matched) or (slivers > 0 and covers(polygon, found))
 
 
 def covers(polygon: list[Point], found: list[Triangle]) -> bool:
@@ -154,7 +156,9 @@ def covers(polygon: list[Point], found: list[Triangle]) -> bool:
 class PlainCheck:
     """Compares a plain mesh with its elements."""
 
-    def __init__(self, plain: list[Triangle], meshes: list[MeshElement], shapes: list[Shape]) -> None:
+    def __init__(
+        self, plain: list[Triangle], meshes: list[MeshElement], shapes: list[Shape]
+    ) -> None:
         largest = [largest_coordinate(plain)]
         largest += [mesh.largest for mesh in meshes] + [shape.extent for shape in shapes]
         extent = max(largest)
@@ -206,8 +210,8 @@ class PlainCheck:
         )
         total = sum(area(triangle) for triangle in left)
         enough = all(
-            sum(area(t) for t, is_on in zip(self.plain, on) if is_on) >= LEAST_AREA * shape.area - slack
+            sum(area(t) for t, is_on in zip(self.plain, on) if is_on)
+            >= LEAST_AREA * shape.area - slack
             for shape, on in zip(self.shapes, fits)
         )
         return enough and total <= allowed * (1 + 1e-9) + slack
-

@@ -7,7 +7,7 @@ import math
 import struct
 from typing import Any
 
-from .faces import Face, NotMesh, UNPLACED, triangles_of
+from .faces import UNPLACED, Face, NotMesh, triangles_of
 from .geometry import (
     RESOLUTION,
     Triangle,

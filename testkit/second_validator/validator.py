@@ -6,25 +6,28 @@ import os
 import zipfile
 
 from .composition import check_composition
-from .derived_rules import check_core
 from .derived_meshes import check_derived_meshes
+from .derived_rules import check_core
 from .directory import META, check_directory
 from .documents import read_documents
 from .extensions import check_extensions
-from .mesh_rules import check_mesh_lists
 from .matrix_rules import check_all_matrices
+from .mesh_rules import check_mesh_lists
 from .model_rules import check_model
 from .modules import TABLE, Urdd
 from .original_rules import check_originals
 from .report import Report, Unreadable
-from .urdf_rules import check_urdf
 from .shape_rules import check_shapes
 from .tree import Tree, read_archive, read_folder, subtree
+from .urdf_rules import check_urdf
+
 
 def is_root(tree: Tree, folder: str) -> bool:
     """2.14: whether a URDD lies here."""
     prefix = folder + "/" if folder else ""
-    return prefix + META in tree.files or any(prefix + row[0] in tree.folders for row in TABLE.values())
+    return prefix + META in tree.files or any(
+        prefix + row[0] in tree.folders for row in TABLE.values()
+    )
 
 
 def open_tree(place: str) -> Tree:
