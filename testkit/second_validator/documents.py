@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 from .directory import KNOWN_VERSION, check_path
 from .jsontext import TextFault, read_json
 from .modules import EXTENSION, MESH, TABLE, Urdd, file_of, version_of
-from .schema import fits
+from .schema import file_fits, fits
 from .yamltext import read_yaml, same
 
 SIMPLE_SKIPS_OF_DRAFT = ["chain_module", "link_shapes_distance_statistics_module"]  # 4.4
 
 
-def read_mirror(urdd: Urdd, folder: str, document: Any) -> None:
+@functools.lru_cache(maxsize=4096)
+def mirrors(yaml: bytes, json: bytes) -> bool:
+    """3.2.1: whether a `module.yaml` says what the `module.json` says."""
+    return same(read_yaml(yaml), read_json(json))
+
+
+def read_mirror(urdd: Urdd, folder: str) -> None:
     """3.2: `module.yaml` is well-formed, and says the same."""
     path = folder + "/module.yaml"
     data = urdd.tree.read(path)
     if data is None:
         return
     try:
-        if not same(read_yaml(data), document):
+        if not mirrors(data, urdd.tree.read(folder + "/module.json") or b""):
             urdd.report.error("YML007", path)
     except TextFault as fault:
         urdd.report.error(str(fault), path)
@@ -37,7 +44,7 @@ def read_document(urdd: Urdd, folder: str) -> tuple[bool, Any]:
     except TextFault as fault:
         urdd.report.error(str(fault), path)
         return False, None
-    read_mirror(urdd, folder, document)
+    read_mirror(urdd, folder)
     return True, document
 
 
@@ -69,7 +76,8 @@ def read_known(urdd: Urdd, name: str, entry: dict[str, Any]) -> None:
     if follows_draft(name, document, entry["depends_on"]):
         urdd.report.error("DIR030", file_of(name))
         return
-    if not fits(name, document, version > KNOWN_VERSION):
+    data = urdd.tree.read(file_of(name)) or b""
+    if not file_fits(name, data, version > KNOWN_VERSION):
         urdd.report.error("SCH001", file_of(name))
         return
     urdd.documents[name] = document

@@ -297,3 +297,9 @@ def published(name: str, version: str) -> Any:
 def fits(name: str, document: Any, lenient: bool = False) -> bool:
     """Whether a document is valid under the newest published schema (3.1.2, 4.2)."""
     return Interpreter(published(name, "1.0.0"), lenient).valid(document)
+
+
+@functools.lru_cache(maxsize=4096)
+def file_fits(name: str, data: bytes, lenient: bool) -> bool:
+    """The same of the document in a file."""
+    return fits(name, read_json(data), lenient)
