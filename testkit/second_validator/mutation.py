@@ -57,7 +57,8 @@ def changes_of(node: ast.AST) -> Iterator[tuple[str, Change]]:
     if isinstance(node, ast.Compare):
         tolerant = TOLERANCES.search(ast.unparse(node)) is not None
         for place, op in enumerate(node.ops):
-            for other in SWAPS.get(type(op), [])[1 if tolerant else 0 :]:
+            others = SWAPS.get(type(op), [])
+            for other in others[-1:] if tolerant else others:
                 yield f"{type(op).__name__} to {other.__name__}", set_item(node.ops, place, other())
     elif isinstance(node, ast.BinOp) and type(node.op) in SWAPS:
         text = isinstance(node.left, (ast.Constant, ast.JoinedStr)) and isinstance(

@@ -14,9 +14,8 @@ class Report:
         self.errors: list[tuple[str, str, str]] = []
 
     def error(self, code: str, file: str = "", pointer: str = "") -> None:
-        """Adds an error once."""
-        if (code, file, pointer) not in self.errors:
-            self.errors.append((code, file, pointer))
+        """Adds an error."""
+        self.errors.append((code, file, pointer))
 
     def codes(self) -> set[str]:
         """The codes of all errors."""
