@@ -13,7 +13,7 @@ from typing import Any
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PACKAGE = "second_validator"
-NOT_MUTATED = ("mutants", "mutation", "instrument", "__main__", "__init__")
+NOT_MUTATED = ("mutants", "mutation", "instrument", "schema_mutants", "__main__", "__init__")
 SHAPE_MODULES = (
     "link_shapes_approximations_module",
     "link_shapes_distance_statistics_module",
