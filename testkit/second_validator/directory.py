@@ -116,14 +116,11 @@ def check_entries(urdd: Urdd) -> None:
         paths = [file["path"].encode() for file in entry["files"]]
         if paths != sorted(set(paths)):
             urdd.report.error("DIR026", META, pointer + "/files")
-    keys = [(ORDER.index(n) if n in TABLE else len(ORDER), _later(n)) for n in names]
+    keys = [
+        (ORDER.index(name), b"") if name in TABLE else (len(ORDER), name.encode()) for name in names
+    ]
     if keys != sorted(keys):
         urdd.report.error("DIR026", META, "/modules")
-
-
-def _later(name: str) -> bytes:
-    """What modules that are not in the table are sorted by."""
-    return b"" if name in TABLE else name.encode()
 
 
 def linked(urdd: Urdd, path: str) -> bool:
@@ -171,15 +168,10 @@ def check_module_files(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:
     document = folder + "/module.json"
     if urdd.tree.kind(document) == "missing" and (known or extension):
         urdd.report.error("DIR004", document)
-    must_be = [name for name in ("VERSION", "module.json") if known or extension]
+    must_be = ["VERSION", "module.json"] if known or extension else []
     needed = [f"{folder}/{name}" for name in must_be]
     for name in ("VERSION", "module.json", "module.yaml", *(["schema.json"] if extension else [])):
-        kind = urdd.tree.kind(f"{folder}/{name}")
-        if kind == "outside":
-            urdd.report.error("DIR016", f"{folder}/{name}")
-        if kind in ("folder", "special"):
-            urdd.report.error("DIR023", f"{folder}/{name}")
-        if kind == "file" and f"{folder}/{name}" not in needed:
+        if urdd.tree.kind(f"{folder}/{name}") == "file" and f"{folder}/{name}" not in needed:
             needed.append(f"{folder}/{name}")
     paths = [file["path"] for file in entry["files"]]
     for path in needed:

@@ -216,6 +216,7 @@ def main() -> int:
     parser.add_argument("--only", default="", help="modules whose names begin so, by commas")
     parser.add_argument("--cases", default="", help="cases whose names begin so, by commas")
     parser.add_argument("--most", type=int, default=10_000, help="cases for each mutant")
+    parser.add_argument("--again", default="", help="results of which the survivors alone run")
     parser.add_argument("--every", type=int, default=1, help="each n-th mutant alone")
     parser.add_argument("--out", default="mutants.jsonl")
     arguments = parser.parse_args()
@@ -227,6 +228,11 @@ def main() -> int:
     names = tuple(arguments.only.split(","))
     mutants = [m for one in loaded.values() if one.name.startswith(names) for m in mutants_of(one)]
     mutants = mutants[:: arguments.every]
+    if arguments.again:
+        with open(arguments.again, encoding="utf-8") as file:
+            rows = [json.loads(line) for line in file]
+        left = {tuple(row[1:4]) for row in rows if row[4].startswith("survived")}
+        mutants = [m for m in mutants if (m.module, m.line, m.kind) in left]
     print(f"{len(mutants)} mutants", flush=True)
     shares = [
         multiprocessing.get_context("fork").Process(
