@@ -22,7 +22,7 @@ REMOVED = ("type", "enum", "const", "pattern", "minimum", "maximum", "minItems",
 REMOVED += ("additionalProperties", "patternProperties", "$ref", "anyOf", "oneOf", "allOf")
 OFF_BY_ONE = {"minimum": -1, "maximum": 1, "minItems": -1, "maxItems": 1}
 SECONDS = 60.0
-FEW = 40
+FEW = 3
 
 
 def mutations(schema: Any, place: str) -> Iterator[tuple[str, str, Callable[[], None], Any]]:
@@ -107,8 +107,8 @@ def main() -> int:
             CHANGED.clear()
             FRESH.clear()
             rows.append([name, place, kind, killer.name if killer else "survived"])
-    with open(arguments.out, "w", encoding="utf-8") as file:
-        file.writelines(json.dumps(row) + "\n" for row in rows)
+            with open(arguments.out, "a", encoding="utf-8") as file:
+                file.write(json.dumps(rows[-1]) + "\n")
     survivors = [row for row in rows if row[3] == "survived"]
     for row in survivors:
         print(*row)
