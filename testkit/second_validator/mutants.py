@@ -1,0 +1,269 @@
+"""Switches off each check of the second validator in turn, and asks whether the suite notices.
+
+    urdd conformance export SUITE
+    python3 testkit/second_validator/mutants.py SUITE [--jobs 2] [--only MODULE] [--out FILE]
+
+A mutant changes one comparison, condition, constant, operator or report. It is killed where the
+verdict of a case differs from that of the validator as it is, or a case to be rejected loses its
+code, or a near miss gets it, or judging it crashes or takes too long. A mutant runs on the cases
+that execute the changed block, those of the codes of its module first. What is pure is remembered
+with the blocks that it executed, and computed again where the mutant is among them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import os
+import signal
+import sys
+import time
+import types
+from typing import Any
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+from instrument import CHANGED, FRESH, HITS, Loaded, load_package  # noqa: E402
+from mutation import Mutant, mutants_of  # noqa: E402
+
+LEAST_SECONDS = 3.0
+TIMES_SLOWER = 10
+
+
+class TooSlow(BaseException):
+    """A case that takes too long."""
+
+
+class Case:
+    """A case of the suite in memory, and what the validator says of it."""
+
+    def __init__(self, entry: dict[str, Any], tree: Any) -> None:
+        self.name = entry["id"]
+        self.code = entry["code"]
+        self.tree = tree
+        self.says: Any = None
+        self.blocks: frozenset[int] = frozenset()
+        self.seconds = 0.0
+
+
+def load_cases(suite: str, loaded: dict[str, Loaded], names: tuple[str, ...]) -> list[Case]:
+    """All cases but legacy ones; equal files are the same object."""
+    with open(os.path.join(suite, "suite.json"), encoding="utf-8") as file:
+        entries = json.load(file)["cases"]
+    open_tree = loaded["validator"].module.open_tree
+    known: dict[bytes, bytes] = {}
+    cases = []
+    for entry in entries:
+        if entry["profile"] == "legacy" or not entry["id"].startswith(names):
+            continue
+        tree = open_tree(os.path.join(suite, entry["folder"]))
+        tree.files = {path: known.setdefault(data, data) for path, data in tree.files.items()}
+        cases.append(Case(entry, tree))
+    return cases
+
+
+def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
+    """What the validator says: whether it rejects, and whether with the case's code."""
+
+    def stop(*_: object) -> None:
+        raise TooSlow
+
+    signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        codes = loaded["validator"].module.judge_tree(case.tree).codes()
+        return bool(codes), case.code in codes
+    except TooSlow:
+        return "too slow"
+    except Exception as fault:
+        return type(fault).__name__
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def run_baseline(cases: list[Case], loaded: dict[str, Loaded]) -> None:
+    """Judges all cases with the validator as it is."""
+    for case in cases:
+        HITS.blocks = set()
+        start = time.perf_counter()
+        case.says = says_of(case, loaded, 600)
+        case.seconds = time.perf_counter() - start
+        case.blocks = frozenset(HITS.blocks)
+
+
+def functions_of(loaded: Loaded) -> dict[str, Any]:
+    """The functions of a module by qualified name, as they are under what remembers."""
+    found: dict[str, Any] = {}
+    scopes: list[Any] = [loaded.module]
+    while scopes:
+        for value in vars(scopes.pop()).values():
+            function = getattr(value, "function", value)
+            if isinstance(value, type) and value.__module__ == loaded.module.__name__:
+                scopes.append(value)
+            elif isinstance(function, types.FunctionType):
+                if function.__module__ == loaded.module.__name__:
+                    found[function.__qualname__] = function
+    return found
+
+
+def codes_in(code: types.CodeType) -> dict[str, types.CodeType]:
+    """All code objects of a module by qualified name."""
+    found = {}
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            found[constant.co_qualname] = constant
+            found |= codes_in(constant)
+    return found
+
+
+class Patch:
+    """A mutant in the place of what it changes."""
+
+    def __init__(self, mutant: Mutant, loaded: dict[str, Loaded]) -> None:
+        self.undo: list[Any] = []
+        self.blocks = {mutant.block} if mutant.block else set()
+        own = loaded[mutant.module]
+        restore = mutant.change()
+        try:
+            code = own.code()
+        finally:
+            restore()
+        if mutant.block:
+            codes = codes_in(code)
+            for name, function in functions_of(own).items():
+                if function.__code__.co_code and name in codes:
+                    self.undo.append((function, function.__code__))
+                    function.__code__ = codes[name]
+        else:
+            self.change_names(own, code, loaded)
+
+    def change_names(self, own: Loaded, code: types.CodeType, loaded: dict[str, Loaded]) -> None:
+        """A constant of a module: it changes wherever it was imported."""
+        fresh = types.ModuleType(own.module.__name__)
+        fresh.__dict__.update(__file__=own.path, __package__=own.module.__package__, _hits=HITS)
+        exec(code, fresh.__dict__)
+        for name in own.constants:
+            old, new = own.module.__dict__[name], fresh.__dict__[name]
+            if old == new:
+                continue
+            for other in loaded.values():
+                if other.module.__dict__.get(name) is old:
+                    self.undo.append((other.module, name, old))
+                    setattr(other.module, name, new)
+                    self.blocks |= other.blocks_of_name.get(name, set())
+
+    def revert(self) -> None:
+        for entry in reversed(self.undo):
+            if len(entry) == 2:
+                entry[0].__code__ = entry[1]
+            else:
+                setattr(*entry)
+
+
+def nearness(mutant: Mutant, loaded: dict[str, Loaded]) -> dict[str, int]:
+    """Which codes are near a mutant: of its function, its module, or what imports its module."""
+    near: dict[str, int] = {}
+    for other in loaded.values():
+        if f"from .{mutant.module} import" in other.source:
+            near |= dict.fromkeys(other.codes_near(0), 2)
+    return near | loaded[mutant.module].codes_near(mutant.line)
+
+
+def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], most: int) -> str:
+    """The case that kills a mutant, or how many cases it survives."""
+    try:
+        patch = Patch(mutant, loaded)
+    except Exception as fault:
+        return f"killed: {type(fault).__name__} where the module is read"
+    ran = 0
+    try:
+        near = nearness(mutant, loaded)
+        chosen = [case for case in cases if not patch.blocks.isdisjoint(case.blocks)]
+        chosen.sort(key=lambda case: (near.get(case.code, 3), case.seconds))
+        CHANGED.update(patch.blocks)
+        for case in chosen[:most]:
+            ran += 1
+            seconds = max(LEAST_SECONDS, TIMES_SLOWER * case.seconds)
+            if says_of(case, loaded, seconds) != case.says:
+                return f"killed: {case.name}"
+        return f"survived: {ran} of {len(chosen)} cases"
+    finally:
+        patch.revert()
+        CHANGED.clear()
+        FRESH.clear()
+
+
+def worker(
+    share: int, jobs: int, mutants: Any, cases: Any, loaded: Any, most: int, out: str
+) -> None:
+    with open(f"{out}.{share}", "w", encoding="utf-8") as file:
+        for number, mutant in enumerate(mutants):
+            if number % jobs != share:
+                continue
+            result = try_mutant(mutant, cases, loaded, most)
+            line = loaded[mutant.module].source.split("\n")[mutant.line - 1].strip()
+            row = [number, mutant.module, mutant.line, mutant.kind, result, line]
+            file.write(json.dumps(row) + "\n")
+            file.flush()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("suite")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", default="", help="modules whose names begin so, by commas")
+    parser.add_argument("--cases", default="", help="cases whose names begin so, by commas")
+    parser.add_argument("--most", type=int, default=10_000, help="cases for each mutant")
+    parser.add_argument("--again", default="", help="results of which the survivors alone run")
+    parser.add_argument("--every", type=int, default=1, help="each n-th mutant alone")
+    parser.add_argument("--out", default="mutants.jsonl")
+    arguments = parser.parse_args()
+    loaded = load_package()
+    cases = load_cases(arguments.suite, loaded, tuple(arguments.cases.split(",")))
+    print(f"{len(cases)} cases", flush=True)
+    run_baseline(cases, loaded)
+    print(f"judged in {sum(case.seconds for case in cases):.0f} s", flush=True)
+    names = tuple(arguments.only.split(","))
+    mutants = [m for one in loaded.values() if one.name.startswith(names) for m in mutants_of(one)]
+    mutants = mutants[:: arguments.every]
+    if arguments.again:
+        with open(arguments.again, encoding="utf-8") as file:
+            rows = [json.loads(line) for line in file]
+        left = {tuple(row[1:4]) for row in rows if row[4].startswith("survived")}
+        mutants = [m for m in mutants if (m.module, m.line, m.kind) in left]
+    print(f"{len(mutants)} mutants", flush=True)
+    shares = [
+        multiprocessing.get_context("fork").Process(
+            target=worker,
+            args=(n, arguments.jobs, mutants, cases, loaded, arguments.most, arguments.out),
+        )
+        for n in range(arguments.jobs)
+    ]
+    for share in shares:
+        share.start()
+    for share in shares:
+        share.join()
+    report(arguments.out, arguments.jobs)
+    return 0
+
+
+def report(out: str, jobs: int) -> None:
+    """Puts the shares together, and names the survivors."""
+    rows = []
+    for share in range(jobs):
+        with open(f"{out}.{share}", encoding="utf-8") as file:
+            rows += [json.loads(line) for line in file]
+        os.remove(f"{out}.{share}")
+    rows.sort()
+    with open(out, "w", encoding="utf-8") as file:
+        file.writelines(json.dumps(row) + "\n" for row in rows)
+    survivors = [row for row in rows if row[4].startswith("survived")]
+    for _, module, line, kind, result, text in survivors:
+        print(f"{module}.py:{line}: {kind}: {text} ({result})")
+    print(f"{len(rows)} mutants, {len(rows) - len(survivors)} killed, {len(survivors)} survived")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

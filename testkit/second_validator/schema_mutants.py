@@ -1,0 +1,120 @@
+"""Switches off each keyword of the schemas of version 1 in turn, as `mutants.py` does with code.
+
+python3 testkit/second_validator/schema_mutants.py SUITE [--out FILE]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+from instrument import CHANGED, FRESH, HITS, load_package  # noqa: E402
+from mutants import Case, load_cases, run_baseline, says_of  # noqa: E402
+
+REMOVED = ("type", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems")
+REMOVED += ("additionalProperties", "patternProperties", "$ref", "anyOf", "oneOf", "allOf")
+OFF_BY_ONE = {"minimum": -1, "maximum": 1, "minItems": -1, "maxItems": 1}
+SECONDS = 60.0
+FEW = 3
+
+
+def mutations(schema: Any, place: str) -> Iterator[tuple[str, str, Callable[[], None], Any]]:
+    """Place, kind, the change and what undoes it, for each keyword in a schema."""
+    if isinstance(schema, list):
+        for number, inner in enumerate(schema):
+            yield from mutations(inner, f"{place}/{number}")
+        return
+    if not isinstance(schema, dict):
+        return
+    for key in REMOVED:
+        if key in schema:
+            value = schema[key]
+            restore = _setter(schema, key, value)
+            yield f"{place}/{key}", "left out", _remover(schema, key), restore
+            if key in OFF_BY_ONE:
+                change = _setter(schema, key, value + OFF_BY_ONE[key])
+                yield f"{place}/{key}", "off by one", change, restore
+    for key in ("required", "enum", "anyOf", "oneOf"):
+        for number in range(len(schema.get(key, []))):
+            whole = schema[key]
+            rest = whole[:number] + whole[number + 1 :]
+            name = whole[number] if key == "required" else number
+            change = _setter(schema, key, rest)
+            yield f"{place}/{key}/{name}", "left out", change, _setter(schema, key, whole)
+    for key in ("properties", "$defs"):
+        for name, inner in schema.get(key, {}).items():
+            yield from mutations(inner, f"{place}/{key}/{name}")
+    for key in ("items", "anyOf", "oneOf", "allOf"):
+        if key in schema:
+            yield from mutations(schema[key], f"{place}/{key}")
+
+
+def _setter(schema: dict[str, Any], key: str, value: Any) -> Callable[[], None]:
+    return lambda: schema.__setitem__(key, value)
+
+
+def _remover(schema: dict[str, Any], key: str) -> Callable[[], None]:
+    return lambda: schema.pop(key, None)
+
+
+def order(case: Case) -> tuple[bool, float]:
+    """Cases about schemas first, then those that take little time."""
+    return not case.rejected_by_schema, case.seconds  # type: ignore[attr-defined]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("suite")
+    parser.add_argument("--cases", default="", help="cases whose names begin so, by commas")
+    parser.add_argument("--out", default="schema_mutants.jsonl")
+    arguments = parser.parse_args()
+    loaded = load_package()
+    schemas = loaded["schema"].module
+    published = schemas.published
+
+    def noted(name: str, version: str) -> Any:
+        HITS.blocks.add(f"schema of {name}")  # type: ignore[arg-type]
+        return published(name, version)
+
+    schemas.published = noted
+    cases = load_cases(arguments.suite, loaded, tuple(arguments.cases.split(",")))
+    run_baseline(cases, loaded)
+    for case in cases:
+        found = loaded["validator"].module.judge_tree(case.tree).codes()
+        case.rejected_by_schema = "SCH001" in found or "DIR030" in found  # type: ignore[attr-defined]
+    rows = []
+    for name in ["root_metadata", *loaded["modules"].module.TABLE]:
+        block = f"schema of {name}"
+        chosen = sorted((case for case in cases if block in case.blocks), key=order)
+        about = len([case for case in chosen if not order(case)[0]])
+        for place, kind, change, restore in mutations(published(name, "1.0.0"), ""):
+            change()
+            CHANGED.add(block)  # type: ignore[arg-type]
+            killers = (
+                case
+                for case in chosen[: about + FEW]
+                if says_of(case, loaded, SECONDS) != case.says
+            )
+            killer = next(killers, None)
+            restore()
+            CHANGED.clear()
+            FRESH.clear()
+            rows.append([name, place, kind, killer.name if killer else "survived"])
+            with open(arguments.out, "a", encoding="utf-8") as file:
+                file.write(json.dumps(rows[-1]) + "\n")
+    survivors = [row for row in rows if row[3] == "survived"]
+    for row in survivors:
+        print(*row)
+    print(f"{len(rows)} mutants, {len(rows) - len(survivors)} killed, {len(survivors)} survived")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

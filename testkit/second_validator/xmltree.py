@@ -1,0 +1,199 @@
+"""Reading XML with places in the file: well-formed, with namespaces, without entities (6.1.8)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+MAX_BYTES = 64 * 1024 * 1024
+MAX_DEPTH = 256
+MAX_ELEMENTS = 500_000
+MAX_ATTRIBUTES = 256
+MAX_PREFIXES = 64
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+DECLARATION = re.compile(rb"<\?xml(?=[ \t\r\n])([^?>]*)\?>")
+VERSION = re.compile(rb"""[ \t\r\n]version[ \t\r\n]*=[ \t\r\n]*["']1\.[0-9]+["']""")
+ENCODING = re.compile(rb"""[ \t\r\n]encoding[ \t\r\n]*=[ \t\r\n]*["']([^"']*)["']""")
+LITERAL = re.compile(rb"<!--.*?-->|<\?.*?\?>|\"[^\"]*\"|'[^']*'", re.DOTALL)
+PARAMETER = re.compile(rb"%[^ \t\r\n;%&\"']+;")
+START_TAG = re.compile(rb"""<(?:[^"'>]|"[^"]*"|'[^']*')*>""")
+XML_NAMESPACE = "http://www.w3.org/XML/1998/namespace"
+XMLNS_NAMESPACE = "http://www.w3.org/2000/xmlns/"
+
+
+class NotXml(Exception):
+    """A text that is not XML, or that 6.1.8 does not allow."""
+
+
+@dataclass
+class Element:
+    """An element with its place in the file, in bytes."""
+
+    name: str
+    attributes: dict[str, str]
+    start: int
+    end: int = 0
+    children: list[Element] = field(default_factory=list)
+    text: str = ""
+
+    def all(self, *names: str) -> list[Element]:
+        return [child for child in self.children if child.name in names]
+
+    def first(self, *names: str) -> Element | None:
+        """The one that counts (6.1.8)."""
+        found = self.all(*names)
+        return found[0] if found else None
+
+
+@dataclass
+class Limits:
+    """How much a file may have."""
+
+    depth: int = MAX_DEPTH
+    elements: int = MAX_ELEMENTS
+    attributes: int = MAX_ATTRIBUTES
+    prefixes: int = MAX_PREFIXES
+
+
+def check_name(name: str) -> None:
+    """Namespaces in XML: at most one colon, with something on both sides."""
+    if name.count(":") > 1 or name.startswith(":") or name.endswith(":"):
+        raise NotXml
+
+
+class Builder:
+    """Handlers of expat that build the tree."""
+
+    def __init__(self, data: bytes, limits: Limits) -> None:
+        self.data = data
+        self.limits = limits
+        self.stack: list[Element] = []
+        self.scopes: list[dict[str, str]] = [{"xml": XML_NAMESPACE}]
+        self.prefixes: set[str] = set()
+        self.count = 0
+        self.root: Element | None = None
+        self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.finish
+        self.parser.CharacterDataHandler = self.characters
+        self.parser.ProcessingInstructionHandler = self.instruction
+
+    def instruction(self, target: str, _: str) -> None:
+        if ":" in target:
+            raise NotXml
+
+    def declare(self, attributes: dict[str, str]) -> dict[str, str]:
+        """The prefixes that hold inside an element."""
+        scope = dict(self.scopes[-1])
+        for key, value in attributes.items():
+            if key == "xmlns" and value in (XML_NAMESPACE, XMLNS_NAMESPACE):
+                raise NotXml
+            if not key.startswith("xmlns:"):
+                continue
+            prefix = key[len("xmlns:") :]
+            self.prefixes.add(prefix)
+            if not value or prefix == "xmlns" or value == XMLNS_NAMESPACE:
+                raise NotXml
+            if (prefix == "xml") != (value == XML_NAMESPACE):
+                raise NotXml
+            scope[prefix] = value
+        return scope
+
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        self.count += 1
+        scope = self.declare(attributes)
+        too_many = self.count > self.limits.elements or len(self.prefixes) > self.limits.prefixes
+        too_large = len(attributes) > self.limits.attributes
+        if too_many or too_large or len(self.stack) >= self.limits.depth:
+            raise NotXml
+        expanded = set()
+        for key in [name, *attributes]:
+            check_name(key)
+            prefix, _, local = key.rpartition(":")
+            if prefix == "xmlns" and key != name:
+                continue
+            if prefix and prefix not in scope:
+                raise NotXml
+            if prefix and key != name:
+                if (scope[prefix], local) in expanded:
+                    raise NotXml
+                expanded.add((scope[prefix], local))
+        self.scopes.append(scope)
+        element = Element(name, attributes, self.parser.CurrentByteIndex)
+        if self.stack:
+            self.stack[-1].children.append(element)
+        else:
+            self.root = element
+        self.stack.append(element)
+
+    def finish(self, _: str) -> None:
+        element = self.stack.pop()
+        self.scopes.pop()
+        tag = START_TAG.match(self.data, element.start)
+        if tag and tag[0].endswith(b"/>"):
+            element.end = tag.end()
+        else:
+            element.end = self.data.index(b">", self.parser.CurrentByteIndex) + 1
+
+    def characters(self, text: str) -> None:
+        self.stack[-1].text += text
+
+
+def blank_doctype(data: bytes) -> bytes:
+    """The text with spaces in place of a DOCTYPE, which has no effect (6.1.8)."""
+    places: list[int] = []
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = lambda *_: places.append(parser.CurrentByteIndex)
+    parser.EndDoctypeDeclHandler = lambda: places.append(parser.CurrentByteIndex)
+    parser.Parse(data, True)
+    if not places:
+        return data
+    start = data.index(b"<!DOCTYPE")
+    end = places[-1] + 1
+    inside = data[start:end]
+    bracket = LITERAL.sub(b"", inside)
+    if b"<!ENTITY" in bracket or PARAMETER.search(bracket):
+        raise NotXml
+    subset = inside[inside.find(b"[") :] if b"[" in inside else b""
+    for literal in LITERAL.findall(subset):
+        if literal[:1] in b"\"'" and b">" in literal:
+            raise NotXml
+    return data[:start] + b" " * len(inside) + data[end:]
+
+
+def parse(data: bytes, limits: Limits) -> Element:
+    """The root of the tree. Raises NotXml."""
+    builder = Builder(data, limits)
+    try:
+        builder.parser.Parse(data, True)
+    except expat.ExpatError as fault:
+        raise NotXml from fault
+    if builder.root is None:
+        raise NotXml
+    return builder.root
+
+
+def read_xml(data: bytes) -> Element:
+    """The tree of a URDF's text (6.1.8). Raises NotXml."""
+    if len(data) > MAX_BYTES:
+        raise NotXml
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError as fault:
+        raise NotXml from fault
+    start = len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
+    declaration = DECLARATION.match(data, start)
+    if declaration:
+        encoding = ENCODING.search(declaration[1])
+        if not VERSION.match(declaration[1]):
+            raise NotXml
+        if encoding and not re.fullmatch(rb"utf-?8", encoding[1], re.IGNORECASE):
+            raise NotXml
+        unnamed = ENCODING.sub(lambda match: b" " * len(match[0]), declaration[0])
+        data = data[:start] + unnamed + data[declaration.end() :]
+    try:
+        return parse(blank_doctype(data), Limits())
+    except expat.ExpatError as fault:
+        raise NotXml from fault
