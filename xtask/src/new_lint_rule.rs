@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::new_rule::{CODES, add_code, check_new, next_version, register, severity};
+use crate::new_rule::{CODES, add_code, check_name, check_new, next_version, register, severity};
 use crate::source::Edits;
 
 pub const RULES: &str = "crates/urdd-lint/src/rules";
@@ -15,7 +15,7 @@ const EVIDENCE: &str = "benches/evaluation/lint/evidence.md";
 /// # Errors
 /// If the code or the name is invalid, or the source does not have the expected form.
 pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<String, String> {
-    check_new(root, RULES, name)?;
+    check_name(name)?;
     let severity = severity(severity_word)?;
     let mut edits = Edits::new(root);
     let candidates = edits.read(EVIDENCE)?;
@@ -23,6 +23,7 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
         candidates.lines().filter_map(|line| line.strip_prefix("## LNT")?.get(..3)?.parse().ok());
     let least = candidates.max().unwrap_or(0) + 1;
     edits.set(CODES, add_code(&edits.read(CODES)?, code, least)?);
+    check_new(root, RULES, name)?;
     let module = name.replace('-', "_");
     edits.create(
         &format!("{RULES}/{module}.rs"),

@@ -37,7 +37,7 @@ pub struct NewRule<'a> {
 pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let (code, name) = (new.code, new.name);
     let family = family(code)?;
-    check_new(root, RULES, name)?;
+    check_name(name)?;
     let clause = new.clause.unwrap_or("TODO");
     let severity = severity(new.severity)?;
     let mut edits = Edits::new(root);
@@ -57,6 +57,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         }
     };
     edits.set(CODES, add_code(&edits.read(CODES)?, code, 1)?);
+    check_new(root, RULES, name)?;
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
     // If the module is as scaffolded, the rule can already read the values.
@@ -152,9 +153,8 @@ fn family(code: &str) -> Result<&str, String> {
     }
 }
 
-/// Checks the name of a rule that is not in a folder of rules yet.
+/// Checks that no rule in a folder of rules has a name.
 pub fn check_new(root: &Path, rules: &str, name: &str) -> Result<(), String> {
-    check_name(name)?;
     let declared = format!(" \"{name}\", ");
     for path in files(root, &[rules]) {
         if fs::read_to_string(&path).is_ok_and(|text| text.contains(&declared)) {
@@ -164,7 +164,7 @@ pub fn check_new(root: &Path, rules: &str, name: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn check_name(name: &str) -> Result<(), String> {
+pub fn check_name(name: &str) -> Result<(), String> {
     let word = |word: &str| {
         !word.is_empty()
             && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
