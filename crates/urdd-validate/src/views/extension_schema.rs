@@ -1,6 +1,7 @@
 //! The schema of an extension: used without opening other files, and only if it takes little work. It is as untrusted
 //! as the rest of the URDD.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use jsonschema::error::ValidationErrorKind;
@@ -8,6 +9,7 @@ use jsonschema::{ValidationError, ValidationOptions, Validator};
 use serde_json::Value;
 
 use super::annotated::{self, Counts, Judged};
+use super::pattern;
 use super::schema_work::{affordable_work, schemas_in};
 use urdd_directory::json;
 use urdd_directory::root::ReadError;
@@ -103,9 +105,9 @@ pub fn violations(
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {
-            true => places(&first, judged).into_iter().take(1).collect(),
+            true => places(&first, schema, judged).into_iter().take(1).collect(),
             false => (validator.iter_errors(document))
-                .flat_map(|error| places(&error, judged))
+                .flat_map(|error| places(&error, schema, judged))
                 .take(limit)
                 .collect(),
         };
@@ -115,15 +117,25 @@ pub fn violations(
 
 /// Pointers and messages of a violation. Where no alternative of a choice fits, and all that is wrong in one of them
 /// are annotations, they are those.
-fn places(error: &ValidationError<'_>, judged: Option<Judged>) -> Vec<(String, String)> {
+fn places(
+    error: &ValidationError<'_>,
+    schema: &Value,
+    judged: Option<Judged>,
+) -> Vec<(String, String)> {
     if let ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } =
         error.kind()
         && let Some(nearest) = context.iter().find(|errors| are_annotations(errors))
     {
         let nearest = nearest.iter();
-        return nearest.flat_map(|error| places(error, judged)).collect();
+        return nearest.flat_map(|error| places(error, schema, judged)).collect();
     }
-    let mut message: String = error.masked().to_string().chars().take(200).collect();
+    let is_pattern = matches!(error.kind(), ValidationErrorKind::Pattern { .. });
+    let written = schema.pointer(error.schema_path().as_str()).filter(|_| is_pattern);
+    let message = match written {
+        Some(pattern) => format!("value does not match {pattern}"),
+        None => error.masked().to_string(),
+    };
+    let mut message: String = message.chars().take(200).collect();
     if let Some(judged) = judged.filter(|_| !is_annotation(error)) {
         // Of a keyword around it, such as `contains`.
         message = format!("`{}` of schema.json is not met: {message}", judged.keyword());
@@ -164,7 +176,7 @@ fn options<'i>() -> ValidationOptions<'i> {
 }
 
 fn compile(options: ValidationOptions<'_>, schema: &Value) -> Result<Validator, SchemaFault> {
-    options.build(schema).map_err(|error| SchemaFault {
+    options.build(&with_patterns_of_the_library(schema)).map_err(|error| SchemaFault {
         pointer: error.instance_path().to_string(),
         message: error.to_string().chars().take(300).collect(),
     })
@@ -195,12 +207,66 @@ pub struct SchemaFault {
     pub message: String,
 }
 
-/// References that leave the schema's own file, constructs that would make references ambiguous, and annotations that
-/// are not defined.
+/// All schemas in a schema, itself first, with their pointers. Each comes before those inside it.
+fn parts(schema: &Value) -> Vec<(String, &Value)> {
+    let mut parts = vec![(String::new(), schema)];
+    let mut next = 0;
+    while let Some((pointer, schema)) = parts.get(next).cloned() {
+        next += 1;
+        parts.extend(
+            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
+        );
+        let definitions = schema.get("$defs").and_then(Value::as_object);
+        parts.extend(
+            definitions
+                .into_iter()
+                .flatten()
+                .map(|(name, schema)| (format!("{pointer}/$defs/{}", escaped(name)), schema)),
+        );
+    }
+    parts
+}
+
+/// A key as a part of a JSON Pointer.
+fn escaped(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
+}
+
+/// The patterns of a schema, not those in it, with their pointers behind its own.
+fn patterns(schema: &Value) -> impl Iterator<Item = (String, &str)> {
+    let one = schema.get("pattern").and_then(Value::as_str);
+    let keys = schema.get("patternProperties").and_then(Value::as_object);
+    let keys = keys.into_iter().flat_map(|keys| keys.keys());
+    let keys = keys.map(|key| (format!("/patternProperties/{}", escaped(key)), key.as_str()));
+    one.into_iter().map(|one| ("/pattern".to_owned(), one)).chain(keys)
+}
+
+/// The schema with patterns that the library reads as JavaScript reads those that are there.
+fn with_patterns_of_the_library(schema: &Value) -> Cow<'_, Value> {
+    let mut all = Cow::Borrowed(schema);
+    // Those inside first: the pointers to them have the patterns as they were.
+    for (pointer, part) in parts(schema).iter().rev() {
+        for (_, old) in patterns(part) {
+            let Ok(Cow::Owned(new)) = pattern::in_words_of_the_library(old) else { continue };
+            let Some(Value::Object(part)) = all.to_mut().pointer_mut(pointer) else { continue };
+            if part.get("pattern").and_then(Value::as_str) == Some(old) {
+                part.insert("pattern".to_owned(), new.clone().into());
+            }
+            if let Some(Value::Object(keys)) = part.get_mut("patternProperties")
+                && let Some(value) = keys.remove(old)
+            {
+                keys.insert(new, value);
+            }
+        }
+    }
+    all
+}
+
+/// References that leave the schema's own file, constructs that would make references ambiguous, annotations that are not
+/// defined, and texts that are no patterns.
 pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
     let mut faults = Vec::new();
-    let mut open = vec![(String::new(), schema)];
-    while let Some((pointer, schema)) = open.pop() {
+    for (pointer, schema) in parts(schema) {
         for key in ["$ref", "$dynamicRef"] {
             if let Some(target) = schema.get(key).and_then(Value::as_str)
                 && !target.starts_with('#')
@@ -226,13 +292,16 @@ pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
                 message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
             });
         }
-        open.extend(
-            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
-        );
-        let definitions = schema.get("$defs").and_then(Value::as_object);
-        for (name, schema) in definitions.into_iter().flatten() {
-            let name = name.replace('~', "~0").replace('/', "~1");
-            open.push((format!("{pointer}/$defs/{name}"), schema));
+        for (inner, text) in patterns(schema) {
+            if let Err(why) = pattern::in_words_of_the_library(text) {
+                let shown: String = text.chars().take(80).collect();
+                faults.push(SchemaFault {
+                    pointer: format!("{pointer}{inner}"),
+                    message: format!(
+                        "`{shown}` is no pattern of JavaScript in Unicode mode: {why}"
+                    ),
+                });
+            }
         }
     }
     faults.sort_by(|a, b| a.pointer.cmp(&b.pointer));

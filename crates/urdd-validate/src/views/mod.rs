@@ -5,6 +5,7 @@ pub mod enclosure;
 pub mod extension_schema;
 pub mod judged;
 pub mod lists;
+mod pattern;
 pub mod schema_work;
 pub mod shared_meshes;
 pub mod tangled;

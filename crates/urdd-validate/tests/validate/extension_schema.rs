@@ -123,3 +123,99 @@ fn long_texts_and_lists_of_values_count_as_work() {
     assert!(message(&schema, &document).is_some());
     assert_eq!(message(&schema, &json!([object(3)])), None);
 }
+
+/// Verdicts of Node.js 20, `new RegExp(pattern, "u")`.
+#[test]
+fn patterns_are_those_of_javascript_in_unicode_mode() {
+    let right = [
+        "^$",
+        "a|",
+        "[]",
+        "[^]",
+        "[-a]",
+        "[a-]",
+        "[\\w-]",
+        "[[]",
+        "[a&&b]",
+        "[!--b]",
+        "[\\b]",
+        "[\\-]",
+        "\\0",
+        "\\cA",
+        "\\/",
+        "\\x41",
+        "\\u{1F916}",
+        "\\ud83e\\udd16",
+        "\\p{Lu}",
+        "(?<n>a)",
+        "a{2}",
+        "a{2,}",
+        "a{2,3}?",
+        "a??",
+        "é",
+    ];
+    let wrong = [
+        "*",
+        "a**",
+        "a{2}{2}",
+        "^*",
+        "\\b+",
+        "]",
+        "}",
+        "{",
+        "a{",
+        "a{,2}",
+        "a{3,2}",
+        "\\-",
+        "\\e",
+        "\\_",
+        "\\ ",
+        "\\é",
+        "\\01",
+        "\\c1",
+        "\\x4",
+        "\\u00",
+        "\\u{110000}",
+        "\\pL",
+        "[\\B]",
+        "[\\d-z]",
+        "[a-\\d]",
+        "[z-a]",
+        "[",
+        "(?i)a",
+        "(?x:a)",
+        "\\",
+    ];
+    for (patterns, is_one) in [(&right[..], true), (&wrong[..], false)] {
+        for pattern in patterns {
+            for schema in
+                [json!({"pattern": pattern}), json!({"patternProperties": {*pattern: true}})]
+            {
+                assert_eq!(faults(&schema, None).is_empty(), is_one, "{schema}");
+            }
+        }
+    }
+    for (pattern, text, matches) in [
+        ("^.$", "\u{2028}", false),
+        ("^.$", "\r", false),
+        ("^.$", "\u{85}", true),
+        ("^[^]$", "\n", true),
+        ("[]", "a", false),
+        ("^\\ud83e\\udd16$", "\u{1F916}", true),
+        ("\\bé", "é", false),
+        ("^\\cA$", "\u{1}", true),
+        ("^[\\b]$", "\u{8}", true),
+        ("^\\s$", "\u{feff}", true),
+        ("^\\d$", "\u{663}", false),
+    ] {
+        let found = violations(&json!({"pattern": pattern}), &json!(text), None, 1).found;
+        assert_eq!(found.is_empty(), matches, "{pattern} {text:?}");
+        let schema = json!({"patternProperties": {pattern: false}});
+        let found = violations(&schema, &json!({text: 1}), None, 1).found;
+        assert_eq!(!found.is_empty(), matches, "{pattern} {text:?}");
+    }
+    // The pattern is shown as it is written.
+    let schema = json!({"properties": {"a": {"pattern": "^.$"}}});
+    let found = violations(&schema, &json!({"a": "ab"}), None, 1).found;
+    assert_eq!(found, [("/a".to_owned(), "value does not match \"^.$\"".to_owned())]);
+}

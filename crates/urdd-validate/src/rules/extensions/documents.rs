@@ -14,7 +14,8 @@ declare_rule! {
     /// opened, so every `$ref` begins with `#`, and only the schema itself may have an `$id`. A
     /// schema is refused where it takes too much work to evaluate, and where a pattern has
     /// lookaround (`(?=`, `(?!`, `(?<=`, `(?<!`) or refers back to a group (`\1`): such patterns
-    /// can take time without end.
+    /// can take time without end. Patterns are those of JavaScript in Unicode mode, which has no
+    /// backslash before what needs none, and nothing repeated twice.
     ///
     /// Put a `schema.json` beside the extension's `module.json`. A schema that allows everything is
     /// `true`.
