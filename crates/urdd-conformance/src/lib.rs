@@ -13,6 +13,7 @@ pub mod change;
 pub mod data;
 pub mod export;
 pub mod judge;
+mod plan;
 mod printed_codes;
 pub mod process;
 pub mod producer;

@@ -7,10 +7,10 @@ use serde::Serialize;
 use crate::case::{Kind, Verdict};
 use crate::catalogue::Item;
 use crate::data::UNREADABLE;
+use crate::plan::Plan;
 use crate::printed_codes;
 use crate::process::{End, Ran};
 use crate::skips::Skip;
-use crate::validator::Plan;
 use urdd_format::conformance::{
     CaseFault, CaseScore, GroupScore, UnreadableCase, UnreadableFault, UnreadableScore,
     ValidatorResult, WrongCase,

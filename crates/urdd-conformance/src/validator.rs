@@ -3,11 +3,7 @@
 //! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects, 2 (or an agreed status) says that
 //! nothing can be read as a URDD. Any other is not a verdict.
 
-use std::path::PathBuf;
-use std::time::Duration;
-
 use rayon::prelude::*;
-use semver::Version;
 use serde::Serialize;
 
 use crate::batch::Batch;
@@ -15,50 +11,18 @@ use crate::case::{Case, Verdict};
 use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
-use crate::process::{Ran, Template};
+pub use crate::plan::Plan;
+use crate::process::Ran;
 use crate::running::{Result, RunError, Workplace, relative, with_threads};
 pub use crate::score::Fault;
 use crate::score::{covers, fault, is_legacy, looks_crashed, scored};
-use crate::skips::{self, Skip};
+use crate::skips;
 use crate::suite::Suite;
 use crate::tree::{TreeError, remove_folder};
 use crate::valid;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_format::conformance::{ValidatorProfile, ValidatorResult};
+use urdd_directory::cancellation::Cancelled;
+use urdd_format::conformance::ValidatorResult;
 use urdd_validate::code::Code;
-
-/// Settings of a validator run.
-#[derive(Debug, Clone)]
-pub struct Plan {
-    /// The command, with `{dir}` unless it is a batch.
-    pub command: Template,
-    /// Whether a process of the command judges many URDDs.
-    pub is_batch: bool,
-    /// The version of the specification that the validator implements.
-    pub spec_version: Version,
-    /// Time limit per URDD.
-    pub limit: Duration,
-    /// Known failures: a case, or all cases of a code or a family.
-    pub skips: Vec<Skip>,
-    /// Id prefixes of the cases to run; empty for all.
-    pub only: Vec<String>,
-    /// Whether to include legacy URDDs.
-    pub legacy: bool,
-    /// Whether to include cases about what cannot be read.
-    pub unreadable: bool,
-    /// The profile of the validator: only cases that it can decide are run; `None` for a whole one.
-    pub profile: Option<ValidatorProfile>,
-    /// The exit status for rejection.
-    pub reject_status: i32,
-    /// The exit status for what cannot be read; `None` for 2, where rejecting it is good enough too.
-    pub unreadable_status: Option<i32>,
-    /// Number of URDDs to judge in parallel; `None` for the number of processors.
-    pub jobs: Option<usize>,
-    /// A new folder that keeps the URDDs; `None` for a temporary one.
-    pub keep: Option<PathBuf>,
-    /// Cancels the run, with all running commands and their child processes.
-    pub cancellation: Cancellation,
-}
 
 /// The result for one URDD, reported while others are still running.
 #[derive(Debug, Clone, Serialize)]

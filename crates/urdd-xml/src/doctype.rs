@@ -1,7 +1,7 @@
 //! The grammar of a document type declaration (XML 1.0, productions 28, 45 to 60 and 75 to 83), which the parser skips.
 //! Entities are refused elsewhere, so no reference to one can be right here.
 
-use super::strict::{is_character, is_character_number, is_qualified};
+use super::characters::{is_character, is_character_number, is_qualified};
 
 const HEAD: &str = "the document type (`<!DOCTYPE`) is not well-formed; remove it";
 const INSIDE: &str =

@@ -10,6 +10,7 @@
 //! No other crate depends on `roxmltree` (`tests/program/parsers.rs`). Readers with parsers of their own take a
 //! [`Counted`].
 
+mod characters;
 mod count;
 mod doctype;
 mod document;
@@ -28,6 +29,7 @@ pub mod vocabulary;
 pub mod writer;
 mod xml;
 
+pub use characters::is_character;
 pub use document::{Counted, Document, parse};
 pub use error::XmlError;
 pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
@@ -35,5 +37,5 @@ pub use markup::root_name;
 pub use mended::{Mended, parse_leniently};
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};
-pub use strict::{is_character, wrong_version};
+pub use strict::wrong_version;
 pub use xml::Xml;

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::characters::{is_character_number, is_qualified};
 use super::doctype;
 use super::error::XmlError;
 use super::markup::{self, MarkupKind};
@@ -105,10 +106,6 @@ fn tag(text: &str) -> Option<Found> {
     }
 }
 
-pub(super) fn is_qualified(name: &str) -> bool {
-    !name.starts_with(':') && !name.ends_with(':') && name.matches(':').count() <= 1
-}
-
 /// The first reference to what is no character of XML; `start` is the text's offset.
 fn references(text: &str, start: usize) -> Option<Found> {
     for (at, _) in text.match_indices("&#") {
@@ -124,21 +121,6 @@ fn references(text: &str, start: usize) -> Option<Found> {
         }
     }
     None
-}
-
-/// Whether `&#…;` with this between its marks is a reference to a character of XML.
-pub(super) fn is_character_number(digits: &str) -> bool {
-    let number = match digits.strip_prefix('x') {
-        Some(digits) => u32::from_str_radix(digits, 16),
-        None => digits.parse(),
-    };
-    let is_signed = digits.contains('+');
-    !is_signed && number.ok().and_then(char::from_u32).is_some_and(is_character)
-}
-
-/// Whether XML 1.0 allows a character (production 2).
-pub fn is_character(c: char) -> bool {
-    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
 /// Checks that the declaration, if present, names a version 1.x and no encoding other than UTF-8. The parser accepts
