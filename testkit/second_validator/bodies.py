@@ -9,7 +9,7 @@ from typing import Any
 
 from .geometry import Point
 from .kinematics import Pose
-from .numbers import add, cross, distance, dot, from_rpy, norm, scaled, sub, transposed, turned
+from .numeric import add, cross, distance, dot, from_rpy, norm, scaled, sub, transposed, turned
 
 MAX_STEPS = 100
 NEARLY = 1e-9

@@ -17,7 +17,7 @@ from .faces import (
     Vertex,
     then,
 )
-from .numbers import cross, dot, from_axis_angle, norm, number, scaled, sub
+from .numeric import cross, dot, from_axis_angle, norm, number, scaled, sub
 from .xmltree import Builder, Element, Limits, NotXml
 
 MAX_XML_NODES = 4_000_000  # 13.2

@@ -7,7 +7,7 @@ from typing import Any
 
 from .kinematics import NUM_DOFS, SUFFIXES, WITH_AXIS, Robot, is_mimic
 from .modules import Urdd, file_of
-from .numbers import (
+from .numeric import (
     RELATIVE,
     agree,
     distance,

@@ -20,7 +20,7 @@ from .geometry import (
 from .mesh import format_of
 from .mesh_rules import LISTS, Elements
 from .modules import Urdd, file_of
-from .numbers import add, distance, dot, scaled
+from .numeric import add, distance, dot, scaled
 from .original_rules import read_original
 from .plain import MeshElement, PlainCheck
 from .shapes_of_urdf import Shape

@@ -8,7 +8,7 @@ from typing import Any
 from .core_rules import check_bounds, check_chain, check_dofs
 from .kinematics import Robot, named, poses, sampled
 from .modules import Urdd, file_of
-from .numbers import (
+from .numeric import (
     RELATIVE,
     component_agrees,
     distance,

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterable
 
-from .numbers import Vector, add, cross, distance, dot, norm, scaled, sub
+from .numeric import Vector, add, cross, distance, dot, norm, scaled, sub
 
 Point = tuple[float, float, float]
 Triangle = tuple[Point, Point, Point]

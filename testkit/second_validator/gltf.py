@@ -20,7 +20,7 @@ from .faces import (
     then,
 )
 from .jsontext import TextFault, read_json
-from .numbers import from_quaternion
+from .numeric import from_quaternion
 
 Fetch = Callable[[str], bytes | None]
 JSON_CHUNK, BIN_CHUNK = 0x4E4F534A, 0x004E4942

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .numbers import (
+from .numeric import (
     IDENTITY,
     Matrix,
     Vector,

@@ -7,7 +7,7 @@ from typing import Any
 from .bodies import Body, distance_of
 from .kinematics import Pose, Robot, named, poses, sampled
 from .modules import Urdd, file_of
-from .numbers import Matrix, agree, product, sub, transposed, turned
+from .numeric import Matrix, agree, product, sub, transposed, turned
 from .shape_rules import APPROXIMATIONS, Shapes
 
 STATISTICS = "link_shapes_distance_statistics_module"

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from .collada import read_collada
 from .faces import MAX_TRIANGLES, Face, NotMesh, Vertex, triangles_of
 from .gltf import read_glb, read_gltf
-from .numbers import cross, norm, number, sub
+from .numeric import cross, norm, number, sub
 
 FIRST = 64 * 1024
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"

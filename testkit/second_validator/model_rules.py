@@ -12,7 +12,7 @@ from typing import Any
 
 from .kinematics import Robot
 from .modules import Urdd, file_of
-from .numbers import from_rotation_vector
+from .numeric import from_rotation_vector
 from .shape_rules import Shapes
 
 NAME = "self_collision_model_module"

@@ -18,7 +18,7 @@ from .geometry import (
     normal,
 )
 from .kinematics import position_of, rotation_of
-from .numbers import Matrix, add, cross, distance, dot, norm, sub, turned
+from .numeric import Matrix, add, cross, distance, dot, norm, sub, turned
 from .shapes_of_urdf import Shape
 
 TURNS_BACK = -1e-6  # 7.8

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+from fractions import Fraction
 from typing import Any
 
 from .jsontext import read_json
@@ -232,8 +233,6 @@ def number_fits(schema: dict[str, Any], value: float) -> bool:
 
 def is_multiple(value: float, unit: float) -> bool:
     """`multipleOf`, on the decimals that are written."""
-    from fractions import Fraction
-
     return Fraction(repr(value)) % Fraction(repr(unit)) == 0
 
 

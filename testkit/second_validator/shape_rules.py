@@ -8,7 +8,7 @@ from .bodies import Body, box_body, sphere_body
 from .derived_meshes import corners, triangles
 from .geometry import Point
 from .modules import Urdd, file_of
-from .numbers import agree, distance, from_rpy, norm, sub, transposed, turned
+from .numeric import agree, distance, from_rpy, norm, sub, transposed, turned
 
 APPROXIMATIONS = "link_shapes_approximations_module"
 DISTANCES = "link_shapes_max_distance_from_origin_module"

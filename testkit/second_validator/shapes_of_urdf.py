@@ -7,7 +7,7 @@ from typing import Any
 
 from .geometry import Point, Triangle, closest_on_segment, closest_on_triangle, normal
 from .kinematics import position_of, rotation_of
-from .numbers import add, distance, dot, norm, scaled, sub, transposed, turned
+from .numeric import add, distance, dot, norm, scaled, sub, transposed, turned
 
 MAX_SAG = 0.02  # 7.8
 STEPS = 40

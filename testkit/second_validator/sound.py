@@ -28,7 +28,7 @@ from .gltf import (
     split_glb,
 )
 from .mesh import HEADER, RECORD, read_obj
-from .numbers import distance, norm
+from .numeric import distance, norm
 
 NORMAL_TOLERANCE = 1e-3  # 7.6
 EXTENSIONS = ("KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_materials_")

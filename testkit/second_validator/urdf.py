@@ -7,7 +7,7 @@ import math
 import re
 from typing import Any
 
-from .numbers import number
+from .numeric import number
 from .xmltree import Element, NotXml, read_xml
 
 TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .modules import Urdd, file_of
-from .numbers import agree
+from .numeric import agree
 from .urdf import read_urdf
 from .xmltree import NotXml
 
