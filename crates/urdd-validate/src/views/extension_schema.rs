@@ -244,18 +244,25 @@ fn patterns(schema: &Value) -> impl Iterator<Item = (String, &str)> {
 /// The schema with patterns that the library reads as JavaScript reads those that are there.
 fn with_patterns_of_the_library(schema: &Value) -> Cow<'_, Value> {
     let mut all = Cow::Borrowed(schema);
+    let read = pattern::in_words_of_the_library;
+    let in_words = |text: &str| read(text).map_or_else(|_| text.to_owned(), Cow::into_owned);
     // Those inside first: the pointers to them have the patterns as they were.
     for (pointer, part) in parts(schema).iter().rev() {
-        for (_, old) in patterns(part) {
-            let Ok(Cow::Owned(new)) = pattern::in_words_of_the_library(old) else { continue };
-            let Some(Value::Object(part)) = all.to_mut().pointer_mut(pointer) else { continue };
-            if part.get("pattern").and_then(Value::as_str) == Some(old) {
-                part.insert("pattern".to_owned(), new.clone().into());
-            }
-            if let Some(Value::Object(keys)) = part.get_mut("patternProperties")
-                && let Some(value) = keys.remove(old)
-            {
-                keys.insert(new, value);
+        if !patterns(part).any(|(_, text)| matches!(read(text), Ok(Cow::Owned(_)))) {
+            continue;
+        }
+        let Some(Value::Object(part)) = all.to_mut().pointer_mut(pointer) else { continue };
+        if let Some(Value::String(text)) = part.get_mut("pattern") {
+            *text = in_words(text);
+        }
+        if let Some(Value::Object(keys)) = part.get_mut("patternProperties") {
+            for (key, value) in std::mem::take(keys) {
+                let mut key = in_words(&key);
+                // `\x41` and `\u0041` are two keys.
+                while keys.contains_key(&key) {
+                    key = format!("(?:{key})");
+                }
+                keys.insert(key, value);
             }
         }
     }

@@ -214,6 +214,11 @@ fn patterns_are_those_of_javascript_in_unicode_mode() {
         let found = violations(&schema, &json!({text: 1}), None, 1).found;
         assert_eq!(!found.is_empty(), matches, "{pattern} {text:?}");
     }
+    // Two spellings of one pattern are two keys.
+    let schema = json!({"patternProperties": {"^\\x41": true, "^\\u0041": false}});
+    assert_eq!(violations(&schema, &json!({"A": 1}), None, 1).found.len(), 1);
+    let schema = json!({"patternProperties": {"^\\x41": false, "^\\u0041": true}});
+    assert_eq!(violations(&schema, &json!({"A": 1}), None, 1).found.len(), 1);
     // The pattern is shown as it is written.
     let schema = json!({"properties": {"a": {"pattern": "^.$"}}});
     let found = violations(&schema, &json!({"a": "ab"}), None, 1).found;
