@@ -208,6 +208,12 @@ export async function press(page, name) {
   await page.getByRole("button", { name, exact: true }).click();
 }
 
+/** Waits for the whole robot: it takes the place of the partial one that is shown first, and of its report. */
+export async function whole(page, name) {
+  await state(page, "robot", (robot) => robot !== null && robot.entry.making === null);
+  await drawn(page, name);
+}
+
 export async function drawn(page, name) {
   const isDrawn = (name) => {
     const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
