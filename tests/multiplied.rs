@@ -3,7 +3,8 @@
 //! to it together, which measure the work.
 //!
 //! A program of its own, with one test: it counts what all threads allocate. `URDD_TRIALS=625 cargo test --release --test
-//! multiplied -- --nocapture` tries 10,000 and prints the largest.
+//! multiplied -- --nocapture` tries 10,000 and prints the largest; `URDD_FIRST` is the number of the first,
+//! for several processes.
 
 // A test may stop anywhere; an allocator is unsafe.
 #![allow(clippy::restriction, clippy::disallowed_methods, unsafe_code)]
@@ -423,7 +424,8 @@ fn counted(what: impl FnOnce()) -> (usize, usize) {
 #[test]
 fn whatever_multiplies_is_bounded() {
     let mut largest = [(0.0, String::new()), (0.0, String::new())];
-    for trial in 0..u64::from(trials(FEW)) {
+    let first: u64 = std::env::var("URDD_FIRST").map_or(0, |first| first.parse().unwrap());
+    for trial in first..first + u64::from(trials(FEW)) {
         let mut dice = Dice(trial << 20);
         let size = (16 << 10) << dice.below(4);
         let mut draw = Draw { dice, size, said: Vec::new(), files: BTreeMap::new() };

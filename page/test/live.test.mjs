@@ -6,7 +6,7 @@ import { mkdirSync, mkdtempSync, renameSync, rmSync, writeFileSync } from "node:
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { drawn, dropOn, inPage, open, setting, soon, state, tab, view, whole } from "./world.mjs";
+import { drawn, dropOn, inPage, open, setting, soon, state, tab, view } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-live-"));
 after(() => rmSync(folder, { recursive: true, force: true }));
@@ -35,7 +35,7 @@ const height = (page) => page.evaluate(() => globalThis.urdd.stage.scene.bounds(
 const bounds = (page) => page.evaluate(() => globalThis.urdd.app.store.now.robot?.about.dofs[0].bounds);
 
 inPage(set, "a limit and a radius that change on disk are shown, and the view stays", async (page) => {
-  await whole(page, "arm");
+  await drawn(page, "arm");
   await page.click("#tab-Info");
   await page.evaluate(() => {
     globalThis.urdd.app.setDof(0, 0.5);

@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync 
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { drawn, inPage, read, repository, run, setting, state, tab, view, whole } from "./world.mjs";
+import { drawn, inPage, read, repository, run, setting, state, tab, view } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-making-"));
 // A robot of which something has to be assumed, and a package of meshes that is not there.
@@ -24,7 +24,7 @@ inPage(
   set,
   "it is shown when it is made, what was assumed is said, and it is saved where a person says",
   async (page) => {
-    await whole(page, "odd");
+    await drawn(page, "odd");
     const { notes } = (await state(page, "robot")).entry;
     assert.ok(notes.length > 0);
     // The header folds what has no room.

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after } from "node:test";
 import { FAULTY, SOUND } from "./faulty.mjs";
-import { drawn, inPage, run, setting, soon, state, view, whole } from "./world.mjs";
+import { drawn, inPage, run, setting, soon, state, view } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-text-"));
 after(() => rmSync(folder, { recursive: true, force: true }));
@@ -30,7 +30,7 @@ function fixed(text) {
 
 /** Gives the page this text, and someone who lints it anew after each edit. */
 async function draft(page, text, { format = "urdf", path = `arm/${NAME}`, first = report(text) } = {}) {
-  await whole(page, "shown");
+  await drawn(page, "shown");
   await page.exposeFunction("lintText", report);
   await page.evaluate(
     ({ text, format, path, first }) => {

@@ -208,16 +208,15 @@ export async function press(page, name) {
   await page.getByRole("button", { name, exact: true }).click();
 }
 
-/** Waits for the whole robot: it takes the place of the partial one that is shown first, and of its report. */
-export async function whole(page, name) {
-  await state(page, "robot", (robot) => robot !== null && robot.entry.making === null);
-  await drawn(page, name);
-}
-
+/**
+ * Waits for the picture of a robot. A partial one, which is shown while the rest is made, does not count: the whole one takes its
+ * place, and that of its report.
+ */
 export async function drawn(page, name) {
   const isDrawn = (name) => {
     const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
-    return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
+    const isWhole = robot && robot.entry.making === null;
+    return isWhole && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
   };
   try {
     await page.waitForFunction(isDrawn, name, { timeout: 120_000 });

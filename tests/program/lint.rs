@@ -316,6 +316,34 @@ pub mod xacro {
         assert!(text.contains("`left_top`"), "{text}");
     }
 
+    /// The stand-in for xacro makes the SRDF name a link `cap`, unless it is told otherwise.
+    #[test]
+    fn an_srdf_that_is_xacro_takes_the_defaults_of_the_urdf() {
+        let folder = hand("hand");
+        let pair = "<disable_collisions link1='a' link2='cap'/>";
+        let srdf = "<group name='g'><link name='a'/><link name='b'/></group>";
+        let joint = "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>";
+        let script = format!(
+            "#!/bin/sh\ncase \"$*\" in *srdf.xacro*) case \"$*\" in *has_cap:=false) PAIR= ;; *) PAIR=\"{pair}\";; esac; \
+             echo \"<robot name='hand'>{srdf}$PAIR</robot>\";; *) echo \"<robot name='hand'><link name='a'/><link name='b'/>{joint}</robot>\";; esac\n"
+        );
+        write(folder.path(), "bin/xacro", &script);
+        write(folder.path(), "hand/config/hand.srdf.xacro", "<robot name='hand'/>");
+        let said = |declared: &str, words: &[&str]| {
+            let declared = format!("{declared}<link name=\"a\"/>");
+            let urdf = MAIN.replace("<link name=\"a\"/>", &declared);
+            write(folder.path(), "hand/hand.urdf.xacro", &urdf);
+            let all = [&["hand/hand.urdf.xacro", "--xacro"], words].concat();
+            lint(folder.path(), &all)
+        };
+        let with = |default: &str| format!("<xacro:arg name=\"has_cap\" default=\"{default}\"/>");
+        assert!(said("", &[]).contains("`cap`"));
+        assert!(said(&with("true"), &[]).contains("`cap`"));
+        assert!(!said(&with("false"), &[]).contains("`cap`"));
+        // What is given is stronger.
+        assert!(said(&with("false"), &["has_cap:=true"]).contains("`cap`"));
+    }
+
     #[test]
     fn what_xacro_refuses_is_said_as_xacro_says_it() {
         let folder = hand("hand");

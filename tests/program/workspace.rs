@@ -11,6 +11,7 @@ use serde_json::Value;
 use testkit::site::{json, named};
 
 const ROBOT: &str = "<robot name='r'><link name='a'/></robot>";
+const OPEN: &str = "<robot name='c'><link name='c'/><joint name='j' type='fixed'><parent link='a'/><child link='c'/></joint></robot>";
 const XACRO: &str = "xmlns:xacro='http://www.ros.org/wiki/xacro'";
 
 fn put(folder: &Path, path: &str, text: &str) {
@@ -24,10 +25,10 @@ fn robot(content: &str) -> String {
 }
 
 /// Runs the program with a xacro that makes a robot of `robot*.xacro`, a robot without links of `thin.xacro`, one without a
-/// name of `add_on.xacro`, one of `asks.xacro` where the package `far` is found, and fails for anything else.
+/// name of `add_on.xacro`, one with an open end of `camera.xacro`, one of `asks.xacro` where the package `far` is found, and fails for anything else.
 fn urdd(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let script = format!(
-        "#!/bin/sh\nfor it in \"$@\"; do case \"$it\" in */robot*.xacro) echo \"{ROBOT}\"; exit 0;; */thin.xacro) echo \"<robot name='t'><gazebo/></robot>\"; exit 0;; */add_on.xacro) echo \"<robot><link name='a'/></robot>\"; exit 0;; */asks.xacro) IFS=:; for p in $AMENT_PREFIX_PATH; do [ ! -f \"$p/share/far/package.xml\" ] || {{ echo \"{ROBOT}\"; exit 0; }}; done;; esac; done\necho 'error: it failed' >&2; exit 3\n"
+        "#!/bin/sh\nfor it in \"$@\"; do case \"$it\" in */robot*.xacro) echo \"{ROBOT}\"; exit 0;; */thin.xacro) echo \"<robot name='t'><gazebo/></robot>\"; exit 0;; */add_on.xacro) echo \"<robot><link name='a'/></robot>\"; exit 0;; */camera.xacro) echo \"{OPEN}\"; exit 0;; */asks.xacro) IFS=:; for p in $AMENT_PREFIX_PATH; do [ ! -f \"$p/share/far/package.xml\" ] || {{ echo \"{ROBOT}\"; exit 0; }}; done;; esac; done\necho 'error: it failed' >&2; exit 3\n"
     );
     put(folder, "bin/xacro", &script);
     fs::set_permissions(folder.join("bin/xacro"), fs::Permissions::from_mode(0o755)).unwrap();
@@ -139,6 +140,30 @@ fn a_nameless_file_that_another_includes_is_a_part() {
 }
 
 #[test]
+fn a_file_with_open_ends_that_another_includes_is_a_part() {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    package(root);
+    put(root, "ws/src/p/urdf/camera.xacro", &robot("<link name='c'/>"));
+    let lint = ["lint", "--xacro", "ws"];
+    // By itself, a link may have been forgotten.
+    let (status, said, asides) = urdd(root, &lint);
+    assert!(status == Some(1) && said.contains("URD007"), "{said}{asides}");
+    let uses = "<link name='a'/><xacro:include filename='camera.xacro'/>";
+    put(root, "ws/src/p/urdf/robot_two.xacro", &robot(uses));
+    let (status, said, asides) = urdd(root, &lint);
+    assert!(status == Some(0) && asides.contains("4 files define macros"), "{said}{asides}");
+    let make = ["generate", "ws", "-o", "out", "--modules", "core"];
+    let (status, said, asides) = urdd(root, &make);
+    assert!(status == Some(0) && asides.contains("4 files define macros"), "{said}{asides}");
+    // A whole one is a robot, whoever includes it.
+    let uses = "<xacro:include filename='robot.xacro'/>";
+    put(root, "ws/src/p/urdf/robot_three.xacro", &robot(uses));
+    let (_, said, asides) = urdd(root, &lint);
+    assert!(said.contains("3 URDFs"), "{said}{asides}");
+}
+
+#[test]
 fn a_package_of_macros_alone_has_no_finding_and_nothing_to_make() {
     let folder = testkit::temporary::folder();
     put(folder.path(), "p/a.xacro", &robot("<xacro:macro name='a'><link name='a'/></xacro:macro>"));
@@ -151,6 +176,19 @@ fn a_package_of_macros_alone_has_no_finding_and_nothing_to_make() {
     let (status, _, said) = urdd(folder.path(), &["generate", "p", "-o", "out"]);
     assert_eq!(status, Some(2), "{said}");
     assert!(said.contains("there is no robot"), "{said}");
+}
+
+#[test]
+fn a_folder_that_colcon_passes_over_is_named_where_there_is_nothing_else() {
+    let folder = testkit::temporary::folder();
+    let root = folder.path();
+    package(root);
+    put(root, "ws/src/p/CATKIN_IGNORE", "");
+    let (status, _, said) = urdd(root, &["lint", "--xacro", "ws"]);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("`ws/src/p` has a file `CATKIN_IGNORE`; give that folder"), "{said}");
+    let (status, said, asides) = urdd(root, &["lint", "--xacro", "ws/src/p"]);
+    assert_eq!(status, Some(0), "{said}{asides}");
 }
 
 #[test]

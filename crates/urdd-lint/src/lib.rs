@@ -57,7 +57,7 @@ use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_import::import;
-use urdd_source::macros::{has_no_link, has_no_name};
+use urdd_source::macros::{has_no_link, has_no_name, has_open_ends};
 use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
 use urdd_xml::Xml;
@@ -136,7 +136,7 @@ enum Found {
 }
 
 /// Lints a file; `None` for one that turns out to be a part of robots: its expansion has no link; or another file includes it,
-/// and it has no expansion by itself, or one without a name for the robot.
+/// and it has no expansion by itself, or one without a name for the robot, or one that is no whole tree.
 fn lint_file(
     job: &Job,
     found: Found,
@@ -167,7 +167,9 @@ fn lint_file(
                         && match found {
                             Found::Named => false,
                             Found::InFolder => has_no_link(&xml),
-                            Found::Included => has_no_link(&xml) || has_no_name(&xml),
+                            Found::Included => {
+                                has_no_link(&xml) || has_no_name(&xml) || has_open_ends(&xml)
+                            }
                         };
                     let examined = of_source(path, &read, &xml, settings);
                     text = read.trail.is_none().then_some(read.text);

@@ -1,5 +1,6 @@
 //! The SRDFs of a URDF: where they are looked for, and which of them are of its robot.
 
+use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +10,7 @@ use super::srdf_text::Srdf;
 use super::subject::Subject;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
+use urdd_source::arguments::arguments;
 use urdd_source::{Files, Trail, read_source};
 
 /// Maximum number of SRDFs that xacro is run for to find those of a robot.
@@ -30,8 +32,8 @@ struct Candidate {
     has_stem: bool,
 }
 
-/// The SRDFs of the robot: each whose file has the URDF's name, unless its robot has another URDF's beside it; or else the only
-/// one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
+/// The SRDFs of the robot: each whose file has the URDF's name, unless its robot has another URDF's beside it, those of its own
+/// package before others; or else the only one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
 /// URDF's. No other URDF beside this one has its file's name.
 pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
     urdf.srdfs.all.get_or_init(|| read(urdf))
@@ -40,11 +42,13 @@ pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
 fn read(urdf: &Subject) -> Vec<Srdf> {
     let all = candidates(urdf);
     let has_stem = all.iter().any(|one| one.has_stem);
+    let has_own = all.iter().any(|one| one.has_stem && one.is_own);
     let is_urdf = |name: &String| FileType::Urdf.is_of(Path::new(name));
     let is_only_urdf = urdfs(urdf).filter(is_urdf).count() < 2;
     let is_only = all.len() == 1 && is_only_urdf;
     let mut found = all;
     found.retain(|one| match has_stem {
+        true if has_own && !one.is_own => false,
         true => one.has_stem && !names_another(urdf, one) && is_of(urdf, one, true),
         false => !is_of_another_urdf(urdf, &one.path) && is_of(urdf, one, is_only && one.is_own),
     });
@@ -78,7 +82,7 @@ fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
     };
     let root = document.root_element();
     let has_name = root.attribute("name").is_some_and(|found| found.trim() == name);
-    if has_name && one.has_stem {
+    if has_name && one.has_stem && one.is_own {
         return true;
     }
     let known: BTreeSet<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
@@ -127,6 +131,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
     let wanted = stem(Path::new(urdf.file));
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
     let mut expanded = 0;
+    let of_urdf = LazyCell::new(|| defaults(urdf));
     // What xacro makes an SRDF of is named `NAME.srdf.xacro`.
     let is_xacro = |path: &Path| FileType::Xacro.is_of(path);
     let ends = |name: &String| {
@@ -150,7 +155,7 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
                     continue;
                 }
                 expanded += 1;
-                let Some(made) = expand(urdf, &path) else { continue };
+                let Some(made) = expand(urdf, &path, &of_urdf) else { continue };
                 (text, trail) = made;
             }
             let srdf = Srdf { shown: format!("{shown}{name}"), path: path.clone(), text, trail };
@@ -160,11 +165,23 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
     found
 }
 
-/// What xacro makes of an SRDF, if it may run; `None` where it makes nothing: LNT063 is about what is read.
-fn expand(urdf: &Subject, path: &Path) -> Option<(String, Option<Trail>)> {
+/// What xacro makes of an SRDF with these arguments, if it may run; `None` where it makes nothing: LNT063 is about what is
+/// read.
+fn expand(urdf: &Subject, path: &Path, arguments: &[String]) -> Option<(String, Option<Trail>)> {
     let settings = urdf.srdfs.xacro?;
-    let made = read_source(path, &settings.source, &settings.report.cancellation).ok()?;
+    let source = settings.source.with_declared(arguments);
+    let made = read_source(path, &source, &settings.report.cancellation).ok()?;
     Some((made.text, made.trail))
+}
+
+/// The defaults of the URDF's arguments: an SRDF that takes the same ones is of the same robot.
+fn defaults(urdf: &Subject) -> Vec<String> {
+    let name = Path::new(urdf.file).file_name();
+    let Some((name, settings)) = name.zip(urdf.srdfs.xacro) else { return Vec::new() };
+    let all = arguments(&urdf.folder.join(name), &settings.source).unwrap_or_default();
+    let is_plain = |text: &String| !text.contains('$');
+    let plain = all.into_iter().filter_map(|one| Some((one.name, one.default.filter(is_plain)?)));
+    plain.map(|(name, default)| format!("{name}:={default}")).collect()
 }
 
 /// Whether an SRDF makes a robot: files of macros alone name none.

@@ -298,6 +298,10 @@ impl<'a> Subject<'a> {
 
     /// Reports an element whose `name` is not that of a joint.
     pub fn names_a_joint(&self, node: Node<'a, 'a>, findings: &mut Findings) {
+        // A robot without links is no robot: that is the fault.
+        if self.links.is_empty() {
+            return;
+        }
         let known = self.joint_names.get_or_init(|| Names::new(self.names(&self.joints)));
         let Some(name) = node.attribute("name").filter(|name| !known.has(name)) else { return };
         let hint = known.hint(name);

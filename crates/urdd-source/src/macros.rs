@@ -1,5 +1,7 @@
 //! What a xacro file has, as its text says it. Nothing is expanded.
 
+use std::collections::HashSet;
+
 use urdd_directory::position::LineIndex;
 use urdd_xml::element::{children, name};
 use urdd_xml::{Document, Node, Xml, XmlError};
@@ -89,6 +91,24 @@ pub fn has_no_link(expansion: &Xml<'_>) -> bool {
 /// Whether the expansion of a file has no name for the robot, as that of a part for robots.
 pub fn has_no_name(expansion: &Xml<'_>) -> bool {
     expansion.document().is_ok_and(|document| !document.root_element().has_attribute("name"))
+}
+
+/// Whether the expansion of a file is no whole tree, as that of a part for robots: a joint is at a link that is not there, or
+/// several links are the child of no joint.
+pub fn has_open_ends(expansion: &Xml<'_>) -> bool {
+    let Ok(document) = expansion.document() else { return false };
+    let root = document.root_element();
+    let of = |tag: &'static str| children(root).filter(move |(name, _)| *name == tag);
+    let links: HashSet<&str> = of("link").filter_map(|(_, link)| link.attribute("name")).collect();
+    let ends = |end: &'static str| {
+        let ends = of("joint").flat_map(move |(_, joint)| children(joint));
+        ends.filter_map(move |(name, node)| node.attribute("link").filter(|_| name == end))
+    };
+    let held: HashSet<&str> = ends("child").collect();
+    let is_missing = |link: &str| !links.contains(link);
+    ends("parent").any(is_missing)
+        || held.iter().any(|link| is_missing(link))
+        || links.difference(&held).count() > 1
 }
 
 impl MacroFile {

@@ -66,6 +66,10 @@ pub enum BatchError {
     #[error("{path}: there is no .urdf or .xacro file, and no MJCF or SDF, at any depth")]
     Empty { path: String },
     #[error(
+        "{path}: there is no .urdf or .xacro file, and no MJCF or SDF, but in folders that colcon passes over too: `{folder}` has a file `{mark}`; give that folder itself"
+    )]
+    Ignored { path: String, folder: String, mark: &'static str },
+    #[error(
         "{path}: there is no robot; each file there defines macros or other parts for files that include it (number of files: {files})"
     )]
     OnlyParts { path: String, files: usize },
@@ -102,8 +106,8 @@ impl Batch {
         !self.wanted.contains(&resolved(source))
     }
 
-    /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link, or it has
-    /// none by itself, and another file includes it.
+    /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link; or
+    /// another file includes it, and it has no expansion by itself, or one that is no whole tree.
     pub fn is_part(&self, source: &Path, error: &SourceError) -> bool {
         let is_xacro = FileType::Xacro.is_of(source);
         self.may_drop(source)
@@ -111,6 +115,11 @@ impl Batch {
             && match error {
                 SourceError::Refused { faults, .. } => faults.iter().any(|one| {
                     matches!(one.fault, Fault::NoLinks | Fault::OnlyMacros | Fault::IsSrdf)
+                        || self.description.may_be_part(source)
+                            && matches!(
+                                one.fault,
+                                Fault::UnknownLink { .. } | Fault::ManyRoots { .. }
+                            )
                 }),
                 SourceError::Xacro { .. } => self.description.may_be_part(source),
                 _ => false,
@@ -187,9 +196,13 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         if found.urdfs.is_empty() {
             let others = others(found.others);
             if others.is_empty() {
-                return Err(match found.has_urdd {
-                    true => BatchError::Urdd { path: shown },
-                    false => BatchError::Empty { path: shown },
+                return Err(match (found.has_urdd, found.ignored) {
+                    (true, _) => BatchError::Urdd { path: shown },
+                    (false, Some((folder, mark))) => {
+                        let folder = folder.display().to_string();
+                        BatchError::Ignored { path: shown, folder, mark }
+                    }
+                    (false, None) => BatchError::Empty { path: shown },
                 });
             }
             sources.extend(others);
@@ -276,6 +289,8 @@ struct Found {
     others: Vec<PathBuf>,
     /// Whether there is a URDD.
     has_urdd: bool,
+    /// The first folder that is passed over for a file in it, and that file's name.
+    ignored: Option<(PathBuf, &'static str)>,
 }
 
 /// The MJCFs and SDFs among files, without those that are parts of others.
@@ -296,7 +311,8 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
         found.has_urdd = true;
         return Ok(());
     }
-    if depth > 0 && IGNORED.iter().any(|name| has(name)) {
+    if let Some(mark) = IGNORED.into_iter().find(|name| depth > 0 && has(name)) {
+        found.ignored.get_or_insert_with(|| (folder.to_owned(), mark));
         return Ok(());
     }
     if let Some(name) = package_name(folder, &Files::Disk) {

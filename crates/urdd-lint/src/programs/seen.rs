@@ -94,7 +94,7 @@ fn seeing_missing(name: &str) -> &'static [Seeing] {
         }
         "axis" | "xyz" => &[(Part, &[LNT016]), OF_MISSING],
         "joint" => &[(Element, &[URD008]), OF_MISSING],
-        "link" => &[(Element, &[URD007]), OF_MISSING],
+        "link" => &[(Element, &[URD004, URD007]), OF_MISSING],
         "filename" => &[(Element, OF_FILES), OF_MISSING],
         _ => &[OF_MISSING],
     }

@@ -138,6 +138,21 @@ fn a_mass_that_is_next_to_nothing_is_one_finding() {
 }
 
 #[test]
+fn a_robot_without_links_is_one_finding() {
+    let control = "<ros2_control name=\"c\" type=\"system\"><joint name=\"j\"/></ros2_control>";
+    let transmission = "<transmission name=\"t\"><joint name=\"j\"/></transmission>";
+    for inside in ["", control, transmission] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("a.urdf");
+        fs::write(&file, format!("<robot name=\"a\">{inside}</robot>")).expect("written");
+        let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+        let [finding] = &findings[..] else { panic!("{inside}: {findings:#?}") };
+        assert_eq!(finding.code, "URD004");
+        assert!(finding.programs.iter().any(|one| one.does == Deed::Refuses), "{finding:#?}");
+    }
+}
+
+#[test]
 fn a_missing_file_that_a_link_names_twice_is_one_finding() {
     let shape = |kind, file| {
         format!("<{kind}><geometry><mesh filename=\"file:///{file}\"/></geometry></{kind}>")

@@ -64,6 +64,11 @@ fn srdfs_of_other_robots_are_left_alone() {
     assert_eq!(found("urdf/arm.urdf", &[("config/all.srdf", &other)]), [""; 0]);
     let links = [("all_moveit_config/config/all.srdf", &*srdf("leg"))];
     assert_eq!(found("urdf/arm.urdf", &links), [""; 0]);
+    // One of this name, of a robot of this name, in MoveIt's package of another one: its links are others, or this robot's
+    // package has its own.
+    let namesake = "all_moveit_config/config/arm.srdf";
+    assert_eq!(found("urdf/arm.urdf", &[(namesake, &other)]), [""; 0]);
+    assert_eq!(found("urdf/arm.urdf", &[own, (namesake, &srdf("arm"))]), ["../config/arm.srdf"]);
     // A broken one of a name that is not this URDF's.
     let broken = [own, ("config/leg.srdf", "<robot name=\"leg\">")];
     assert_eq!(found("urdf/arm.urdf", &broken), ["../config/arm.srdf"]);
