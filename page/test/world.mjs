@@ -155,6 +155,8 @@ export async function tab(chrome, address, { first, routes, ...options } = {}) {
   const context = await chrome.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "dark", ...options });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   await fromDist(context);
+  // Playwright's 30 seconds are too few on a machine that others use.
+  context.setDefaultTimeout(90_000);
   const page = await context.newPage();
   const faults = [];
   const { host } = new URL(address);
