@@ -188,7 +188,7 @@ inPage(set, "Stop keeps what is there, and the rest is made when it is asked for
   const folder = join(set.made.folder, "long");
   long(folder);
   await dropped(page, folder);
-  await drawn(page, "long");
+  await drawn(page, "long", { isPartial: true });
   await press(page, "Stop");
   await state(page, "making", ({ making, failure }) => making === null && /Stopped/.test(failure));
   await drawn(page, "long");

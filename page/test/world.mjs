@@ -214,14 +214,14 @@ export async function press(page, name) {
  * Waits for the picture of a robot. A partial one, which is shown while the rest is made, does not count: the whole one takes its
  * place, and that of its report.
  */
-export async function drawn(page, name) {
-  const isDrawn = (name) => {
+export async function drawn(page, name, { isPartial = false } = {}) {
+  const isDrawn = ({ name, isPartial }) => {
     const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
-    const isWhole = robot && robot.entry.making === null;
-    return isWhole && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
+    const isMade = robot && (isPartial || robot.entry.making === null);
+    return isMade && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
   };
   try {
-    await page.waitForFunction(isDrawn, name, { timeout: 120_000 });
+    await page.waitForFunction(isDrawn, { name, isPartial }, { timeout: 120_000 });
   } catch (error) {
     const seen = await page.evaluate(() => {
       const { robot, loading, failure, server, making } = globalThis.urdd?.app.store.now ?? {};

@@ -2,6 +2,7 @@
 
 mod axes;
 mod center_of_mass_outside;
+mod closed_chain;
 mod continuous_with_limits;
 mod densities;
 mod effort_too_small;
@@ -27,8 +28,8 @@ mod xacro;
 use crate::rule::rules;
 
 rules! {
-    axes, center_of_mass_outside, continuous_with_limits, densities, effort_too_small,
-    inertia_beyond_geometry, inertials, limits, meshes, missing_files, name_refused, of_programs,
-    origins, paths, references, self_collision_in_default, shapes, srdf_not_read,
-    srdf_unknown_name, unknown_names, xacro,
+    axes, center_of_mass_outside, closed_chain, continuous_with_limits, densities,
+    effort_too_small, inertia_beyond_geometry, inertials, limits, meshes, missing_files,
+    name_refused, of_programs, origins, paths, references, self_collision_in_default, shapes,
+    srdf_not_read, srdf_unknown_name, unknown_names, xacro,
 }

@@ -6,6 +6,7 @@
 mod allow;
 mod baseline;
 mod cases;
+mod closed_chain;
 mod consequences;
 mod fix;
 mod hull;

@@ -1,0 +1,49 @@
+//! How far apart the ends of a loop are, by the geometry of a four-bar: all bars are 0.2 m long.
+
+use std::fs;
+
+use super::linted;
+use urdd_lint::LintSettings;
+
+const OPEN: &str = include_str!("../cases/LNT066/invalid.urdf");
+/// Of the case: a pin 0.01 m short of the rocker's end.
+const SHORT: &str = "<successor link=\"rocker\"><origin xyz=\"0.19 0 0\"/></successor>";
+
+/// What LNT066 says of the four-bar with another second end, and with this in place of its loop's type.
+fn said(end: &str, kind: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("four_bar.urdf");
+    let text = OPEN.replace(SHORT, end).replace("\"pin\" type=\"revolute\"", kind);
+    fs::write(&file, text).expect("written");
+    let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+    let mut of_loop = findings.into_iter().filter(|finding| finding.code == "LNT066");
+    of_loop.next().expect("a finding").message
+}
+
+#[test]
+fn gaps_are_those_of_the_geometry() {
+    let revolute = "\"pin\" type=\"revolute\"";
+    let end = |origin: &str| format!("<successor link=\"rocker\">{origin}</successor>");
+    let tree = "no program keeps 1 loop of the robot: 3 joints move by themselves, of which 1 is `independent`";
+    let advice = "; close the chain in the program's own format";
+    let expected = |gap: &str| match gap {
+        "" => format!("{tree}{advice}"),
+        gap => format!(
+            "{tree}; in the default configuration, the ends of `pin` are {gap} apart{advice}"
+        ),
+    };
+    assert_eq!(said(SHORT, revolute), expected("0.01 m"));
+    assert_eq!(said(&end("<origin xyz=\"0.2 0 0\"/>"), revolute), expected(""));
+    // A turn about the axis is what a revolute pin allows; one about another axis opens it.
+    let about_axis = end("<origin xyz=\"0.2 0 0\" rpy=\"0 0 0.5\"/>");
+    assert_eq!(said(&about_axis, revolute), expected(""));
+    let tilted = end("<origin xyz=\"0.2 0 0\" rpy=\"0.25 0 0\"/>");
+    assert_eq!(said(&tilted, revolute), expected("0.25 rad"));
+    // The rod lies along x, the rocker along y: a quarter of a turn between their frames.
+    assert_eq!(said(&about_axis, "\"pin\" type=\"fixed\""), expected("2.07 rad"));
+    assert_eq!(said(&tilted, "\"pin\" type=\"spherical\""), expected(""));
+    // A slide along z leaves what is across.
+    let raised = end("<origin xyz=\"0.17 0 0.3\"/>");
+    assert_eq!(said(&raised, "\"pin\" type=\"prismatic\""), expected("0.03 m"));
+    assert_eq!(said(&raised, "\"pin\" type=\"spherical\""), expected("0.301 m"));
+}
