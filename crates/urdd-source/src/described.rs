@@ -291,7 +291,10 @@ impl<'t> Links<'t> {
         if is_empty || (is_urdf && !file.has_xacro) {
             return FileKind::Robot;
         }
+        // `NAME.srdf.xacro`: what its macros make may be unknown.
+        let is_srdf = FileType::Xacro.is_of(path) && FileType::Srdf.is_of(&path.with_extension(""));
         match (file.root.as_str(), self.makers.contains(&maker), self.srdf.contains(&maker)) {
+            ("robot", ..) if is_srdf => FileKind::Neither(Reason::Srdf),
             ("robot", true, _) => FileKind::Robot,
             ("robot", false, true) => FileKind::Neither(Reason::Srdf),
             ("robot", false, false) => FileKind::Fragment,

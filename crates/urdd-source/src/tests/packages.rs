@@ -157,6 +157,10 @@ fn the_text_tells_robots_from_parts() {
         ),
         ("p/arm.srdf.xacro", robot("<group name=\"g\"><link name=\"a\"/></group>")),
         (
+            "p/unknown.srdf.xacro",
+            robot("<xacro:include filename=\"$(find other)/a.xacro\"/><xacro:made_there/>"),
+        ),
+        (
             "p/circle_a.xacro",
             robot(
                 "<xacro:include filename=\"circle_b.xacro\"/><xacro:macro name=\"ca\"><xacro:cb/></xacro:macro>",
@@ -204,6 +208,7 @@ fn the_text_tells_robots_from_parts() {
     ];
     assert_eq!(names(FileKind::Fragment), parts);
     assert_eq!(kind("arm.srdf.xacro"), FileKind::Neither(Reason::Srdf));
+    assert_eq!(kind("unknown.srdf.xacro"), FileKind::Neither(Reason::Srdf));
     assert_eq!(kind("launch.xacro"), FileKind::Neither(Reason::Root("launch".into())));
     assert!(matches!(kind("broken.xacro"), FileKind::Neither(Reason::Unreadable(_))));
     // The circle calls itself, and nothing calls it.
