@@ -32,6 +32,9 @@ const LOOK_UP: usize = 1 << 10;
 const OWN: [&str; 9] =
     ["arg", "attribute", "element", "if", "include", "insert_block", "macro", "property", "unless"];
 
+/// How the names of arguments end that are names of files.
+const FILES: [&str; 3] = ["file", "path", "yaml"];
+
 /// Why the arguments of a file are not known.
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say it")]
@@ -72,10 +75,15 @@ pub fn arguments(file: &Path, settings: &Settings) -> Result<Vec<XacroArgument>,
     texts.arguments(&path)
 }
 
-/// The arguments that a file needs, without those that are given as `name:=value`; none if they are not known.
+/// The arguments that a file which cannot be expanded needs, without those that are given as `name:=value`; none if they are
+/// not known. One that is called a file, and is nothing by default, is needed: it is opened.
 pub fn needed(file: &Path, settings: &Settings) -> Vec<XacroArgument> {
     let mut all = arguments(file, settings).unwrap_or_default();
-    all.retain(|argument| argument.is_needed && !is_given(&argument.name, settings));
+    let is_no_file = |argument: &XacroArgument| {
+        argument.default.as_deref() == Some("")
+            && FILES.iter().any(|ending| argument.name.ends_with(ending))
+    };
+    all.retain(|one| (one.is_needed || is_no_file(one)) && !is_given(&one.name, settings));
     all
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::Files;
-use crate::arguments::{ArgumentsError, XacroArgument, arguments};
+use crate::arguments::{ArgumentsError, XacroArgument, arguments, needed};
 use crate::launch::choices;
 use crate::settings::Settings;
 
@@ -243,4 +243,23 @@ fn what_grows_with_a_square_is_charged() {
         let found = in_memory(&path, &files);
         assert!(matches!(found, Err(ArgumentsError::Overdrawn(_))), "{text:.100}: {found:?}");
     }
+}
+
+/// It is asked once a file cannot be expanded.
+#[test]
+fn a_file_that_is_nothing_by_default_is_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    let declared =
+        |name: &str, default: &str| format!("<xacro:arg name=\"{name}\" default=\"{default}\"/>");
+    let main =
+        declared("speeds_file", "") + &declared("prefix", "") + &declared("limits_yaml", "a.yaml");
+    let file = folder.path().join("arm.xacro");
+    fs::write(&file, robot(&main)).unwrap();
+    let names = |settings: &Settings| -> Vec<String> {
+        needed(&file, settings).into_iter().map(|one| one.name).collect()
+    };
+    // xacro knows no argument in an attribute of the root yet.
+    assert_eq!(names(&Settings::default()), ["speeds_file", "title"]);
+    let given = Settings::default().with_declared(&["speeds_file:=b.yaml".to_owned()]);
+    assert_eq!(names(&given), ["title"]);
 }
