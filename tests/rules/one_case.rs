@@ -12,9 +12,9 @@ use urdd_conformance::case::{Case, Kind};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
 use urdd_findings::description::Description;
-use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::finding::Finding;
 use urdd_format::report::Severity as Shown;
-use urdd_validate::rule::Rule;
+use urdd_validate::rule::{CheckOf, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
@@ -33,12 +33,12 @@ enum Stand {
 fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
     let check = match stand {
         Stand::Itself => return rule,
-        Stand::Mute => |_: &_, _: &mut Findings| Some(()),
-        Stand::Alarm => |_: &_, findings: &mut Findings| {
+        Stand::Mute => CheckOf::Robot(|_, _| Some(())),
+        Stand::Alarm => CheckOf::Robot(|_, findings| {
             findings
                 .report(Finding::in_directory("URDD_RULE=alarm: this rule always finds something"));
             Some(())
-        },
+        }),
     };
     // A few, in a test.
     let description = Description { ..rule.description };

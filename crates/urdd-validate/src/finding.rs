@@ -3,6 +3,7 @@
 use std::fmt::{Debug, Display};
 
 use super::context::Context;
+use super::described::Described;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_document::entries::Entry;
 use urdd_document::module::Module;
@@ -33,6 +34,13 @@ impl Document for ModuleKind {
 impl Document for &Context {
     fn locate(&self, pointer: String) -> (String, String) {
         (self.robot_file().unwrap_or_default(), pointer)
+    }
+}
+
+/// The same.
+impl Document for &Described<'_> {
+    fn locate(&self, pointer: String) -> (String, String) {
+        (self.robot_file(), pointer)
     }
 }
 

@@ -20,6 +20,8 @@
 mod bare_urdf;
 #[doc(hidden)]
 pub mod context;
+#[doc(hidden)]
+pub mod described;
 mod engine;
 #[doc(hidden)]
 pub mod finding;
@@ -176,5 +178,5 @@ fn run_of(
 pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Rule]) -> Examined {
     let context =
         Context::new(urdd, settings.class).deep(settings.deep).until(&settings.cancellation);
-    context.examined(Kind::Urdd, name, two_robots::run(&context, rules))
+    context.examined(name, two_robots::run(&context, rules))
 }
