@@ -19,6 +19,7 @@ use crate::{
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+use urdd_xml::Xml;
 use urdd_xml::other_parts::{OtherParts, other_parts};
 
 impl Deref for Subject<'_> {
@@ -154,7 +155,7 @@ impl<'a> Subject<'a> {
             layout,
             arranged,
             names,
-            other_parts: other_parts(&text),
+            other_parts: other_parts(&Xml::new(&text)),
             links,
             pairs,
             shape_notes,

@@ -24,7 +24,7 @@ pub fn is_urdf(path: &Path) -> bool {
 }
 
 /// The URDF at a path: its folder, and its file name.
-pub(super) fn found(path: &Path) -> Found {
+pub fn found(path: &Path) -> Found {
     // The target of a symbolic link can be in another folder.
     let target = path.is_symlink().then(|| path.canonicalize().unwrap_or_default());
     let path = target.as_deref().unwrap_or(path);

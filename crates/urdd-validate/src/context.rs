@@ -94,6 +94,11 @@ impl Context {
         }
     }
 
+    /// Sets what the source URDF says, where somebody has parsed it.
+    pub(super) fn knowing(self, urdf: Option<urdf_text::Reading>) -> Self {
+        Context { urdf_text: UrdfText::known(urdf).into(), ..self }
+    }
+
     /// Whether to check sampled data completely, however long that takes.
     pub fn deep(mut self, deep: bool) -> Self {
         self.deep = deep;
