@@ -13,9 +13,9 @@ use crate::fit::fit;
 use crate::parts::JointNames;
 use crate::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
 use crate::{
-    ActuatorKind, ExportError, Format, JointGains, Layout, LinkPair, Note, Options, Setup, Shape,
-    Shapes, Structure, names,
+    ExportError, Format, Layout, LinkPair, Note, Options, Setup, Shape, Shapes, Structure, names,
 };
+use urdd_directory::export_toml::{ActuatorKind, JointGains};
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
