@@ -38,18 +38,9 @@ macro_rules! documents {
 /// it use `urdf_module`, unless [`Urdd::with_robot`] replaced the robot.
 pub struct Urdd {
     loaded: Arc<Loaded>,
-    robot_from: RobotFrom,
+    is_by_urdf: bool,
     mechanism: OnceLock<Option<Mechanism>>,
     dof_layout: OnceLock<Option<DofLayout>>,
-}
-
-/// Source of a robot's description.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RobotFrom {
-    /// `urdf_module`.
-    UrdfModule,
-    /// The source URDF file.
-    CarriedUrdf,
 }
 
 impl Urdd {
@@ -71,34 +62,21 @@ impl Urdd {
 
     /// Views of a URDD in memory.
     pub fn new(loaded: Arc<Loaded>) -> Self {
-        Urdd {
-            loaded,
-            robot_from: RobotFrom::UrdfModule,
-            mechanism: OnceLock::new(),
-            dof_layout: OnceLock::new(),
-        }
+        Urdd { loaded, is_by_urdf: false, mechanism: OnceLock::new(), dof_layout: OnceLock::new() }
     }
 
     /// The same URDD with the robot of its source URDF.
     pub fn with_robot(&self, robot: Robot) -> Self {
         Urdd {
-            robot_from: RobotFrom::CarriedUrdf,
+            is_by_urdf: true,
             mechanism: OnceLock::from(Some(Mechanism::new(robot))),
             ..Urdd::new(Arc::clone(&self.loaded))
         }
     }
 
-    /// Source of [`Urdd::robot`].
-    pub fn robot_from(&self) -> RobotFrom {
-        self.robot_from
-    }
-
-    /// The file that the robot was read from.
-    pub fn robot_file(&self) -> Option<String> {
-        match self.robot_from {
-            RobotFrom::CarriedUrdf => Some(self.urdf().ok()?.path.clone()),
-            RobotFrom::UrdfModule => Some(self.module(ModuleKind::Urdf)?.file("module.json")),
-        }
+    /// Whether [`Urdd::robot`] is that of the source URDF.
+    pub fn is_by_urdf(&self) -> bool {
+        self.is_by_urdf
     }
 
     /// The root folder.

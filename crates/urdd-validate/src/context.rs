@@ -16,7 +16,7 @@ use urdd_document::module::Module;
 use urdd_document::robot::Robot;
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
-use urdd_document::urdd::{RobotFrom, Urdd};
+use urdd_document::urdd::Urdd;
 use urdd_findings::check::Check;
 use urdd_findings::examined::{Examined, blank};
 use urdd_findings::skip::SkipReason;
@@ -109,11 +109,6 @@ impl Context {
     pub fn until(mut self, cancellation: &Cancellation) -> Self {
         self.cancellation = cancellation.clone();
         self
-    }
-
-    /// Whether the robot is that of the carried URDF.
-    pub fn is_by_urdf(&self) -> bool {
-        self.urdd.robot_from() == RobotFrom::CarriedUrdf
     }
 
     /// The conformance class that the URDD must meet: the requested one, otherwise the one it claims.

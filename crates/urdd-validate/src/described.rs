@@ -38,7 +38,8 @@ pub struct Described<'a> {
     pub(super) mechanism: Option<&'a Mechanism>,
     /// The module that describes it, unless the URDF does.
     pub(super) module: Option<&'a Module>,
-    pub(super) urdf: Result<&'a CarriedUrdf, &'a NoUrdf>,
+    /// The source URDF, or why it is not available.
+    pub urdf: Result<&'a CarriedUrdf, &'a NoUrdf>,
     pub(super) text: &'a UrdfText,
 }
 
@@ -64,11 +65,6 @@ impl<'a> Described<'a> {
             Some(module) => module.file("module.json"),
             None => self.urdf.map_or_else(|_| String::new(), |urdf| urdf.path.clone()),
         }
-    }
-
-    /// The source URDF, or why it is not available.
-    pub fn urdf(&self) -> Result<&'a CarriedUrdf, &'a NoUrdf> {
-        self.urdf
     }
 
     /// The parsed source URDF; `None` if none is carried. Only meaningful if URD011 passed.

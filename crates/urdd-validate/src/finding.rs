@@ -2,7 +2,6 @@
 
 use std::fmt::{Debug, Display};
 
-use super::context::Context;
 use super::described::Described;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_document::entries::Entry;
@@ -31,13 +30,6 @@ impl Document for ModuleKind {
 }
 
 /// The file that the robot was read from.
-impl Document for &Context {
-    fn locate(&self, pointer: String) -> (String, String) {
-        (self.robot_file().unwrap_or_default(), pointer)
-    }
-}
-
-/// The same.
 impl Document for &Described<'_> {
     fn locate(&self, pointer: String) -> (String, String) {
         (self.robot_file(), pointer)

@@ -46,7 +46,7 @@ fn mesh_not_carried(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 fn repeated_element(described: &Described, findings: &mut Findings) -> Option<()> {
-    let carried = described.urdf().ok()?;
+    let carried = described.urdf.ok()?;
     let reading = described.urdf_text()?;
     let lines = LineIndex::new(&carried.text);
     for again in &reading.repeated {

@@ -19,7 +19,7 @@ declare_rule! {
 }
 
 fn check(described: &Described, findings: &mut Findings) -> Option<()> {
-    let carried = match described.urdf() {
+    let carried = match described.urdf {
         Ok(carried) => carried,
         Err(NoUrdf::Unreadable { path, error }) => {
             findings.report(Finding::in_file(path, format!("the URDF is too large: {error}")));
