@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use urdd_conformance::case::{Case, Kind};
+use urdd_conformance::case::{Case, CaseKind};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
 use urdd_findings::description::Description;
@@ -71,7 +71,7 @@ fn fault(suite: &Suite, case: &Case, stand: Stand) -> Option<String> {
         .collect();
     let own = findings.iter().any(|finding| finding.code == case.code);
     let others = findings.iter().any(|finding| finding.code != case.code);
-    let caught = case.kind == Kind::Invalid;
+    let caught = case.kind == CaseKind::Invalid;
     if own == caught && !others {
         // The right rule; the places count too.
         return match stand {
@@ -175,7 +175,7 @@ fn cases_fail_with_another_rule() {
         let fault = |stand| fault(&suite, case, stand);
         assert_eq!(fault(Stand::Itself), None);
         let (mute, alarm) = (fault(Stand::Mute), fault(Stand::Alarm));
-        let wrong = if case.kind == Kind::Invalid { mute } else { alarm };
+        let wrong = if case.kind == CaseKind::Invalid { mute } else { alarm };
         let id = case.id();
         let wrong = wrong.unwrap_or_else(|| panic!("{id} passes with another rule"));
         assert!(wrong.starts_with(&id), "{wrong}");

@@ -75,17 +75,18 @@ impl Setup {
             .iter()
             .map(|named| named.name.as_str().to_owned())
             .collect();
-        let setup = Reader { structure: &structure, configurations: &configurations }.setup(file);
+        let setup =
+            SetupReader { structure: &structure, configurations: &configurations }.setup(file);
         setup.map_err(|(at, reason)| refused(Some(at), reason))
     }
 }
 
-struct Reader<'a> {
+struct SetupReader<'a> {
     structure: &'a Structure,
     configurations: &'a [String],
 }
 
-impl Reader<'_> {
+impl SetupReader<'_> {
     fn setup(&self, file: File) -> Placed<Setup> {
         let expected = &self.structure.view.name;
         if file.robot.get_ref() != expected {

@@ -65,7 +65,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
         };
         let root = document.root_element();
-        let mut reader = Reader::new(&srdf.file.shown, document, findings);
+        let mut reader = SrdfReader::new(&srdf.file.shown, document, findings);
         if root.tag_name().name() != ROBOT {
             let message = "MoveIt refuses the SRDF: its outermost element is not `<robot>`";
             let at = reader.lines.position(root.range().start);
@@ -87,18 +87,18 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 }
 
 /// Reads an SRDF as MoveIt does.
-struct Reader<'d, 'f> {
+struct SrdfReader<'d, 'f> {
     file: &'d str,
     lines: LineIndex<'d>,
     groups: Names<'d>,
     findings: &'f mut Findings,
 }
 
-impl<'d, 'f> Reader<'d, 'f> {
+impl<'d, 'f> SrdfReader<'d, 'f> {
     fn new(file: &'d str, document: &'d Document<'d>, findings: &'f mut Findings) -> Self {
         let groups = named(document.root_element(), "group");
         let groups = groups.filter_map(|group| group.attribute("name"));
-        Reader {
+        SrdfReader {
             file,
             lines: LineIndex::new(document.input_text()),
             groups: Names::new(groups.map(str::trim)),
