@@ -16,7 +16,7 @@ use urdd_export::{
 
 use crate::advice;
 use crate::errors::{of_robot, raise};
-use crate::generate::skipped_reason;
+use crate::generate::skipped_reasons;
 use crate::robot::Robot;
 use crate::work;
 
@@ -54,10 +54,6 @@ pub struct Options {
 impl Options {
     fn choices(self, py: Python<'_>, urdd: &Path, robot: &urdd_robot::Robot) -> PyResult<Choices> {
         let setup = Setup::find(self.setup.as_deref(), urdd, robot);
-        let reasons = self.reasons.map(|words| {
-            let each = words.iter().map(|word| skipped_reason(word));
-            each.collect::<Result<Vec<_>, _>>()
-        });
         let detail = match self.detail {
             None => Detail::Full,
             Some(given) => Detail::new(given).map_err(of_value)?,
@@ -68,7 +64,7 @@ impl Options {
         let actuators = self.actuators.map(|word| word.parse());
         Ok(Choices {
             shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
-            reasons: reasons.transpose().map_err(PyValueError::new_err)?,
+            reasons: skipped_reasons(self.reasons).map_err(of_value)?,
             keep_pairs: self.keep_pairs,
             spheres: SphereBudget::new(self.spheres, self.total_spheres),
             cover: self.cover,

@@ -10,13 +10,14 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
+use urdd_format::word::UnknownWord;
 use urdd_generate::batch::caught;
 use urdd_generate::combine::{Recipe, check_parts};
 use urdd_generate::{Generated, MeshFormats, Pieces, Progress, Selection, Settings};
 use urdd_validate::find_errors;
 
 use crate::errors::{of_combine, of_generate};
-use crate::source::Source;
+use crate::source::{Source, is_second};
 use crate::work::{self, Step, Teller};
 
 /// The options of `urdd.generate`, which checks their types.
@@ -44,10 +45,7 @@ impl Options {
                 .map_err(|error| format!("modules: {error}"))?,
         };
         let source = self.source.settings()?;
-        let skip = self.skip.map(|words| {
-            let each = words.iter().map(|word| skipped_reason(word));
-            each.collect::<Result<Vec<_>, _>>()
-        });
+        let skip = skipped_reasons(self.skip).map_err(|error| error.to_string())?;
         for word in &self.mesh_formats {
             if !["glb", "stl", "obj"].contains(&word.as_str()) {
                 let word = word.escape_debug();
@@ -56,23 +54,20 @@ impl Options {
                 ));
             }
         }
+        let is_collision = is_second("geometry", &self.geometry, ["visual", "collision"])?;
         let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
         let settings = Settings {
             selection,
             source,
-            preferred_geometry: match self.geometry.as_str() {
-                "visual" => GeometryKind::Visual,
-                "collision" => GeometryKind::Collision,
-                other => {
-                    let other = other.escape_debug();
-                    return Err(format!("geometry: `{other}` is neither visual nor collision"));
-                }
+            preferred_geometry: match is_collision {
+                false => GeometryKind::Visual,
+                true => GeometryKind::Collision,
             },
             mesh_formats: MeshFormats { stl: has("stl"), obj: has("obj") },
             pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
             model_effort: Default::default(),
-            skipped_reasons: skip.transpose()?,
+            skipped_reasons: skip,
             reference: self.reference,
             strict: self.strict,
             drop_edits: self.drop_edits,
@@ -85,21 +80,11 @@ impl Options {
     }
 }
 
-/// The reason with this name on the command line.
-pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
-    Ok(match word {
-        "same-link" => SkippedReason::SameLink,
-        "always" => SkippedReason::Always,
-        "adjacent" => SkippedReason::Adjacent,
-        "default" => SkippedReason::Default,
-        "never" => SkippedReason::Never,
-        other => {
-            return Err(format!(
-                "there is no reason `{}`; there are: same-link, always, adjacent, default, never",
-                other.escape_debug()
-            ));
-        }
-    })
+/// The reasons of these words.
+pub fn skipped_reasons(
+    words: Option<Vec<String>>,
+) -> Result<Option<Vec<SkippedReason>>, UnknownWord> {
+    words.map(|words| words.iter().map(|word| word.parse()).collect()).transpose()
 }
 
 /// Reports the progress of a job.

@@ -66,7 +66,7 @@ fn places(
 }
 
 /// Whether an option has the second of its two words.
-fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result<bool, String> {
+pub fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result<bool, String> {
     match word {
         word if word == first => Ok(false),
         word if word == second => Ok(true),

@@ -44,12 +44,12 @@ pub struct CheckCollisionsArguments {
     nearest: usize,
 
     /// Output format: text, or JSON with one object per line for each configuration.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = CollisionFormat::Text)]
+    format: CollisionFormat,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum CollisionFormat {
     Text,
     Json,
 }
@@ -109,7 +109,7 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
     let proximity = robot.proximity(arguments.shapes.into()).map_err(&in_urdd)?;
     let hidden = robot.skipped_contacts(arguments.shapes.into()).map_err(&in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
-    if arguments.format == Format::Text && sum {
+    if arguments.format == CollisionFormat::Text && sum {
         let (text, any) = sum_up(&proximity, hidden.as_ref(), &chosen, dofs).map_err(&in_urdd)?;
         output::print(&text)?;
         return Ok(any.into());
@@ -124,13 +124,13 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
         let unseen = unseen.map_err(&in_urdd)?.unwrap_or_default();
         any |= !touching.is_empty();
         match arguments.format {
-            Format::Text => {
+            CollisionFormat::Text => {
                 as_text(&mut text, number, &touching, &nearest, of_pieces);
                 for (links, _) in links_of(&unseen) {
                     let _ = writeln!(text, "  touching   {links}, skipped: they touch at rest");
                 }
             }
-            Format::Json => {
+            CollisionFormat::Json => {
                 as_json(&mut text, number, &configuration, [&touching, &nearest, &unseen]);
             }
         }
@@ -138,7 +138,7 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
             return Ok(any.into());
         }
     }
-    if arguments.format == Format::Text {
+    if arguments.format == CollisionFormat::Text {
         text.push_str(&totals(&proximity, chosen.count()));
     }
     output::print(&text)?;

@@ -36,8 +36,8 @@ pub struct DiffArguments {
     more: Vec<PathBuf>,
 
     /// Output format.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = DiffFormat::Text)]
+    format: DiffFormat,
 
     /// Leaves out findings. Validating both robots takes most of the time.
     #[arg(long)]
@@ -58,7 +58,7 @@ pub struct DiffArguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum DiffFormat {
     /// Text for people.
     Text,
     /// JSON; its schema is `urdd schema show diff_report@1.2.0`.
@@ -114,9 +114,9 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
     };
     let found = compare(&before, &after, arguments.tolerance)?;
     match arguments.format {
-        Format::Text => output::print(&text(&found))?,
-        Format::Markdown => output::print_raw(&markdown(&found))?,
-        Format::Json => output::print(&report::json(&found)?)?,
+        DiffFormat::Text => output::print(&text(&found))?,
+        DiffFormat::Markdown => output::print_raw(&markdown(&found))?,
+        DiffFormat::Json => output::print(&report::json(&found)?)?,
     }
     Ok(if found.same { 0 } else { DIFFERENT })
 }

@@ -18,12 +18,12 @@ pub struct ExplainArguments {
     rule: Option<String>,
 
     /// Output format.
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ExplainFormat::Human)]
+    format: ExplainFormat,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum ExplainFormat {
     /// Text for people.
     Human,
     /// JSON: an object for each rule.
@@ -45,10 +45,12 @@ pub fn run(arguments: &ExplainArguments) -> Result<String, Failure> {
     let one = arguments.rule.is_some() && wanted.len() == 1;
     Ok(match (&wanted[..], arguments.format) {
         ([], format) => without_rule(arguments.rule.as_deref().unwrap_or_default(), format)?,
-        ([rule], Format::Human) if one => in_full(rule),
-        (rules, Format::Human) => list(rules),
-        ([rule], Format::Json) if one => report::json(&as_json(rule))?,
-        (rules, Format::Json) => report::json(&rules.iter().map(as_json).collect::<Vec<_>>())?,
+        ([rule], ExplainFormat::Human) if one => in_full(rule),
+        (rules, ExplainFormat::Human) => list(rules),
+        ([rule], ExplainFormat::Json) if one => report::json(&as_json(rule))?,
+        (rules, ExplainFormat::Json) => {
+            report::json(&rules.iter().map(as_json).collect::<Vec<_>>())?
+        }
     })
 }
 
@@ -64,15 +66,17 @@ fn all() -> Vec<Explained> {
 }
 
 /// Explains a retired code. Any other word is a usage error.
-fn without_rule(wanted: &str, format: Format) -> Result<String, Failure> {
+fn without_rule(wanted: &str, format: ExplainFormat) -> Result<String, Failure> {
     let retired = RetiredCode::parse(wanted).ok_or_else(|| {
         let word = escape::line(wanted);
         format!("unknown rule `{word}`; `urdd explain` without a code lists all rules")
     })?;
     let (code, reason) = (retired.code, retired.reason);
     Ok(match format {
-        Format::Human => format!("{code} is retired: {reason}. The code is not used again.\n"),
-        Format::Json => report::json(&json!({ "code": code, "retired": reason }))?,
+        ExplainFormat::Human => {
+            format!("{code} is retired: {reason}. The code is not used again.\n")
+        }
+        ExplainFormat::Json => report::json(&json!({ "code": code, "retired": reason }))?,
     })
 }
 

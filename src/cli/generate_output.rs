@@ -25,7 +25,7 @@ const MAX_NOTES: usize = 3;
 
 /// How results are written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum ResultFormat {
     /// Text for people.
     Human,
     /// JSON lines: one object per robot, and after a batch one with the totals.
@@ -34,7 +34,7 @@ pub(super) enum Format {
 
 /// Prints results as they arrive.
 pub(super) struct Printer {
-    format: Format,
+    format: ResultFormat,
     is_batch: bool,
     bars: Option<Bars>,
     unprinted: Mutex<Option<String>>,
@@ -55,7 +55,7 @@ struct Bars {
 }
 
 impl Printer {
-    pub(super) fn new(format: Format, is_batch: bool) -> Self {
+    pub(super) fn new(format: ResultFormat, is_batch: bool) -> Self {
         let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
         let bars =
             is_terminal.then(|| Bars { all: MultiProgress::new(), batch: ProgressBar::hidden() });
@@ -80,11 +80,11 @@ impl Printer {
         let unchanged = totals.unchanged;
         let generated = total - failed - unchanged;
         self.print(&match self.format {
-            Format::Json => line(&json!({"summary": {
+            ResultFormat::Json => line(&json!({"summary": {
                 "robots": total, "generated": generated, "unchanged": unchanged, "failed": failed,
                 "meshes": { "named": totals.meshes.named, "not_found": totals.meshes.not_found },
             }})),
-            Format::Human => {
+            ResultFormat::Human => {
                 let robots = output::counted(total, "robot");
                 let meshes = not_found(totals.meshes);
                 format!(
@@ -97,19 +97,21 @@ impl Printer {
     /// Prints the result of a combination, or its error.
     pub(super) fn combined(&self, job: &Job, outcome: &Result<Combined, CombineError>) {
         match (self.format, outcome) {
-            (Format::Json, Ok(made)) => self.print(&line(&combined_as_json(job, made))),
-            (Format::Json, Err(error)) => self.print(&line(&failure(job, error.code(), error))),
-            (Format::Human, Ok(made)) => {
+            (ResultFormat::Json, Ok(made)) => self.print(&line(&combined_as_json(job, made))),
+            (ResultFormat::Json, Err(error)) => {
+                self.print(&line(&failure(job, error.code(), error)))
+            }
+            (ResultFormat::Human, Ok(made)) => {
                 self.print(&summary(job, &made.generated));
                 let notes = made.notes.iter().map(|note| format!("note: {note}"));
                 for text in notes.chain(note_lines(&made.generated.notes, false)) {
                     self.error(&text);
                 }
             }
-            (Format::Human, Err(CombineError::Generate { id: None, error })) => {
+            (ResultFormat::Human, Err(CombineError::Generate { id: None, error })) => {
                 self.error(&message(error));
             }
-            (Format::Human, Err(error)) => self.error(&error.to_string()),
+            (ResultFormat::Human, Err(error)) => self.error(&error.to_string()),
         }
     }
 
@@ -163,14 +165,14 @@ impl Observer for Printer {
             totals.meshes.not_a_mesh += made.meshes.not_a_mesh;
         }
         match (self.format, outcome) {
-            (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
-            (Format::Human, Ok(made)) => {
+            (ResultFormat::Json, outcome) => self.print(&line(&as_json(job, outcome))),
+            (ResultFormat::Human, Ok(made)) => {
                 self.print(&summary(job, made));
                 for text in note_lines(&made.notes, self.is_batch) {
                     self.error(&text);
                 }
             }
-            (Format::Human, Err(error)) => self.error(&message(error)),
+            (ResultFormat::Human, Err(error)) => self.error(&message(error)),
         }
     }
 }

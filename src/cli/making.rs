@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use super::generate_output::Format;
+use super::generate_output::ResultFormat;
 use super::output::{Failure, one_line};
 use super::signals::Signals;
 use super::sources::{PackageArguments, XacroArguments};
@@ -81,8 +81,8 @@ pub(super) struct MakingArguments {
     force: bool,
 
     /// Format of the results on standard output.
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    pub(super) format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Human)]
+    pub(super) format: ResultFormat,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -28,8 +28,8 @@ const INTERNAL: u8 = 101;
 #[derive(Args)]
 pub(super) struct ReportArguments {
     /// Format of the report on standard output.
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ReportFormat::Human)]
+    format: ReportFormat,
 
     /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit), .md (a summary),
     /// otherwise JSON. May be repeated.
@@ -72,7 +72,7 @@ pub(super) struct ReportArguments {
 
 /// How a report is written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum ReportFormat {
     /// Text for people.
     Human,
     /// JSON; its schema is `urdd schema show report@1.1.0`.
@@ -87,18 +87,18 @@ enum Format {
     Markdown,
 }
 
-impl Format {
+impl ReportFormat {
     /// The format for a file name.
-    fn of_file(file: &Path) -> Format {
+    fn of_file(file: &Path) -> ReportFormat {
         let name = file.to_string_lossy().to_ascii_lowercase();
         if name.ends_with(".sarif") || name.ends_with(".sarif.json") {
-            Format::Sarif
+            ReportFormat::Sarif
         } else if name.ends_with(".xml") {
-            Format::Junit
+            ReportFormat::Junit
         } else if name.ends_with(".md") {
-            Format::Markdown
+            ReportFormat::Markdown
         } else {
-            Format::Json
+            ReportFormat::Json
         }
     }
 }
@@ -154,31 +154,31 @@ impl ReportArguments {
             suggests_lint: !is_lint,
             width: output::width().unwrap_or(Style::default().width),
         };
-        let render = |format: Format| -> Result<String, Failure> {
+        let render = |format: ReportFormat| -> Result<String, Failure> {
             let mut text = String::new();
             match format {
-                Format::Json => text = report::json(report)?,
-                Format::Sarif => text = report::sarif(run, &places, status)?,
-                Format::Junit => {
+                ReportFormat::Json => text = report::json(report)?,
+                ReportFormat::Sarif => text = report::sarif(run, &places, status)?,
+                ReportFormat::Junit => {
                     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
                     text = report::junit(run, &places, fail_on)?;
                 }
-                Format::Github => report::github(report, &places, &mut text)?,
-                Format::Markdown => report::markdown(report, &mut text)?,
-                Format::Human => human::write(report, style, &mut text)?,
+                ReportFormat::Github => report::github(report, &places, &mut text)?,
+                ReportFormat::Markdown => report::markdown(report, &mut text)?,
+                ReportFormat::Human => human::write(report, style, &mut text)?,
             }
             Ok(text)
         };
         // A failed file does not keep the others from being written.
         let mut failures = Vec::new();
         for file in &self.output {
-            let text = render(Format::of_file(file))?;
+            let text = render(ReportFormat::of_file(file))?;
             failures.extend(output::write_file(file, &text).err());
         }
         let text = render(self.format)?;
         let printed = match self.format {
-            Format::Github => {
-                let people = render(Format::Human)?;
+            ReportFormat::Github => {
+                let people = render(ReportFormat::Human)?;
                 output::print_raw(&text).and_then(|()| output::print(&people))
             }
             _ => output::print(&text),

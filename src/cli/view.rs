@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::Args;
 
 use super::configurations::Lines;
-use super::generate_output::{FAILED, Format, Printer};
+use super::generate_output::{FAILED, Printer, ResultFormat};
 use super::output::{self, Failure, one_line};
 use super::signals::Signals;
 use super::sources::{PackageArguments, RobotArguments, XacroArguments, split};
@@ -116,7 +116,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     let live = Live {
         folder: temporary.path(),
         settings: &settings,
-        observer: &Printer::new(Format::Human, false),
+        observer: &Printer::new(ResultFormat::Human, false),
         pause: FIRST_THE_PICTURE,
     };
     if let Some(folder) = &arguments.export {

@@ -8,13 +8,13 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use urdd_conformance::case::{Case, Kind};
+use urdd_conformance::case::{Case, CaseKind};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
 use urdd_findings::description::Description;
-use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::finding::Finding;
 use urdd_format::report::Severity as Shown;
-use urdd_validate::rule::Rule;
+use urdd_validate::rule::{CheckOf, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
@@ -33,12 +33,12 @@ enum Stand {
 fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
     let check = match stand {
         Stand::Itself => return rule,
-        Stand::Mute => |_: &_, _: &mut Findings| Some(()),
-        Stand::Alarm => |_: &_, findings: &mut Findings| {
+        Stand::Mute => CheckOf::Robot(|_, _| Some(())),
+        Stand::Alarm => CheckOf::Robot(|_, findings| {
             findings
                 .report(Finding::in_directory("URDD_RULE=alarm: this rule always finds something"));
             Some(())
-        },
+        }),
     };
     // A few, in a test.
     let description = Description { ..rule.description };
@@ -71,7 +71,7 @@ fn fault(suite: &Suite, case: &Case, stand: Stand) -> Option<String> {
         .collect();
     let own = findings.iter().any(|finding| finding.code == case.code);
     let others = findings.iter().any(|finding| finding.code != case.code);
-    let caught = case.kind == Kind::Invalid;
+    let caught = case.kind == CaseKind::Invalid;
     if own == caught && !others {
         // The right rule; the places count too.
         return match stand {
@@ -175,7 +175,7 @@ fn cases_fail_with_another_rule() {
         let fault = |stand| fault(&suite, case, stand);
         assert_eq!(fault(Stand::Itself), None);
         let (mute, alarm) = (fault(Stand::Mute), fault(Stand::Alarm));
-        let wrong = if case.kind == Kind::Invalid { mute } else { alarm };
+        let wrong = if case.kind == CaseKind::Invalid { mute } else { alarm };
         let id = case.id();
         let wrong = wrong.unwrap_or_else(|| panic!("{id} passes with another rule"));
         assert!(wrong.starts_with(&id), "{wrong}");

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 use urdd_document::consumer::{self, ConsumerModules};
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::{Format, MeshPath};
+use urdd_document::meshes::{MeshFormat, MeshPath};
 use urdd_document::robot::{Inertial, Limit, Origin};
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
@@ -185,9 +185,9 @@ fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
                 let mut of_format = paths.iter().filter(|path| path.format == Some(format));
                 of_format.find(|path| is_there(path))
             };
-            let read = [Format::Stl, Format::Obj, Format::Glb].into_iter().find_map(of);
+            let read = [MeshFormat::Stl, MeshFormat::Obj, MeshFormat::Glb].into_iter().find_map(of);
             json!({
-                "glb": of(Format::Glb).and_then(|path| own(path)),
+                "glb": of(MeshFormat::Glb).and_then(|path| own(path)),
                 "read": read.or(paths.first()).and_then(|path| own(path)),
             })
         };

@@ -9,7 +9,7 @@ use urdd_source::{Files as Around, MAX_SOURCE_BYTES, Packages, Settings};
 use crate::files::Files;
 
 /// The files around descriptions.
-pub struct Given {
+pub struct GivenFiles {
     /// The folder that they are in; empty for the root.
     folder: String,
     /// Their paths.
@@ -19,7 +19,7 @@ pub struct Given {
     is_searched: bool,
 }
 
-impl Given {
+impl GivenFiles {
     /// All of these files.
     pub fn of(files: &Files) -> Result<Self, String> {
         let listing = files.root.list().map_err(|error| error.to_string())?;
@@ -32,7 +32,7 @@ impl Given {
         let around = Around::of(files.root.clone(), &folder, all.iter().cloned());
         let around = around.map_err(|error| error.to_string())?;
         let paths = all.into_iter().map(|(path, _)| path).collect();
-        let mut given = Given { folder, paths, files: around, is_searched: false };
+        let mut given = GivenFiles { folder, paths, files: around, is_searched: false };
         if let Some(lost) = files.lost() {
             given.files = given.files.clone().searched(|file| lost.contains(&given.path(file)));
             given.is_searched = true;

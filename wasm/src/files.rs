@@ -21,12 +21,12 @@ use crate::{answer, asked, memory};
 #[derive(Debug, Clone)]
 pub struct Files {
     pub root: Root,
-    given: Option<Given>,
+    given: Option<GivenFile>,
 }
 
 /// Files that the host provides: each has its size from the start, and its content once the host provides it.
 #[derive(Debug, Clone)]
-struct Given {
+struct GivenFile {
     files: Memory,
     /// Files of which nobody knows where they belong; `None` if each file is where it belongs.
     #[cfg(feature = "lint")]
@@ -74,7 +74,7 @@ impl Files {
 pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut Files {
     // SAFETY: guaranteed by the caller.
     let name = String::from_utf8_lossy(unsafe { memory::bytes(name, length) }).into_owned();
-    let given = Given {
+    let given = GivenFile {
         files: Memory::empty(&name, asked::bytes),
         #[cfg(feature = "lint")]
         lost: Arc::default(),

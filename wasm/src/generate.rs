@@ -9,7 +9,7 @@ use urdd_generate::{
     Generated, MeshFormats, PIECES, Progress, SAMPLES, Selection, Settings, generate_in_memory,
 };
 
-use crate::around::Given;
+use crate::around::GivenFiles;
 use crate::files::Files;
 use crate::import::{Ball, Massless};
 use crate::{answer, import, memory};
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn urdd_generate(
 
 fn generate(files: &Files, donor: Option<&Files>, question: &[u8]) -> Result<Value, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
-    let given = Given::of(files)?;
+    let given = GivenFiles::of(files)?;
     let path = given.place(&question.path);
     let mut source = given.settings(&question.path)?;
     source.import =

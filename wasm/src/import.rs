@@ -7,7 +7,7 @@ use urdd_import::import_whole;
 use urdd_source::ImportOptions;
 use urdd_source::dropped::{Dropped, descriptions};
 
-use crate::around::Given;
+use crate::around::GivenFiles;
 use crate::files::Files;
 use crate::{answer, memory};
 
@@ -73,7 +73,7 @@ pub unsafe extern "C" fn urdd_import(
 
 fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
-    let given = Given::of(files)?;
+    let given = GivenFiles::of(files)?;
     let mut settings = given.settings(&question.path)?;
     settings.import = options(question.body, question.model, question.ball, question.massless);
     let path = given.place(&question.path);
@@ -93,7 +93,7 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
 pub unsafe extern "C" fn urdd_descriptions(files: *mut Files) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let files = unsafe { &*files };
-    answer::result(Given::of(files).map(|given| {
+    answer::result(GivenFiles::of(files).map(|given| {
         let one = |Dropped { job, kind }: &Dropped| {
             json!({ "path": given.path(&job.source), "name": job.name, "format": kind.name() })
         };

@@ -9,7 +9,7 @@ use urdd_findings::report;
 use urdd_findings::settings::parse_program;
 use urdd_lint::{LintSettings, lint_with_text};
 
-use crate::around::Given;
+use crate::around::GivenFiles;
 use crate::explain::explained;
 use crate::files::Files;
 use crate::{answer, memory};
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn urdd_lint(
 
 fn lint(files: &Files, question: &[u8]) -> Result<String, String> {
     let question: Question = serde_json::from_slice(question).map_err(|error| error.to_string())?;
-    let given = Given::of(files)?;
+    let given = GivenFiles::of(files)?;
     let path = urdf(given.paths(), question.urdf)?;
     let mut settings = LintSettings { source: given.settings(&path)?, ..LintSettings::default() };
     for name in &question.programs {

@@ -308,7 +308,7 @@ fn rule(
             camel(room)
         ),
         None => r#"    let robot = context.robot()?;
-    let file = context.robot_file()?;
+    let file = context.described().robot_file();
     if robot.links.is_empty() {
         Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")"#
             .to_owned(),

@@ -3,7 +3,7 @@
 use semver::VersionReq;
 use serde::Serialize;
 
-use crate::case::{Case, Expected, Kind, Verdict};
+use crate::case::{Case, CaseKind, Expected, Verdict};
 use crate::data::Damage;
 use crate::profile;
 use crate::suite::Suite;
@@ -41,7 +41,7 @@ pub struct Item {
     /// Its folder, or its zip archive, relative to the catalogue.
     pub folder: String,
     /// Its part of the suite.
-    pub kind: Kind,
+    pub kind: CaseKind,
     /// Code of the rule under test; null for valid URDDs, and where no rule is about it.
     pub code: Option<String>,
     /// Its description.
@@ -80,7 +80,7 @@ pub fn items(suite: &Suite) -> Result<Vec<Item>, Damage> {
         Ok(Item {
             folder: id.clone(),
             id,
-            kind: Kind::Valid,
+            kind: CaseKind::Valid,
             code: None,
             title: format!("what urdd generate makes of {robot}.urdf"),
             profile: Profile::V1.as_str(),

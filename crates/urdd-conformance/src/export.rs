@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::case::{Case, Kind};
+use crate::case::{Case, CaseKind};
 use crate::catalogue::{self, items};
 use crate::data::{Data, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
@@ -49,7 +49,7 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported> {
 
     let mut items = items(suite)?;
     items.retain(|item| !left_out.contains(&item.id));
-    let valid = items.iter().filter(|item| item.kind == Kind::Valid).count();
+    let valid = items.iter().filter(|item| item.kind == CaseKind::Valid).count();
     let cases = items.len() - valid;
     let exported = Exported { valid, cases, left_out: left_out.clone(), other_bytes };
     for (name, text) in catalogue::files(&items, &left_out) {

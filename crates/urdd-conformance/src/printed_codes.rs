@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::case::{Kind, Verdict};
+use crate::case::{CaseKind, Verdict};
 use crate::catalogue::Item;
 use urdd_format::conformance::PrintedCodes;
 use urdd_format::index::Count;
@@ -65,9 +65,9 @@ pub fn score<'a>(
         let Some(code) = item.code.as_deref() else { continue };
         let is_printed = codes.iter().any(|printed| printed.as_str() == code);
         match (item.kind, item.verdict) {
-            (Kind::Valid, _) | (Kind::Invalid, Verdict::Accept) => continue,
-            (Kind::Invalid, Verdict::Reject) if !is_printed => missing.push(item.id.clone()),
-            (Kind::NearMiss, _) if is_printed => extra.push(item.id.clone()),
+            (CaseKind::Valid, _) | (CaseKind::Invalid, Verdict::Accept) => continue,
+            (CaseKind::Invalid, Verdict::Reject) if !is_printed => missing.push(item.id.clone()),
+            (CaseKind::NearMiss, _) if is_printed => extra.push(item.id.clone()),
             _ => {}
         }
         of += 1;

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::case::{Case, Expected, Kind, Verdict};
+use crate::case::{Case, CaseKind, Expected, Verdict};
 use crate::data::Damage;
 use crate::suite::Suite;
 use urdd_directory::discover::ROOT_METADATA;
@@ -28,7 +28,7 @@ pub fn is_core_json(suite: &Suite, case: &Case) -> Result<bool, Damage> {
     if case.packed.is_some() || !(is_of_rule || case.is_about_reading()) {
         return Ok(false);
     }
-    if case.kind != Kind::Invalid || case.verdict != Verdict::Reject {
+    if case.kind != CaseKind::Invalid || case.verdict != Verdict::Reject {
         return Ok(true);
     }
     let files = case.expected.iter().filter_map(|expected| expected.file.as_deref());

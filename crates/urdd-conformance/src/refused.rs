@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::case::Kind;
+use crate::case::CaseKind;
 use crate::data::Damage;
 use crate::process::{End, Ran};
 use crate::suite::Suite;
@@ -49,7 +49,7 @@ pub fn all(suite: &Suite) -> Result<Vec<Refused>, Damage> {
     let mut all: Vec<Refused> = files.collect();
     let source = FilePath::from(SOURCE);
     for case in &suite.cases {
-        let is_at_fault = case.kind == Kind::Invalid
+        let is_at_fault = case.kind == CaseKind::Invalid
             && RULES.contains(&case.code.as_str())
             && BASES.contains(&case.base.as_str())
             && case.changes.iter().any(|change| change.file == source);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use crate::case::{Kind, Verdict};
+use crate::case::{CaseKind, Verdict};
 use crate::catalogue::Item;
 use crate::data::UNREADABLE;
 use crate::plan::Plan;
@@ -146,7 +146,7 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
         let fault = fault(plan, item, &ran.end);
         if !item.is_about_reading {
             let fault = case_fault(plan, item.verdict, &ran.end);
-            let (is_legacy, is_sound) = (is_legacy(item), item.kind != Kind::Invalid);
+            let (is_legacy, is_sound) = (is_legacy(item), item.kind != CaseKind::Invalid);
             if is_legacy { &mut legacy } else { &mut totals }.push(fault);
             if is_sound && !is_legacy {
                 sound.push(fault);

@@ -9,6 +9,7 @@ use crate::{dof_state, side_urdd};
 use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::FileType;
+use urdd_directory::path;
 use urdd_directory::root::{ReadError, Root};
 use urdd_document::load::Loaded;
 use urdd_document::robot::of_urdf;
@@ -16,7 +17,7 @@ use urdd_document::urdd::Urdd;
 use urdd_format::report::{self, Kind};
 use urdd_source::{Files, format_of};
 use urdd_validate::settings::Settings;
-use urdd_validate::{Run, ValidateError, examine_urdf, validate, validate_loaded};
+use urdd_validate::{Run, ValidateError, alone, examine_urdf, found, validate, validate_loaded};
 use urdd_xml::Xml;
 use urdd_xml::other_parts::other_parts;
 
@@ -28,22 +29,10 @@ impl Side {
     /// If the path has no robot, or one that cannot be read.
     pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
         let shown = path.display().to_string();
-        let is_urdf = FileType::Urdf.is_of(path) && !path.is_dir();
-        // The validator reads what is written.
-        let is_expanded = options.urdf.xacro.expand_urdf;
-        if is_urdf && path.exists() && !is_expanded {
-            let (mut side, _) = open_urdf(path, shown, options)?;
-            side.validation = validation(options, |settings| validate(&[path], settings))?;
-            return Ok(side);
-        }
+        let is_urdf = FileType::Urdf.is_of(path) && !path.is_dir() && path.exists();
         let is_xacro = FileType::Xacro.is_of(path) && path.is_file();
-        if is_urdf && path.exists() || is_xacro || format_of(path, &Files::Disk).is_some() {
-            let (mut side, text) = open_urdf(path, shown, options)?;
-            side.validation = validation(options, |settings| {
-                let examined = vec![examine_urdf(&Xml::new(&text), &side.path)];
-                Ok(Run::of(examined, vec![path.to_owned()], 0, settings))
-            })?;
-            return Ok(side);
+        if is_urdf || is_xacro || format_of(path, &Files::Disk).is_some() {
+            return open_urdf(path, is_urdf, options);
         }
         let found = discover(path).map_err(DiffError::Discover)?;
         let found = match found.as_slice() {
@@ -68,8 +57,12 @@ impl Side {
         // All that is compared is of one moment, also where a program writes to the folder meanwhile.
         let loaded = Root::open(path).and_then(|root| Loaded::read(root.kept()));
         let loaded = Arc::new(loaded.map_err(|error| failed(&error))?);
-        let mut side = side_urdd::open(Urdd::new(Arc::clone(&loaded)), path, shown)?;
-        side.validation = validation(options, |settings| validate_loaded(loaded, name, settings))?;
+        let xml = loaded.urdf.as_ref().ok().map(|urdf| Xml::new(&urdf.text));
+        let xml = xml.as_ref();
+        let mut side = side_urdd::open(Urdd::new(Arc::clone(&loaded)), xml, path, shown)?;
+        side.validation = validation(options, |settings| {
+            validate_loaded(Arc::clone(&loaded), name, settings, xml)
+        })?;
         Ok(side)
     }
 }
@@ -89,29 +82,42 @@ fn validation(
     Ok(run.report.urdds.into_iter().next())
 }
 
-/// Opens a URDF and reads its meshes. Gives its text too.
-fn open_urdf(path: &Path, shown: String, options: &Options) -> Result<(Side, String), DiffError> {
-    let source =
-        urdd_import::open(path, &options.urdf, &options.cancellation).map_err(DiffError::Urdf)?;
+/// Opens a URDF, or what becomes one, and reads its meshes.
+fn open_urdf(path: &Path, is_urdf: bool, options: &Options) -> Result<Side, DiffError> {
+    let shown = path.display().to_string();
+    // The validator reads a URDF as it is written.
+    let as_written = is_urdf && !options.urdf.xacro.expand_urdf;
+    let name = if as_written { found(path).name } else { shown.clone() };
+    let also = |xml: &Xml<'_>, is_as_found: bool| {
+        let is_read = !as_written || is_as_found && path::check(&name).is_ok();
+        let is_validated = !options.without_findings && is_read;
+        (other_parts(xml), is_validated.then(|| examine_urdf(xml, &name)))
+    };
+    let opened = urdd_import::open(path, &options.urdf, &options.cancellation, also);
+    let (source, (other_parts, examined)) = opened.map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {
         let place = (mesh.link, mesh.geometry, mesh.element);
         (place, mesh.file.clone().map_err(|why| why.reason))
     });
-    let shapes = shapes(&view, files.collect(), |file| source.read(file));
-    let side = Side {
-        path: shown,
+    Ok(Side {
         kind: Kind::Urdf,
         dofs: dof_state::of_robot(&view),
-        other_parts: Some(other_parts(&source.text)),
+        other_parts: Some(other_parts),
+        shapes: shapes(&view, files.collect(), |file| source.read(file)),
         view,
-        shapes,
         beside: source.beside(path),
         robot: source.robot,
         urdd: None,
-        validation: None,
+        validation: validation(options, |settings| match examined {
+            Some(examined) => {
+                settings.cancellation.check()?;
+                Ok(alone(examined, path.to_owned(), settings))
+            }
+            None => validate(&[path], settings),
+        })?,
+        path: shown,
         notes: Vec::new(),
         account: Account::default(),
-    };
-    Ok((side, source.text))
+    })
 }

@@ -21,13 +21,19 @@ use urdd_format::report::Kind;
 use urdd_format::urdf::Geometry;
 use urdd_geometry::read::{Scene, read};
 use urdd_source::beside::{Beside, Companion};
+use urdd_xml::Xml;
 use urdd_xml::other_parts::other_parts;
 
-/// Reads the original meshes of a URDD.
+/// Reads the original meshes of a URDD. `xml` is its source URDF, if it has one.
 ///
 /// # Errors
 /// If it does not say what its robot is.
-pub(super) fn open(urdd: Urdd, path: &Path, shown: String) -> Result<Side, DiffError> {
+pub(super) fn open(
+    urdd: Urdd,
+    xml: Option<&Xml<'_>>,
+    path: &Path,
+    shown: String,
+) -> Result<Side, DiffError> {
     let robot = match urdd.description() {
         Some(module) => module.clone(),
         None => {
@@ -48,7 +54,7 @@ pub(super) fn open(urdd: Urdd, path: &Path, shown: String) -> Result<Side, DiffE
         path: shown,
         kind: Kind::Urdd,
         dofs,
-        other_parts: urdd.urdf().ok().map(|urdf| other_parts(&urdf.text)),
+        other_parts: xml.map(other_parts),
         shapes: read_shapes(&urdd, &view),
         view,
         robot,

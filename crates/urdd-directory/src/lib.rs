@@ -10,6 +10,7 @@ pub mod carried;
 pub mod digest;
 pub mod discover;
 pub mod document;
+pub mod export_toml;
 pub mod file_entry;
 pub mod file_type;
 pub mod json;

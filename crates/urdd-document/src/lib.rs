@@ -12,6 +12,7 @@ pub mod entries;
 pub mod kept;
 pub mod legacy;
 pub mod load;
+pub mod mechanism;
 pub mod mesh_files;
 pub mod meshes;
 pub mod module;

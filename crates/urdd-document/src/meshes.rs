@@ -10,7 +10,7 @@ pub const DERIVED: &[ModuleKind] =
 
 /// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Format {
+pub enum MeshFormat {
     /// Binary STL.
     Stl,
     /// Wavefront OBJ.
@@ -19,16 +19,16 @@ pub enum Format {
     Glb,
 }
 
-impl Format {
+impl MeshFormat {
     /// Every format.
-    pub const ALL: [Format; 3] = [Format::Stl, Format::Obj, Format::Glb];
+    pub const ALL: [MeshFormat; 3] = [MeshFormat::Stl, MeshFormat::Obj, MeshFormat::Glb];
 
     /// Its file extension, also its folder and its key in version 1.
     pub fn extension(self) -> &'static str {
         match self {
-            Format::Stl => "stl",
-            Format::Obj => "obj",
-            Format::Glb => "glb",
+            MeshFormat::Stl => "stl",
+            MeshFormat::Obj => "obj",
+            MeshFormat::Glb => "glb",
         }
     }
 }
@@ -68,7 +68,7 @@ pub struct MeshPath<'a> {
     /// JSON Pointer in the document.
     pub pointer: String,
     /// Its expected format; `None` for a mesh that the URDF names.
-    pub format: Option<Format>,
+    pub format: Option<MeshFormat>,
 }
 
 impl<'a> Meshes<'a> {
@@ -112,7 +112,7 @@ macro_rules! by_format {
     };
     ($module:ident, $of_pieces:literal; $($field:ident $format:ident),*) => {
         vec![$(list(stringify!($field), $of_pieces, &$module.$field, |path, at| {
-            one(path, at, Some(Format::$format))
+            one(path, at, Some(MeshFormat::$format))
         })),*]
     };
 }
@@ -185,9 +185,9 @@ where
 
 fn three(files: &MeshFiles, at: String) -> Mesh<'_> {
     let each = [
-        (Format::Stl, files.stl.as_ref()),
-        (Format::Obj, files.obj.as_ref()),
-        (Format::Glb, Some(&files.glb)),
+        (MeshFormat::Stl, files.stl.as_ref()),
+        (MeshFormat::Obj, files.obj.as_ref()),
+        (MeshFormat::Glb, Some(&files.glb)),
     ];
     let given = each.into_iter().filter_map(|(format, path)| {
         Some(MeshPath {
@@ -199,6 +199,6 @@ fn three(files: &MeshFiles, at: String) -> Mesh<'_> {
     Mesh { paths: given.collect() }
 }
 
-fn one(path: &str, pointer: String, format: Option<Format>) -> Mesh<'_> {
+fn one(path: &str, pointer: String, format: Option<MeshFormat>) -> Mesh<'_> {
     Mesh { paths: vec![MeshPath { path, pointer, format }] }
 }

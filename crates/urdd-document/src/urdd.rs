@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::carried_urdf::{CarriedUrdf, NoUrdf};
 use super::dof_layout::DofLayout;
 use super::load::Loaded;
+use super::mechanism::Mechanism;
 use super::meshes::{self, Meshes};
 use super::module::{MetadataFile, Module};
 use super::robot::{Robot, of_urdf};
@@ -37,21 +38,9 @@ macro_rules! documents {
 /// it use `urdf_module`, unless [`Urdd::with_robot`] replaced the robot.
 pub struct Urdd {
     loaded: Arc<Loaded>,
-    robot_from: RobotFrom,
-    robot: OnceLock<Option<Robot>>,
-    tree: OnceLock<Option<Tree>>,
-    mimics: OnceLock<Option<Mimics>>,
+    is_by_urdf: bool,
+    mechanism: OnceLock<Option<Mechanism>>,
     dof_layout: OnceLock<Option<DofLayout>>,
-    rigid_groups: OnceLock<Option<RigidGroups>>,
-}
-
-/// Source of a robot's description.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RobotFrom {
-    /// `urdf_module`.
-    UrdfModule,
-    /// The source URDF file.
-    CarriedUrdf,
 }
 
 impl Urdd {
@@ -73,37 +62,21 @@ impl Urdd {
 
     /// Views of a URDD in memory.
     pub fn new(loaded: Arc<Loaded>) -> Self {
-        Urdd {
-            loaded,
-            robot_from: RobotFrom::UrdfModule,
-            robot: OnceLock::new(),
-            tree: OnceLock::new(),
-            mimics: OnceLock::new(),
-            dof_layout: OnceLock::new(),
-            rigid_groups: OnceLock::new(),
-        }
+        Urdd { loaded, is_by_urdf: false, mechanism: OnceLock::new(), dof_layout: OnceLock::new() }
     }
 
     /// The same URDD with the robot of its source URDF.
     pub fn with_robot(&self, robot: Robot) -> Self {
         Urdd {
-            robot_from: RobotFrom::CarriedUrdf,
-            robot: OnceLock::from(Some(robot)),
+            is_by_urdf: true,
+            mechanism: OnceLock::from(Some(Mechanism::new(robot))),
             ..Urdd::new(Arc::clone(&self.loaded))
         }
     }
 
-    /// Source of [`Urdd::robot`].
-    pub fn robot_from(&self) -> RobotFrom {
-        self.robot_from
-    }
-
-    /// The file that the robot was read from.
-    pub fn robot_file(&self) -> Option<String> {
-        match self.robot_from {
-            RobotFrom::CarriedUrdf => Some(self.urdf().ok()?.path.clone()),
-            RobotFrom::UrdfModule => Some(self.module(ModuleKind::Urdf)?.file("module.json")),
-        }
+    /// Whether [`Urdd::robot`] is that of the source URDF.
+    pub fn is_by_urdf(&self) -> bool {
+        self.is_by_urdf
     }
 
     /// The root folder.
@@ -174,26 +147,30 @@ impl Urdd {
         bounds -> Bounds(BoundsModule);
     }
 
+    /// [`Urdd::robot`] with what follows from it.
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        let make = || self.description().map(|module| Mechanism::new(of_urdf(module)));
+        self.mechanism.get_or_init(make).as_ref()
+    }
+
     /// The robot of `urdf_module` in any version, or that of the source URDF ([`Urdd::with_robot`]).
     pub fn robot(&self) -> Option<&Robot> {
-        self.robot.get_or_init(|| self.description().map(of_urdf)).as_ref()
+        self.mechanism().map(Mechanism::robot)
     }
 
     /// The kinematic tree of [`Urdd::robot`]; `None` if its joints do not form a tree.
     pub fn tree(&self) -> Option<&Tree> {
-        self.tree.get_or_init(|| Tree::new(self.robot()?)).as_ref()
+        self.mechanism()?.tree()
     }
 
     /// The rigid groups of [`Urdd::robot`]; `None` if its joints do not form a tree.
     pub fn rigid_groups(&self) -> Option<&RigidGroups> {
-        self.rigid_groups
-            .get_or_init(|| Some(RigidGroups::new(self.robot()?, self.tree()?)))
-            .as_ref()
+        self.mechanism()?.rigid_groups()
     }
 
     /// The resolved mimic joints of [`Urdd::robot`]; `None` if they cannot be resolved.
     pub fn mimics(&self) -> Option<&Mimics> {
-        self.mimics.get_or_init(|| Mimics::resolve(self.robot()?)).as_ref()
+        self.mechanism()?.mimics()
     }
 
     /// The degrees of freedom of [`Urdd::robot`], as `dof_module` of the present version should define them.

@@ -7,10 +7,10 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
 use crate::{
-    ActuatorKind, Detail, DrakeOptions, Fit, Format, LinkOptions, MeshOptions, MjcfOptions,
-    ModelOptions, MoveitOptions, Options, Ros, Setup, Shapes, SphereBudget, SphereOptions,
-    UsdOptions,
+    Detail, DrakeOptions, Fit, Format, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, Ros, Setup, Shapes, SphereBudget, SphereOptions, UsdOptions,
 };
+use urdd_directory::export_toml::ActuatorKind;
 
 /// What a person chose, by the names that options have in Python; the command line has `robot_file` as `--config`.
 /// The fields are documented where they go: in the options of each format.

@@ -1,32 +1,8 @@
-//! The formats, and kinds of actuators in them.
+//! The formats.
 
 use std::str::FromStr;
 
-use thiserror::Error;
-
-/// A word that is none of a list.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("there {what} `{}`; there are: {}", .word.escape_debug(), .known.join(", "))]
-pub struct UnknownWord {
-    /// What there is none of, with its verb.
-    what: &'static str,
-    word: String,
-    known: Vec<&'static str>,
-}
-
-/// The one of these with a word.
-pub(super) fn with_word<T: Copy>(
-    word: &str,
-    all: &[T],
-    word_of: fn(T) -> &'static str,
-    what: &'static str,
-) -> Result<T, UnknownWord> {
-    let found = all.iter().copied().find(|one| word_of(*one) == word);
-    found.ok_or_else(|| {
-        let known = all.iter().map(|one| word_of(*one)).collect();
-        UnknownWord { what, word: word.to_owned(), known }
-    })
-}
+use urdd_format::word::{UnknownWord, with_word};
 
 /// An export format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -105,40 +81,5 @@ impl FromStr for Format {
 
     fn from_str(word: &str) -> Result<Format, UnknownWord> {
         with_word(word, Format::ALL, Format::word, "is no format")
-    }
-}
-
-/// What an actuator is told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ActuatorKind {
-    /// A position, rad or m.
-    Position,
-    /// A velocity, rad/s or m/s.
-    Velocity,
-    /// A torque or a force, N m or N.
-    Motor,
-}
-
-impl ActuatorKind {
-    /// All kinds.
-    pub const ALL: &[ActuatorKind] =
-        &[ActuatorKind::Position, ActuatorKind::Velocity, ActuatorKind::Motor];
-
-    /// Its word for users, which is MuJoCo's too.
-    pub fn word(self) -> &'static str {
-        match self {
-            ActuatorKind::Position => "position",
-            ActuatorKind::Velocity => "velocity",
-            ActuatorKind::Motor => "motor",
-        }
-    }
-}
-
-impl FromStr for ActuatorKind {
-    type Err = UnknownWord;
-
-    fn from_str(word: &str) -> Result<ActuatorKind, UnknownWord> {
-        with_word(word, ActuatorKind::ALL, ActuatorKind::word, "are no actuators")
     }
 }

@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
 use crate::inertia::tensor;
-use crate::{ActuatorKind, ExportError, ModelOptions, Note, Subject};
+use crate::{ExportError, ModelOptions, Note, Subject};
+use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::unit_axis;

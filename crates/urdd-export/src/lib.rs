@@ -85,7 +85,7 @@ pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
-pub use format::{ActuatorKind, Format, UnknownWord};
+pub use format::Format;
 pub use groups::JointGroup;
 pub use options::{
     BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
@@ -103,6 +103,8 @@ pub use srdf::groups::joint_groups_of_srdf;
 pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states};
 pub use srdf::merge::{MergedSrdf, merge_srdf};
 pub use srdf::read::SrdfError;
+pub use urdd_directory::export_toml::ActuatorKind;
+pub use urdd_format::word::UnknownWord;
 
 // What most files use.
 use gains::Gains;
@@ -112,7 +114,7 @@ use mjcf::surface::FlatShapes;
 use output::Files;
 use pairs::LinkPair;
 use parts::{Moves, Taken};
-use setup::{JointGains, Members};
+use setup::Members;
 use shapes::{Shape, Solid};
 use srdf::read::{LeftOut, Srdf};
 use stand::Stand;

@@ -3,7 +3,8 @@
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
 
-use crate::{ActuatorKind, Fit, Format, Ros, Setup, Shapes};
+use crate::{Fit, Format, Ros, Setup, Shapes};
+use urdd_directory::export_toml::ActuatorKind;
 
 /// [`SphereBudget::PerLink`].
 pub const SPHERES: Range = Range::whole("spheres", 1, 10_000);

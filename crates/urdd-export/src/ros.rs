@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::format::{UnknownWord, with_word};
+use urdd_format::word::{UnknownWord, with_word};
 
 /// A distribution of ROS 2, whose MoveIt and ros2_control read a package.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]

@@ -13,12 +13,13 @@ use crate::fit::fit;
 use crate::parts::JointNames;
 use crate::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
 use crate::{
-    ActuatorKind, ExportError, Format, JointGains, Layout, LinkPair, Note, Options, Setup, Shape,
-    Shapes, Structure, names,
+    ExportError, Format, Layout, LinkPair, Note, Options, Setup, Shape, Shapes, Structure, names,
 };
+use urdd_directory::export_toml::{ActuatorKind, JointGains};
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+use urdd_xml::Xml;
 use urdd_xml::other_parts::{OtherParts, other_parts};
 
 impl Deref for Subject<'_> {
@@ -154,7 +155,7 @@ impl<'a> Subject<'a> {
             layout,
             arranged,
             names,
-            other_parts: other_parts(&text),
+            other_parts: other_parts(&Xml::new(&text)),
             links,
             pairs,
             shape_notes,

@@ -72,3 +72,4 @@ pub mod short;
 pub mod skips;
 mod types;
 pub mod urdf;
+pub mod word;

@@ -1,9 +1,12 @@
 //! `link_shapes_skips_module`: the pairs to skip, by reason and by manual edits.
 
+use std::str::FromStr;
+
 use super::index::LinkIdx;
 use super::link_shapes_simple_skips::SkipReason;
 use super::shapes::PieceShape;
 use super::types::module;
+use super::word::{UnknownWord, with_word};
 
 module! {
     /// The pairs of shapes that a collision check skips: those with one of the skipped reasons, and
@@ -86,6 +89,17 @@ impl SkippedReason {
         SkippedReason::Default,
     ];
 
+    /// Its word for users.
+    fn word(self) -> &'static str {
+        match self {
+            SkippedReason::SameLink => "same-link",
+            SkippedReason::Always => "always",
+            SkippedReason::Adjacent => "adjacent",
+            SkippedReason::Default => "default",
+            SkippedReason::Never => "never",
+        }
+    }
+
     /// The pair reason that corresponds to this skipped reason.
     pub fn of_pair(self) -> SkipReason {
         match self {
@@ -95,5 +109,13 @@ impl SkippedReason {
             SkippedReason::Default => SkipReason::Default,
             SkippedReason::Never => SkipReason::Never,
         }
+    }
+}
+
+impl FromStr for SkippedReason {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<SkippedReason, UnknownWord> {
+        with_word(word, SkippedReason::ALL, SkippedReason::word, "is no reason")
     }
 }

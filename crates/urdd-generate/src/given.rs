@@ -15,7 +15,7 @@ use urdd_import::Imported;
 use urdd_source::note::{Note, NoteKind};
 
 #[derive(Default, Clone, Copy)]
-pub(crate) struct Given<'a> {
+pub(crate) struct GivenDecisions<'a> {
     /// Edits of skips. Those of the URDD that is replaced follow them.
     pub edits: &'a [SkipEdit],
     /// Named configurations. Those of the URDD that is replaced take precedence.
@@ -27,7 +27,7 @@ pub(crate) struct Given<'a> {
     pub origin: Option<&'a Value>,
 }
 
-impl Given<'_> {
+impl GivenDecisions<'_> {
     /// The user's decisions: those given, then `there`, those of the URDD that is replaced; without one `is_new` is true.
     pub fn decisions(&self, is_new: bool, mut there: Decisions) -> Decisions {
         if let (true, Some(reasons)) = (is_new, self.skipped_reasons) {
@@ -48,13 +48,13 @@ impl Given<'_> {
     }
 }
 
-impl<'a> From<&'a Imported> for Given<'a> {
+impl<'a> From<&'a Imported> for GivenDecisions<'a> {
     fn from(imported: &'a Imported) -> Self {
-        Given {
+        GivenDecisions {
             edits: &imported.skips,
             configurations: &imported.configurations,
             origin: Some(&imported.origin),
-            ..Given::default()
+            ..GivenDecisions::default()
         }
     }
 }

@@ -11,7 +11,7 @@ use super::context::Context;
 use super::donor::edits::Decisions;
 use super::donor::{Donor, others};
 use super::error::{GenerateError, Result};
-use super::given::{Given, write_setup};
+use super::given::{GivenDecisions, write_setup};
 use super::meshes::MeshCount;
 use super::modules::{MadeModule, Modules, check_assumptions};
 use super::settings::{Progress, Settings};
@@ -69,7 +69,7 @@ pub fn generate(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let (imported, loaded, settings) = load(source, settings, progress)?;
-    let given = imported.as_ref().map(Given::from).unwrap_or_default();
+    let given = imported.as_ref().map(GivenDecisions::from).unwrap_or_default();
     let mut made = make(Some(source), &loaded, given, target, &settings, progress)?;
     made.notes.extend(imported.and_then(|imported| write_setup(&imported, target)));
     Ok(made)
@@ -108,14 +108,14 @@ pub fn generate_text(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let source = urdd_source::load_text(urdf, shown, folder, &settings.source)?;
-    make(None, &source, Given::default(), target, settings, progress)
+    make(None, &source, GivenDecisions::default(), target, settings, progress)
 }
 
 /// As [`generate_text`], for a robot composed of those that give `given`. The URDF is stored under the robot's name.
 pub(crate) fn generate_composed(
     urdf: Vec<u8>,
     (shown, folder): (&str, &Path),
-    given: Given,
+    given: GivenDecisions,
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,
@@ -140,7 +140,7 @@ pub fn generate_in_memory(
     let (imported, source, settings) = load(source, settings, progress)?;
     size::check(&source)?;
     check_assumptions(&source.notes, &settings)?;
-    let given = imported.as_ref().map(Given::from).unwrap_or_default();
+    let given = imported.as_ref().map(GivenDecisions::from).unwrap_or_default();
     let decisions = given.decisions(true, Decisions::default());
     let context = Context::new(&source, &settings, None, decisions, progress)?;
     let files = Memory::default();
@@ -210,7 +210,7 @@ impl Written {
 fn make(
     path: Option<&Path>,
     source: &Source,
-    given: Given,
+    given: GivenDecisions,
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{UnitQuaternion, Vector3};
-use toml::{Table, Value};
+use urdd_directory::export_toml::{ActuatorKind, File, JointGains, unplaced};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_kinematics::rotation::from_rotation_vector;
@@ -119,57 +119,42 @@ pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
 
 /// The text of `NAME.export.toml`; none where it would say nothing.
 pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
-    let mut joints = Table::new();
+    let mut file = File::of(&model.name);
     // Nothing drives a joint that follows another.
     for edge in movable(tree) {
         let Some((body, place)) = edge.joint else { continue };
         let gains = gains(&model.bodies[body].joints[place]);
-        if !gains.is_empty() {
-            joints.insert(edge.name.clone(), Value::Table(gains));
+        if gains != JointGains::default() {
+            file.actuators.joint.insert(unplaced(edge.name.clone()), unplaced(gains));
         }
     }
-    let named = model.configurations.iter().filter(|of| ConfigurationName::new(&of.name).is_some());
-    let poses =
-        named.filter_map(|of| Some((of.name.clone(), of.base?.map(Value::Float).to_vec().into())));
-    let poses: Table = poses.collect();
-    if joints.is_empty() && !model.is_floating && model.friction.is_none() {
+    if file.actuators.joint.is_empty() && !model.is_floating && model.friction.is_none() {
         return None;
     }
-    let table = |key: &str, value: Value| Value::Table(Table::from_iter([(key.to_owned(), value)]));
-    let mut file = Table::new();
-    file.insert("robot".to_owned(), Value::String(model.name.clone()));
     if model.is_floating {
-        let mut base = Table::from_iter([("floating".to_owned(), Value::Boolean(true))]);
-        if !poses.is_empty() {
-            base.insert("poses".to_owned(), Value::Table(poses));
-        }
-        file.insert("base".to_owned(), Value::Table(base));
+        file.base.floating = true;
+        let named = model.configurations.iter();
+        let named = named.filter(|of| ConfigurationName::new(&of.name).is_some());
+        let poses =
+            named.filter_map(|of| Some((unplaced(of.name.clone()), unplaced(of.base?.to_vec()))));
+        file.base.poses = poses.collect();
     }
-    if !joints.is_empty() {
-        file.insert("actuators".to_owned(), table("joint", Value::Table(joints)));
-    }
-    if let Some(friction) = model.friction {
-        file.insert("contact".to_owned(), table("friction", Value::Float(friction)));
-    }
+    file.contact.friction = model.friction.map(unplaced);
     let head = "# `urdd import` made this file; `urdd export --setup` reads it.\n";
-    toml::to_string(&file).ok().map(|text| head.to_owned() + &text)
+    file.to_text().ok().map(|text| head.to_owned() + &text)
 }
 
 /// What exports read of the actuator of a joint.
-fn gains(joint: &Joint) -> Table {
-    let mut table = Table::new();
+fn gains(joint: &Joint) -> JointGains {
     let actuator = &joint.actuator;
-    let word = |word: &str| Value::String(word.to_owned());
-    table.extend(actuator.name.as_ref().map(|name| ("name".to_owned(), word(name))));
-    table.extend(actuator.is_of_speed.then(|| ("kind".to_owned(), word("velocity"))));
-    for (key, value) in [("kp", joint.kp), ("kv", joint.kv), ("armature", joint.armature)] {
-        table.extend(value.map(|value| (key.to_owned(), Value::Float(value))));
+    JointGains {
+        name: actuator.name.clone(),
+        kind: actuator.is_of_speed.then_some(ActuatorKind::Velocity),
+        kp: joint.kp,
+        kv: joint.kv,
+        armature: joint.armature,
+        ctrlrange: actuator.control,
+        // A force that is as great either way is the effort of the URDF.
+        forcerange: actuator.force.filter(|[least, most]| *least != -*most),
     }
-    // A force that is as great either way is the effort of the URDF.
-    let force = actuator.force.filter(|[least, most]| *least != -*most);
-    for (key, ends) in [("ctrlrange", actuator.control), ("forcerange", force)] {
-        let ends = ends.map(|ends| Value::Array(ends.map(Value::Float).to_vec()));
-        table.extend(ends.map(|ends| (key.to_owned(), ends)));
-    }
-    table
 }

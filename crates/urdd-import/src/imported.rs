@@ -28,8 +28,9 @@ use urdd_source::gate::Gate;
 use urdd_source::note::{Note, NoteKind};
 use urdd_source::{
     Files, Format, ImportOptions, MAX_SOURCE_BYTES, Packages, Settings, Source, SourceError,
-    SourceMeshes, format_of, load, stem,
+    SourceMeshes, format_of, load, load_with, stem,
 };
+use urdd_xml::Xml;
 
 /// What is put behind a name for the file that exports read.
 const SETUP: &str = ".export.toml";
@@ -87,8 +88,18 @@ impl Imported {
         settings: &Settings,
         cancellation: &Cancellation,
     ) -> Result<Source, SourceError> {
-        let source = load(&Path::new("/").join(&self.urdf), settings, cancellation);
-        let mut source = source.map_err(|error| match error {
+        Ok(self.load_with(settings, cancellation, |_, _| ())?.0)
+    }
+
+    /// As [`Imported::load`]; `also` reads the text, too: see [`load_with`].
+    fn load_with<T>(
+        &self,
+        settings: &Settings,
+        cancellation: &Cancellation,
+        also: impl FnOnce(&Xml<'_>, bool) -> T,
+    ) -> Result<(Source, T), SourceError> {
+        let loaded = load_with(&Path::new("/").join(&self.urdf), settings, cancellation, also);
+        let (mut source, also) = loaded.map_err(|error| match error {
             SourceError::Refused { mut faults, .. } => {
                 faults.iter_mut().for_each(|fault| (fault.line, fault.column) = (0, 0));
                 SourceError::Refused { file: self.shown.clone(), faults }
@@ -99,7 +110,7 @@ impl Imported {
             note.file.clone_from(&self.shown);
             (note.line, note.column) = (0, 0);
         }
-        Ok(source)
+        Ok((source, also))
     }
 
     /// What exports need and a URDF does not say: the content of `NAME.export.toml`.
@@ -184,20 +195,23 @@ pub fn import_whole(
     Ok((imported, source))
 }
 
-/// Opens a description and finds its mesh files. Those of one that is imported are in memory.
+/// Opens a description and finds its mesh files. Those of one that is imported are in memory. `also` reads the text, too: see
+/// [`load_with`].
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
-pub fn open(
+pub fn open<T>(
     path: &Path,
     settings: &Settings,
     cancellation: &Cancellation,
-) -> Result<SourceMeshes, SourceError> {
+    also: impl FnOnce(&Xml<'_>, bool) -> T,
+) -> Result<(SourceMeshes, T), SourceError> {
     let Some(imported) = import(path, settings)? else {
-        return SourceMeshes::open(path, settings, cancellation);
+        let (source, also) = load_with(path, settings, cancellation, also)?;
+        return Ok((SourceMeshes::of(source, settings, None), also));
     };
     let settings = imported.settings(settings)?;
-    let source = imported.load(&settings, cancellation)?;
+    let (source, also) = imported.load_with(&settings, cancellation, |xml, _| also(xml, false))?;
     let text = |bytes: &[u8]| Ok(String::from_utf8_lossy(bytes).into_owned());
     let beside = Beside {
         srdf: imported.srdf().map(text),
@@ -207,7 +221,7 @@ pub fn open(
             configurations: imported.configurations,
         }),
     };
-    Ok(SourceMeshes::of(source, &settings, Some(beside)))
+    Ok((SourceMeshes::of(source, &settings, Some(beside)), also))
 }
 
 /// What is written of a model.

@@ -1,6 +1,7 @@
 //! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use urdd_xml::{Document, Xml};
 
@@ -8,6 +9,7 @@ use super::programs::{Asked, Left, attach, attach_all};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
+use super::srdf_text::SrdfFile;
 use super::subject::Subject;
 use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
@@ -35,6 +37,8 @@ struct Job<'a> {
     name: &'a str,
     folder: &'a Path,
     settings: &'a LintSettings,
+    /// The SRDFs around the file, which are the same for all texts of it.
+    srdfs: &'a OnceLock<Vec<SrdfFile>>,
 }
 
 /// The result, and the comments that allow what was not found. `bytes` are those of the file; `name` is the file's in the report; relative mesh names
@@ -46,7 +50,8 @@ pub fn examined(
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
-    let job = Job { xml, bytes, name, folder, settings };
+    let srdfs = OnceLock::new();
+    let job = Job { xml, bytes, name, folder, settings, srdfs: &srdfs };
     let mut examined = examine_urdf(xml, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
     let mended = xml.document().is_err().then(|| well_formed(xml));
@@ -93,8 +98,9 @@ pub fn examined(
         }
     }
     for srdf in subject.srdfs.all.get().into_iter().flatten() {
-        if let Some(trail) = &srdf.trail {
-            let expansion = (srdf.text.as_str(), trail, srdf.path.as_path(), srdf.shown.as_str());
+        let file = srdf.file;
+        if let Some(trail) = &file.trail {
+            let expansion = (file.text.as_str(), trail, file.path.as_path(), file.shown.as_str());
             say_where_expanded(expansion, &mut examined.checks, &mut []);
         }
     }
@@ -124,7 +130,7 @@ impl<'a> Job<'a> {
     where
         'a: 'd,
     {
-        Subject::new(self.name, self.folder, document, source.as_ref(), self.settings)
+        Subject::new(self.name, self.folder, document, source.as_ref(), self.settings, self.srdfs)
     }
 
     /// Asks the programs; not about files beyond the limits of XML.

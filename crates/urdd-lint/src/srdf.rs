@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use urdd_xml::Node;
 
-use super::srdf_text::Srdf;
+use super::srdf_text::{Srdf, SrdfFile};
 use super::subject::Subject;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
@@ -23,46 +23,40 @@ const FOLDERS: [&str; 2] = ["config", "srdf"];
 /// What the name of MoveIt's package of a robot has.
 const MOVEIT: &str = "moveit_config";
 
-/// A file that may be an SRDF of the robot.
-struct Candidate {
-    path: PathBuf,
-    srdf: Srdf,
-    /// Whether it is in the URDF's own package, not in one of MoveIt's beside it.
-    is_own: bool,
-    has_stem: bool,
-}
-
 /// The SRDFs of the robot: each whose file has the URDF's name, unless its robot has another URDF's beside it, those of its own
-/// package before others; or else the only one whose robot has the robot's name, or the only one there is, beside the only URDF, if most of the names in it are the
-/// URDF's. No other URDF beside this one has its file's name.
-pub fn of_robot<'s>(urdf: &'s Subject) -> &'s [Srdf] {
+/// package before others; or else the only one whose robot has the robot's name, or the only one there is, beside the only URDF,
+/// if most of the names in it are the URDF's. No other URDF beside this one has its file's name.
+pub fn of_robot<'s, 'a>(urdf: &'s Subject<'a>) -> &'s [Srdf<'a>] {
     urdf.srdfs.all.get_or_init(|| read(urdf))
 }
 
-fn read(urdf: &Subject) -> Vec<Srdf> {
-    let all = candidates(urdf);
+fn read<'a>(urdf: &Subject<'a>) -> Vec<Srdf<'a>> {
+    let all = urdf.srdfs.files.get_or_init(|| candidates(urdf));
     let has_stem = all.iter().any(|one| one.has_stem);
     let has_own = all.iter().any(|one| one.has_stem && one.is_own);
     let is_urdf = |name: &String| FileType::Urdf.is_of(Path::new(name));
     let is_only_urdf = urdfs(urdf).filter(is_urdf).count() < 2;
     let is_only = all.len() == 1 && is_only_urdf;
-    let mut found = all;
+    let mut found: Vec<Srdf> = all.iter().map(Srdf::new).collect();
     found.retain(|one| match has_stem {
-        true if has_own && !one.is_own => false,
-        true => one.has_stem && !names_another(urdf, one) && is_of(urdf, one, true),
-        false => !is_of_another_urdf(urdf, &one.path) && is_of(urdf, one, is_only && one.is_own),
+        true if has_own && !one.file.is_own => false,
+        true => one.file.has_stem && !names_another(urdf, one) && is_of(urdf, one, true),
+        false => {
+            let is_near = is_only && one.file.is_own;
+            !is_of_another_urdf(urdf, &one.file.path) && is_of(urdf, one, is_near)
+        }
     });
     if !has_stem && found.len() > 1 {
         return Vec::new();
     }
-    found.into_iter().map(|one| one.srdf).collect()
+    found
 }
 
 /// The pairs of links, each in order, of which an SRDF says that their collisions are not checked.
 pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
     let mut pairs = BTreeSet::new();
     for srdf in of_robot(urdf) {
-        let Ok(document) = srdf.parse() else { continue };
+        let Ok(document) = srdf.document() else { continue };
         let disabled = document
             .descendants()
             .filter(|node: &Node| node.tag_name().name() == "disable_collisions");
@@ -75,14 +69,14 @@ pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
 }
 
 /// Whether what an SRDF says fits the robot. `is_near` if where it is speaks for it; then the robot's name need not be its own.
-fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
+fn is_of(urdf: &Subject, one: &Srdf, is_near: bool) -> bool {
     let name = urdf.root.attribute("name").unwrap_or_default();
-    let Ok(document) = one.srdf.parse() else {
-        return is_near || one.srdf.text.contains(&format!("\"{name}\""));
+    let Ok(document) = one.document() else {
+        return is_near || one.file.text.contains(&format!("\"{name}\""));
     };
     let root = document.root_element();
     let has_name = root.attribute("name").is_some_and(|found| found.trim() == name);
-    if has_name && one.has_stem && one.is_own {
+    if has_name && one.file.has_stem && one.file.is_own {
         return true;
     }
     let known: BTreeSet<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
@@ -98,8 +92,8 @@ fn is_of(urdf: &Subject, one: &Candidate, is_near: bool) -> bool {
 }
 
 /// Whether the robot of an SRDF, by its name, is that of another URDF beside this one.
-fn names_another(urdf: &Subject, one: &Candidate) -> bool {
-    let Ok(document) = one.srdf.parse() else { return false };
+fn names_another(urdf: &Subject, one: &Srdf) -> bool {
+    let Ok(document) = one.document() else { return false };
     let name = document.root_element().attribute("name").unwrap_or_default().trim();
     let is_own = |name: &str| urdf.root.attribute("name") == Some(name);
     let wanted = name.to_lowercase();
@@ -127,7 +121,7 @@ fn stem(path: &Path) -> String {
     file_type::stem(path).to_lowercase()
 }
 
-fn candidates(urdf: &Subject) -> Vec<Candidate> {
+fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
     let wanted = stem(Path::new(urdf.file));
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
     let mut expanded = 0;
@@ -158,8 +152,8 @@ fn candidates(urdf: &Subject) -> Vec<Candidate> {
                 let Some(made) = expand(urdf, &path, &of_urdf) else { continue };
                 (text, trail) = made;
             }
-            let srdf = Srdf { shown: format!("{shown}{name}"), path: path.clone(), text, trail };
-            found.push(Candidate { path, srdf, is_own, has_stem });
+            let shown = format!("{shown}{name}");
+            found.push(SrdfFile { shown, path, text, trail, is_own, has_stem });
         }
     }
     found

@@ -15,7 +15,7 @@ use super::named_file::NamedFile;
 use super::programs::Left;
 use super::settings::LintSettings;
 use super::skip::{WITHOUT_MESHES, refused};
-use super::srdf_text::Srdfs;
+use super::srdf_text::{SrdfFile, Srdfs};
 use super::unknown::{Unknown, What, unknown};
 use super::vocabulary::Names;
 use urdd_directory::position::{LineIndex, Position};
@@ -64,13 +64,15 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// A URDF. `source` is the same text as the reader of `generate` understands it, or why that reader refuses it.
+    /// A URDF. `source` is the same text as the reader of `generate` understands it, or why that reader refuses it; `srdfs`
+    /// is filled with the SRDFs around it where a rule asks for them.
     pub fn new(
         file: &'a str,
         folder: &'a Path,
         document: &'a Document<'a>,
         source: Result<&'a SourceMeshes, &SkipReason>,
         settings: &'a LintSettings,
+        srdfs: &'a OnceLock<Vec<SrdfFile>>,
     ) -> Self {
         let root = document.root_element();
         let [links, joints] = ["link", "joint"].map(|name| named(root, name).collect::<Vec<_>>());
@@ -90,7 +92,7 @@ impl<'a> Subject<'a> {
             lines: LineIndex::new(document.input_text()),
             source,
             without_meshes: settings.without_meshes,
-            srdfs: Srdfs::new(settings),
+            srdfs: Srdfs::new(settings, srdfs),
             links,
             joints,
             robot: OnceLock::new(),

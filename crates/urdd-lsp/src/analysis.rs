@@ -6,7 +6,7 @@ use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, at_the_top, failures, of_check};
 use crate::document::Snapshot;
-use crate::kind::Kind;
+use crate::kind::FileKind;
 use crate::project::Project;
 use crate::urdd_documents;
 use crate::xacro;
@@ -56,10 +56,10 @@ impl Analysis {
     /// Examines a document. `None` if it is cancelled.
     pub fn new(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Option<Self> {
         let analysis = match (snapshot.kind, snapshot.excess()) {
-            (Kind::Other, _) => Analysis::default(),
+            (FileKind::Other, _) => Analysis::default(),
             (_, Some(excess)) => return Some(too_large(snapshot, excess)),
-            (Kind::Urdf | Kind::Xacro, None) => of_xml(snapshot, depth, cancellation),
-            (Kind::Urdd { schema, is_yaml }, None) => {
+            (FileKind::Urdf | FileKind::Xacro, None) => of_xml(snapshot, depth, cancellation),
+            (FileKind::Urdd { schema, is_yaml }, None) => {
                 let found = urdd_documents::check(snapshot, schema, is_yaml);
                 Analysis::of(found.into_iter().map(Found::from).collect())
             }
@@ -70,7 +70,7 @@ impl Analysis {
 
 fn too_large(snapshot: &Snapshot, excess: &str) -> Analysis {
     let command = match snapshot.kind {
-        Kind::Urdd { .. } => "urdd validate",
+        FileKind::Urdd { .. } => "urdd validate",
         _ => "urdd lint",
     };
     let message =
@@ -84,11 +84,11 @@ fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Ana
         return Analysis::default();
     }
     let mut analysis = match (&snapshot.kind, depth) {
-        (Kind::Xacro, Depth::Text) => {
+        (FileKind::Xacro, Depth::Text) => {
             let found = xacro::of_text(snapshot);
             Analysis { found, postponed: Postponed::All, ..Analysis::default() }
         }
-        (Kind::Xacro, Depth::Files) => Analysis::of(xacro::of_files(snapshot, &project)),
+        (FileKind::Xacro, Depth::Files) => Analysis::of(xacro::of_files(snapshot, &project)),
         _ => of_urdf(snapshot, depth, &project),
     };
     analysis.found.extend(project.faults);

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use lsp_types::Uri;
 use nalgebra::Isometry3;
 
-use crate::kind::Kind;
+use crate::kind::FileKind;
 use crate::markup::Markup;
 use crate::options::Options;
 use crate::outline::Outline;
@@ -32,7 +32,7 @@ pub struct Snapshot {
     pub path: Option<PathBuf>,
     /// The folder that relative names refer to.
     pub folder: PathBuf,
-    pub kind: Kind,
+    pub kind: FileKind,
     /// The editor's number of the version.
     pub version: i32,
     pub text: Text,
@@ -74,7 +74,7 @@ impl Snapshot {
         let folder = path.as_deref().and_then(Path::parent).or(root);
         let folder = folder.map_or_else(|| PathBuf::from("."), Path::to_owned);
         Snapshot {
-            kind: Kind::of(uri.as_str(), path.as_deref(), language),
+            kind: FileKind::of(uri.as_str(), path.as_deref(), language),
             uri,
             path,
             folder,
@@ -139,7 +139,7 @@ impl Snapshot {
     /// The robot: of this version, or of the last one that described one.
     pub fn robot(&self) -> Option<Arc<RobotModel>> {
         let of_this = self.computed.robot.get_or_init(|| {
-            if !matches!(self.kind, Kind::Urdf) || self.is_too_large() {
+            if !matches!(self.kind, FileKind::Urdf) || self.is_too_large() {
                 return None;
             }
             let settings = self.options.lint_settings(&Cancellation::default());

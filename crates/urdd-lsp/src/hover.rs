@@ -6,7 +6,7 @@ use lsp_types::{Hover, Position};
 use nalgebra::Isometry3;
 
 use crate::document::{RobotModel, Snapshot};
-use crate::kind::Kind;
+use crate::kind::FileKind;
 use crate::markup::Place;
 use crate::reference::{Names, reference};
 use crate::shown::{code, markdown, sentence};
@@ -32,12 +32,12 @@ pub fn hover(
     at: Position,
     programs: impl FnOnce() -> Vec<String>,
 ) -> Option<Hover> {
-    if let Kind::Urdd { schema, is_yaml } = snapshot.kind {
+    if let FileKind::Urdd { schema, is_yaml } = snapshot.kind {
         return urdd_documents::hover(snapshot, schema?, is_yaml, at);
     }
     let offset = snapshot.text.offset(at);
     let root = snapshot.markup().place(snapshot.text.as_str(), offset);
-    if let (Kind::Urdf, Place::TagName { element: 0 }) = (snapshot.kind, root) {
+    if let (FileKind::Urdf, Place::TagName { element: 0 }) = (snapshot.kind, root) {
         return in_programs(snapshot, &programs());
     }
     let found = reference(snapshot, offset)?;

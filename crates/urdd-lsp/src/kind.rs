@@ -16,7 +16,7 @@ use urdd_format::schema::Subject;
 
 /// What a document is.
 #[derive(Clone, Copy)]
-pub enum Kind {
+pub enum FileKind {
     Urdf,
     Xacro,
     /// `urdd.json`, or the document of a module, as JSON or YAML.
@@ -29,29 +29,29 @@ pub enum Kind {
     Other,
 }
 
-impl Kind {
+impl FileKind {
     /// What a document is, by its name; by its language if it has no name with an extension.
-    pub fn of(uri: &str, path: Option<&Path>, language: &str) -> Kind {
+    pub fn of(uri: &str, path: Option<&Path>, language: &str) -> FileKind {
         let name = uri::file_name(uri);
         match FileType::of(Path::new(&name)) {
-            Some(FileType::Urdf) => return Kind::Urdf,
-            Some(FileType::Xacro) => return Kind::Xacro,
+            Some(FileType::Urdf) => return FileKind::Urdf,
+            Some(FileType::Xacro) => return FileKind::Xacro,
             _ => {}
         }
         if let Some(found) = path.and_then(Schema::of_file) {
             return found;
         }
         match language.to_lowercase().as_str() {
-            "urdf" => Kind::Urdf,
-            "xacro" => Kind::Xacro,
+            "urdf" => FileKind::Urdf,
+            "xacro" => FileKind::Xacro,
             // A text that is not saved yet.
-            "xml" if path.is_none() && !name.contains('.') => Kind::Urdf,
-            _ => Kind::Other,
+            "xml" if path.is_none() && !name.contains('.') => FileKind::Urdf,
+            _ => FileKind::Other,
         }
     }
 
     pub fn is_xml(self) -> bool {
-        matches!(self, Kind::Urdf | Kind::Xacro)
+        matches!(self, FileKind::Urdf | FileKind::Xacro)
     }
 }
 
@@ -66,11 +66,11 @@ pub struct Schema {
 
 impl Schema {
     /// What a file of a URDD is; `None` for other files.
-    pub fn of_file(path: &Path) -> Option<Kind> {
+    pub fn of_file(path: &Path) -> Option<FileKind> {
         let name = path.file_name()?.to_str()?;
         if name == ROOT_METADATA {
             let schema = Schema { subject: Subject::RootMetadata, is_newer: false };
-            return Some(Kind::Urdd { schema: Some(schema), is_yaml: false });
+            return Some(FileKind::Urdd { schema: Some(schema), is_yaml: false });
         }
         let is_yaml = match name {
             "module.json" => false,
@@ -84,7 +84,10 @@ impl Schema {
         }
         let mut kinds = ModuleKind::ALL.iter().copied();
         let kind = kinds.find(|kind| kind.name() == module);
-        Some(Kind::Urdd { schema: kind.and_then(|kind| Schema::of_module(kind, folder)), is_yaml })
+        Some(FileKind::Urdd {
+            schema: kind.and_then(|kind| Schema::of_module(kind, folder)),
+            is_yaml,
+        })
     }
 
     /// The schema of a module in a folder, by its `VERSION`.

@@ -3,7 +3,7 @@
 use lsp_types::{DocumentSymbol, DocumentSymbolResponse, SymbolInformation, SymbolKind};
 
 use crate::document::Snapshot;
-use crate::kind::Kind;
+use crate::kind::FileKind;
 use crate::outline::Outline;
 
 /// The deepest level. What is below is listed beside it: editors read nested data by recursion.
@@ -15,7 +15,7 @@ pub fn symbols(snapshot: &Snapshot, is_nested: bool) -> Option<DocumentSymbolRes
         return None;
     }
     let (outline, mut found) = (snapshot.outline(), Vec::new());
-    if matches!(snapshot.kind, Kind::Xacro) {
+    if matches!(snapshot.kind, FileKind::Xacro) {
         found = macros(snapshot);
     }
     let mut tree = Tree::new(snapshot, outline);

@@ -20,7 +20,7 @@ pub(crate) const ABOUT: About = About {
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = urdfdom::parse(file, effects)?;
     let model = urdfdom::model(tree, Release::Six, effects)?;
-    let mut reader = Reader { file, effects };
+    let mut reader = PinocchioReader { file, effects };
     let is_reached = reader.model(&model)?;
     effects.parsed(rapidxml::check(file.counted))?;
     if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
@@ -29,13 +29,13 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let textures = textures(&model);
     for kind in ["collision", "visual"] {
         for (name, link) in model.links.iter().filter(|(name, _)| is_reached.contains(*name)) {
-            Reader { file, effects }.shapes(kind, name, link, &textures)?;
+            PinocchioReader { file, effects }.shapes(kind, name, link, &textures)?;
         }
     }
     Ok(())
 }
 
-struct Reader<'r> {
+struct PinocchioReader<'r> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
 }
@@ -46,7 +46,7 @@ enum Step<'m> {
     Leave(&'m str),
 }
 
-impl Reader<'_> {
+impl PinocchioReader<'_> {
     /// Walks from the root. Returns the links that it comes to.
     fn model<'m>(&mut self, model: &'m Model<'_>) -> Reading<HashSet<&'m str>> {
         let mut above = HashMap::new();

@@ -96,7 +96,7 @@ pub(crate) fn model<'t>(
             _ => return effects.refuse(written, Fault::Version((&*written.value).into())),
         },
     };
-    let mut reader = Reader { minor, effects, materials: HashMap::new() };
+    let mut reader = UrdfdomReader { minor, effects, materials: HashMap::new() };
     reader.materials(robot)?;
     let links = reader.links(robot)?;
     let joints = reader.joints(robot)?;
@@ -131,7 +131,7 @@ fn version(text: &str) -> Option<(u32, u32)> {
     Some((part(major)?, part(minor)?))
 }
 
-struct Reader<'r> {
+struct UrdfdomReader<'r> {
     /// The version of URDF is 1 and this.
     minor: u32,
     effects: &'r mut Effects,
@@ -139,7 +139,7 @@ struct Reader<'r> {
     materials: HashMap<String, Option<Look>>,
 }
 
-impl Reader<'_> {
+impl UrdfdomReader<'_> {
     fn tree(&mut self, robot: Node<'_>, model: &Model<'_>) -> Reading<()> {
         let mut children = HashSet::new();
         for joint in model.joints.values() {

@@ -10,7 +10,7 @@ use super::kept::{LinkShape, Solid};
 use super::robot::of_read;
 use urdd_document::kept::keep;
 use urdd_document::mesh_files::{Absence, MeshFiles};
-use urdd_document::meshes::{self, Format, MeshPath};
+use urdd_document::meshes::{self, MeshFormat, MeshPath};
 use urdd_document::shapes::{Volume, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
@@ -65,14 +65,14 @@ struct Meshes<'a> {
     meshes: meshes::Meshes<'a>,
     /// The format to read: the first of STL, OBJ and GLB, ordered by how compactly they store vertices, that has any
     /// file. A page in one file omits whole formats.
-    format: Option<Format>,
+    format: Option<MeshFormat>,
 }
 
 impl<'a> Meshes<'a> {
     pub fn new(part: &'a Urdd, kind: ModuleKind) -> Result<Self, RobotError> {
         let meshes = part.meshes(kind).ok_or(RobotError::Missing(kind))?;
         let files = MeshFiles::new(part);
-        let has_files = |format: &Format| {
+        let has_files = |format: &MeshFormat| {
             let links = meshes.lists.iter().flat_map(|list| &list.links);
             let mut paths = links.flatten().flat_map(|mesh| &mesh.paths);
             paths.any(|path| {
@@ -80,7 +80,8 @@ impl<'a> Meshes<'a> {
                 path.format == Some(*format) && own.is_none_or(|own| part.listing().has_file(own))
             })
         };
-        let format = [Format::Stl, Format::Obj, Format::Glb].into_iter().find(has_files);
+        let format =
+            [MeshFormat::Stl, MeshFormat::Obj, MeshFormat::Glb].into_iter().find(has_files);
         Ok(Self { part, meshes, format })
     }
 
@@ -98,7 +99,7 @@ impl<'a> Meshes<'a> {
         &self,
         link: usize,
         piece: usize,
-        format: Option<Format>,
+        format: Option<MeshFormat>,
     ) -> Result<&MeshPath<'_>, RobotError> {
         let lists = self.meshes.lists.iter();
         let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
@@ -123,7 +124,7 @@ impl<'a> Meshes<'a> {
     fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
         let links = (0..self.meshes.num_links()).filter(|link| self.meshes.count(*link) > 0);
         let visual = |link: usize| {
-            let path = self.path(link, 0, Some(Format::Glb))?;
+            let path = self.path(link, 0, Some(MeshFormat::Glb))?;
             let scene = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?;
             Ok(LinkVisual { link, parts: scene.parts })
         };

@@ -25,12 +25,12 @@ pub struct Dropped {
     /// Its path, and its unique name.
     pub job: Job,
     /// What it is written in.
-    pub kind: Kind,
+    pub kind: DroppedKind,
 }
 
 /// What a description is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum DroppedKind {
     /// URDF.
     Urdf,
     /// URDF with macros, which a program has to expand.
@@ -39,13 +39,13 @@ pub enum Kind {
     Imported(Format),
 }
 
-impl Kind {
+impl DroppedKind {
     /// Its name in JSON.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Urdf => "urdf",
-            Kind::Xacro => "xacro",
-            Kind::Imported(format) => format.name(),
+            DroppedKind::Urdf => "urdf",
+            DroppedKind::Xacro => "xacro",
+            DroppedKind::Imported(format) => format.name(),
         }
     }
 }
@@ -64,11 +64,12 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     };
     let found = all.paths().filter(|file| !is_passed(file));
     let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
-    let mut found: Vec<(PathBuf, Kind)> = found.collect();
-    let is_imported = |(_, kind): &&(PathBuf, Kind)| matches!(kind, Kind::Imported(_));
+    let mut found: Vec<(PathBuf, DroppedKind)> = found.collect();
+    let is_imported =
+        |(_, kind): &&(PathBuf, DroppedKind)| matches!(kind, DroppedKind::Imported(_));
     let imported = found.iter().filter(is_imported).map(|(file, _)| file.as_path());
     let mut parts = parts_of_others(imported, files);
-    let is_xacro = |(_, kind): &&(PathBuf, Kind)| *kind == Kind::Xacro;
+    let is_xacro = |(_, kind): &&(PathBuf, DroppedKind)| *kind == DroppedKind::Xacro;
     let xacro: Vec<PathBuf> = found.iter().filter(is_xacro).map(|(file, _)| file.clone()).collect();
     let settings = Settings { files: files.clone(), ..Settings::default() };
     let described = describe(&xacro, &BTreeMap::new(), &settings).files.into_iter();
@@ -77,7 +78,7 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
     if found.iter().any(|(file, _)| !parts.contains(file)) {
         found.retain(|(file, _)| !parts.contains(file));
     }
-    let (paths, kinds): (Vec<PathBuf>, Vec<Kind>) = found.into_iter().unzip();
+    let (paths, kinds): (Vec<PathBuf>, Vec<DroppedKind>) = found.into_iter().unzip();
     named(paths.into_iter().map(Declared::from).collect())
         .into_iter()
         .zip(kinds)
@@ -85,14 +86,14 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
         .collect()
 }
 
-fn kind(file: &Path, files: &Files) -> Option<Kind> {
+fn kind(file: &Path, files: &Files) -> Option<DroppedKind> {
     match FileType::of(file)? {
-        FileType::Urdf => Some(Kind::Urdf),
+        FileType::Urdf => Some(DroppedKind::Urdf),
         FileType::Xacro => {
             let urdf = file.with_extension("");
-            (FileType::Urdf.is_of(&urdf) && !files.is_file(&urdf)).then_some(Kind::Xacro)
+            (FileType::Urdf.is_of(&urdf) && !files.is_file(&urdf)).then_some(DroppedKind::Xacro)
         }
-        _ => imported(file, files).map(Kind::Imported),
+        _ => imported(file, files).map(DroppedKind::Imported),
     }
 }
 

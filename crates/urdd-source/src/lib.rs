@@ -59,8 +59,8 @@ pub use format::{Format, format_of, root_of};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{
-    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf, stem,
-    well_formed,
+    Source, SourceRobot, SourceText, file_name, load, load_text, load_with, read_source, read_urdf,
+    stem, well_formed,
 };
 pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};

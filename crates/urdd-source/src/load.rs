@@ -67,9 +67,22 @@ pub fn load(
     settings: &Settings,
     cancellation: &Cancellation,
 ) -> Result<Source, SourceError> {
+    Ok(load_with(path, settings, cancellation, |_, _| ())?.0)
+}
+
+/// As [`load`]; `also` reads the text that a URDD carries, too. It is given whether that is the file as it was found.
+///
+/// # Errors
+/// Like [`load`].
+pub fn load_with<T>(
+    path: &Path,
+    settings: &Settings,
+    cancellation: &Cancellation,
+    also: impl FnOnce(&Xml<'_>, bool) -> T,
+) -> Result<(Source, T), SourceError> {
     let mut notes = Vec::new();
     let read = read(path, settings, cancellation, &mut notes)?;
-    mend(&Xml::new(&read.text), &read, notes)
+    mend(&Xml::new(&read.text), &read, notes, also)
 }
 
 /// The text of a description as an author sees it.
@@ -238,10 +251,11 @@ fn in_memory(
     let (text, is_verbatim) = decode::decode(&bytes, shown, &mut notes)?;
     let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
     let read = Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path };
-    match known.filter(|known| known.text() == read.text) {
-        Some(xml) => mend(xml, &read, notes),
-        None => mend(&Xml::new(&read.text), &read, notes),
-    }
+    let loaded = match known.filter(|known| known.text() == read.text) {
+        Some(xml) => mend(xml, &read, notes, |_, _| ()),
+        None => mend(&Xml::new(&read.text), &read, notes, |_, _| ()),
+    };
+    Ok(loaded?.0)
 }
 
 /// A robot, read from memory.
@@ -267,7 +281,12 @@ pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
 }
 
 /// Reads a robot, and repairs its text until both match.
-fn mend(found: &Xml<'_>, read: &Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
+fn mend<T>(
+    found: &Xml<'_>,
+    read: &Read,
+    mut notes: Vec<Note>,
+    also: impl FnOnce(&Xml<'_>, bool) -> T,
+) -> Result<(Source, T), SourceError> {
     let Read { shown, bytes, stem, trail, path, .. } = read;
     let (mut repaired, remarks, first_line) = repair::mend_xml(found);
     let mut is_verbatim = read.is_verbatim && remarks.is_empty();
@@ -299,7 +318,8 @@ fn mend(found: &Xml<'_>, read: &Read, mut notes: Vec<Note>) -> Result<Source, So
             repaired = Some(apply(xml.text(), std::mem::take(&mut reading.edits)));
             continue;
         }
-        return Ok(Source {
+        let also = also(xml, is_verbatim);
+        let source = Source {
             folder: read.folder.clone(),
             file_name: file_name(stem),
             carried: if is_verbatim { bytes.clone() } else { xml.text().into() },
@@ -308,7 +328,8 @@ fn mend(found: &Xml<'_>, read: &Read, mut notes: Vec<Note>) -> Result<Source, So
             notes,
             mesh_places: std::mem::take(places),
             shown: shown.clone(),
-        });
+        };
+        return Ok((source, also));
     }
     let reason = "the repaired URDF needs repairs again".to_owned();
     Err(SourceError::Internal { file: shown.clone(), reason })

@@ -20,7 +20,7 @@ pub fn installed(text: &str) -> Installed {
     };
     let line = u32::try_from(before.lines().count().max(1)).unwrap_or(u32::MAX);
     let tokens = tokens(data);
-    let mut reader = Reader { tokens: &tokens, at: 0, variables };
+    let mut reader = SetupPyReader { tokens: &tokens, at: 0, variables };
     if !(reader.skip('=') && reader.skip('[')) {
         installed.unknown = Some((FILE, line));
         return installed;
@@ -58,13 +58,13 @@ fn assignment(line: &str) -> Option<(String, String)> {
     }
 }
 
-struct Reader<'t> {
+struct SetupPyReader<'t> {
     tokens: &'t [Token],
     at: usize,
     variables: Variables,
 }
 
-impl Reader<'_> {
+impl SetupPyReader<'_> {
     fn skip(&mut self, mark: char) -> bool {
         let is_it = self.tokens.get(self.at) == Some(&Token::Mark(mark));
         self.at += usize::from(is_it);

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
+use super::described::{Described, UrdfText};
 use super::memo::Memos;
 use super::reference::distances::Distances;
 use super::reference::learned::counts::Judge;
@@ -12,15 +13,15 @@ use super::solids::placed::{self, Placed};
 use urdd_directory::cancellation::Cancellation;
 use urdd_document::meshes::Meshes;
 use urdd_document::module::Module;
-use urdd_document::robot;
+use urdd_document::robot::Robot;
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
-use urdd_document::urdd::{RobotFrom, Urdd};
+use urdd_document::urdd::Urdd;
 use urdd_findings::check::Check;
 use urdd_findings::examined::{Examined, blank};
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::report::{self as format, Kind, Size};
 use urdd_format::root_metadata::ConformanceClass;
 
@@ -35,7 +36,7 @@ pub struct Context {
     deep: bool,
     /// Once cancelled, no further rule starts.
     pub(super) cancellation: Cancellation,
-    urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
+    urdf_text: Arc<UrdfText>,
     solids: Arc<OnceLock<Solids>>,
     /// Results that follow from files alone, and so are the same by both descriptions of the robot.
     pub memos: Arc<Memos>,
@@ -72,23 +73,30 @@ impl Context {
     /// The same URDD with the robot of the carried URDF instead of that of `urdf_module`; `None` if there is no
     /// carried URDF or it cannot be read (URD011).
     pub fn by_urdf(&self) -> Option<Context> {
-        let utf8 = self.urdf().is_ok_and(|urdf| urdf.not_utf8_at.is_none());
-        let reading = self.urdf_text().filter(|_| utf8)?;
-        let robot = reading.robot.as_ref()?;
-        reading.problems.is_empty().then(|| Context {
+        let robot = self.urdf_text.robot(self.urdf())?;
+        Some(Context {
             urdf_text: Arc::clone(&self.urdf_text),
             solids: Arc::clone(&self.solids),
             memos: Arc::clone(&self.memos),
             deep: self.deep,
             cancellation: self.cancellation.clone(),
-            ..Context::new(self.urdd.with_robot(robot::of_urdf(robot)), self.class)
+            ..Context::new(self.urdd.with_robot(robot), self.class)
         })
     }
 
+    /// The robot, for rules about it alone.
+    pub fn described(&self) -> Described<'_> {
+        Described {
+            mechanism: self.mechanism(),
+            module: self.module(ModuleKind::Urdf).filter(|_| !self.is_by_urdf()),
+            urdf: self.urdf(),
+            text: &self.urdf_text,
+        }
+    }
+
     /// Sets what the source URDF says, where somebody has parsed it.
-    pub(super) fn with_urdf_text(self, reading: Option<urdf_text::Reading>) -> Self {
-        let known = reading.map(|reading| Arc::new(Some(reading).into()));
-        Context { urdf_text: known.unwrap_or_default(), ..self }
+    pub(super) fn knowing(self, urdf: Option<urdf_text::Reading>) -> Self {
+        Context { urdf_text: UrdfText::known(urdf).into(), ..self }
     }
 
     /// Whether to check sampled data completely, however long that takes.
@@ -103,11 +111,6 @@ impl Context {
         self
     }
 
-    /// Whether the robot is that of the carried URDF.
-    pub fn is_by_urdf(&self) -> bool {
-        self.urdd.robot_from() == RobotFrom::CarriedUrdf
-    }
-
     /// The conformance class that the URDD must meet: the requested one, otherwise the one it claims.
     pub fn class(&self) -> Option<ConformanceClass> {
         self.class.or_else(|| self.metadata().map(|metadata| metadata.conformance_class))
@@ -115,7 +118,7 @@ impl Context {
 
     /// The parsed source URDF; `None` if none is carried. Only meaningful if URD011 passed.
     pub fn urdf_text(&self) -> Option<&urdf_text::Reading> {
-        self.urdf_text.get_or_init(|| Some(urdf_text::read(&self.urdf().ok()?.text))).as_ref()
+        self.urdf_text.of(self.urdf())
     }
 
     /// The contents of the mesh files, all read on first use.
@@ -168,8 +171,8 @@ impl Context {
     }
 
     /// What a report says of it, with its checks. `name` is its name in the report.
-    pub(super) fn examined(&self, kind: Kind, name: &str, checks: Vec<Check>) -> Examined {
-        let robot = self.robot();
+    pub(super) fn examined(&self, name: &str, checks: Vec<Check>) -> Examined {
+        let mut examined = examined(Kind::Urdd, name, self.robot(), checks);
         let metadata = self.metadata().map(|metadata| &metadata.robot_name);
         let modules = self.modules().map(|module| format::Module {
             name: module.name().to_owned(),
@@ -177,17 +180,10 @@ impl Context {
             version: module.version.clone(),
             profile: module.spec.map(|spec| spec.profile.as_str().to_owned()),
         });
-        let report = format::Urdd {
-            name: robot.map(|robot| &robot.name).or(metadata).cloned(),
-            size: Size {
-                links: robot.map(|robot| Count::saturating(robot.links.len())),
-                joints: robot.map(|robot| Count::saturating(robot.joints.len())),
-                dofs: self.dofs().map(|dofs| dofs.num_dofs),
-            },
-            modules: modules.collect(),
-            ..blank(kind, name)
-        };
-        Examined { report, checks }
+        examined.report.name = examined.report.name.or_else(|| metadata.cloned());
+        examined.report.size.dofs = self.dofs().map(|dofs| dofs.num_dofs);
+        examined.report.modules = modules.collect();
+        examined
     }
 
     /// Those of the modules whose documents are usable.
@@ -207,5 +203,49 @@ impl Context {
         kinds: &[ModuleKind],
     ) -> impl Iterator<Item = (ModuleKind, &Module, Meshes<'_>)> {
         kinds.iter().filter_map(|kind| Some((*kind, self.module(*kind)?, self.meshes(*kind)?)))
+    }
+}
+
+/// What a report says of a robot, with its checks. `name` is its name in the report.
+pub(super) fn examined(
+    kind: Kind,
+    name: &str,
+    robot: Option<&Robot>,
+    checks: Vec<Check>,
+) -> Examined {
+    let report = format::Urdd {
+        name: robot.map(|robot| robot.name.clone()),
+        size: Size {
+            links: robot.map(|robot| Count::saturating(robot.links.len())),
+            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
+            dofs: None,
+        },
+        ..blank(kind, name)
+    };
+    Examined { report, checks }
+}
+
+/// What rules are run on: a robot, and the URDD that it is of, if any.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'a> {
+    pub described: Described<'a>,
+    pub urdd: Option<&'a Context>,
+}
+
+impl<'a> From<&'a Context> for Subject<'a> {
+    fn from(context: &'a Context) -> Self {
+        Subject { described: context.described(), urdd: Some(context) }
+    }
+}
+
+impl<'a> Subject<'a> {
+    /// The module of the URDD.
+    pub fn module(&self, kind: ModuleKind) -> Option<&'a Module> {
+        self.urdd?.module(kind)
+    }
+
+    /// The format family; a URDF alone is judged as that of a URDD of the present version.
+    pub fn profile(&self) -> Profile {
+        self.urdd.map_or(Profile::V1, |urdd| urdd.profile())
     }
 }

@@ -1,11 +1,12 @@
-//! Runs the rules on a URDD, phase by phase. A rule runs only if its needs are met; a rule that crashes is caught.
+//! Runs the rules on a URDD, or on a URDF alone, phase by phase. A rule runs only if its needs are met; a rule that crashes is caught.
 
 use std::collections::HashMap;
 
-use super::context::Context;
+use super::context::Subject;
 use super::locate::locate;
-use super::rule::{Need, Rule};
+use super::rule::{CheckOf, Need, Rule};
 use super::skip;
+use urdd_document::module::Module;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::finding::Findings;
@@ -26,7 +27,7 @@ pub(super) type Outcomes = HashMap<Code, Ran>;
 /// Runs rules for one description of the robot. `outcomes` has the outcomes of rules that ran before; those of these
 /// rules are added.
 pub(super) fn run_all(
-    context: &Context,
+    subject: Subject<'_>,
     mut rules: Vec<&'static Rule>,
     outcomes: &mut Outcomes,
 ) -> Vec<Check> {
@@ -40,7 +41,7 @@ pub(super) fn run_all(
         let mut later = Vec::new();
         for rule in waiting {
             // The caller checks as well, and discards partial results.
-            if context.cancellation.is_cancelled() {
+            if subject.urdd.is_some_and(|urdd| urdd.cancellation.is_cancelled()) {
                 return checks;
             }
             let is_open = |code: &Code| !outcomes.contains_key(code) && codes.contains(code);
@@ -48,7 +49,7 @@ pub(super) fn run_all(
                 later.push(rule);
                 continue;
             }
-            let check = run_rule(context, rule, outcomes);
+            let check = run_rule(subject, rule, outcomes);
             let ran = Ran { outcome: check.outcome.clone(), faulted: check.faulted.clone() };
             outcomes.insert(rule.code, ran);
             checks.push(check);
@@ -65,18 +66,18 @@ pub(super) fn run_all(
     checks
 }
 
-fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
-    if let Some(reason) = unmet(context, Need::All(rule.needs), outcomes) {
+fn run_rule(subject: Subject<'_>, rule: &'static Rule, outcomes: &Outcomes) -> Check {
+    if let Some(reason) = unmet(subject, Need::All(rule.needs), outcomes) {
         return Check::skipped(&rule.description, reason);
     }
     let mut unsound = HashMap::new();
-    unsound_parts(context, Need::All(rule.needs), outcomes, &mut unsound);
-    judge(context, rule, Findings::default().within(Scope::without(unsound)))
+    unsound_parts(subject, Need::All(rule.needs), outcomes, &mut unsound);
+    judge(subject, rule, Findings::default().within(Scope::without(unsound)))
 }
 
 /// Adds the parts that a need leaves out, each with the rule that it failed.
 fn unsound_parts(
-    context: &Context,
+    subject: Subject<'_>,
     need: Need,
     outcomes: &Outcomes,
     unsound: &mut HashMap<Part, Code>,
@@ -84,10 +85,10 @@ fn unsound_parts(
     match need {
         Need::All(needs) => {
             for need in needs {
-                unsound_parts(context, *need, outcomes, unsound);
+                unsound_parts(subject, *need, outcomes, unsound);
             }
         }
-        Need::EachInV1(_) if context.profile() != Profile::V1 => {}
+        Need::EachInV1(_) if subject.profile() != Profile::V1 => {}
         Need::Each(codes) | Need::EachInV1(codes) => {
             for code in codes {
                 let faulted = outcomes.get(code).map(|ran| ran.faulted.parts());
@@ -101,45 +102,64 @@ fn unsound_parts(
 }
 
 /// Runs a rule's check with these findings.
-pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) -> Check {
-    judge_into(context, rule, &mut { findings })
+pub(super) fn judge(subject: Subject<'_>, rule: &'static Rule, findings: Findings) -> Check {
+    judge_into(subject, rule, &mut { findings })
 }
 
 /// The same, but leaves `findings` to the caller, without the findings that are returned.
-pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
-    let judge = |findings: &mut Findings| (rule.check)(context, findings);
+pub(super) fn judge_into(
+    subject: Subject<'_>,
+    rule: &'static Rule,
+    findings: &mut Findings,
+) -> Check {
+    let judge = |findings: &mut Findings| match rule.check {
+        CheckOf::Urdd(check) => check(subject.urdd?, findings),
+        CheckOf::Robot(check) => check(&subject.described, findings),
+    };
     let mut check = Check::caught(&rule.description, findings, judge);
-    locate(context, &mut check.findings);
+    locate(subject, &mut check.findings);
     check
 }
 
 /// Why a need is not met; `None` if it is.
-fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReason> {
+fn unmet(subject: Subject<'_>, need: Need, outcomes: &Outcomes) -> Option<SkipReason> {
     match need {
-        // The carried URDF takes the module's place.
-        Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
-        Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
-        Need::Module(kind) => match context.module(kind) {
+        // The URDF takes the module's place.
+        Need::Module(ModuleKind::Urdf) | Need::SourceRobot
+            if subject.described.module.is_none() && subject.described.mechanism.is_some() =>
+        {
+            None
+        }
+        // A URDF alone describes no robot where URD011 found a fault.
+        Need::Module(ModuleKind::Urdf) | Need::SourceRobot if subject.urdd.is_none() => {
+            unmet(subject, Need::Passed(Code::URD011), outcomes)
+        }
+        Need::SourceRobot => unmet(subject, Need::Module(ModuleKind::Urdf), outcomes),
+        Need::Module(kind) => match subject.module(kind) {
             None => Some(SkipReason::absent(kind)),
             Some(module) => module.unusable().map(SkipReason::obstacle),
         },
-        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes)
-            .or_else(|| context.is_legacy(kind).then_some(skip::not_in_this_version(kind))),
+        Need::ModuleV1(kind) => unmet(subject, Need::Module(kind), outcomes).or_else(|| {
+            subject
+                .module(kind)
+                .is_some_and(Module::is_legacy)
+                .then_some(skip::not_in_this_version(kind))
+        }),
         Need::AnyModule(kinds) => {
-            let usable = |kind: &ModuleKind| context.document(*kind).is_some();
-            (!kinds.iter().any(usable)).then_some(skip::none_usable(kinds))
+            let usable = |kind: &ModuleKind| subject.module(*kind)?.document.as_ref();
+            kinds.iter().find_map(usable).is_none().then(|| skip::none_usable(kinds))
         }
-        Need::RootMetadata => match context.metadata() {
+        Need::RootMetadata => match subject.urdd.and_then(|urdd| urdd.metadata()) {
             Some(_) => None,
             None => Some(skip::NO_ROOT_METADATA),
         },
-        Need::UrdfFile if matches!(context.urdf(), Err(why) if why.is_too_large()) => None,
+        Need::UrdfFile if matches!(subject.described.urdf, Err(why) if why.is_too_large()) => None,
         Need::CarriedUrdf | Need::UrdfFile => {
-            context.urdf().err().map(|why| SkipReason::LeftOut(why.to_string().into()))
+            subject.described.urdf.err().map(|why| SkipReason::LeftOut(why.to_string().into()))
         }
-        Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
+        Need::All(needs) => needs.iter().find_map(|need| unmet(subject, *need, outcomes)),
         Need::NotFailedInV1(_) | Need::NoPieceInV1(_) | Need::EachInV1(_)
-            if context.profile() != Profile::V1 =>
+            if subject.profile() != Profile::V1 =>
         {
             None
         }
@@ -158,8 +178,8 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::NoneFailed(codes) => {
             codes.iter().find_map(|code| obstacle(outcomes, *code, |_| true))
         }
-        Need::Version1 => (context.profile() != Profile::V1).then_some(skip::NOT_VERSION_1),
-        Need::Legacy => (context.profile() != Profile::Legacy).then_some(skip::NOT_LEGACY),
+        Need::Version1 => (subject.profile() != Profile::V1).then_some(skip::NOT_VERSION_1),
+        Need::Legacy => (subject.profile() != Profile::Legacy).then_some(skip::NOT_LEGACY),
     }
 }
 

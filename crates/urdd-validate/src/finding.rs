@@ -2,7 +2,7 @@
 
 use std::fmt::{Debug, Display};
 
-use super::context::Context;
+use super::described::Described;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_document::entries::Entry;
 use urdd_document::module::Module;
@@ -30,9 +30,9 @@ impl Document for ModuleKind {
 }
 
 /// The file that the robot was read from.
-impl Document for &Context {
+impl Document for &Described<'_> {
     fn locate(&self, pointer: String) -> (String, String) {
-        (self.robot_file().unwrap_or_default(), pointer)
+        (self.robot_file(), pointer)
     }
 }
 

@@ -20,6 +20,8 @@
 mod bare_urdf;
 #[doc(hidden)]
 pub mod context;
+#[doc(hidden)]
+pub mod described;
 mod engine;
 #[doc(hidden)]
 pub mod finding;
@@ -44,7 +46,7 @@ mod two_robots;
 pub mod views;
 
 #[doc(hidden)]
-pub use bare_urdf::examine_urdf;
+pub use bare_urdf::{examine_urdf, found};
 #[doc(hidden)]
 pub use reference::{distances, learned, urdf_text};
 pub use summary::{ModelVerdict, find_errors, verify_model};
@@ -69,6 +71,7 @@ use urdd_document::urdd::Urdd;
 use urdd_findings::examined::Examined;
 use urdd_findings::places;
 use urdd_format::report::Kind;
+use urdd_xml::Xml;
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -141,10 +144,10 @@ pub fn validate_source(
     name: &str,
     settings: &Settings,
 ) -> Result<Run, ValidateError> {
-    run_of(name, settings, || Urdd::of(Root::of(source)))
+    run_of(name, settings, None, || Urdd::of(Root::of(source)))
 }
 
-/// As [`validate_source`], of a URDD that is loaded.
+/// As [`validate_source`], of a URDD that is loaded. `xml` is the text of its source URDF, if somebody has parsed it.
 ///
 /// # Errors
 /// Like [`validate_source`].
@@ -153,28 +156,45 @@ pub fn validate_loaded(
     loaded: Arc<Loaded>,
     name: &str,
     settings: &Settings,
+    xml: Option<&Xml<'_>>,
 ) -> Result<Run, ValidateError> {
-    run_of(name, settings, || Ok(Urdd::new(loaded)))
+    run_of(name, settings, xml.map(urdf_text::of), || Ok(Urdd::new(loaded)))
 }
 
 fn run_of(
     name: &str,
     settings: &Settings,
+    urdf: Option<urdf_text::Reading>,
     load: impl FnOnce() -> Result<Urdd, ReadError>,
 ) -> Result<Run, ValidateError> {
-    let mut examined = Examined::caught::<ReadError>(Kind::Urdd, name, || {
-        Ok(examine(load()?, name, settings, &rules::all()))
+    let examined = Examined::caught::<ReadError>(Kind::Urdd, name, || {
+        Ok(examine_with(load()?, urdf, name, settings, &rules::all()))
     });
     settings.cancellation.check()?;
+    Ok(alone(examined, name.into(), settings))
+}
+
+/// A run of one URDD or URDF.
+#[doc(hidden)]
+pub fn alone(mut examined: Examined, path: PathBuf, settings: &Settings) -> Run {
     places::trim(&mut examined.checks, places::of_each(1));
-    let folders = vec![PathBuf::from(name)];
-    Ok(Run::of(vec![examined], folders, 0, settings))
+    Run::of(vec![examined], vec![path], 0, settings)
 }
 
 /// Runs the rules over a URDD. `name` is its name in the report. Of the settings, only those that change what the rules
 /// compute apply here.
 pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Rule]) -> Examined {
-    let context =
-        Context::new(urdd, settings.class).deep(settings.deep).until(&settings.cancellation);
-    context.examined(Kind::Urdd, name, two_robots::run(&context, rules))
+    examine_with(urdd, None, name, settings, rules)
+}
+
+fn examine_with(
+    urdd: Urdd,
+    urdf: Option<urdf_text::Reading>,
+    name: &str,
+    settings: &Settings,
+    rules: &[&'static Rule],
+) -> Examined {
+    let context = Context::new(urdd, settings.class).knowing(urdf);
+    let context = context.deep(settings.deep).until(&settings.cancellation);
+    context.examined(name, two_robots::run(&context, rules))
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::context::Context;
+use super::context::Subject;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::position::{self, LineIndex, Position};
 use urdd_document::shapes::Shapes;
@@ -13,15 +13,15 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::shape_kind::ShapeKind;
 
 /// Completes the places of findings, and then those related to them.
-pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
-    let names = Names::new(context);
+pub(super) fn locate(subject: Subject<'_>, findings: &mut [Finding]) {
+    let names = Names::new(subject);
     let places = findings.iter_mut().flat_map(Finding::places_mut);
-    complete(context, &names, places);
+    complete(subject, &names, places);
     let related = findings.iter_mut().flat_map(Finding::places_mut);
-    complete(context, &names, related.flat_map(|place| &mut place.related));
+    complete(subject, &names, related.flat_map(|place| &mut place.related));
 }
 
-fn complete<'a>(context: &Context, names: &Names, places: impl Iterator<Item = &'a mut Place>) {
+fn complete<'a>(subject: Subject<'_>, names: &Names, places: impl Iterator<Item = &'a mut Place>) {
     let mut by_file: BTreeMap<String, Vec<&mut Place>> = BTreeMap::new();
     for place in places {
         if let (Some(file), Some(_)) = (&place.file, &place.pointer) {
@@ -29,8 +29,8 @@ fn complete<'a>(context: &Context, names: &Names, places: impl Iterator<Item = &
         }
     }
     for (file, mut places) in by_file {
-        let urdf = context.urdf().ok().filter(|urdf| urdf.path == file);
-        if let Some((text, kind)) = json_text(context, &file) {
+        let urdf = subject.described.urdf.ok().filter(|urdf| urdf.path == file);
+        if let Some((text, kind)) = json_text(subject, &file) {
             let pointers: Vec<String> = places.iter().map(|place| pointer(place)).collect();
             let pointers: Vec<&str> = pointers.iter().map(String::as_str).collect();
             let positions = position::locate_all(text, &pointers);
@@ -38,7 +38,7 @@ fn complete<'a>(context: &Context, names: &Names, places: impl Iterator<Item = &
                 put_position(place, found);
                 place.subject = kind.and_then(|kind| names.subject(kind, &pointer(place)));
             }
-        } else if let (Some(urdf), Some(reading)) = (urdf, context.urdf_text()) {
+        } else if let (Some(urdf), Some(reading)) = (urdf, subject.described.urdf_text()) {
             let lines = LineIndex::new(&urdf.text);
             for place in places {
                 place.subject = names.subject(ModuleKind::Urdf, &pointer(place));
@@ -65,12 +65,13 @@ fn pointer(place: &Place) -> String {
 }
 
 /// The text of a document, and its module.
-fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
+fn json_text<'a>(subject: Subject<'a>, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
+    let urdd = subject.urdd?;
     if file == ROOT_METADATA {
-        return Some((context.metadata_file().json.text()?, None));
+        return Some((urdd.metadata_file().json.text()?, None));
     }
     let folder = file.strip_suffix("/module.json")?;
-    let mut modules = context.modules();
+    let mut modules = urdd.modules();
     let module = modules.find(|module| module.folder == folder)?;
     Some((module.json.text()?, module.kind))
 }
@@ -78,19 +79,19 @@ fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<Mo
 /// Maximum length of a name in messages, characters.
 const LONGEST: usize = 60;
 
-pub(super) struct Names<'a> {
-    context: &'a Context,
+struct Names<'a> {
+    subject: Subject<'a>,
     shapes: Option<Shapes>,
 }
 
 impl<'a> Names<'a> {
-    pub(super) fn new(context: &'a Context) -> Self {
-        let shapes = context.shapes();
-        Names { context, shapes }
+    fn new(subject: Subject<'a>) -> Self {
+        let shapes = subject.urdd.and_then(|urdd| urdd.shapes());
+        Names { subject, shapes }
     }
 
     /// The target of a pointer into a module's document; `None` if it has no name.
-    pub(super) fn subject(&self, kind: ModuleKind, pointer: &str) -> Option<String> {
+    fn subject(&self, kind: ModuleKind, pointer: &str) -> Option<String> {
         let mut parts = pointer.split('/').skip(1);
         let key = parts.next()?;
         let rest: Vec<&str> = parts.collect();
@@ -108,7 +109,7 @@ impl<'a> Names<'a> {
                 Some(other) => self.links(index(0)?, other),
                 None => self.link(index(0)?),
             },
-            ModuleKind::OriginalMeshes => match self.context.document(kind)? {
+            ModuleKind::OriginalMeshes => match self.subject.urdd?.document(kind)? {
                 ModuleDocument::OriginalMeshes(module) if key == "references" => {
                     self.link(module.references.get(index(0)?)?.link_idx.get())
                 }
@@ -174,17 +175,17 @@ impl<'a> Names<'a> {
     }
 
     fn joint(&self, joint: usize) -> Option<String> {
-        let joint = self.context.robot()?.joints.get(joint)?;
+        let joint = self.subject.described.robot()?.joints.get(joint)?;
         Some(format!("joint {}", quoted(&joint.name)))
     }
 
     fn dof(&self, dof: usize) -> Option<String> {
-        let joint = self.context.dofs()?.dof_idx_to_joint_idx_mapping.get(dof)?.get();
+        let joint = self.subject.urdd?.dofs()?.dof_idx_to_joint_idx_mapping.get(dof)?.get();
         Some(format!("DOF {dof} of {}", self.joint(joint)?))
     }
 
     fn link_name(&self, link: usize) -> Option<String> {
-        let link = self.context.robot()?.links.get(link)?;
+        let link = self.subject.described.robot()?.links.get(link)?;
         Some(quoted(&link.name))
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use super::context::Context;
+use super::described::Described;
 use urdd_findings::code::Code;
 use urdd_findings::description::{Consequence, Description};
 use urdd_findings::finding::Findings;
@@ -70,7 +71,15 @@ pub struct Rule {
     pub needs: &'static [Need],
     /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
     /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.
-    pub check: fn(&Context, &mut Findings) -> Option<()>,
+    pub check: CheckOf,
+}
+
+/// A check, by what it is of.
+pub enum CheckOf {
+    /// A URDD.
+    Urdd(fn(&Context, &mut Findings) -> Option<()>),
+    /// A robot, of a URDD or of a URDF alone.
+    Robot(fn(&Described, &mut Findings) -> Option<()>),
 }
 
 impl Deref for Rule {
@@ -99,14 +108,14 @@ pub const fn of_family(code: &str) -> Consequence {
 }
 
 /// Declares the rules of a file, each as an associated constant of `Declared` with its code as its name. A rule is
-/// checked by the function that it names, otherwise by the file's function `check`. `urdd explain` prints its
-/// documentation.
+/// checked by the function that it names, otherwise by the file's function `check`; `of Robot` makes it a rule of URDFs
+/// without a URDD, too. `urdd explain` prints its documentation.
 macro_rules! declare_rule {
     ($(
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
         phase $phase:ident, $(consequence $consequence:ident,)?
-        needs [$($need:expr),* $(,)?], $(check $check:expr,)?
+        needs [$($need:expr),* $(,)?], $(of $of:ident,)? $(check $check:expr,)?
     )+) => {
         /// The rules of this file. A `static` of the module would be compiled into whatever does not use it, too.
         pub struct Declared;
@@ -141,7 +150,7 @@ macro_rules! declare_rule {
                             doc: &[$($doc),+],
                         },
                         needs: &[$($need),*],
-                        check: $crate::rule::check_of!($($check)?),
+                        check: $crate::rule::check_of!($($of)? $(=> $check)?),
                     }
                 };
             )+
@@ -150,13 +159,19 @@ macro_rules! declare_rule {
 }
 pub(crate) use declare_rule;
 
-/// The check that a rule names, otherwise the function `check` of its file.
+/// The check that a rule names, otherwise the function `check` of its file; of a URDD, unless the rule says of what.
 macro_rules! check_of {
     () => {
-        check
+        $crate::rule::check_of!(Urdd => check)
     };
-    ($check:expr) => {
-        $check
+    ($of:ident) => {
+        $crate::rule::check_of!($of => check)
+    };
+    (=> $check:expr) => {
+        $crate::rule::check_of!(Urdd => $check)
+    };
+    ($of:ident => $check:expr) => {
+        $crate::rule::CheckOf::$of($check)
     };
 }
 pub(crate) use check_of;

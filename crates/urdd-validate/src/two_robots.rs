@@ -63,11 +63,11 @@ pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
 fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let mut outcomes = Outcomes::new();
     let Some(by_urdf) = context.by_urdf() else {
-        return run_all(context, rules.to_vec(), &mut outcomes);
+        return run_all(context.into(), rules.to_vec(), &mut outcomes);
     };
     let of = |kind: Judges| rules.iter().copied().filter(move |rule| Judges::of(rule) == kind);
     let once = of(Judges::AsItStands).chain(of(Judges::Robot)).chain(of(Judges::Derived)).collect();
-    let mut checks = run_all(context, once, &mut outcomes);
+    let mut checks = run_all(context.into(), once, &mut outcomes);
     let differs = difference(&outcomes);
 
     let mut second: Vec<&'static Rule> = of(Judges::Source).collect();
@@ -80,7 +80,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     for rule in &second {
         outcomes.remove(&rule.code);
     }
-    let mut again: HashMap<Code, Check> = run_all(&by_urdf, second, &mut outcomes)
+    let mut again: HashMap<Code, Check> = run_all((&by_urdf).into(), second, &mut outcomes)
         .into_iter()
         .map(|check| (check.rule.code, check))
         .collect();
@@ -128,9 +128,9 @@ fn at_fault_by_both(
     [context, by_urdf]: [&Context; 2],
 ) -> Check {
     let mut spots = Findings::remembering_spots().within(first.scope.afresh());
-    judge_into(context, rule, &mut spots);
+    judge_into(context.into(), rule, &mut spots);
     let both = Findings::only_at(spots.into_spots()).within(second.scope.afresh());
-    judge(by_urdf, rule, both)
+    judge(by_urdf.into(), rule, both)
 }
 
 /// Replaces the reason of rules that were skipped because of a rule that no longer has findings: the two robots differ.

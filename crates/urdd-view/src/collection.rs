@@ -80,13 +80,13 @@ struct Standing {
     /// Whether there is something to show at that path.
     is_ready: bool,
     notes: Vec<String>,
-    kind: Kind,
+    kind: Access,
     making: Making,
 }
 
 /// The operations allowed on a robot's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum Access {
     /// An archive or a URDD from before version 1: read-only.
     ReadOnly,
     /// A version 1 folder: skips can be saved.
@@ -178,12 +178,12 @@ impl Shown {
 
     /// Whether its skips can be saved.
     pub fn is_writable(&self) -> bool {
-        self.standing.lock().kind == Kind::Writable
+        self.standing.lock().kind == Access::Writable
     }
 
     /// Whether it is deleted when the program ends, unless it is saved.
     pub fn is_temporary(&self) -> bool {
-        self.standing.lock().kind == Kind::Temporary
+        self.standing.lock().kind == Access::Temporary
     }
 
     /// Progress of its generation.
@@ -215,7 +215,7 @@ impl Shown {
     /// meanwhile.
     pub fn show(&self, path: PathBuf, notes: Vec<String>, making: Making) {
         let mut standing = self.standing.lock();
-        if standing.kind == Kind::Temporary {
+        if standing.kind == Access::Temporary {
             standing.path = path;
             standing.notes = notes;
             standing.making = making;
@@ -228,7 +228,7 @@ impl Shown {
         *self.opened.lock() = None;
         let mut standing = self.standing.lock();
         standing.path = path;
-        standing.kind = Kind::Writable;
+        standing.kind = Access::Writable;
         standing.making = Making::Done;
     }
 }
@@ -271,8 +271,8 @@ impl Collection {
             // Archives are read-only, and URDDs from before version 1 have no edits.
             let has_metadata = found.path.join(ROOT_METADATA).is_file();
             let kind = match found.closed.is_none() && has_metadata {
-                true => Kind::Writable,
-                false => Kind::ReadOnly,
+                true => Access::Writable,
+                false => Access::ReadOnly,
             };
             // Absolute: the working directory may change later, and `.` has no name for a sibling to be derived from.
             let path = found.path.canonicalize().unwrap_or(found.path);
@@ -287,17 +287,17 @@ impl Collection {
     /// If they cannot be listed.
     pub fn add_root(&self, root: &Root) -> Result<Arc<Shown>, ReadError> {
         let opened = Opened::of(root)?;
-        let shown = self.put(root.folder_name(), None, PathBuf::new(), Kind::ReadOnly);
+        let shown = self.put(root.folder_name(), None, PathBuf::new(), Access::ReadOnly);
         *shown.opened.lock() = Some((revision::GONE.to_owned(), opened));
         Ok(shown)
     }
 
     /// Adds a robot to be generated from a URDF when somebody opens it.
     pub fn add_source(&self, name: String, source: Source) -> Arc<Shown> {
-        self.put(name, Some(source), PathBuf::new(), Kind::Temporary)
+        self.put(name, Some(source), PathBuf::new(), Access::Temporary)
     }
 
-    fn put(&self, name: String, source: Option<Source>, path: PathBuf, kind: Kind) -> Arc<Shown> {
+    fn put(&self, name: String, source: Option<Source>, path: PathBuf, kind: Access) -> Arc<Shown> {
         let plain = |c: char| match c {
             'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => c,
             _ => '_',

@@ -9,7 +9,7 @@ const INSIDE: &str =
 
 /// The fault of a document type declaration, and its offset in the text, which begins with `<!DOCTYPE`.
 pub(super) fn fault(text: &str) -> Option<(usize, &'static str)> {
-    let mut reader = Reader { rest: &text["<!DOCTYPE".len()..], is_inside: false };
+    let mut reader = DoctypeReader { rest: &text["<!DOCTYPE".len()..], is_inside: false };
     let is_read = reader.document_type().is_some();
     let end = text.len() - reader.rest.len();
     let odd = text[..end].find(|c: char| !is_character(c));
@@ -18,13 +18,13 @@ pub(super) fn fault(text: &str) -> Option<(usize, &'static str)> {
 }
 
 /// Reads from the start of what is left; `None` is a fault there.
-struct Reader<'t> {
+struct DoctypeReader<'t> {
     rest: &'t str,
     /// Whether it is between `[` and `]`.
     is_inside: bool,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> DoctypeReader<'t> {
     fn document_type(&mut self) -> Option<()> {
         self.space()?;
         self.name().filter(|name| is_qualified(name))?;

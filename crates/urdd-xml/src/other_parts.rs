@@ -7,6 +7,7 @@ use roxmltree::Node;
 
 use crate::element::{children, name};
 use crate::vocabulary::of;
+use crate::xml::Xml;
 
 /// What a part belongs to, by name.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -39,11 +40,9 @@ pub type OtherParts = HashMap<Owner, Vec<OtherPart>>;
 const DEEPEST: usize = 6;
 
 /// The parts of a robot. Nothing of a text that is not well-formed.
-pub fn other_parts(urdf: &str) -> OtherParts {
+pub fn other_parts(urdf: &Xml<'_>) -> OtherParts {
     let mut parts = OtherParts::new();
-    let Ok(document) = crate::parse(urdf, crate::Kind::Robot) else {
-        return parts;
-    };
+    let Ok(document) = urdf.document() else { return parts };
     let root = document.root_element();
     let owned = children(root).filter_map(|(tag, element)| Some((owner(tag, element)?, element)));
     for (owner, element) in std::iter::once((Owner::Robot, root)).chain(owned) {

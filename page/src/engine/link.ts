@@ -1,10 +1,8 @@
 /** A worker that answers queries, one after another: it is started when it is first asked, and again after it crashed. */
 
-export interface Progress {
-  done: number;
-  of: number;
-  what: string;
-}
+import type { Progress } from "../../../wasm/npm/index";
+
+export type { Progress };
 
 const STOPPED = "stopped";
 

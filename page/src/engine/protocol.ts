@@ -1,6 +1,11 @@
 /** Messages between the page and the worker that owns the WebAssembly module. */
 
-import type { Unit } from "../ui/format";
+import type { GeometryKind, JointType, SkipEdit } from "../../../wasm/npm/modules";
+
+export type { JointType, SkipEdit };
+
+/** The unit of a DOF. */
+export type Unit = "rad" | "m";
 
 export type Vector = [number, number, number];
 /** w, x, y, z. */
@@ -22,8 +27,6 @@ export interface Link {
   parent_joint: number | null;
   inertial: Inertial | null;
 }
-
-export type JointType = "Revolute" | "Continuous" | "Prismatic" | "Fixed" | "Floating" | "Planar" | "Spherical";
 
 export interface Limit {
   lower: number | null;
@@ -60,7 +63,7 @@ export interface MeshPaths {
 
 export interface OriginalMesh {
   link: number;
-  geometry: "Visual" | "Collision";
+  geometry: GeometryKind;
   element: number;
   filename: string;
   path: string | null;
@@ -175,13 +178,6 @@ export interface Clearances {
 /** The model and its estimates. */
 export type Learned = CollisionModel & Clearances;
 
-export interface SkipEdit {
-  link_a: string;
-  link_b: string;
-  skip: boolean;
-  reason: string;
-}
-
 export interface SkipsAnswer {
   kind: ShapeKind;
   places: [number, number][];
@@ -209,7 +205,7 @@ export interface Shape {
 /** A visual or collision element of the URDF: see `wasm/src/sources.rs`. */
 export interface SourceShape extends Pose {
   link: number;
-  geometry: "Visual" | "Collision";
+  geometry: GeometryKind;
   element: number;
   shape: {
     Mesh?: { filename: string; scale: Vector | null };

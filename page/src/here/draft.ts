@@ -1,11 +1,11 @@
 /** The description that this page makes a robot of, as a text that a person may change. */
 
-import type { Given } from "./protocol";
+import type { Description, Given } from "./protocol";
 
 export interface Draft {
   /** Its path among the dropped files. */
   path: string;
-  format: "urdf" | "mjcf" | "sdf";
+  format: Exclude<Description["format"], "xacro">;
   /** The text as it is now. */
   text: string;
   /** Whether it differs from what was dropped, or saved last. */

@@ -1,8 +1,11 @@
 /** The formats of other programs. */
 
+import type { Format as Word } from "../../../wasm/npm/index";
+import type { Actuators } from "./protocol";
+
 export interface Format {
   /** As on the command line. */
-  word: string;
+  word: Word;
   title: string;
   /** What the file's name ends with; a folder has none. */
   ending: string;
@@ -11,7 +14,7 @@ export interface Format {
 }
 
 /** Kinds of actuators, by MuJoCo's words. */
-export const ACTUATORS = ["position", "velocity", "motor"] as const;
+export const ACTUATORS: readonly Actuators[] = ["position", "velocity", "motor"];
 
 export const FORMATS: readonly Format[] = [
   { word: "mjcf", title: "MuJoCo (MJCF)", ending: ".xml", hasActuators: true },

@@ -1,5 +1,6 @@
 /** Messages between the page and a worker that makes robots. */
 
+import type { ExportOptions, Format, GenerateOptions } from "../../../wasm/npm/index";
 import type { Description, Report } from "../engine/protocol";
 
 export type { Description };
@@ -20,9 +21,9 @@ export function sizeOf(files: readonly Given[]): number {
   return files.reduce((sum, { file }) => sum + file.size, 0);
 }
 
-export interface MakeOptions {
-  modules?: string[];
-}
+export type MakeOptions = Pick<GenerateOptions, "modules">;
+
+export type Actuators = NonNullable<ExportOptions["actuators"]>;
 
 /** What the module answers of a URDD; `files` is its address there. */
 export interface Made {
@@ -64,7 +65,7 @@ export interface MakerCalls {
   import: [{ path: string }, { main: string; files: Given[] }];
   /** Files for another program, of a URDD. */
   export: [
-    { urdd: Given[]; format: string; output: string; actuators: string | null },
+    { urdd: Given[]; format: Format; output: string; actuators: Actuators | null },
     { main: string; notes: string[]; files: Given[] },
   ];
   /** A .zip of files. */

@@ -2,6 +2,7 @@
 
 import { offer } from "../ui/offer";
 import type { Draft } from "./draft";
+import { ACTUATORS } from "./formats";
 import type { Format } from "./formats";
 import type { Kit } from "./kit";
 import type { MadeRobot } from "./made";
@@ -47,11 +48,12 @@ export class Saver {
   }
 
   /** Files for another program. Returns what is otherwise there. */
-  async exported({ word, ending }: Format, actuators: string): Promise<string[]> {
+  async exported({ word, ending }: Format, kind: string): Promise<string[]> {
     const { robot } = this.open();
     const { name } = robot.entry;
     const output = (name.replace(/[^\p{L}\p{N}_-]+/gu, "_") || "robot") + ending;
-    const ask = { urdd: robot.files, format: word, output, actuators: actuators || null };
+    const actuators = ACTUATORS.find((one) => one === kind) ?? null;
+    const ask = { urdd: robot.files, format: word, output, actuators };
     const made = await this.kit.once((maker) => maker.ask("export", ask));
     await this.offered(made.files, `${name}_${word}`);
     return made.notes;

@@ -1,5 +1,7 @@
 /** Readable numbers with units. */
 
+import type { Unit } from "../engine/protocol";
+
 const MINUS = "−";
 
 function signed(text: string): string {
@@ -71,8 +73,6 @@ export function lengths(values: readonly number[], digits = 4): string {
 export function dofValue(value: number, unit: Unit): string {
   return `${entered(value, unit)}${shownUnit(unit) === "°" ? "°" : ` ${shownUnit(unit)}`}`;
 }
-
-export type Unit = "rad" | "m";
 
 /** The unit in which a DOF is displayed and entered. */
 export function shownUnit(unit: Unit): keyof typeof UNIT_NAMES {

@@ -40,8 +40,8 @@ pub struct RunArguments {
     skip: Option<PathBuf>,
 
     /// Format of the result on standard output.
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = SuiteFormat::Human)]
+    format: SuiteFormat,
 
     /// Also writes the result as JSON to a file.
     #[arg(long, value_name = "FILE")]
@@ -71,7 +71,7 @@ pub struct RunArguments {
 
 /// How a result is written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum SuiteFormat {
     /// For people.
     Human,
     /// As JSON; `urdd schema list` names its schema.
@@ -133,7 +133,7 @@ impl RunArguments {
         if let Some(file) = &self.output {
             output::write_file(file, &json)?;
         }
-        Ok(output::print(if self.format == Format::Json { &json } else { &text })?)
+        Ok(output::print(if self.format == SuiteFormat::Json { &json } else { &text })?)
     }
 }
 

@@ -30,8 +30,8 @@ pub struct InfoArguments {
     paths: Vec<PathBuf>,
 
     /// Output format.
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = InfoFormat::Human)]
+    format: InfoFormat,
 
     /// Also list the joints that move, and the actuators, in the order of each program that loads an export.
     #[arg(long)]
@@ -42,7 +42,7 @@ pub struct InfoArguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum InfoFormat {
     /// Text for people.
     Human,
     /// JSON: a list with an object per URDD.
@@ -76,7 +76,7 @@ pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
             infos.push(info);
         }
     }
-    if arguments.format == Format::Json {
+    if arguments.format == InfoFormat::Json {
         let infos = infos.iter().map(serde_json::to_value);
         let all: Result<Vec<_>, _> = infos.chain(files.iter().map(serde_json::to_value)).collect();
         return Ok(report::json(&all?)?);

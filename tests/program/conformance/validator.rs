@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::{Value, json};
-use urdd_conformance::case::Kind;
+use urdd_conformance::case::CaseKind;
 use urdd_conformance::catalogue::items;
 
 use crate::conformance::{conformance, result, stderr};
@@ -80,8 +80,8 @@ fn printed_codes_are_scored_apart() {
         let items = items.filter(|item| item.profile == "1.0");
         items.map(|item| item.id).collect::<Vec<String>>()
     };
-    let missing = of("DOF001", Kind::Invalid);
-    let near = ["DOF001", "SRC001", "LEG001"].map(|code| of(code, Kind::NearMiss).len());
+    let missing = of("DOF001", CaseKind::Invalid);
+    let near = ["DOF001", "SRC001", "LEG001"].map(|code| of(code, CaseKind::NearMiss).len());
     assert_eq!(codes["of"], missing.len() + near.iter().sum::<usize>());
 
     // The right verdicts with wrong codes pass. The paths that it prints are not codes.
@@ -89,7 +89,7 @@ fn printed_codes_are_scored_apart() {
     let (status, wrong) = run(&cases, &[], &["sh", "-c", script, URDD, "{dir}"]);
     assert_eq!((status, &wrong["totals"]), (0, &right["totals"]));
     assert_eq!(wrong["printed_codes"]["missing"], json!(missing));
-    let extra = of("SRC001", Kind::NearMiss);
+    let extra = of("SRC001", CaseKind::NearMiss);
     assert_eq!(wrong["printed_codes"]["extra"], json!(extra));
     let (_, silent) = shell(&cases, "exit 1");
     assert_eq!(silent["printed_codes"], Value::Null);

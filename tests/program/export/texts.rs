@@ -508,7 +508,7 @@ fn the_table_has_every_place() {
     }
     assert!(count > 18, "{count}");
     // `export.toml`, by the fields that are names.
-    let source = include_str!("../../../crates/urdd-export/src/setup/file.rs");
+    let source = include_str!("../../../crates/urdd-directory/src/export_toml.rs");
     let fields =
         source.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(": "));
     let names: Vec<&str> =

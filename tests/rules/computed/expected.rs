@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use urdd_conformance::case::{Case, Kind};
+use urdd_conformance::case::{Case, CaseKind};
 use urdd_conformance::data::{CASES, COMPUTED};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
@@ -22,7 +22,7 @@ fn found(suite: &Suite, case: &Case) -> Value {
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let found = judge::found(&case.code, &run.report);
     let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
-    let right = (case.kind == Kind::Invalid).then_some(case.code.as_str());
+    let right = (case.kind == CaseKind::Invalid).then_some(case.code.as_str());
     assert_eq!(codes, right.into_iter().collect(), "{}: {found:#?}", case.id());
     found
         .into_iter()

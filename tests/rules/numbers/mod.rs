@@ -14,7 +14,7 @@ mod spec;
 
 use std::collections::BTreeMap;
 
-use urdd_conformance::case::Kind;
+use urdd_conformance::case::CaseKind;
 use urdd_validate::code::Code;
 
 use crate::{Case, changed};
@@ -149,7 +149,7 @@ pub fn cases() -> Vec<Case> {
 fn cases_are_just_on_each_side() {
     let suite = urdd::suite::carried().expect("the suite reads");
     let caught: BTreeMap<String, bool> =
-        suite.all_cases().map(|case| (case.id(), case.kind == Kind::Invalid)).collect();
+        suite.all_cases().map(|case| (case.id(), case.kind == CaseKind::Invalid)).collect();
     for number in list() {
         let id = number.id;
         assert!(!number.sides.is_empty(), "{id}: no cases, and no reason");

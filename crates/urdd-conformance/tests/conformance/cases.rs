@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use testkit::repository;
 use testkit::trials::sample;
-use urdd_conformance::case::{Case, Kind, Verdict};
+use urdd_conformance::case::{Case, CaseKind, Verdict};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
 use urdd_conformance::tree::{Node, Tree, TreeError};
@@ -93,10 +93,10 @@ fn a_case_is_of_one_rule() {
         let rule = rule.unwrap_or_else(|| panic!("{id}: there is no such rule"));
         let others = case.expected.iter().filter(|one| one.code != case.code);
         assert_eq!(others.count(), 0, "{id}: another rule finds something too");
-        assert_eq!(case.expected.is_empty(), case.kind == Kind::NearMiss, "{id}");
-        let rejected = case.kind == Kind::Invalid && rule.severity == Severity::Error;
+        assert_eq!(case.expected.is_empty(), case.kind == CaseKind::NearMiss, "{id}");
+        let rejected = case.kind == CaseKind::Invalid && rule.severity == Severity::Error;
         assert_eq!(case.verdict == Verdict::Reject, rejected, "{id}");
-        let near = if case.kind == Kind::NearMiss { "near " } else { "" };
+        let near = if case.kind == CaseKind::NearMiss { "near " } else { "" };
         let title = format!("{near}{}: {}", rule.name, case.name.replace('-', " "));
         assert_eq!(case.title, title, "{id}: its file says the name of the rule");
     }
@@ -110,8 +110,8 @@ fn every_rule_has_an_invalid_case_and_a_near_miss() {
         of_kind.map(|case| case.code.clone()).collect()
     };
     let all: BTreeSet<String> = rules::all().iter().map(|rule| rule.code.to_string()).collect();
-    assert_eq!(of(Kind::Invalid), all);
-    assert_eq!(of(Kind::NearMiss), all);
+    assert_eq!(of(CaseKind::Invalid), all);
+    assert_eq!(of(CaseKind::NearMiss), all);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use urdd_conformance::case::{Kind, Verdict};
+use urdd_conformance::case::{CaseKind, Verdict};
 use urdd_conformance::catalogue::{Item, items};
 
 use crate::suite;
@@ -47,7 +47,7 @@ fn faults_are_in_what_the_profile_reads() {
     assert!(
         inside
             .iter()
-            .any(|item| item.code.as_deref() == Some("DIR012") && item.kind == Kind::Invalid)
+            .any(|item| item.code.as_deref() == Some("DIR012") && item.kind == CaseKind::Invalid)
     );
 }
 

@@ -1,7 +1,7 @@
 //! Cases about what cannot be read, judged by our validator.
 
 use rayon::prelude::*;
-use urdd_conformance::case::{Case, Kind, Verdict};
+use urdd_conformance::case::{Case, CaseKind, Verdict};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
 use urdd_conformance::tree::Node;
@@ -45,7 +45,7 @@ fn cases_are_judged_as_they_say() {
 #[test]
 fn each_clause_has_cases_and_near_misses() {
     for clause in ["2.2", "2.14", "13.1"] {
-        for kind in [Kind::Invalid, Kind::NearMiss] {
+        for kind in [CaseKind::Invalid, CaseKind::NearMiss] {
             let words = format!("(SPEC {clause}):");
             let mut cases = suite().unreadable.into_iter();
             let is_of = |case: &Case| case.kind == kind && case.title.contains(&words);

@@ -7,6 +7,7 @@ mod bad_input;
 mod beside;
 mod by_rules;
 mod findings;
+mod parses;
 mod same;
 mod single_changes;
 mod urdd_changes;

@@ -44,7 +44,7 @@ enum Open {
 /// Reads a document. `None` if it is not YAML, or has what JSON has not: anchors, keys that are not words; or if its keys
 /// are longer than any real ones.
 pub fn read(text: &str) -> Option<Yaml> {
-    let mut reader = Reader {
+    let mut reader = PlaceReader {
         offsets: Offsets::new(text),
         open: Vec::new(),
         pointer: String::new(),
@@ -60,7 +60,7 @@ pub fn read(text: &str) -> Option<Yaml> {
     Some(Yaml { value: reader.value?, places: reader.places })
 }
 
-struct Reader<'t> {
+struct PlaceReader<'t> {
     offsets: Offsets<'t>,
     open: Vec<Open>,
     /// The pointer of the next value.
@@ -71,7 +71,7 @@ struct Reader<'t> {
     value: Option<Value>,
 }
 
-impl Reader<'_> {
+impl PlaceReader<'_> {
     fn event(&mut self, event: Event, span: Span) -> Option<()> {
         let start = self.offsets.bytes(span.start.index());
         match event {

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::gains::gains;
 use crate::names::{ANOTHER, check_names};
-use crate::{ActuatorKind, ExportError, Note, Subject};
+use crate::{ExportError, Note, Subject};
+use urdd_directory::export_toml::ActuatorKind;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 

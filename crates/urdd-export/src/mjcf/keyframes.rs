@@ -2,7 +2,8 @@
 
 use crate::names::{ANOTHER, check_names};
 use crate::order::Walk;
-use crate::{ActuatorKind, ExportError, Stand, Subject};
+use crate::{ExportError, Stand, Subject};
+use urdd_directory::export_toml::ActuatorKind;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::numbers;

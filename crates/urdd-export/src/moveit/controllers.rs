@@ -16,11 +16,11 @@ const NO_TRAJECTORIES: &str = "MoveIt sends it no trajectories, since not all of
 pub(super) struct Controller {
     name: String,
     joints: Vec<usize>,
-    kind: Kind,
+    kind: ControllerKind,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum ControllerKind {
     /// It follows trajectories of positions.
     Trajectory,
     /// It is told a single position and the greatest effort, as grippers of one joint are.
@@ -46,11 +46,11 @@ pub(super) fn controllers(config: &Config) -> Vec<Controller> {
             let suffix = || format!("_{}", command.word());
             let (kind, what) = match command {
                 Command::Position if ends.contains(&group) && joints.len() == 1 => {
-                    (Kind::Gripper, String::new())
+                    (ControllerKind::Gripper, String::new())
                 }
-                Command::Position => (Kind::Trajectory, String::new()),
-                Command::Velocity => (Kind::Velocities, suffix()),
-                Command::Effort => (Kind::Efforts, suffix()),
+                Command::Position => (ControllerKind::Trajectory, String::new()),
+                Command::Velocity => (ControllerKind::Velocities, suffix()),
+                Command::Effort => (ControllerKind::Efforts, suffix()),
             };
             let name = &config.setup.groups[group].value.name;
             let name = taken.free(format!("{name}{what}_controller"));
@@ -64,30 +64,34 @@ impl Controller {
     /// What MoveIt sends it; nothing to one that follows no trajectories.
     fn action(&self, ros: Ros) -> Option<[&'static str; 2]> {
         match (self.kind, ros) {
-            (Kind::Trajectory, _) => Some(["follow_joint_trajectory", "FollowJointTrajectory"]),
-            (Kind::Gripper, Ros::Humble) => Some(["gripper_cmd", "GripperCommand"]),
-            (Kind::Gripper, Ros::Jazzy) => Some(["gripper_cmd", "ParallelGripperCommand"]),
-            (Kind::Velocities | Kind::Efforts, _) => None,
+            (ControllerKind::Trajectory, _) => {
+                Some(["follow_joint_trajectory", "FollowJointTrajectory"])
+            }
+            (ControllerKind::Gripper, Ros::Humble) => Some(["gripper_cmd", "GripperCommand"]),
+            (ControllerKind::Gripper, Ros::Jazzy) => {
+                Some(["gripper_cmd", "ParallelGripperCommand"])
+            }
+            (ControllerKind::Velocities | ControllerKind::Efforts, _) => None,
         }
     }
 
     /// Its package and its plugin.
     fn plugin(&self, ros: Ros) -> [&'static str; 2] {
         match (self.kind, ros) {
-            (Kind::Gripper, Ros::Humble) => {
+            (ControllerKind::Gripper, Ros::Humble) => {
                 ["gripper_controllers", "position_controllers/GripperActionController"]
             }
-            (Kind::Gripper, Ros::Jazzy) => [
+            (ControllerKind::Gripper, Ros::Jazzy) => [
                 "parallel_gripper_controller",
                 "parallel_gripper_action_controller/GripperActionController",
             ],
-            (Kind::Velocities, _) => {
+            (ControllerKind::Velocities, _) => {
                 ["velocity_controllers", "velocity_controllers/JointGroupVelocityController"]
             }
-            (Kind::Efforts, _) => {
+            (ControllerKind::Efforts, _) => {
                 ["effort_controllers", "effort_controllers/JointGroupEffortController"]
             }
-            (Kind::Trajectory, _) => [
+            (ControllerKind::Trajectory, _) => [
                 "joint_trajectory_controller",
                 "joint_trajectory_controller/JointTrajectoryController",
             ],
@@ -97,11 +101,13 @@ impl Controller {
     fn parameters(&self, config: &Config) -> Yaml {
         let joints = || self.joints.iter().map(|joint| config.joint(*joint));
         match self.kind {
-            Kind::Gripper => {
+            ControllerKind::Gripper => {
                 Yaml::Map(joints().map(|joint| ("joint".to_owned(), Yaml::text(joint))).collect())
             }
-            Kind::Velocities | Kind::Efforts => Yaml::map([("joints", Yaml::texts(joints()))]),
-            Kind::Trajectory => {
+            ControllerKind::Velocities | ControllerKind::Efforts => {
+                Yaml::map([("joints", Yaml::texts(joints()))])
+            }
+            ControllerKind::Trajectory => {
                 let mut states = vec![Yaml::plain("position")];
                 if self.joints.iter().all(|joint| config.hardware.tells_velocity(*joint)) {
                     states.push(Yaml::plain("velocity"));

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use toml::Spanned;
 
-use super::JointGains;
-use super::file::{Name, Placed, wrong};
+use super::file::{Placed, wrong};
+use urdd_directory::export_toml::{JointGains, Name};
 
 /// Whether a name is a pattern, if no joint has it.
 pub(super) fn is_pattern(name: &str) -> bool {

@@ -14,8 +14,8 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use crate::ActuatorKind;
 pub use file::SetupError;
+use urdd_directory::export_toml::JointGains;
 
 /// What exports need and a URDD does not say.
 ///
@@ -96,26 +96,6 @@ pub(super) struct Gains {
     /// The frequency below which a joint follows its actuator, Hz.
     pub bandwidth: Option<f64>,
     pub joints: BTreeMap<usize, JointGains>,
-}
-
-/// What a person set for the actuator of a joint.
-#[derive(Debug, Clone, PartialEq, Default, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct JointGains {
-    /// N m/rad or N/m.
-    pub kp: Option<f64>,
-    /// N m s/rad or N s/m.
-    pub kv: Option<f64>,
-    /// The inertia of the motor, as the joint sees it, kg m² or kg.
-    pub armature: Option<f64>,
-    /// Its name, if it is not that of the joint.
-    pub name: Option<String>,
-    /// What it is told, where positions are asked for.
-    pub kind: Option<ActuatorKind>,
-    /// The least and greatest position or speed that it can be told, if these are not the limits of the joint.
-    pub ctrlrange: Option<[f64; 2]>,
-    /// The least and greatest force, if it is not the effort of the joint either way, N or N m.
-    pub forcerange: Option<[f64; 2]>,
 }
 
 /// What cuRobo's robot file needs.

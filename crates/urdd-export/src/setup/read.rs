@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use super::file::{EndEffectorTable, File, GroupTable, Name, Placed, SetupError, wrong};
+use super::file::{Placed, SetupError, wrong};
 use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
-use super::{
-    Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup, contains_itself, within,
-};
+use super::{Curobo, EndEffector, Gains, Group, Guess, Members, Setup, contains_itself, within};
 use crate::Structure;
 use crate::error::unknown;
 use crate::options::BANDWIDTH;
+use urdd_directory::export_toml::{EndEffectorTable, File, GroupTable, JointGains, Name};
 use urdd_directory::layout::setup_beside;
 use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::position::LineIndex;
@@ -76,17 +75,18 @@ impl Setup {
             .iter()
             .map(|named| named.name.as_str().to_owned())
             .collect();
-        let setup = Reader { structure: &structure, configurations: &configurations }.setup(file);
+        let setup =
+            SetupReader { structure: &structure, configurations: &configurations }.setup(file);
         setup.map_err(|(at, reason)| refused(Some(at), reason))
     }
 }
 
-struct Reader<'a> {
+struct SetupReader<'a> {
     structure: &'a Structure,
     configurations: &'a [String],
 }
 
-impl Reader<'_> {
+impl SetupReader<'_> {
     fn setup(&self, file: File) -> Placed<Setup> {
         let expected = &self.structure.view.name;
         if file.robot.get_ref() != expected {

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::{Guess, Members, Setup};
 use crate::output::fill;
 use crate::yaml::{quoted, real};
-use crate::{ActuatorKind, ExportError, ModelOptions, Structure};
+use crate::{ExportError, ModelOptions, Structure};
+use urdd_directory::export_toml::ActuatorKind;
 use urdd_format::escape;
 use urdd_robot::Robot;
 

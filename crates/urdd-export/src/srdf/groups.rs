@@ -21,7 +21,7 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     let tables: Vec<Node> = srdf.elements("group").collect();
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = tables.iter().map(name).collect();
-    let reader = Reader { structure: &structure, names: &names, srdf: &srdf };
+    let reader = GroupReader { structure: &structure, names: &names, srdf: &srdf };
     let mut own = Vec::new();
     for table in &tables {
         own.push(reader.members(*table)?);
@@ -38,13 +38,13 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     .collect()
 }
 
-struct Reader<'a, 't> {
+struct GroupReader<'a, 't> {
     structure: &'a Structure,
     names: &'a [String],
     srdf: &'a Srdf<'t>,
 }
 
-impl Reader<'_, '_> {
+impl GroupReader<'_, '_> {
     /// The joints and the groups of a group.
     fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), SrdfError> {
         let (mut joints, mut groups) = (Vec::new(), Vec::new());

@@ -34,7 +34,7 @@ impl Recipe {
         let root = Root::open(folder).map_err(|e| refused(PartFault::unreadable("", e)))?;
         let whole = folder.canonicalize().map_err(|e| refused(PartFault::unreadable("", e)))?;
         let beside = whole.parent().unwrap_or(Path::new("/"));
-        let mut reader = Reader {
+        let mut reader = LegacyReader {
             notes: Vec::new(),
             recipe: Recipe {
                 shown: shown.clone(),
@@ -57,7 +57,7 @@ impl Recipe {
             let fault = "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which describe how it was combined";
             return Err(refused(PartFault::unusable(fault)));
         }
-        let Reader { recipe, notes, .. } = reader;
+        let LegacyReader { recipe, notes, .. } = reader;
         if recipe.parts.is_empty() {
             let left_out: Vec<String> = notes.iter().map(ToString::to_string).collect();
             let left_out = left_out.join("; ");
@@ -90,7 +90,7 @@ fn read<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>,
     document(root, &path).map(|(module, _)| Some(module))
 }
 
-struct Reader<'a> {
+struct LegacyReader<'a> {
     recipe: Recipe,
     notes: Vec<Note>,
     /// The ids of the parts in lower case.
@@ -98,7 +98,7 @@ struct Reader<'a> {
     beside: &'a Path,
 }
 
-impl Reader<'_> {
+impl LegacyReader<'_> {
     /// Notes content that a recipe cannot express, or that it needs and lacks.
     fn note(&mut self, text: String) {
         self.notes.push(Note { kind: "not-said", part: None, text });

@@ -29,7 +29,7 @@ use self::meshes::Meshes;
 use self::names::LeftAlone;
 use self::rewrite::{Rewrite, Rewritten};
 use self::sources::SourceKind;
-use crate::given::Given;
+use crate::given::GivenDecisions;
 use crate::robot::generate_composed;
 use crate::{GenerateError, Generated, MOST_LINKS, Progress, Settings};
 use urdd_directory::cancellation::Cancelled;
@@ -165,7 +165,7 @@ pub fn combine(
         is_trusted && reused.insert(Rc::as_ptr(&member.loaded))
     });
     settings.donors = trusted.map(|member| member.loaded.root.clone()).collect();
-    let given = Given {
+    let given = GivenDecisions {
         edits: &edits,
         configurations: &configurations,
         skipped_reasons: skipped_reasons.as_ref(),

@@ -13,7 +13,7 @@ use super::defaults::{Defaults, MAIN, PASSED};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::geom::{Geom, between};
-use super::joint::{self, RawJoint};
+use super::joint::{MjcfJointKind, RawJoint};
 use super::orientation::{euler, pose};
 use super::reading::{View, integer, numbers, required, wrong};
 use urdd_directory::account::{Account, Charged};
@@ -177,13 +177,13 @@ impl<'d> Builder<'d, '_> {
     /// What MuJoCo does not simulate.
     fn check_joints(&self, body: usize) -> Fallible<()> {
         let RawBody { joints, parent, place, .. } = &self.bodies.all[body];
-        let kinds: Vec<joint::Kind> = joints.iter().map(|joint| joint.kind).collect();
-        let is_free = kinds.contains(&joint::Kind::Free);
-        let ball = kinds.iter().position(|kind| *kind == joint::Kind::Ball);
+        let kinds: Vec<MjcfJointKind> = joints.iter().map(|joint| joint.kind).collect();
+        let is_free = kinds.contains(&MjcfJointKind::Free);
+        let ball = kinds.iter().position(|kind| *kind == MjcfJointKind::Ball);
         let turns_after = ball
-            .is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != joint::Kind::Slide));
+            .is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != MjcfJointKind::Slide));
         let freedoms: usize =
-            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == joint::Kind::Ball)).sum();
+            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == MjcfJointKind::Ball)).sum();
         if is_free && (kinds.len() > 1 || *parent != Some(WORLD)) || turns_after || freedoms > 6 {
             return Err(at(*place, MjcfFault::Joints));
         }

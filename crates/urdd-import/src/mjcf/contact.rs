@@ -8,7 +8,7 @@ use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::body::{Made, RawBody, WORLD};
 use super::element::Element;
-use super::geom::{Geom, Kind};
+use super::geom::{Geom, GeomKind};
 use super::lookup::Lookup;
 use super::reading::word;
 use urdd_directory::account::{Account, Charged};
@@ -166,7 +166,7 @@ impl Contacts {
                 continue;
             }
             let shapes = body.geoms.iter().enumerate().filter(|(place, geom)| {
-                !matches!(geom.kind, Kind::Plane | Kind::HeightField)
+                !matches!(geom.kind, GeomKind::Plane | GeomKind::HeightField)
                     && !self.is_visual(geom, index, *place)
             });
             let mut bits: Vec<[u32; 2]> =

@@ -16,7 +16,7 @@ use super::moved::Moved;
 
 /// What the actuators of one joint give together.
 #[derive(Debug, Clone)]
-struct Given {
+struct JointDrive {
     /// None: as much as they like.
     force: Option<[f64; 2]>,
     /// None: no servo of speed has a limit.
@@ -69,7 +69,7 @@ pub fn drive<'d>(
         }
     }
     let moved = LazyCell::new(|| Moved::of(made));
-    let mut given: HashMap<(usize, usize), Given> = HashMap::new();
+    let mut given: HashMap<(usize, usize), JointDrive> = HashMap::new();
     for (element, suffix, actuator, at) in &driven {
         say(actuator, tally);
         let compiler = compilers.at(element.place);
@@ -86,7 +86,7 @@ pub fn drive<'d>(
             let name = element.text("name").map(|name| format!("{name}{suffix}"));
             let name = name.filter(|name| *name != of.name);
             let first = model::Actuator { name, is_of_speed, control: told, force: None };
-            given.insert(*at, Given { force, velocity, gains, first, number: 1 });
+            given.insert(*at, JointDrive { force, velocity, gains, first, number: 1 });
             continue;
         };
         entry.number += 1;
@@ -129,7 +129,7 @@ fn say(actuator: &Actuator, tally: &mut Tally) {
     }
 }
 
-fn give(joint: &mut Joint, given: Given, tally: &mut Tally) {
+fn give(joint: &mut Joint, given: JointDrive, tally: &mut Tally) {
     // The joint clamps the sum.
     let force = within(joint.actuator.force, given.force);
     let is_lost = given.first.name.is_some() || given.first.control.is_some();

@@ -6,7 +6,7 @@ use super::super::refusal::Fallible;
 use super::body::{Made, RawBody, WORLD};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
-use super::joint::Kind;
+use super::joint::MjcfJointKind;
 use super::lookup::Lookup;
 use super::reading::{View, flag};
 use urdd_format::short::Short;
@@ -114,7 +114,7 @@ fn couple(
         let Some(&(body, place)) = made.joints.get(&follower) else { continue };
         let raw = |(body, place): (usize, usize)| &all[body].joints[place];
         let leading = leader.and_then(|leader| Some((leader, *made.joints.get(&leader)?)));
-        let is_plain = |at| matches!(raw(at).kind, Kind::Hinge | Kind::Slide);
+        let is_plain = |at| matches!(raw(at).kind, MjcfJointKind::Hinge | MjcfJointKind::Slide);
         let reason = match leading {
             None => Some("its joint is held still, or follows one that is left out"),
             Some(_) if !is_linear => Some("it is not linear"),

@@ -7,7 +7,7 @@ use super::super::refusal::{Fallible, at};
 use super::assets::Assets;
 use super::compiler::Compiler;
 use super::fault::MjcfFault;
-use super::geom::{Geom, Kind};
+use super::geom::{Geom, GeomKind};
 use super::mesh::Meshes;
 use super::principal::principal;
 
@@ -51,12 +51,12 @@ pub fn fitted(
         }
     };
     let size = match (geom.kind, compiler.fits_boxes) {
-        (Kind::Sphere, false) => [(a + b + c) / 3.0, 0.0, 0.0],
-        (Kind::Sphere, true) => [a.max(b).max(c), 0.0, 0.0],
-        (Kind::Capsule, false) => [(a + b) / 2.0, (c - (a + b) / 4.0).max(0.0), 0.0],
-        (Kind::Cylinder, false) => [(a + b) / 2.0, c, 0.0],
-        (Kind::Capsule, true) => [a.max(b), c - a.max(b), 0.0],
-        (Kind::Cylinder, true) => [a.max(b), c, 0.0],
+        (GeomKind::Sphere, false) => [(a + b + c) / 3.0, 0.0, 0.0],
+        (GeomKind::Sphere, true) => [a.max(b).max(c), 0.0, 0.0],
+        (GeomKind::Capsule, false) => [(a + b) / 2.0, (c - (a + b) / 4.0).max(0.0), 0.0],
+        (GeomKind::Cylinder, false) => [(a + b) / 2.0, c, 0.0],
+        (GeomKind::Capsule, true) => [a.max(b), c - a.max(b), 0.0],
+        (GeomKind::Cylinder, true) => [a.max(b), c, 0.0],
         _ => [a, b, c],
     };
     let size = size.map(|size| size * geom.fit_scale);

@@ -12,7 +12,7 @@ use super::reading::View;
 
 /// What a shape is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum GeomKind {
     Plane,
     HeightField,
     Sphere,
@@ -24,44 +24,46 @@ pub enum Kind {
     DistanceField,
 }
 
-const KINDS: [(&str, Kind); 9] = [
-    ("plane", Kind::Plane),
-    ("hfield", Kind::HeightField),
-    ("sphere", Kind::Sphere),
-    ("capsule", Kind::Capsule),
-    ("ellipsoid", Kind::Ellipsoid),
-    ("cylinder", Kind::Cylinder),
-    ("box", Kind::Box),
-    ("mesh", Kind::Mesh),
-    ("sdf", Kind::DistanceField),
+const KINDS: [(&str, GeomKind); 9] = [
+    ("plane", GeomKind::Plane),
+    ("hfield", GeomKind::HeightField),
+    ("sphere", GeomKind::Sphere),
+    ("capsule", GeomKind::Capsule),
+    ("ellipsoid", GeomKind::Ellipsoid),
+    ("cylinder", GeomKind::Cylinder),
+    ("box", GeomKind::Box),
+    ("mesh", GeomKind::Mesh),
+    ("sdf", GeomKind::DistanceField),
 ];
 
-impl Kind {
+impl GeomKind {
     /// How many sizes it has.
     pub fn sizes(self) -> usize {
         match self {
-            Kind::Sphere => 1,
-            Kind::Capsule | Kind::Cylinder => 2,
-            Kind::Ellipsoid | Kind::Box => 3,
-            Kind::Plane | Kind::HeightField | Kind::Mesh | Kind::DistanceField => 0,
+            GeomKind::Sphere => 1,
+            GeomKind::Capsule | GeomKind::Cylinder => 2,
+            GeomKind::Ellipsoid | GeomKind::Box => 3,
+            GeomKind::Plane | GeomKind::HeightField | GeomKind::Mesh | GeomKind::DistanceField => 0,
         }
     }
 
     /// A primitive of this kind, whose sizes are halves as in MJCF; none of what is no primitive.
     pub fn solid(self, [a, b, c]: [f64; 3]) -> Option<Geometry> {
         Some(match self {
-            Kind::Sphere => Geometry::Sphere(a),
-            Kind::Capsule => Geometry::Capsule { radius: a, length: 2.0 * b },
-            Kind::Ellipsoid => Geometry::Ellipsoid([a, b, c]),
-            Kind::Cylinder => Geometry::Cylinder { radius: a, length: 2.0 * b },
-            Kind::Box => Geometry::Box([2.0 * a, 2.0 * b, 2.0 * c]),
-            Kind::Plane | Kind::HeightField | Kind::Mesh | Kind::DistanceField => return None,
+            GeomKind::Sphere => Geometry::Sphere(a),
+            GeomKind::Capsule => Geometry::Capsule { radius: a, length: 2.0 * b },
+            GeomKind::Ellipsoid => Geometry::Ellipsoid([a, b, c]),
+            GeomKind::Cylinder => Geometry::Cylinder { radius: a, length: 2.0 * b },
+            GeomKind::Box => Geometry::Box([2.0 * a, 2.0 * b, 2.0 * c]),
+            GeomKind::Plane | GeomKind::HeightField | GeomKind::Mesh | GeomKind::DistanceField => {
+                return None;
+            }
         })
     }
 
     /// Whether its surface is that of a mesh.
     pub fn is_mesh(self) -> bool {
-        matches!(self, Kind::Mesh | Kind::DistanceField)
+        matches!(self, GeomKind::Mesh | GeomKind::DistanceField)
     }
 }
 
@@ -69,7 +71,7 @@ impl Kind {
 #[derive(Debug, Clone)]
 pub struct Geom<'d> {
     pub name: Option<String>,
-    pub kind: Kind,
+    pub kind: GeomKind,
     /// Its frame in its body's. That of a mesh is that of the mesh's file.
     pub pose: Isometry3<f64>,
     /// Radius and half lengths.
@@ -100,7 +102,7 @@ impl<'d> Geom<'d> {
         let place = view.element.place;
         let words = KINDS.map(|(word, _)| word);
         let kind =
-            view.word("type", &words, "a type of geom")?.map_or(Kind::Sphere, |k| KINDS[k].1);
+            view.word("type", &words, "a type of geom")?.map_or(GeomKind::Sphere, |k| KINDS[k].1);
         let mesh = view.text("mesh");
         if kind.is_mesh() && mesh.is_none() {
             return Err(at(place, MjcfFault::NoMesh));
@@ -146,14 +148,21 @@ impl<'d> Geom<'d> {
 }
 
 /// The pose of a shape between two points, whose length goes into its sizes.
-fn from_to(view: View<'_>, kind: Kind, size: &mut [f64; 3]) -> Fallible<Option<Isometry3<f64>>> {
+fn from_to(
+    view: View<'_>,
+    kind: GeomKind,
+    size: &mut [f64; 3],
+) -> Fallible<Option<Isometry3<f64>>> {
     let Some((pose, half)) = between(view)? else { return Ok(None) };
-    let is_long = matches!(kind, Kind::Capsule | Kind::Cylinder | Kind::Ellipsoid | Kind::Box);
+    let is_long = matches!(
+        kind,
+        GeomKind::Capsule | GeomKind::Cylinder | GeomKind::Ellipsoid | GeomKind::Box
+    );
     if !is_long || view.text("mesh").is_some() {
         return Err(at(view.element.place, MjcfFault::FromTo));
     }
     match kind {
-        Kind::Ellipsoid | Kind::Box => (size[1], size[2]) = (size[0], half),
+        GeomKind::Ellipsoid | GeomKind::Box => (size[1], size[2]) = (size[0], half),
         _ => size[1] = half,
     }
     Ok(Some(pose))

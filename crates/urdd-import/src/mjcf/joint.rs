@@ -12,7 +12,7 @@ use super::reading::{View, wrong};
 
 /// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum MjcfJointKind {
     Free,
     Ball,
     Slide,
@@ -23,7 +23,7 @@ pub enum Kind {
 #[derive(Debug, Clone)]
 pub struct RawJoint {
     pub name: Option<String>,
-    pub kind: Kind,
+    pub kind: MjcfJointKind,
     /// Where it is, in the frame of its body.
     pub position: Point3<f64>,
     pub axis: Vector3<f64>,
@@ -41,18 +41,18 @@ impl RawJoint {
     /// How many numbers of a configuration it has.
     pub fn positions(&self) -> usize {
         match self.kind {
-            Kind::Free => 7,
-            Kind::Ball => 4,
-            Kind::Slide | Kind::Hinge => 1,
+            MjcfJointKind::Free => 7,
+            MjcfJointKind::Ball => 4,
+            MjcfJointKind::Slide | MjcfJointKind::Hinge => 1,
         }
     }
 
     /// The numbers that it has in the model's own configuration. A free joint's are its body's.
     pub fn start(&self) -> Vec<f64> {
         match self.kind {
-            Kind::Free => Vec::new(),
-            Kind::Ball => vec![1.0, 0.0, 0.0, 0.0],
-            Kind::Slide | Kind::Hinge => vec![self.reference],
+            MjcfJointKind::Free => Vec::new(),
+            MjcfJointKind::Ball => vec![1.0, 0.0, 0.0, 0.0],
+            MjcfJointKind::Slide | MjcfJointKind::Hinge => vec![self.reference],
         }
     }
 
@@ -60,7 +60,7 @@ impl RawJoint {
     pub fn free(element: &Element, name: Option<String>) -> Self {
         RawJoint {
             name,
-            kind: Kind::Free,
+            kind: MjcfJointKind::Free,
             position: Point3::origin(),
             axis: Vector3::z(),
             reference: 0.0,
@@ -83,28 +83,30 @@ impl RawJoint {
     ) -> Fallible<Self> {
         let words = ["free", "ball", "slide", "hinge"];
         let kind = view.word("type", &words, "`free`, `ball`, `slide` or `hinge`")?;
-        let kind = [Kind::Free, Kind::Ball, Kind::Slide, Kind::Hinge][kind.unwrap_or(3)];
+        let kind =
+            [MjcfJointKind::Free, MjcfJointKind::Ball, MjcfJointKind::Slide, MjcfJointKind::Hinge]
+                [kind.unwrap_or(3)];
         let element = view.element;
-        if kind == Kind::Free {
+        if kind == MjcfJointKind::Free {
             return Ok(RawJoint::free(element, name));
         }
         let position = frame * Point3::from(view.numbers::<3>("pos")?.unwrap_or_default());
         let axis = Vector3::from(view.numbers::<3>("axis")?.unwrap_or([0.0, 0.0, 1.0]));
         let axis = match kind {
-            Kind::Ball => Vector3::z(),
+            MjcfJointKind::Ball => Vector3::z(),
             _ => {
                 let wanted = "an axis that is not zero";
                 let axis = Unit::try_new(axis, 1e-14);
                 frame.rotation * axis.ok_or_else(|| wrong(element, "axis", wanted))?.into_inner()
             }
         };
-        let turns = if kind == Kind::Slide { 1.0 } else { compiler.angle };
+        let turns = if kind == MjcfJointKind::Slide { 1.0 } else { compiler.angle };
         let range = match kind {
-            Kind::Ball => None,
+            MjcfJointKind::Ball => None,
             _ => limits(view, "range", "limited", compiler)?.map(|of| of.map(|end| end * turns)),
         };
         let force = limits(view, "actuatorfrcrange", "actuatorfrclimited", compiler)?;
-        if kind == Kind::Ball {
+        if kind == MjcfJointKind::Ball {
             let (is_limited, [least, _]) = said_limits(view, "range", "limited", compiler)?;
             if is_limited && least != 0.0 {
                 return Err(at(element.place, MjcfFault::BallRange));
@@ -121,7 +123,7 @@ impl RawJoint {
             tally.unread("damping of joints that is not linear");
         }
         let reference = match kind {
-            Kind::Ball => 0.0,
+            MjcfJointKind::Ball => 0.0,
             _ => view.number("ref")?.unwrap_or(0.0) * turns,
         };
         Ok(RawJoint {
@@ -131,7 +133,7 @@ impl RawJoint {
             axis,
             reference,
             range,
-            force: force.filter(|_| kind != Kind::Ball),
+            force: force.filter(|_| kind != MjcfJointKind::Ball),
             damping: damping[0].unwrap_or(0.0),
             friction: view.number("frictionloss")?.unwrap_or(0.0),
             armature: view.number("armature")?.unwrap_or(0.0),

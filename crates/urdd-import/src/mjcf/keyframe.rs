@@ -9,7 +9,7 @@ use super::super::refusal::{Fallible, at};
 use super::body::{Bodies, Made};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::joint::Kind;
+use super::joint::MjcfJointKind;
 use super::orientation::unit;
 use super::reading::list;
 use urdd_directory::account::{Account, Charged};
@@ -60,7 +60,7 @@ pub fn configurations(
         for (place, joint) in joints() {
             let (own, after) = rest.split_at(joint.positions().min(rest.len()));
             rest = after;
-            if joint.kind == Kind::Free && bodies.all[place.0].parent.is_some() {
+            if joint.kind == MjcfJointKind::Free && bodies.all[place.0].parent.is_some() {
                 let is_root = made.index.get(&place.0) == Some(&0);
                 if let (true, [x, y, z, turn @ ..]) = (is_root, own)
                     && let [w, i, j, k] = turn

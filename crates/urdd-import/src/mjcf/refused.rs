@@ -8,7 +8,7 @@ use super::super::place::Place;
 use super::assets::{Assets, Folder};
 use super::body::{Made, RawBody, WORLD};
 use super::element::Element;
-use super::geom::Kind;
+use super::geom::GeomKind;
 use super::principal::principal;
 use urdd_format::short::Short;
 
@@ -46,7 +46,7 @@ pub fn say(
     let mut moves = vec![false; all.len()];
     for (index, body) in all.iter().enumerate().skip(WORLD + 1) {
         moves[index] = !body.joints.is_empty() || body.parent.is_some_and(|parent| moves[parent]);
-        let planes = body.geoms.iter().filter(|geom| geom.kind == Kind::Plane);
+        let planes = body.geoms.iter().filter(|geom| geom.kind == GeomKind::Plane);
         for plane in planes.filter(|_| moves[index]) {
             said(plane.place, "a plane is in a body that moves".to_owned());
         }

@@ -16,9 +16,9 @@ use super::compiler::Compilers;
 use super::contact::Contacts;
 use super::fault::MjcfFault;
 use super::fit::{Fitted, fitted};
-use super::geom::{Geom, Kind};
+use super::geom::{Geom, GeomKind};
 use super::inertia::inertial;
-use super::joint::{self, RawJoint};
+use super::joint::{MjcfJointKind, RawJoint};
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::scene::Robot;
@@ -158,11 +158,13 @@ impl<'d> Maker<'_, 'd> {
 
     fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Fallible<Option<Joint>> {
         let (kind, feature) = match raw.kind {
-            joint::Kind::Free => return Ok(None),
-            joint::Kind::Ball => (JointKind::Ball, features::BALLS),
-            joint::Kind::Hinge => (JointKind::Hinge, features::HINGES),
-            joint::Kind::Slide if raw.range.is_none() => (JointKind::Slide, features::FREE_SLIDES),
-            joint::Kind::Slide => (JointKind::Slide, features::SLIDES),
+            MjcfJointKind::Free => return Ok(None),
+            MjcfJointKind::Ball => (JointKind::Ball, features::BALLS),
+            MjcfJointKind::Hinge => (JointKind::Hinge, features::HINGES),
+            MjcfJointKind::Slide if raw.range.is_none() => {
+                (JointKind::Slide, features::FREE_SLIDES)
+            }
+            MjcfJointKind::Slide => (JointKind::Slide, features::SLIDES),
         };
         self.tally.count(feature);
         let name = match &raw.name {
@@ -236,7 +238,7 @@ impl<'d> Maker<'_, 'd> {
     ) -> Fallible<Option<(Geometry, Isometry3<f64>)>> {
         let geometry = match (geom.kind, geom.kind.solid(fitted.size)) {
             (_, Some(solid)) => solid,
-            (Kind::Mesh | Kind::DistanceField, None) => {
+            (GeomKind::Mesh | GeomKind::DistanceField, None) => {
                 let mesh = geom.mesh.unwrap_or_default();
                 return self.meshes.shape(mesh, geom.place, &mut self.assets, self.tally);
             }

@@ -13,7 +13,7 @@ use super::super::refusal::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::joint::Kind;
+use super::joint::MjcfJointKind;
 use urdd_format::short::Short;
 
 /// The robot of a model.
@@ -115,7 +115,7 @@ fn by_structure(all: &[RawBody<'_>], trees: &[usize], driven: &HashSet<&str>) ->
     for (body, tree) in all.iter().zip(trees).skip(1) {
         let tree = &mut known[*tree];
         tree.bodies += 1;
-        let moving = body.joints.iter().filter(|joint| joint.kind != Kind::Free);
+        let moving = body.joints.iter().filter(|joint| joint.kind != MjcfJointKind::Free);
         tree.joints += moving.count();
         tree.is_driven |= body.joints.iter().any(|joint| named(&joint.name))
             || body.frames.iter().any(|site| named(&site.name));
@@ -153,7 +153,7 @@ fn driven(root: &Element) -> HashSet<&str> {
 }
 
 fn is_free(body: &RawBody<'_>) -> bool {
-    body.joints.iter().any(|joint| joint.kind == Kind::Free)
+    body.joints.iter().any(|joint| joint.kind == MjcfJointKind::Free)
 }
 
 fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, tally: &mut Tally) {

@@ -11,7 +11,7 @@ use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::moving::{moving, needs_links, say_turned};
 use super::poses::{Frames, snapped};
-use super::scene::{Kind, Placeable, Scene, WORLD};
+use super::scene::{Placeable, Scene, SdfJointKind, WORLD};
 use super::spanning::branches;
 
 /// The bodies of a scene, and whether they are held by the world.
@@ -53,7 +53,7 @@ pub fn bodies(
                 let charged = body.joints.push(moving, account);
                 charged.or_else(|why| Refusal::at(place, why))?;
             }
-            if joint.kind == Kind::Fixed {
+            if joint.kind == SdfJointKind::Fixed {
                 body.fixed_by = Some(scene.nodes[joint.node].name.clone());
             } else if branch.is_turned {
                 say_turned(&scene, joint, tally);

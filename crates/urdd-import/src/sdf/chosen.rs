@@ -13,7 +13,7 @@ use super::joint_reader::world_joints;
 use super::kept::keep_plugins;
 use super::libsdformat::say_refusals;
 use super::models::model;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::tag::Tag;
 use urdd_source::ImportOptions;
 
@@ -32,7 +32,7 @@ struct Candidate<'a> {
 /// # Errors
 /// If there is none, if there are several, or if it is refused.
 pub fn read_chosen(
-    reader: &mut Reader,
+    reader: &mut SdfReader,
     root: Tag,
     options: &ImportOptions,
 ) -> Result<(String, bool), Refusal> {
@@ -85,7 +85,7 @@ pub fn read_chosen(
 }
 
 /// Reads the model that an `<include>` names.
-fn read_included(reader: &mut Reader, tag: Tag) -> Result<(String, bool), Refusal> {
+fn read_included(reader: &mut SdfReader, tag: Tag) -> Result<(String, bool), Refusal> {
     let Included { file, overrides } = included(reader, tag)?;
     let place: Place = tag.place();
     let read = reader.include(&file, place, |reader, root| {
@@ -125,7 +125,7 @@ fn candidate(tag: Tag) -> Option<Candidate> {
 type Inside = Option<(String, bool)>;
 
 /// Takes from included files what their `<include>`s do not say. Lights and actors are no candidates.
-fn look_inside(reader: &mut Reader, there: &mut Vec<Candidate>) -> Result<(), Refusal> {
+fn look_inside(reader: &mut SdfReader, there: &mut Vec<Candidate>) -> Result<(), Refusal> {
     let mut known: BTreeMap<String, Option<Inside>> = BTreeMap::new();
     let mut is_model = Vec::new();
     for one in &mut *there {
@@ -153,7 +153,7 @@ fn look_inside(reader: &mut Reader, there: &mut Vec<Candidate>) -> Result<(), Re
 }
 
 /// What is in an included file; none of one that cannot be read.
-fn peek(reader: &mut Reader, tag: Tag, uri: &str) -> Result<Option<Inside>, Refusal> {
+fn peek(reader: &mut SdfReader, tag: Tag, uri: &str) -> Result<Option<Inside>, Refusal> {
     let files = reader.files.len();
     let name = |model: Tag| model.attribute("name").unwrap_or_default().to_owned();
     let read = find(reader, tag, uri).and_then(|file| {

@@ -7,7 +7,7 @@ use super::super::features;
 use super::super::refusal::Refusal;
 use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::tag::{Tag, is_true};
 use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_source::{FoundMesh, NotFound};
@@ -39,7 +39,7 @@ pub struct Included {
 ///
 /// # Errors
 /// If there is none, or what it says is not read.
-pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
+pub fn included(reader: &mut SdfReader, tag: Tag) -> Result<Included, Refusal> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
@@ -66,7 +66,7 @@ pub fn included(reader: &mut Reader, tag: Tag) -> Result<Included, Refusal> {
 ///
 /// # Errors
 /// If there is none, or it may not be read.
-pub fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
+pub fn find(reader: &SdfReader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
     let missing = match find_as(reader, tag, uri)? {
         Ok(found) => return Ok(found),
         Err(missing) => missing,
@@ -87,7 +87,11 @@ pub fn find(reader: &Reader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> 
 }
 
 /// The file of a name as it is written.
-fn find_as(reader: &Reader, tag: Tag, uri: &str) -> Result<Result<FoundMesh, NotFound>, Refusal> {
+fn find_as(
+    reader: &SdfReader,
+    tag: Tag,
+    uri: &str,
+) -> Result<Result<FoundMesh, NotFound>, Refusal> {
     let folder = reader.folder(tag.file);
     reader.charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()), tag.place())?;
     let gate = reader.gate;

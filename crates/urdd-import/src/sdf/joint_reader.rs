@@ -6,8 +6,8 @@ use super::super::features;
 use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::kept::keep;
-use super::reader::Reader;
-use super::scene::{Axis, Joint, Kind, Mimic, Node, NodeKind, WORLD};
+use super::reader::SdfReader;
+use super::scene::{Axis, Joint, Mimic, Node, NodeKind, SdfJointKind, WORLD};
 use super::tag::{Tag, is_true};
 
 /// From this number on, a limit is none.
@@ -28,7 +28,7 @@ const KNOWN: &[&str] = &[
 ];
 
 /// Reads a joint into a scope.
-pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+pub fn joint(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
     let (node, joint) = read(reader, tag, scope)?;
     if !reader.scene.add(scope, &name, node) {
@@ -39,7 +39,7 @@ pub fn joint(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal>
 }
 
 /// What a joint says, and the node that is to be the next.
-pub fn read(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(Node, Joint), Refusal> {
+pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joint), Refusal> {
     let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
     let kind = kind(tag, &name)?;
@@ -51,8 +51,8 @@ pub fn read(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(Node, Joint)
     let node = Node::of(tag, whole.clone(), node_kind, scope)?;
     let node = Node { attached_to: Some(child), ..node };
     let wanted: &[&str] = match kind {
-        Kind::Fixed | Kind::Ball | Kind::Gearbox => &[],
-        Kind::Two => &["axis", "axis2"],
+        SdfJointKind::Fixed | SdfJointKind::Ball | SdfJointKind::Gearbox => &[],
+        SdfJointKind::Two => &["axis", "axis2"],
         _ => &["axis"],
     };
     let axes = wanted.iter().map(|wanted| {
@@ -74,17 +74,17 @@ pub fn read(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(Node, Joint)
     Ok((node, Joint { node: reader.scene.nodes.len(), kind, parent, axes }))
 }
 
-fn kind(tag: Tag, name: &str) -> Result<Kind, Refusal> {
+fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
     let word = tag.attribute("type").unwrap_or_default().trim().to_lowercase();
     Ok(match word.as_str() {
-        "fixed" => Kind::Fixed,
-        "revolute" => Kind::Hinge,
-        "continuous" => Kind::Continuous,
-        "prismatic" => Kind::Slide,
-        "ball" => Kind::Ball,
-        "revolute2" | "universal" => Kind::Two,
-        "gearbox" => Kind::Gearbox,
-        "screw" => Kind::Screw(match tag.number("screw_thread_pitch")? {
+        "fixed" => SdfJointKind::Fixed,
+        "revolute" => SdfJointKind::Hinge,
+        "continuous" => SdfJointKind::Continuous,
+        "prismatic" => SdfJointKind::Slide,
+        "ball" => SdfJointKind::Ball,
+        "revolute2" | "universal" => SdfJointKind::Two,
+        "gearbox" => SdfJointKind::Gearbox,
+        "screw" => SdfJointKind::Screw(match tag.number("screw_thread_pitch")? {
             Some(pitch) => pitch,
             // Radians for a metre, of a left-handed thread.
             None => match tag.number("thread_pitch")? {
@@ -114,7 +114,7 @@ pub fn end(tag: Tag, child: &'static str) -> Result<String, Refusal> {
 }
 
 /// Counts what an axis says that is not read.
-fn said_of_axis(reader: &mut Reader, axis: Tag, joint: &str) {
+fn said_of_axis(reader: &mut SdfReader, axis: Tag, joint: &str) {
     let tally = &mut reader.tally;
     axis.unread(&["xyz", "dynamics", "limit", "mimic", "use_parent_model_frame"], tally);
     if let Some(dynamics) = axis.child("dynamics") {
@@ -196,7 +196,7 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
 }
 
 /// Reads the joints between the model that was read and the world. The others are lost.
-pub fn world_joints(reader: &mut Reader, world: Tag, model: &str) -> Result<(), Refusal> {
+pub fn world_joints(reader: &mut SdfReader, world: Tag, model: &str) -> Result<(), Refusal> {
     for tag in world.children().filter(|child| child.name() == "joint") {
         let inside = |name: &str| match name.strip_prefix(model)? {
             "" => Some("__model__".to_owned()),

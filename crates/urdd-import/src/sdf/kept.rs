@@ -7,7 +7,7 @@ use super::super::model::{GazeboElement, LETTER};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::poses::Frames;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::scene::{Posed, Scene};
 use super::tag::Tag;
 use urdd_kinematics::rotation::to_rpy;
@@ -18,7 +18,7 @@ use urdd_xml::writer::Element;
 pub type Owner<'n> = (&'n str, usize);
 
 /// Keeps an element of the model, or of a link or joint.
-pub fn keep(reader: &mut Reader, tag: Tag, owner: Option<Owner>) -> Result<(), Refusal> {
+pub fn keep(reader: &mut SdfReader, tag: Tag, owner: Option<Owner>) -> Result<(), Refusal> {
     let mut element = Element::of(tag.node);
     if element.has_prefix() {
         reader.tally.unread(format!("`<{}>` with prefixes in it", tag.name()));
@@ -49,13 +49,13 @@ pub fn keep(reader: &mut Reader, tag: Tag, owner: Option<Owner>) -> Result<(), R
 }
 
 /// Keeps the plugins in an element.
-pub fn keep_plugins(reader: &mut Reader, tag: Tag) -> Result<(), Refusal> {
+pub fn keep_plugins(reader: &mut SdfReader, tag: Tag) -> Result<(), Refusal> {
     let mut plugins = tag.children().filter(|child| child.name() == "plugin");
     plugins.try_for_each(|plugin| keep(reader, plugin, None))
 }
 
 /// Puts elements into the frames of their links and joints, which a URDF has.
-pub fn keep_posed(reader: &mut Reader, scene: &Scene, frames: &Frames) -> Result<(), Refusal> {
+pub fn keep_posed(reader: &mut SdfReader, scene: &Scene, frames: &Frames) -> Result<(), Refusal> {
     for Posed { mut element, owner, node, pose: (pose, name), place } in
         std::mem::take(&mut reader.posed)
     {
@@ -79,13 +79,13 @@ pub fn keep_posed(reader: &mut Reader, scene: &Scene, frames: &Frames) -> Result
 }
 
 /// Keeps that the robot is static. libsdformat takes the word of the last `<gazebo>` for it, and a missing one for no.
-pub fn keep_static(reader: &mut Reader, place: Place) -> Result<(), Refusal> {
+pub fn keep_static(reader: &mut SdfReader, place: Place) -> Result<(), Refusal> {
     reader.tally.count(features::KEPT);
     push(reader, Element::text("static", "true"), None, place)
 }
 
 fn push(
-    reader: &mut Reader,
+    reader: &mut SdfReader,
     element: Element,
     owner: Option<&str>,
     place: Place,

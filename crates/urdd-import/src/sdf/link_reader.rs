@@ -5,7 +5,7 @@ use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::inertial::inertial;
 use super::kept::keep;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::scene::{Link, Node, NodeKind, WORLD};
 use super::shape_reader::shape;
 use super::tag::Tag;
@@ -29,7 +29,7 @@ const KEPT: &[&str] = &[
 ];
 
 /// Reads a link into a scope.
-pub fn link(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+pub fn link(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
     if name == WORLD {
         return Refusal::at(tag.place(), SdfFault::WorldLink(name));

@@ -30,18 +30,18 @@ use fault::SdfFault;
 use kept::{keep_posed, keep_static};
 use libsdformat::say_refusals;
 use poses::Frames;
-use reader::Reader;
+use reader::SdfReader;
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 
 /// Reads the robot of a description.
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
-    let mut reader = Reader::new(gate);
+    let mut reader = SdfReader::new(gate);
     let made = made(&mut reader, file, options);
     made.map_err(|Refusal { place, fault }| placed(&reader.files, place, fault))
 }
 
-fn made(reader: &mut Reader, file: TextFile, options: &ImportOptions) -> Result<Model, Refusal> {
+fn made(reader: &mut SdfReader, file: TextFile, options: &ImportOptions) -> Result<Model, Refusal> {
     let (name, is_static) = reader.open(file, |reader, root| {
         say_refusals(root, &mut reader.tally);
         read_chosen(reader, root, options)

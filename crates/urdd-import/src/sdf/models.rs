@@ -11,7 +11,7 @@ use super::joint_reader::joint;
 use super::kept::{keep, keep_plugins};
 use super::libsdformat::say_refusals;
 use super::link_reader::link;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::scene::{Node, NodeKind, Scope};
 use super::tag::Tag;
 
@@ -26,7 +26,7 @@ const SETTINGS: &[&str] = &["self_collide", "allow_auto_disable", "enable_wind"]
 
 /// Reads a model into the scope of another; `None` for the robot itself. Gives whether it is static.
 pub fn model(
-    reader: &mut Reader,
+    reader: &mut SdfReader,
     tag: Tag,
     parent: Option<usize>,
     overrides: &Overrides,
@@ -81,7 +81,7 @@ pub fn model(
 
 /// Makes the scope of a model, and the node of its frame.
 fn enter(
-    reader: &mut Reader,
+    reader: &mut SdfReader,
     tag: Tag,
     parent: Option<usize>,
     name: &str,
@@ -145,7 +145,7 @@ fn enter(
     Ok(scope)
 }
 
-fn frame(reader: &mut Reader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+fn frame(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
     let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
     let attached_to = tag.attribute("attached_to").map(str::to_owned);

@@ -8,7 +8,7 @@ use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::poses::Frames;
-use super::scene::{Axis, Joint, Kind, NodeKind, Scene};
+use super::scene::{Axis, Joint, NodeKind, Scene, SdfJointKind};
 
 /// How far the other limit is from one that stands alone.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
@@ -30,8 +30,8 @@ pub fn moving(
     let sign = if is_turned { -1.0 } else { 1.0 };
     let base = |name: String, kind| Moving::new(name, kind, frame, node.place);
     let kind = match joint.kind {
-        Kind::Slide => JointKind::Slide,
-        Kind::Ball => JointKind::Ball,
+        SdfJointKind::Slide => JointKind::Slide,
+        SdfJointKind::Ball => JointKind::Ball,
         _ => JointKind::Hinge,
     };
     let mut moves = Vec::new();
@@ -39,7 +39,7 @@ pub fn moving(
         let mut made = base(name_of(joint, node.name.as_str(), which), kind);
         made.axis = direction(scene, frames, joint.node, axis)? * sign;
         made.range = match joint.kind {
-            Kind::Continuous => {
+            SdfJointKind::Continuous => {
                 if axis.range.iter().any(|limit| limit.is_finite()) {
                     let text = format!(
                         "the limits of joint `{}` are left out: a continuous joint has none",
@@ -62,11 +62,11 @@ pub fn moving(
         moves.push(made);
     }
     match joint.kind {
-        Kind::Ball => {
+        SdfJointKind::Ball => {
             tally.count(features::BALLS);
             moves.push(base(node.name.clone(), kind));
         }
-        Kind::Screw(pitch) => moves.extend(thread(&moves, pitch, tally)),
+        SdfJointKind::Screw(pitch) => moves.extend(thread(&moves, pitch, tally)),
         _ => {}
     }
     if is_turned {
@@ -97,8 +97,8 @@ fn thread(hinge: &[Moving], pitch: f64, tally: &mut Tally) -> Option<Moving> {
 /// The name of what moves about an axis of a joint.
 fn name_of(joint: &Joint, name: &str, which: usize) -> String {
     match (joint.kind, which) {
-        (Kind::Two, 0) => format!("{name}/axis"),
-        (Kind::Two, _) => format!("{name}/axis2"),
+        (SdfJointKind::Two, 0) => format!("{name}/axis"),
+        (SdfJointKind::Two, _) => format!("{name}/axis2"),
         _ => name.to_owned(),
     }
 }
@@ -172,7 +172,7 @@ pub fn say_turned(scene: &Scene, joint: &Joint, tally: &mut Tally) {
     let place: Place = node.place;
     tally.count(features::TURNED);
     let words = match joint.kind {
-        Kind::Ball => "the values of this ball are those of the opposite rotation",
+        SdfJointKind::Ball => "the values of this ball are those of the opposite rotation",
         _ => "its values keep their meaning",
     };
     tally.remark(place, format!("joint `{}` leads to its parent here: {words}", node.name));

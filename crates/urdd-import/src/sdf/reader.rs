@@ -22,7 +22,7 @@ use urdd_xml::{Mended, parse_leniently};
 const VERSIONS: [u32; 2] = [2, 12];
 
 /// What was read so far.
-pub struct Reader<'r> {
+pub struct SdfReader<'r> {
     pub gate: &'r Gate,
     pub files: Vec<TextFile>,
     pub scene: Scene,
@@ -39,9 +39,9 @@ pub struct Reader<'r> {
     open: Vec<PathBuf>,
 }
 
-impl<'r> Reader<'r> {
+impl<'r> SdfReader<'r> {
     pub fn new(gate: &'r Gate) -> Self {
-        Reader {
+        SdfReader {
             gate,
             files: Vec::new(),
             scene: Scene::default(),

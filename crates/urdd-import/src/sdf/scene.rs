@@ -99,7 +99,7 @@ pub struct Placeable {
 
 /// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
+pub enum SdfJointKind {
     Fixed,
     Hinge,
     Continuous,
@@ -116,7 +116,7 @@ pub enum Kind {
 #[derive(Debug)]
 pub struct Joint {
     pub node: usize,
-    pub kind: Kind,
+    pub kind: SdfJointKind,
     pub parent: String,
     pub axes: Vec<Axis>,
 }

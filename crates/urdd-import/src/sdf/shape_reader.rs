@@ -6,7 +6,7 @@ use super::super::fault::{ImportFault, Unreachable};
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
 use super::super::refusal::Refusal;
-use super::reader::Reader;
+use super::reader::SdfReader;
 use super::scene::Placeable;
 use super::tag::Tag;
 use urdd_geometry::Mesh;
@@ -41,7 +41,7 @@ const LIGHTING: &[&str] = &[
 ///
 /// # Errors
 /// If a number is none, or a file may not be read.
-pub fn shape(reader: &mut Reader, tag: Tag) -> Result<Option<Placeable>, Refusal> {
+pub fn shape(reader: &mut SdfReader, tag: Tag) -> Result<Option<Placeable>, Refusal> {
     let is_visual = tag.name() == "visual";
     for child in tag.children() {
         match child.name() {
@@ -108,7 +108,7 @@ const SIZES: &[(&str, &[&str])] = &[
     ("ellipsoid", &["radii"]),
 ];
 
-fn geometry(reader: &mut Reader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+fn geometry(reader: &mut SdfReader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
     let sizes = SIZES.iter().find(|(shape, _)| *shape == tag.name());
     let sizes = sizes.into_iter().flat_map(|(_, sizes)| *sizes);
     for size in sizes.filter(|size| tag.child(size).is_none()) {
@@ -163,7 +163,7 @@ fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
 }
 
 /// A mesh, and where its origin is.
-fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)>, Refusal> {
+fn mesh(reader: &mut SdfReader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)>, Refusal> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
@@ -188,7 +188,7 @@ fn mesh(reader: &mut Reader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)
 
 /// What became of a file.
 fn asset(
-    reader: &mut Reader,
+    reader: &mut SdfReader,
     tag: Tag,
     added: Result<usize, ImportFault>,
 ) -> Result<Option<usize>, Refusal> {
@@ -204,7 +204,7 @@ fn asset(
     }
 }
 
-fn material(reader: &mut Reader, visual: Tag) -> Result<Option<Material>, Refusal> {
+fn material(reader: &mut SdfReader, visual: Tag) -> Result<Option<Material>, Refusal> {
     let opacity = 1.0 - visual.number("transparency")?.unwrap_or_default().clamp(0.0, 1.0);
     let Some(tag) = visual.child("material") else { return Ok(None) };
     let beside = tag.children().filter(|child| LIGHTING.contains(&child.name())).count();

@@ -4,7 +4,7 @@ use super::super::features::{self, Tally};
 use super::super::refusal::Refusal;
 use super::libsdformat::REFUSED;
 use super::poses::Frames;
-use super::scene::{Kind, Scene, WORLD};
+use super::scene::{Scene, SdfJointKind, WORLD};
 
 /// A link in the tree, its parent first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +121,7 @@ fn ends(
             name => frames.links[Frames::named(scene, joint.node, "parent", name)?],
         };
         let Some((parent, child)) = parent.zip(frames.links[joint.node]) else { continue };
-        if joint.kind == Kind::Gearbox {
+        if joint.kind == SdfJointKind::Gearbox {
             tally.count(features::GEARBOXES);
             let text = format!("the gearbox `{}` is lost: its joints turn on their own", node.name);
             tally.remark(node.place, text);

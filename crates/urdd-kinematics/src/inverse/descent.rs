@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::path::{Goal, InverseSettings, Kind, Path, within};
+use super::path::{Goal, InverseSettings, Path, RangeKind, within};
 use crate::jacobian::Place;
 use crate::rotation::to_rotation_vector;
 
@@ -237,11 +237,11 @@ impl<'a> Descent<'a> {
                 let wanted = q[dof] + shorter * column.dot(&weights);
                 let kind = path.kinds[k];
                 next[dof] = match kind {
-                    Kind::Free => wanted,
-                    _ => within(wanted, path.bounds(k), kind == Kind::Turning),
+                    RangeKind::Free => wanted,
+                    _ => within(wanted, path.bounds(k), kind == RangeKind::Turning),
                 };
                 let [lower, upper] = path.bounds(k);
-                let hit = kind != Kind::Free && (next[dof] == lower || next[dof] == upper);
+                let hit = kind != RangeKind::Free && (next[dof] == lower || next[dof] == upper);
                 if hit && next[dof] != wanted {
                     free[k] = false;
                     stopped = true;

@@ -92,14 +92,14 @@ pub(super) struct Path<'a> {
     /// The bounds of all DOFs, lower bound first.
     bounds: Vec<[f64; 2]>,
     /// The range of values of each of `dofs`.
-    pub kinds: Vec<Kind>,
+    pub kinds: Vec<RangeKind>,
     /// The DOFs of rotation vectors.
     vectors: Vec<[usize; 3]>,
 }
 
 /// The range of values of a DOF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum RangeKind {
     /// Within the bounds.
     Bounded,
     /// Within the bounds; whole turns are equivalent.
@@ -110,13 +110,13 @@ pub(super) enum Kind {
 
 impl<'a> Path<'a> {
     pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
-        use Kind::{Bounded, Free, Turning};
+        use RangeKind::{Bounded, Free, Turning};
         let branch = kinematics.branch(goal.link);
         let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
-        let mut uses: Vec<Option<Kind>> = vec![None; kinematics.num_dofs()];
+        let mut uses: Vec<Option<RangeKind>> = vec![None; kinematics.num_dofs()];
         let mut vectors = Vec::new();
         for step in &branch.steps {
-            let kinds: &[Kind] = match &step.motion {
+            let kinds: &[RangeKind] = match &step.motion {
                 Motion::Fixed => &[],
                 Motion::Turn { position, .. } if position.multiplier == 1.0 => &[Turning],
                 Motion::Turn { .. } | Motion::Slide { .. } => &[Bounded],
@@ -182,8 +182,8 @@ impl<'a> Path<'a> {
         for (dof, kind) in self.dofs.iter().zip(&self.kinds) {
             let [lower, upper] = bounds[*dof];
             wide[*dof] = match kind {
-                Kind::Turning if upper - lower < TAU => [-PI, PI],
-                Kind::Bounded => [lower - way.max(TAU), upper + way.max(TAU)],
+                RangeKind::Turning if upper - lower < TAU => [-PI, PI],
+                RangeKind::Bounded => [lower - way.max(TAU), upper + way.max(TAU)],
                 _ => [lower, upper],
             };
         }
@@ -199,8 +199,8 @@ impl<'a> Path<'a> {
     pub fn confine(&self, configuration: &mut [f64]) {
         for (dof, value) in configuration.iter_mut().enumerate() {
             let kind = self.place[dof].map(|k| self.kinds[k]);
-            if kind != Some(Kind::Free) {
-                *value = within(*value, self.bounds[dof], kind == Some(Kind::Turning));
+            if kind != Some(RangeKind::Free) {
+                *value = within(*value, self.bounds[dof], kind == Some(RangeKind::Turning));
             }
         }
         self.wrap(configuration);
@@ -215,7 +215,7 @@ impl<'a> Path<'a> {
     /// of another configuration: angles within their bounds.
     pub fn settle(&self, configuration: &mut [f64], near: &[f64]) {
         for (k, dof) in self.dofs.iter().enumerate() {
-            if self.kinds[k] == Kind::Turning {
+            if self.kinds[k] == RangeKind::Turning {
                 let ([lower, upper], value) = (self.bounds(k), configuration[*dof]);
                 let turns = |to: f64| (to - value) / TAU;
                 let nearest = whole(turns(near[*dof]));

@@ -52,20 +52,20 @@ const INNER: [(&str, Known); 6] = [
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for srdf in srdf::of_robot(urdf) {
         let of_file = |message: String, at| {
-            let finding = Finding::in_file(&srdf.shown, message).position(Some(at));
+            let finding = Finding::in_file(&srdf.file.shown, message).position(Some(at));
             Finding { severity: Some(Severity::Error), ..finding }
         };
-        let document = match srdf.parse() {
+        let document = match srdf.document() {
             Ok(document) => document,
             Err(error) => {
-                let (at, why) = (error.pos(), error.words(&srdf.text));
+                let (at, why) = (error.pos(), error.words(&srdf.file.text));
                 let message = format!("the SRDF is not well-formed XML: {why}");
                 of_file(message, Position { line: at.row, column: at.col }).report(findings);
                 continue;
             }
         };
         let root = document.root_element();
-        let mut reader = Reader::new(&srdf.shown, &document, findings);
+        let mut reader = SrdfReader::new(&srdf.file.shown, document, findings);
         if root.tag_name().name() != ROBOT {
             let message = "MoveIt refuses the SRDF: its outermost element is not `<robot>`";
             let at = reader.lines.position(root.range().start);
@@ -87,18 +87,18 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 }
 
 /// Reads an SRDF as MoveIt does.
-struct Reader<'d, 'f> {
+struct SrdfReader<'d, 'f> {
     file: &'d str,
     lines: LineIndex<'d>,
     groups: Names<'d>,
     findings: &'f mut Findings,
 }
 
-impl<'d, 'f> Reader<'d, 'f> {
+impl<'d, 'f> SrdfReader<'d, 'f> {
     fn new(file: &'d str, document: &'d Document<'d>, findings: &'f mut Findings) -> Self {
         let groups = named(document.root_element(), "group");
         let groups = groups.filter_map(|group| group.attribute("name"));
-        Reader {
+        SrdfReader {
             file,
             lines: LineIndex::new(document.input_text()),
             groups: Names::new(groups.map(str::trim)),

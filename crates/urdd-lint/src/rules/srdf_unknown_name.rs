@@ -19,8 +19,8 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for srdf in srdf::of_robot(urdf) {
         // LNT063 says what is no XML.
-        if let Ok(document) = srdf.parse() {
-            compare(urdf, &srdf.shown, &document, findings);
+        if let Ok(document) = srdf.document() {
+            compare(urdf, &srdf.file.shown, document, findings);
         }
     }
     Some(())

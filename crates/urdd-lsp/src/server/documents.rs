@@ -15,7 +15,7 @@ use super::state::{Document, Event, Server};
 use crate::analysis::{Analysis, Depth};
 use crate::diagnostics::{Found, at_the_top};
 use crate::document::Snapshot;
-use crate::kind::Kind;
+use crate::kind::FileKind;
 use crate::text::Text;
 use urdd_directory::cancellation::Cancellation;
 
@@ -100,7 +100,7 @@ impl Server {
     fn start_all(&mut self, uri: &str) {
         self.start(uri, Depth::Text);
         let document = self.documents.get(uri);
-        if document.is_some_and(|document| matches!(document.snapshot.kind, Kind::Urdf)) {
+        if document.is_some_and(|document| matches!(document.snapshot.kind, FileKind::Urdf)) {
             self.start(uri, Depth::Files);
         }
     }
@@ -153,7 +153,7 @@ impl Server {
             };
             let _ = events.send(Event::Analysed(Arc::clone(&snapshot), depth, analysis));
             // For hovers over later texts that describe no robot.
-            if depth == Depth::Text && matches!(snapshot.kind, Kind::Urdf) {
+            if depth == Depth::Text && matches!(snapshot.kind, FileKind::Urdf) {
                 let _ = catch_unwind(AssertUnwindSafe(|| snapshot.robot()));
             }
         };

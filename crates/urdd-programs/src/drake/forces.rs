@@ -1,6 +1,6 @@
 //! Springs, bushings and constraints that are Drake's own. What they need is refused if it is missing.
 
-use super::{Links, Reader};
+use super::{DrakeReader, Links};
 use crate::prelude::*;
 
 /// What an element has to name.
@@ -74,7 +74,7 @@ const FORCES: [Force; 4] = [
     },
 ];
 
-impl Reader<'_> {
+impl DrakeReader<'_> {
     /// `frames` has the links, too.
     pub(super) fn forces(
         &mut self,

@@ -1,6 +1,6 @@
 //! How Drake reads joints, mimics and transmissions, and what it makes a tree of.
 
-use super::{Links, Reader, WORLD};
+use super::{DrakeReader, Links, WORLD};
 use crate::prelude::*;
 
 struct Joint<'t> {
@@ -22,7 +22,7 @@ struct Model<'l, 't> {
     groups: HashMap<&'t str, &'t str>,
 }
 
-impl Reader<'_> {
+impl DrakeReader<'_> {
     pub(super) fn joints<'t>(&mut self, robot: Node<'t>, links: &Links<'t>) -> Reading<()> {
         let mut model = Model {
             links,

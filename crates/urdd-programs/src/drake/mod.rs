@@ -25,7 +25,7 @@ const WORLD: &str = "world";
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let robot = effects.robot(tree)?;
-    let mut reader = Reader { file, effects, materials: HashMap::new() };
+    let mut reader = DrakeReader { file, effects, materials: HashMap::new() };
     reader.named(robot, "robot")?;
     for material in robot.named("material") {
         reader.material(material, true)?;
@@ -35,7 +35,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     reader.joints(robot, &links)
 }
 
-struct Reader<'r> {
+struct DrakeReader<'r> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
     /// Those that have been defined up to here, in the robot or in a visual.
@@ -52,7 +52,7 @@ struct Material {
 /// The links by their names, without that of the world.
 type Links<'t> = HashMap<&'t str, Node<'t>>;
 
-impl Reader<'_> {
+impl DrakeReader<'_> {
     /// The name of the robot or of a link. Empty, it ends the process in C++.
     fn named<'t>(&mut self, node: Node<'t>, kind: &'static str) -> Reading<&'t str> {
         let name = self.effects.needed(node, "name")?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Reader;
+use super::DrakeReader;
 use crate::prelude::*;
 
 /// The shapes in the order in which Drake looks for them, and their sizes.
@@ -16,7 +16,7 @@ const SHAPES: [(&str, &[&str]); 7] = [
     ("drake:ellipsoid", &["a", "b", "c"]),
 ];
 
-impl Reader<'_> {
+impl DrakeReader<'_> {
     pub(super) fn shape(&mut self, shape: Node<'_>, part: &Part) -> Reading<()> {
         let geometry = self.effects.needed_element(shape, "geometry")?;
         self.pose(shape, part)?;

@@ -22,7 +22,7 @@ pub struct ObjFacts {
 
 /// Reads a file. Its measures are of all vertices, and of the first shape's triangles.
 pub(super) fn read(bytes: &[u8]) -> (ObjFacts, Measures) {
-    let mut reader = Reader::default();
+    let mut reader = ObjReader::default();
     for line in bytes.split(|byte| matches!(byte, b'\n' | b'\r')) {
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
@@ -33,8 +33,9 @@ pub(super) fn read(bytes: &[u8]) -> (ObjFacts, Measures) {
             _ => {}
         }
     }
-    let Reader { mut facts, vertices, first, highest, corners, with_normals, has_normals, .. } =
-        reader;
+    let ObjReader {
+        mut facts, vertices, first, highest, corners, with_normals, has_normals, ..
+    } = reader;
     facts.lacks_normals = has_normals && with_normals > 0 && with_normals < corners;
     facts.has_bad_index |= highest > vertices.len();
     let triangles = || {
@@ -48,7 +49,7 @@ pub(super) fn read(bytes: &[u8]) -> (ObjFacts, Measures) {
 }
 
 #[derive(Default)]
-struct Reader {
+struct ObjReader {
     facts: ObjFacts,
     vertices: Vec<[f64; 3]>,
     /// The triangles of the first shape.
@@ -64,7 +65,7 @@ struct Reader {
     highest: usize,
 }
 
-impl Reader {
+impl ObjReader {
     /// A vertex. What is no number is read as far as it is one, and as 0.
     fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
         let mut point = [0.0; 3];

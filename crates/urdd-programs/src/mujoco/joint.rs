@@ -1,6 +1,6 @@
 //! Joints.
 
-use super::reader::{Reader, Release};
+use super::reader::{MujocoReader, Release};
 use crate::prelude::*;
 use crate::space::Pose;
 
@@ -23,7 +23,7 @@ impl Joint<'_> {
     }
 }
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     /// Reads a joint; `names` are those of joints that move.
     pub fn joint<'t>(
         &mut self,

@@ -1,7 +1,7 @@
 //! Links: inertials, visuals and collisions.
 
 use super::inertia::{Body, LEAST_EIGENVALUE, eigenvalues};
-use super::reader::{LEAST, Reader, Release};
+use super::reader::{LEAST, MujocoReader, Release};
 use crate::prelude::*;
 use crate::space::{Matrix, Pose};
 
@@ -23,7 +23,7 @@ impl Solid {
     }
 }
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     pub fn link(&mut self, link: Node<'_>, name: &str) -> Reading<Body> {
         let part = Part::of("link", name);
         let own = match self.only(link, "inertial")? {

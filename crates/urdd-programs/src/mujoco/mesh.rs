@@ -1,7 +1,7 @@
 //! Meshes of collisions: binary STL and OBJ.
 
 use super::link::Solid;
-use super::reader::{Reader, Release};
+use super::reader::{MujocoReader, Release};
 use crate::prelude::*;
 
 /// The most triangles of an STL file.
@@ -9,7 +9,7 @@ const MAX_TRIANGLES: usize = 200_000;
 const MAX_COORDINATE: f64 = (1 << 30) as f64;
 const LEAST_VOLUME: f64 = 1e-15;
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     pub fn mesh(&mut self, shape: Node<'_>, part: &Part) -> Reading<Solid> {
         let filename = self.effects.needed(shape, "filename")?;
         let scale = self.scale(shape)?;

@@ -11,7 +11,7 @@ use crate::prelude::*;
 use crate::space::Pose;
 use inertia::Body;
 use joint::Joint;
-use reader::{LEAST, Reader, Release, Settings};
+use reader::{LEAST, MujocoReader, Release, Settings};
 
 pub(crate) const FOUR: About = About {
     id: "mujoco",
@@ -60,11 +60,11 @@ fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
         return effects.refuse(root.map_or(0, Node::start), Fault::NotRobot);
     };
     let settings = Settings::default();
-    let mut reader = Reader { release, file, effects, settings, geoms: HashSet::new() };
+    let mut reader = MujocoReader { release, file, effects, settings, geoms: HashSet::new() };
     reader.robot(robot)
 }
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
         self.readable(robot, "robot", robot.value("name").unwrap_or_default());
         self.settings(robot)?;

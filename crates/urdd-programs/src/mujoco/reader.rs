@@ -25,7 +25,7 @@ impl Release {
 }
 
 /// What all parts of the reader have.
-pub struct Reader<'r> {
+pub struct MujocoReader<'r> {
     pub release: Release,
     pub file: &'r File<'r>,
     pub effects: &'r mut Effects,
@@ -57,7 +57,7 @@ pub struct Settings {
 const TINY: f64 = f64::MIN_POSITIVE;
 const SINGLE_TINY: f64 = f32::MIN_POSITIVE as f64;
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     pub fn settings(&mut self, robot: Node<'_>) -> Reading<()> {
         let Some(mujoco) = self.only(robot, "mujoco")? else { return Ok(()) };
         if let Some(compiler) = self.only(mujoco, "compiler")? {
@@ -126,7 +126,7 @@ impl Reader<'_> {
     }
 }
 
-impl Reader<'_> {
+impl MujocoReader<'_> {
     /// The child of a name; two are refused.
     pub fn only<'t>(&mut self, node: Node<'t>, name: &str) -> Reading<Option<Node<'t>>> {
         let mut found = node.named(name);

@@ -1,6 +1,6 @@
 //! How PyBullet reads joints, and what it makes a tree of.
 
-use super::{Links, MOST_LINKS, Reader, atof, pieces};
+use super::{Links, MOST_LINKS, PybulletReader, atof, pieces};
 use crate::prelude::*;
 
 struct Joint<'t> {
@@ -10,7 +10,7 @@ struct Joint<'t> {
     child: &'t str,
 }
 
-impl Reader<'_> {
+impl PybulletReader<'_> {
     pub(super) fn joints(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
         let mut names = HashSet::new();
         let mut joints = Vec::new();

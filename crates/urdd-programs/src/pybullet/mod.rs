@@ -63,7 +63,7 @@ fn read_lines(file: &File, lines: &Lines<'_>, effects: &mut Effects) -> Reading<
         });
     let tree = effects.parsed(parsed)?;
     let robot = effects.robot(tree)?;
-    Reader { file, effects, materials: HashMap::new() }.robot(robot)
+    PybulletReader { file, effects, materials: HashMap::new() }.robot(robot)
 }
 
 /// The longest line, bytes.
@@ -107,7 +107,7 @@ impl Lines<'_> {
     }
 }
 
-struct Reader<'r> {
+struct PybulletReader<'r> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
     /// The materials that are defined anywhere, with the first and the last colour of each.
@@ -121,7 +121,7 @@ struct Links<'t> {
     places: HashMap<&'t str, usize>,
 }
 
-impl Reader<'_> {
+impl PybulletReader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
         self.named(robot, "robot")?;
         for material in robot.named("material") {

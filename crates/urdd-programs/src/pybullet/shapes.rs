@@ -1,13 +1,13 @@
 //! How PyBullet reads visuals and collisions.
 
-use super::{Reader, atof, is_defined, pieces, rgba};
+use super::{PybulletReader, atof, is_defined, pieces, rgba};
 use crate::look::is_same;
 use crate::prelude::*;
 
 /// In how many folders above the file it looks for a mesh; they are all in truth.
 const FOLDERS: usize = 8;
 
-impl Reader<'_> {
+impl PybulletReader<'_> {
     pub(super) fn shape(&mut self, shape: Node<'_>, part: &Part) -> Reading<()> {
         self.pose(shape, part);
         let geometry = self.effects.needed_element(shape, "geometry")?;

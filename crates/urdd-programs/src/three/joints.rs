@@ -1,9 +1,9 @@
 //! How it reads joints. Of what repeats, the last counts.
 
-use super::{Joint, Reader, name_of, named};
+use super::{Joint, ThreeReader, name_of, named};
 use crate::prelude::*;
 
-impl<'t> Reader<'_, 't> {
+impl<'t> ThreeReader<'_, 't> {
     pub(super) fn joint(
         &mut self,
         node: Node<'t>,

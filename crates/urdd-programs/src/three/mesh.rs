@@ -1,10 +1,10 @@
 //! The meshes that it shows.
 
-use super::Reader;
+use super::ThreeReader;
 use crate::mesh::ColladaFacts;
 use crate::prelude::*;
 
-impl<'t> Reader<'_, 't> {
+impl<'t> ThreeReader<'_, 't> {
     pub(super) fn mesh(&mut self, mesh: Node<'t>, part: &Part) {
         let Some(name) = mesh.attribute("filename") else {
             return self.effects.drop(mesh, part, Fault::Missing("filename"));

@@ -34,7 +34,8 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
         }
     };
     let robot = effects.robot(tree)?;
-    let mut reader = Reader { file, effects, materials: HashMap::new(), whites: HashSet::new() };
+    let mut reader =
+        ThreeReader { file, effects, materials: HashMap::new(), whites: HashSet::new() };
     reader.robot(robot)
 }
 
@@ -46,7 +47,7 @@ fn name_of<'t>(node: Node<'t>) -> &'t str {
     node.value("name").unwrap_or("null")
 }
 
-struct Reader<'r, 't> {
+struct ThreeReader<'r, 't> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
     /// The robot's materials, the last of each name.
@@ -61,7 +62,7 @@ struct Joint<'t> {
     mimic: Option<Node<'t>>,
 }
 
-impl<'t> Reader<'_, 't> {
+impl<'t> ThreeReader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
         let visuals = named(robot, "link").flat_map(|link| named(link, "visual"));
         let of_visuals = visuals.flat_map(|visual| named(visual, "material"));

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Joint, PartRead, Reader, needed, number, numbers, vector};
+use super::{Joint, PartRead, UrdfdomReader, needed, number, numbers, vector};
 use crate::prelude::*;
 
-impl Reader<'_> {
+impl UrdfdomReader<'_> {
     pub(super) fn joints<'t>(&mut self, robot: Node<'t>) -> Reading<BTreeMap<&'t str, Joint<'t>>> {
         let mut joints = BTreeMap::new();
         for node in robot.named("joint") {

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Link, NO_COLOR, PartRead, Reader, needed, needed_element, number, vector};
+use super::{Link, NO_COLOR, PartRead, UrdfdomReader, needed, needed_element, number, vector};
 use crate::prelude::*;
 
-impl Reader<'_> {
+impl UrdfdomReader<'_> {
     pub(super) fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();

@@ -42,18 +42,18 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     };
     let robot = effects.robot(tree)?;
     parse::elements(robot, effects)?;
-    let mut reader = Reader { file, effects, materials: HashMap::new() };
+    let mut reader = UsdReader { file, effects, materials: HashMap::new() };
     reader.robot(robot)
 }
 
-struct Reader<'r, 't> {
+struct UsdReader<'r, 't> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
     /// Whether the first material of each name has a colour or a texture, and which; those of the robot have one.
     materials: HashMap<&'t str, (bool, Option<Look>)>,
 }
 
-impl<'t> Reader<'_, 't> {
+impl<'t> UsdReader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
         self.name(robot)?;
         let links = self.unique(robot, "link")?;

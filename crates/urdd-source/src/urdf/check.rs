@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::reader::Reader;
+use super::reader::UrdfReader;
 use super::reading::written_axis;
 use crate::cycles::cycles;
 use crate::fault::Fault;
@@ -13,7 +13,7 @@ use urdd_kinematics::rotation::unit_axis;
 use urdd_kinematics::{has_axis, num_dofs};
 
 /// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
-pub(super) fn check(reader: &mut Reader, robot_at: usize) {
+pub(super) fn check(reader: &mut UrdfReader, robot_at: usize) {
     same_names(reader);
     if reader.faults.is_empty() {
         ends(reader);
@@ -28,7 +28,7 @@ pub(super) fn check(reader: &mut Reader, robot_at: usize) {
     }
 }
 
-fn same_names(reader: &mut Reader) {
+fn same_names(reader: &mut UrdfReader) {
     let robot = &reader.reading.robot;
     let links = robot.links.iter().map(|link| &link.name);
     let links = links.zip(reader.link_places.iter().copied());
@@ -57,7 +57,7 @@ fn twice<'a>(
     found
 }
 
-fn ends(reader: &mut Reader) {
+fn ends(reader: &mut UrdfReader) {
     let robot = &reader.reading.robot;
     let names = robot.links.iter().enumerate();
     let links: HashMap<&str, usize> = names.map(|(idx, link)| (link.name.as_str(), idx)).collect();
@@ -119,7 +119,7 @@ fn plain(name: &str) -> String {
 /// Elements of an SRDF.
 const SRDF: [&str; 4] = ["<group", "<disable_collisions", "<virtual_joint", "<end_effector"];
 
-fn one_root(reader: &mut Reader, robot_at: usize) {
+fn one_root(reader: &mut UrdfReader, robot_at: usize) {
     let robot = &reader.reading.robot;
     let ends = &reader.reading.tree.ends;
     if robot.links.is_empty() {
@@ -172,7 +172,7 @@ fn ring(parent: &[Option<usize>]) -> Option<Vec<usize>> {
     Some(ring)
 }
 
-fn axes(reader: &mut Reader) {
+fn axes(reader: &mut UrdfReader) {
     let mut faults = Vec::new();
     for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
         let axis = written_axis(joint);
@@ -192,7 +192,7 @@ fn axes(reader: &mut Reader) {
 }
 
 /// Finds the joint that each mimic joint follows. A mimic element that cannot be resolved is dropped.
-fn mimics(reader: &mut Reader) {
+fn mimics(reader: &mut UrdfReader) {
     let robot = &reader.reading.robot;
     let names = robot.joints.iter().enumerate();
     let joints: HashMap<&str, usize> =
@@ -239,7 +239,7 @@ fn mimics(reader: &mut Reader) {
     reader.reading.tree.drivers = drivers;
 }
 
-fn missing_limits(reader: &mut Reader) {
+fn missing_limits(reader: &mut UrdfReader) {
     let mut found = Vec::new();
     for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
         let is_limited = |joint: &Joint| {

@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::numbers::element_of_numbers;
-use super::reader::{JointPlace, Reader};
+use super::reader::{JointPlace, UrdfReader};
 use super::xml::Element;
 use crate::fault::Fault;
 use crate::note::NoteKind;
@@ -20,7 +20,7 @@ const JOINT_ELEMENTS: &[&str] = &[
     "calibration",
 ];
 
-impl Reader {
+impl UrdfReader {
     /// Reads a joint and adds it to the robot.
     pub(super) fn joint(&mut self, joint: Element<'_>) {
         let at = joint.range().start;

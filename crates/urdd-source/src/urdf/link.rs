@@ -1,14 +1,14 @@
 //! Links, their geometry and materials.
 
 use super::numbers::element_of_numbers;
-use super::reader::Reader;
+use super::reader::UrdfReader;
 use super::xml::{self, Element};
 use crate::note::NoteKind;
 use urdd_format::urdf as v1;
 
 const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
 
-impl Reader {
+impl UrdfReader {
     pub(super) fn link(&mut self, link: Element<'_>) -> Option<v1::Link> {
         let name = self.needed(link, "link", "name");
         let inertial = self.only(link, "inertial").map(|inertial| self.inertial(inertial));

@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::reader::Reader;
+use super::reader::UrdfReader;
 use crate::note::NoteKind;
 use urdd_format::short::Short;
 
 /// Notes conflicting looks under one name, materials without a name, and names without a look. (A link may reference a
 /// material that is declared later.)
-pub(super) fn check(reader: &mut Reader) {
+pub(super) fn check(reader: &mut UrdfReader) {
     let materials = std::mem::take(&mut reader.materials);
     let mut looks = HashMap::new();
     for (_, material) in &materials {

@@ -19,8 +19,8 @@ use urdd_xml::element::Edit;
 const MOST: usize = 10_000_000;
 
 /// Reads the robot of a document, and its faults.
-pub(super) fn read(document: &Document<'_>, file_stem: &str) -> Reader {
-    let mut reader = Reader::default();
+pub(super) fn read(document: &Document<'_>, file_stem: &str) -> UrdfReader {
+    let mut reader = UrdfReader::default();
     reader.robot(document.root_element(), file_stem);
     reader
 }
@@ -36,7 +36,7 @@ pub(super) struct JointPlace {
 }
 
 #[derive(Default)]
-pub(super) struct Reader {
+pub(super) struct UrdfReader {
     pub(super) reading: Reading,
     pub(super) faults: Vec<(usize, Fault)>,
     pub(super) link_places: Vec<usize>,
@@ -47,7 +47,7 @@ pub(super) struct Reader {
     mended: HashSet<usize>,
 }
 
-impl Reader {
+impl UrdfReader {
     pub(super) fn fault(&mut self, offset: usize, fault: Fault) {
         self.faults.push((offset, fault));
     }
@@ -234,7 +234,7 @@ impl Reader {
 
     /// What was read, and the faults.
     pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
-        let Reader { mut reading, faults, .. } = self;
+        let UrdfReader { mut reading, faults, .. } = self;
         reading.remarks.sort_by_key(|remark| remark.offset);
         (reading, faults)
     }

@@ -6,6 +6,7 @@ pub(super) use nalgebra::Vector3;
 pub(super) use rayon::prelude::*;
 
 pub(super) use crate::context::Context;
+pub(super) use crate::described::Described;
 pub(super) use crate::finding::{Compared, finding_in};
 pub(super) use crate::memo::Farthest;
 pub(super) use crate::needs::MESH_MODULES;

@@ -8,7 +8,7 @@ use super::file::{self, MeshFault};
 use super::{glb_chunks, stl_records};
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::{Format, MeshPath, Meshes};
+use urdd_document::meshes::{MeshFormat, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
 use urdd_findings::finding::point;
 use urdd_format::readable::metres;
@@ -76,7 +76,7 @@ pub struct DerivedFile {
     /// Its JSON Pointer.
     pub pointer: String,
     /// The format that it should have.
-    pub format: Format,
+    pub format: MeshFormat,
     /// The format of its content; `None` if it is not a mesh.
     pub content: Option<Content>,
     /// Its fault. MSH010 reports that of a `.glb` whose header or chunks are wrong.
@@ -177,7 +177,7 @@ fn read(
             not_glb: false,
         };
         let read = file::bytes(files, profile, path.path).and_then(|bytes| {
-            file.not_glb = format == Format::Glb
+            file.not_glb = format == MeshFormat::Glb
                 && matches!(glb_chunks::fault(&bytes[..], bytes.len() as u64), Ok(Some(_)));
             let (scene, fault) = file::derived(&bytes, path.path, profile)?;
             let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
@@ -199,7 +199,7 @@ fn read(
     let sound = |(at, _): &(usize, Mesh)| derived.files[*at].fault.is_none();
     // Among sound files that store binary32 exactly, the one with the fewest vertices: an STL file has three for each
     // triangle.
-    let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
+    let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != MeshFormat::Obj;
     let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
     let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else { return derived };
     let (mesh_of, mesh) = meshes.swap_remove(first);

@@ -25,7 +25,7 @@ const WRONG_RANGE: Fault = "a range has a set at one of its ends; write the `-` 
 /// # Errors
 /// Why it is not a pattern of JavaScript in Unicode mode.
 pub fn in_words_of_the_library(pattern: &str) -> Result<Cow<'_, str>, Fault> {
-    let mut reader = Reader { rest: pattern, out: String::with_capacity(pattern.len()) };
+    let mut reader = PatternReader { rest: pattern, out: String::with_capacity(pattern.len()) };
     let mut can_repeat = false;
     while let Some(next) = reader.take() {
         can_repeat = match next {
@@ -54,12 +54,12 @@ enum Escape {
     Place,
 }
 
-struct Reader<'p> {
+struct PatternReader<'p> {
     rest: &'p str,
     out: String,
 }
 
-impl<'p> Reader<'p> {
+impl<'p> PatternReader<'p> {
     fn take(&mut self) -> Option<char> {
         let next = self.rest.chars().next()?;
         self.rest = &self.rest[next.len_utf8()..];

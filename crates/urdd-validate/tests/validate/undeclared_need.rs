@@ -9,7 +9,7 @@ use urdd_findings::finding::Findings;
 use urdd_findings::skip::SkipReason;
 use urdd_validate::code::Code;
 use urdd_validate::context::Context;
-use urdd_validate::rule::{Need, Rule};
+use urdd_validate::rule::{CheckOf, Need, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 
@@ -25,10 +25,10 @@ static FORGETFUL: Rule = Rule {
         doc: &[" Takes a module that it does not need."],
     },
     needs: &[],
-    check: |context, _| {
+    check: CheckOf::Urdd(|context, _| {
         context.document(urdd_format::registry::ModuleKind::Composition)?;
         Some(())
-    },
+    }),
 };
 
 #[test]
@@ -62,7 +62,11 @@ fn every_rule_takes_what_it_needs() {
         }
         if rule.needs.iter().any(is_of_document) {
             let mut findings = Findings::default();
-            if (rule.check)(&context, &mut findings).is_some() {
+            let passes = match rule.check {
+                CheckOf::Urdd(check) => check(&context, &mut findings),
+                CheckOf::Robot(check) => check(&context.described(), &mut findings),
+            };
+            if passes.is_some() {
                 passed.push(rule.code);
             }
         }

@@ -226,7 +226,7 @@ fn what_urdf_does_not_define_is_found_where_it_is() {
     let urdf = "<robot name='r' a='1'><gazebo b='x'/><link name='l'><x c='x'/><visual/>\
         <visual name='v'><geometry d='2'><box size='1 1 1' q:e='3' xmlns:q='u'/></geometry><surface> <s/></surface></visual></link>\
         <joint name='j' type='fixed' f='4'><limit lower='0' g='5'/></joint><material name='m' h='6'/></robot>";
-    let parts: OtherParts = other_parts(urdf);
+    let parts: OtherParts = other_parts(&Xml::new(urdf));
     let of = |owner: Owner| -> Vec<String> {
         let parts = parts.get(&owner).into_iter().flatten();
         parts.map(|part| format!("{}:{}={}", part.path, part.name, part.value)).collect()
@@ -241,11 +241,11 @@ fn what_urdf_does_not_define_is_found_where_it_is() {
         ]
     );
     assert_eq!(of(Owner::Joint("j".to_owned())), [":f=4", "limit:g=5"]);
-    assert!(other_parts("<robot").is_empty());
+    assert!(other_parts(&Xml::new("<robot")).is_empty());
     // URDF has three levels. A path has at most six, whatever is below it.
     let deep = "<geometry>".repeat(200) + "<box a=''/>" + &"</geometry>".repeat(200);
     let urdf = format!("<robot name='r'><link name='l'>{deep}</link></robot>");
-    let parts = &other_parts(&urdf)[&Owner::Link("l".to_owned())];
+    let parts = &other_parts(&Xml::new(&urdf))[&Owner::Link("l".to_owned())];
     let [part] = parts.as_slice() else { panic!("{parts:?}") };
     assert_eq!(part.path, ["geometry"; 6].join("/"));
     assert_eq!((part.name.as_str(), part.is_attribute), ("geometry", false));

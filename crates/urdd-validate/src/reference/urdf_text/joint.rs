@@ -1,6 +1,6 @@
 //! Joints.
 
-use super::reader::{Element, Reader, numbers};
+use super::reader::{Element, UrdfReader, numbers};
 use super::reading::Fault;
 use super::xml;
 use urdd_format::urdf as v1;
@@ -17,7 +17,7 @@ const JOINT_ELEMENTS: &[&str] = &[
     "calibration",
 ];
 
-impl Reader {
+impl UrdfReader {
     pub(super) fn joint(&mut self, joint: Element<'_>, at: &str) -> Option<v1::Joint> {
         let name = self.needed_text(joint, "name", at);
         let joint_type = self.joint_type(joint, at);

@@ -1,13 +1,13 @@
 //! Links, their geometry and materials.
 
-use super::reader::{Element, Reader, numbers};
+use super::reader::{Element, UrdfReader, numbers};
 use super::xml;
 use urdd_format::urdf as v1;
 
 const LINK_ELEMENTS: &[&str] = &["inertial", "visual", "collision"];
 const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
 
-impl Reader {
+impl UrdfReader {
     pub(super) fn link(&mut self, link: Element<'_>, at: &str) -> Option<v1::Link> {
         let name = self.needed_text(link, "name", at);
         let inertial =

@@ -7,10 +7,9 @@ pub mod compare;
 mod joint;
 mod legacy;
 mod link;
-pub mod numbers;
 mod reader;
 mod reading;
-mod xml;
+pub mod xml;
 
 use urdd_xml::Xml;
 

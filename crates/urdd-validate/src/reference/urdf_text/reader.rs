@@ -10,7 +10,7 @@ use urdd_format::urdf as v1;
 pub(super) type Element<'a> = Node<'a, 'a>;
 
 pub(super) fn read(document: &Document<'_>) -> Reading {
-    let mut reader = Reader::default();
+    let mut reader = UrdfReader::default();
     reader.robot(document.root_element());
     let mut reading = reader.reading;
     reading.problems.sort_by_key(|problem| problem.offset);
@@ -27,13 +27,13 @@ macro_rules! numbers {
 pub(super) use numbers;
 
 #[derive(Default)]
-pub(super) struct Reader {
+pub(super) struct UrdfReader {
     pub(super) reading: Reading,
     /// Whether `quat_xyzw` counts.
     quaternions: bool,
 }
 
-impl Reader {
+impl UrdfReader {
     pub(super) fn problem(&mut self, offset: usize, fault: Fault, actual: Option<&str>) {
         self.reading.problems.push(Problem { offset, fault, actual: actual.map(str::to_owned) });
     }
@@ -111,7 +111,7 @@ impl Reader {
         at: &str,
     ) -> Option<[f64; N]> {
         let text = self.text(element, attribute, at)?;
-        match super::numbers::read(&text) {
+        match xml::numbers(&text) {
             Some(vector) => vector.iter().all(|x| x.is_finite()).then_some(vector),
             None => {
                 let offset = xml::attribute(element, attribute)
@@ -136,7 +136,7 @@ impl Reader {
         self.vector::<1>(element, attribute, at).map(|[number]| number)
     }
 
-    /// Like [`Reader::vector`], for a required attribute of a shape.
+    /// Like [`UrdfReader::vector`], for a required attribute of a shape.
     pub(super) fn size<const N: usize>(
         &mut self,
         element: Element<'_>,

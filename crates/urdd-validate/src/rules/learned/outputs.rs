@@ -3,7 +3,7 @@ use sha2::{Digest, Sha256};
 use crate::reference::learned::network::Network;
 use crate::reference::learned::pairs;
 use crate::rules::prelude::*;
-use urdd_document::meshes::Format;
+use urdd_document::meshes::MeshFormat;
 
 declare_rule! {
     /// The self-collision model was trained on another robot, other pieces or other skips than those that are here.
@@ -53,7 +53,7 @@ fn other_geometry(context: &Context, findings: &mut Findings) -> Option<()> {
     let metadata = context.metadata()?;
     let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
     let documents = TRAINED_ON.map(|kind| format!("{}/module.json", kind.folder()));
-    let glbs = pieces.paths().filter(|(_, path)| path.format == Some(Format::Glb));
+    let glbs = pieces.paths().filter(|(_, path)| path.format == Some(MeshFormat::Glb));
     let glbs = glbs.map(|(_, path)| path.path.to_owned());
     let mut text = String::new();
     for path in documents.into_iter().chain(glbs) {

@@ -1,6 +1,6 @@
 use crate::rules::prelude::*;
 use urdd_document::mesh_files::{Absence, MeshFiles};
-use urdd_document::meshes::Format;
+use urdd_document::meshes::MeshFormat;
 
 declare_rule! {
     /// A mesh module names a file that is not there.
@@ -107,7 +107,7 @@ fn mesh_file_name(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// Path of a derived file (SPEC 7.3).
-fn expected_path(kind: Kind, format: Format, stem: &str, piece: usize) -> String {
+fn expected_path(kind: Kind, format: MeshFormat, stem: &str, piece: usize) -> String {
     let extension = format.extension();
     let folder = format!("{}/meshes/{extension}", kind.folder());
     match kind {

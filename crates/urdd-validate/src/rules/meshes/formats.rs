@@ -6,7 +6,7 @@ use crate::solids::file::MeshFault;
 use crate::solids::glb_chunks;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::Format;
+use urdd_document::meshes::MeshFormat;
 use urdd_geometry::read::Format as Content;
 use urdd_geometry::surface::extent;
 
@@ -52,7 +52,7 @@ fn glb_not_binary(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut files = MeshFiles::new(context);
     for (_, module, meshes) in context.mesh_modules(DERIVED) {
         let paths = meshes.paths();
-        for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(Format::Glb)) {
+        for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(MeshFormat::Glb)) {
             // Other rules report files that cannot be opened.
             let Ok((file, size)) = files.open(meshes.profile, mesh.path) else { continue };
             if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
@@ -94,10 +94,10 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
         None => {}
     }
     let right = match (file.format, file.content?) {
-        (Format::Stl, Content::StlBinary)
-        | (Format::Obj, Content::Obj)
-        | (Format::Glb, Content::Glb) => true,
-        (Format::Stl, Content::StlAscii) => profile == Profile::Legacy,
+        (MeshFormat::Stl, Content::StlBinary)
+        | (MeshFormat::Obj, Content::Obj)
+        | (MeshFormat::Glb, Content::Glb) => true,
+        (MeshFormat::Stl, Content::StlAscii) => profile == Profile::Legacy,
         _ => false,
     };
     (!right).then(|| match file.content {
@@ -107,11 +107,11 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
     })
 }
 
-fn expected(format: Format) -> &'static str {
+fn expected(format: MeshFormat) -> &'static str {
     match format {
-        Format::Stl => "a binary STL file",
-        Format::Obj => "a Wavefront OBJ file",
-        Format::Glb => "a binary glTF 2.0 file",
+        MeshFormat::Stl => "a binary STL file",
+        MeshFormat::Obj => "a Wavefront OBJ file",
+        MeshFormat::Glb => "a binary glTF 2.0 file",
     }
 }
 

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_document::meshes::{Format, Mesh, Meshes};
+use urdd_document::meshes::{Mesh, MeshFormat, Meshes};
 
 declare_rule! {
     /// A mesh is not given in the same formats as the others of its module.
@@ -42,7 +42,7 @@ fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut F
     let [list] = meshes.lists.as_slice() else { return };
     let links = list.links.iter().enumerate();
     let all = links.flat_map(|(link, meshes)| meshes.iter().map(move |mesh| (link, mesh)));
-    for format in [Format::Stl, Format::Obj] {
+    for format in [MeshFormat::Stl, MeshFormat::Obj] {
         let given = |mesh: &Mesh| mesh.paths.iter().any(|path| path.format == Some(format));
         let with = all.clone().filter(|(_, mesh)| given(mesh)).count();
         let expected = 2 * with >= all.clone().count();

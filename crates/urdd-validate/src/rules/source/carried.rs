@@ -27,7 +27,7 @@ declare_rule! {
     /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
     /// elements. Then write the URDD again.
     SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
-    phase References, needs [CarriedUrdf, Passed(URD011)], check repeated_element,
+    phase References, needs [CarriedUrdf, Passed(URD011)], of Robot, check repeated_element,
 }
 
 fn mesh_not_carried(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -45,9 +45,9 @@ fn mesh_not_carried(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-fn repeated_element(context: &Context, findings: &mut Findings) -> Option<()> {
-    let carried = context.urdf().ok()?;
-    let reading = context.urdf_text()?;
+fn repeated_element(described: &Described, findings: &mut Findings) -> Option<()> {
+    let carried = described.urdf.ok()?;
+    let reading = described.urdf_text()?;
     let lines = LineIndex::new(&carried.text);
     for again in &reading.repeated {
         let (start, end) = (lines.position(again.range.start), lines.position(again.range.end));

@@ -8,11 +8,11 @@ declare_rule! {
     ///
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot],
+    phase References, needs [SourceRobot], of Robot,
 }
 
-fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn check(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let limits = joint.position_limits().zip(joint.limit);
         if let Some(((lower, upper), limit)) = limits
@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             let message =
                 format!("the limits of joint `{name}` are crossed{absent}: no position is allowed");
-            finding_in(context, format!("/joints/{index}/limit"), message)
+            finding_in(described, format!("/joints/{index}/limit"), message)
                 .values("lower <= upper", format!("joint `{name}`: {lower} > {upper}"))
                 .report(findings);
         }

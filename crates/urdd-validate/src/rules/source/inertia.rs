@@ -19,7 +19,7 @@ declare_rule! {
     /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot, ROBOT_SOUND], check inertia_not_positive_definite,
+    phase References, needs [SourceRobot, ROBOT_SOUND], of Robot, check inertia_not_positive_definite,
 
     /// A principal moment of inertia is larger than the sum of the other two.
     ///
@@ -30,14 +30,14 @@ declare_rule! {
     ///
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot], check inertia_breaks_triangle,
+    phase References, needs [SourceRobot], of Robot, check inertia_breaks_triangle,
 }
 
-fn inertia_not_positive_definite(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
-    let bodies = context.rigid_groups()?;
+fn inertia_not_positive_definite(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
+    let bodies = described.rigid_groups()?;
     let at = |index: usize, message: String, link: &Link, found: &str| {
-        finding_in(context, format!("/links/{index}/inertial/inertia"), message)
+        finding_in(described, format!("/links/{index}/inertial/inertia"), message)
             .values("three positive principal moments", format!("link `{}`: {found}", link.name))
     };
     for body in &bodies.groups {
@@ -81,8 +81,8 @@ pub fn positive(moments: [f64; 3]) -> bool {
     moments[0] > INERTIA_DEFINITE * moments[2].abs()
 }
 
-fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn inertia_breaks_triangle(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, link) in robot.links.iter().enumerate() {
         let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else { continue };
         let moments = principal(tensor);
@@ -97,7 +97,7 @@ fn inertia_breaks_triangle(context: &Context, findings: &mut Findings) -> Option
             link.name,
             100.0 * beyond(moments)
         );
-        finding_in(context, pointer, message)
+        finding_in(described, pointer, message)
             .expected(format!("at most {least} kg m²"))
             .actual(format!("link `{}`: {}", link.name, show(moments)))
             .tolerance(INERTIA_TRIANGLE * moments[2])

@@ -10,7 +10,7 @@ declare_rule! {
     /// Write `<limit lower=… upper=… effort=… velocity=…/>` in the URDF, or make the joint
     /// `continuous` where it turns without end. Then write the URDD again.
     SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot, Version1], check no_limits,
+    phase References, needs [SourceRobot, Version1], of Robot, check no_limits,
 
     /// A joint that can move has the limits `effort="0"` and `velocity="0"`.
     ///
@@ -23,7 +23,7 @@ declare_rule! {
     /// suspension, what it bears and how fast it moves. ROS refuses a `<limit>` without them. Then write
     /// the URDD again.
     SRC009 "no-effort-and-no-speed", Warning, clause "6.1.7", since "0.2.0",
-    phase References, needs [SourceRobot, Version1], check no_effort_and_no_speed,
+    phase References, needs [SourceRobot, Version1], of Robot, check no_effort_and_no_speed,
 
     /// A mimic joint leaves its own limits while its driver is within its limits.
     ///
@@ -35,11 +35,11 @@ declare_rule! {
     /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
     /// URDF, and write the URDD again.
     SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)], check mimic_leaves_limits,
+    phase References, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)], of Robot, check mimic_leaves_limits,
 }
 
-fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn no_limits(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let (name, kind) = (&joint.name, joint.joint_type);
         let needs_limits = matches!(kind, JointType::Revolute | JointType::Prismatic);
@@ -51,15 +51,15 @@ fn no_limits(context: &Context, findings: &mut Findings) -> Option<()> {
             Some(_) => "a `limit` with neither `lower` nor `upper`",
         };
         let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
-        finding_in(context, format!("/joints/{index}/limit"), message)
+        finding_in(described, format!("/joints/{index}/limit"), message)
             .values("`lower` and `upper`", format!("joint `{name}`: {actual}"))
             .report(findings);
     }
     Some(())
 }
 
-fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn no_effort_and_no_speed(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let (name, kind) = (&joint.name, joint.joint_type);
         let limits = joint.position_limits();
@@ -74,7 +74,7 @@ fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<
             let message = format!(
                 "joint `{name}` ({kind}) has effort 0 and velocity 0: by its limits it cannot move"
             );
-            finding_in(context, format!("/joints/{index}/limit"), message)
+            finding_in(described, format!("/joints/{index}/limit"), message)
                 .expected("the joint's limits, above 0")
                 .actual(format!("joint `{name}`: effort 0, velocity 0"))
                 .report(findings);
@@ -83,9 +83,9 @@ fn no_effort_and_no_speed(context: &Context, findings: &mut Findings) -> Option<
     Some(())
 }
 
-fn mimic_leaves_limits(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
-    let mimics = context.mimics()?;
+fn mimic_leaves_limits(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
+    let mimics = described.mimics()?;
     for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
         let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else { continue };
         let driver = robot.joints.get(resolved.driver)?;
@@ -111,7 +111,7 @@ fn mimic_leaves_limits(context: &Context, findings: &mut Findings) -> Option<()>
             driver.name,
             number(beyond, 6)
         );
-        finding_in(context, pointer, message)
+        finding_in(described, pointer, message)
             .expected(format!("joint `{}` within {}", joint.name, interval(own)))
             .actual(format!(
                 "{} for `{}` from {} to {}",

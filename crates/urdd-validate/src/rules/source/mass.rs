@@ -13,14 +13,14 @@ declare_rule! {
     /// Give the link its mass in the URDF, or remove the `<inertial>` of a link that is only a frame.
     /// Then write the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot, ROBOT_SOUND], check mass_not_positive,
+    phase References, needs [SourceRobot, ROBOT_SOUND], of Robot, check mass_not_positive,
 }
 
-fn mass_not_positive(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
-    let bodies = context.rigid_groups()?;
+fn mass_not_positive(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
+    let bodies = described.rigid_groups()?;
     let at = |index: usize, message: String, expected: &str, link: &Link| {
-        finding_in(context, format!("/links/{index}/inertial/mass"), message)
+        finding_in(described, format!("/links/{index}/inertial/mass"), message)
             .values(expected, found(link))
     };
     for body in &bodies.groups {

@@ -11,7 +11,7 @@ declare_rule! {
     ///
     /// Give the joint an axis in the URDF (without one it is `1 0 0`), and write the URDD again.
     URD010 "zero-axis", Error, clause "6.1.6", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)], check zero_axis,
+    phase References, needs [Module(Kind::Urdf)], of Robot, check zero_axis,
 
     /// A mimic joint names a joint that does not exist.
     ///
@@ -21,7 +21,7 @@ declare_rule! {
     ///
     /// Correct `joint` of the `<mimic>`, or remove the `<mimic>`, in the URDF. Then write the URDD again.
     URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD003)], check unknown_mimic_driver,
+    phase References, needs [Module(Kind::Urdf), Passed(URD003)], of Robot, check unknown_mimic_driver,
 
     /// Mimic joints follow each other in a circle.
     ///
@@ -30,7 +30,7 @@ declare_rule! {
     ///
     /// Remove the `<mimic>` of the joint that is driven, in the URDF, and write the URDD again.
     URD009 "mimics-in-a-circle", Error, clause "6.1.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD008)], check mimic_circle,
+    phase References, needs [Module(Kind::Urdf), Passed(URD008)], of Robot, check mimic_circle,
 
     /// A mimic joint, or the joint that it follows, has more than one DOF.
     ///
@@ -40,16 +40,16 @@ declare_rule! {
     /// Take the `<mimic>` out of the joint, or write the joint as several joints of one DOF, in the
     /// URDF, and write the URDD again.
     URD012 "mimic-of-many-dofs", Error, clause "6.1.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD008)], check mimic_of_many_dofs,
+    phase References, needs [Module(Kind::Urdf), Passed(URD008)], of Robot, check mimic_of_many_dofs,
 }
 
-fn zero_axis(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn zero_axis(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         if joint.has_axis() && !has_direction(joint.axis) {
             let (name, kind) = (&joint.name, joint.joint_type);
             let message = format!("the axis of joint `{name}` ({kind}) has no direction");
-            finding_in(context, format!("/joints/{index}/axis/xyz"), message)
+            finding_in(described, format!("/joints/{index}/axis/xyz"), message)
                 .values("a vector other than zero", format!("{:?}", joint.axis))
                 .report(findings);
         }
@@ -62,15 +62,15 @@ pub fn has_direction(axis: [f64; 3]) -> bool {
     axis.iter().map(|x| x * x).sum::<f64>().is_normal()
 }
 
-fn unknown_mimic_driver(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn unknown_mimic_driver(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         if let Some(mimic) = joint.active_mimic()
             && robot.joint(&mimic.joint).is_none()
         {
             let name = &joint.name;
             let message = format!("joint `{name}` follows a joint that the robot does not have");
-            finding_in(context, format!("/joints/{index}/mimic/joint"), message)
+            finding_in(described, format!("/joints/{index}/mimic/joint"), message)
                 .values("the name of a joint", format!("`{}`", mimic.joint))
                 .report(findings);
         }
@@ -78,8 +78,8 @@ fn unknown_mimic_driver(context: &Context, findings: &mut Findings) -> Option<()
     Some(())
 }
 
-fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn mimic_circle(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     let joints = robot.joints.iter();
     let follows = joints.map(|joint| robot.joint(&joint.active_mimic()?.joint));
     for circle in circles(&follows.collect::<Vec<_>>()) {
@@ -92,7 +92,7 @@ fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
                 first_names(&names)
             ),
         };
-        finding_in(context, format!("/joints/{}/mimic/joint", circle.first()?), message)
+        finding_in(described, format!("/joints/{}/mimic/joint", circle.first()?), message)
             .expected("a joint that leads to one that follows nothing")
             .actual(format!("a circle of {}", names.len()))
             .report(findings);
@@ -100,8 +100,8 @@ fn mimic_circle(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-fn mimic_of_many_dofs(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn mimic_of_many_dofs(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         let Some(mimic) = joint.active_mimic() else { continue };
         let name = &joint.name;
@@ -118,7 +118,7 @@ fn mimic_of_many_dofs(context: &Context, findings: &mut Findings) -> Option<()> 
             continue;
         };
         let (kind, dofs) = (culprit.joint_type, culprit.num_dofs());
-        finding_in(context, format!("/joints/{index}/mimic"), message)
+        finding_in(described, format!("/joints/{index}/mimic"), message)
             .values("a joint of one DOF, or a fixed one", format!("{kind}, with {dofs} DOFs"))
             .report(findings);
     }

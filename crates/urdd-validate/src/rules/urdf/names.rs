@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Give every link a different name in the URDF, and write the URDD again.
     URD002 "duplicate-link-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)], check |context, findings| report(context, "link", findings),
+    phase References, needs [Module(Kind::Urdf)], of Robot, check |described, findings| report(described, "link", findings),
 
     /// Two joints have one name.
     ///
@@ -18,19 +18,19 @@ declare_rule! {
     ///
     /// Give every joint a different name in the URDF, and write the URDD again.
     URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)], check |context, findings| report(context, "joint", findings),
+    phase References, needs [Module(Kind::Urdf)], of Robot, check |described, findings| report(described, "joint", findings),
 }
 
 /// Reports each repeated name of a `link` or a `joint`.
-fn report(context: &Context, one: &str, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn report(described: &Described, one: &str, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     let names: Vec<&str> = match one {
         "link" => robot.links.iter().map(|link| link.name.as_str()).collect(),
         _ => robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
     };
     for (index, first, name) in repeated(names.into_iter()) {
         let at = |index: usize, message: String| {
-            finding_in(context, format!("/{one}s/{index}/name"), message)
+            finding_in(described, format!("/{one}s/{index}/name"), message)
         };
         let message =
             format!("another {one} is already named `{name}`; give this one a name of its own");

@@ -10,7 +10,7 @@ declare_rule! {
     /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
     /// own. Then write the URDD again.
     URD004 "not-one-root", Error, clause "6.1.4", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD005)], check not_one_root,
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)], of Robot, check not_one_root,
 
     /// A link is the child of two joints.
     ///
@@ -22,7 +22,7 @@ declare_rule! {
     /// PyBullet, a constraint model in Pinocchio. Where a joint follows another one at a constant rate,
     /// as in many grippers, `<mimic>` is enough. Then write the URDD again.
     URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)], check two_parents,
+    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)], of Robot, check two_parents,
 
     /// A joint names a parent or child link that does not exist.
     ///
@@ -32,7 +32,7 @@ declare_rule! {
     ///
     /// Correct the name, or add the link, in the URDF, and write the URDD again.
     URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD002)], check unknown_link,
+    phase References, needs [Module(Kind::Urdf), Passed(URD002)], of Robot, check unknown_link,
 
     /// Joints connect links in a circle.
     ///
@@ -42,11 +42,11 @@ declare_rule! {
     /// Swap parent and child of one of the joints, or remove the joint, in the URDF. Then write the URDD
     /// again.
     URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD005)], check cycle,
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)], of Robot, check cycle,
 }
 
-fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn not_one_root(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     let children: HashSet<usize> =
         (robot.joints.iter()).filter_map(|joint| robot.link(&joint.child)).collect();
     let links = robot.links.iter().enumerate();
@@ -61,14 +61,14 @@ fn not_one_root(context: &Context, findings: &mut Findings) -> Option<()> {
             format!("{count}: {}", first_names(&roots)),
         ),
     };
-    finding_in(context, "/links", message)
+    finding_in(described, "/links", message)
         .values("one link that is not the child of a joint", actual)
         .report(findings);
     Some(())
 }
 
-fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn two_parents(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     let mut held_by: HashMap<&str, (usize, &str)> = HashMap::new();
     for (index, joint) in robot.joints.iter().enumerate() {
         let link = &joint.child;
@@ -78,7 +78,7 @@ fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
                 "link `{link}` is the child of joint `{}` and of joint `{other}`; a link has one parent",
                 joint.name
             );
-            finding_in(context, format!("/joints/{index}/child/link"), message)
+            finding_in(described, format!("/joints/{index}/child/link"), message)
                 .expected("a link that no other joint has as its child")
                 .actual(format!("`{link}`, child of /joints/{first} too"))
                 .report(findings);
@@ -87,13 +87,13 @@ fn two_parents(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn unknown_link(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
             if robot.link(link).is_none() {
                 let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
-                finding_in(context, format!("/joints/{index}/{end}/link"), message)
+                finding_in(described, format!("/joints/{index}/{end}/link"), message)
                     .values("the name of a link", format!("`{link}`"))
                     .report(findings);
             }
@@ -102,8 +102,8 @@ fn unknown_link(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-fn cycle(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
+fn cycle(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
     for circle in circles(&parents(robot)) {
         let links = circle.iter().filter_map(|link| robot.links.get(*link));
         let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
@@ -111,7 +111,7 @@ fn cycle(context: &Context, findings: &mut Findings) -> Option<()> {
             "{} form a cycle, each the child of the next: remove one of their joints, or swap its parent and child",
             first_names(&names)
         );
-        finding_in(context, format!("/links/{}", circle.first()?), message)
+        finding_in(described, format!("/links/{}", circle.first()?), message)
             .expected("a path from every link to the root")
             .actual(format!("a cycle of {} links", circle.len()))
             .report(findings);

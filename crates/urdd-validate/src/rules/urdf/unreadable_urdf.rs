@@ -15,11 +15,11 @@ declare_rule! {
     /// Correct the URDF at the places that are given, and write the URDD again. A `$(arg …)` or `${…}`
     /// means that xacro was not run.
     URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
-    phase Syntax, needs [UrdfFile],
+    phase Syntax, needs [UrdfFile], of Robot,
 }
 
-fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let carried = match context.urdf() {
+fn check(described: &Described, findings: &mut Findings) -> Option<()> {
+    let carried = match described.urdf {
         Ok(carried) => carried,
         Err(NoUrdf::Unreadable { path, error }) => {
             findings.report(Finding::in_file(path, format!("the URDF is too large: {error}")));
@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
         Err(_) => return None,
     };
-    let reading = context.urdf_text()?;
+    let reading = described.urdf_text()?;
     if let Some(offset) = carried.not_utf8_at {
         let message =
             "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration";

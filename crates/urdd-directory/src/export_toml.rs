@@ -1,0 +1,188 @@
+//! The tables of `NAME.export.toml`, which imports write and exports read: what exports need and a URDD does not say.
+
+#![expect(missing_docs, reason = "the file that `urdd export init` writes says what they mean")]
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use toml::{Spanned, Table};
+use urdd_format::word::{UnknownWord, with_word};
+
+/// A name, and where it is in the file.
+pub type Name = Spanned<String>;
+
+/// A value that was not read from a file.
+pub fn unplaced<T>(value: T) -> Spanned<T> {
+    Spanned::new(0..0, value)
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    pub robot: Name,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub base: BaseTable,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub group: Vec<Spanned<GroupTable>>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub end_effector: Vec<EndEffectorTable>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub frames: FramesTable,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub actuators: ActuatorsTable,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub limits: LimitsTable,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub contact: ContactTable,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub curobo: CuroboTable,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+impl File {
+    /// One that says nothing of a robot.
+    pub fn of(robot: &str) -> File {
+        File {
+            robot: unplaced(robot.to_owned()),
+            base: BaseTable::default(),
+            group: Vec::new(),
+            end_effector: Vec::new(),
+            frames: FramesTable::default(),
+            actuators: ActuatorsTable::default(),
+            limits: LimitsTable::default(),
+            contact: ContactTable::default(),
+            curobo: CuroboTable::default(),
+        }
+    }
+
+    /// The text of the file, with what is set, in the order of its words.
+    ///
+    /// # Errors
+    /// None are known: each value has a form in TOML.
+    pub fn to_text(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(&Table::try_from(self)?)
+    }
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct BaseTable {
+    pub floating: bool,
+    #[serde(skip_serializing_if = "is_default")]
+    pub poses: BTreeMap<Name, Spanned<Vec<f64>>>,
+}
+
+#[derive(Serialize, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct GroupTable {
+    pub name: Name,
+    pub base: Option<Name>,
+    pub tip: Option<Name>,
+    pub joints: Option<Vec<Name>>,
+    pub groups: Option<Vec<Name>>,
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub passive: bool,
+}
+
+#[derive(Serialize, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct EndEffectorTable {
+    pub name: Name,
+    pub group: Name,
+    pub parent_group: Option<Name>,
+    pub parent_link: Name,
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct FramesTable {
+    pub tools: Vec<Name>,
+    pub imus: Vec<Name>,
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct ActuatorsTable {
+    pub bandwidth: Option<Spanned<f64>>,
+    pub joint: BTreeMap<Name, Spanned<JointGains>>,
+}
+
+/// What a person, or the description that was imported, sets for the actuator of a joint.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointGains {
+    /// N m/rad or N/m.
+    pub kp: Option<f64>,
+    /// N m s/rad or N s/m.
+    pub kv: Option<f64>,
+    /// The inertia of the motor, as the joint sees it, kg m² or kg.
+    pub armature: Option<f64>,
+    /// Its name, if it is not that of the joint.
+    pub name: Option<String>,
+    /// What it is told, where positions are asked for.
+    pub kind: Option<ActuatorKind>,
+    /// The least and greatest position or speed that it can be told, if these are not the limits of the joint.
+    pub ctrlrange: Option<[f64; 2]>,
+    /// The least and greatest force, if it is not the effort of the joint either way, N or N m.
+    pub forcerange: Option<[f64; 2]>,
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct LimitsTable {
+    pub acceleration: Option<Spanned<f64>>,
+    pub jerk: Option<Spanned<f64>>,
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct ContactTable {
+    pub friction: Option<Spanned<f64>>,
+}
+
+#[derive(Serialize, Deserialize, Default, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct CuroboTable {
+    pub ee_link: Option<Name>,
+    pub retract: Option<Name>,
+    pub locked: BTreeMap<Name, Spanned<f64>>,
+}
+
+/// What an actuator is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ActuatorKind {
+    /// A position, rad or m.
+    Position,
+    /// A velocity, rad/s or m/s.
+    Velocity,
+    /// A torque or a force, N m or N.
+    Motor,
+}
+
+impl ActuatorKind {
+    /// All kinds.
+    pub const ALL: &[ActuatorKind] =
+        &[ActuatorKind::Position, ActuatorKind::Velocity, ActuatorKind::Motor];
+
+    /// Its word for users, which is MuJoCo's too.
+    pub fn word(self) -> &'static str {
+        match self {
+            ActuatorKind::Position => "position",
+            ActuatorKind::Velocity => "velocity",
+            ActuatorKind::Motor => "motor",
+        }
+    }
+}
+
+impl FromStr for ActuatorKind {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<ActuatorKind, UnknownWord> {
+        with_word(word, ActuatorKind::ALL, ActuatorKind::word, "are no actuators")
+    }
+}
