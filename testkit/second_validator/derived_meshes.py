@@ -34,7 +34,9 @@ def check_files(urdd: Urdd, name: str) -> None:
     """7.6: each file is sound, and the files of a mesh hold the same triangles."""
     error = urdd.report.error
     for files, pointer in derived_files(urdd.documents[name]):
-        data = {kind: urdd.tree.read(path) for kind, path in files.items() if path}
+        # A file's name is in one of these; other keys are the producer's own (3.1.2).
+        named = {kind: files[kind] for kind in ("stl", "obj", "glb") if files[kind]}
+        data = {kind: urdd.tree.read(path) for kind, path in named.items()}
         glb = data["glb"]
         if glb is not None and not is_binary_gltf(glb):
             error("MSH010", files["glb"])

@@ -1,6 +1,9 @@
 """Switches off each keyword of the schemas of version 1 in turn, as `mutants.py` does with code.
 
 python3 testkit/second_validator/schema_mutants.py SUITE [--out FILE]
+
+A mutant that allows more runs on the cases whose document was not valid and is, one that allows
+less on those whose document was: on any other it says what it said.
 """
 
 from __future__ import annotations
@@ -8,6 +11,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -22,7 +26,7 @@ REMOVED = ("type", "enum", "const", "pattern", "minimum", "maximum", "minItems",
 REMOVED += ("additionalProperties", "patternProperties", "$ref", "anyOf", "oneOf", "allOf")
 OFF_BY_ONE = {"minimum": -1, "maximum": 1, "minItems": -1, "maxItems": 1}
 SECONDS = 60.0
-FEW = 3
+ALLOWS_LESS = re.compile(r"/(enum|anyOf|oneOf)/\d+$|/patternProperties$")
 
 
 def mutations(schema: Any, place: str) -> Iterator[tuple[str, str, Callable[[], None], Any]]:
@@ -64,15 +68,52 @@ def _remover(schema: dict[str, Any], key: str) -> Callable[[], None]:
     return lambda: schema.pop(key, None)
 
 
-def order(case: Case) -> tuple[bool, float]:
-    """Cases about schemas first, then those that take little time."""
-    return not case.rejected_by_schema, case.seconds  # type: ignore[attr-defined]
+class Document:
+    """A document of some cases, and whether it is valid."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+        self.cases: list[Case] = []
+        self.valid = True
+
+
+def documents_of(name: str, cases: list[Case], loaded: Any) -> list[Document]:
+    """The documents of a module in all cases that can be read, each once."""
+    modules, text = loaded["modules"].module, loaded["jsontext"].module
+    path = "urdd.json" if name == "root_metadata" else modules.file_of(name)
+    found: dict[bytes, Document] = {}
+    for case in cases:
+        data = case.tree.files.get(path)
+        if data is None:
+            continue
+        if data not in found:
+            try:
+                found[data] = Document(text.read_json(data))
+            except text.TextFault:
+                continue
+        found[data].cases.append(case)
+    return sorted(found.values(), key=lambda document: len(json.dumps(document.value)))
+
+
+def killer_of(
+    documents: list[Document], name: str, place: str, fits: Any, loaded: Any
+) -> Case | None:
+    """The case that kills a mutant."""
+    allows_less = ALLOWS_LESS.search(place) is not None
+    for document in documents:
+        if document.valid != allows_less or fits(name, document.value) == document.valid:
+            continue
+        for case in sorted(document.cases, key=lambda case: case.seconds):
+            if says_of(case, loaded, SECONDS) != case.says:
+                return case
+    return None
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("suite")
     parser.add_argument("--cases", default="", help="cases whose names begin so, by commas")
+    parser.add_argument("--every", type=int, default=1, help="each n-th mutant of a module alone")
     parser.add_argument("--out", default="schema_mutants.jsonl")
     arguments = parser.parse_args()
     loaded = load_package()
@@ -86,23 +127,18 @@ def main() -> int:
     schemas.published = noted
     cases = load_cases(arguments.suite, loaded, tuple(arguments.cases.split(",")))
     run_baseline(cases, loaded)
-    for case in cases:
-        found = loaded["validator"].module.judge_tree(case.tree).codes()
-        case.rejected_by_schema = "SCH001" in found or "DIR030" in found  # type: ignore[attr-defined]
+    fits = schemas.fits
     rows = []
     for name in ["root_metadata", *loaded["modules"].module.TABLE]:
         block = f"schema of {name}"
-        chosen = sorted((case for case in cases if block in case.blocks), key=order)
-        about = len([case for case in chosen if not order(case)[0]])
-        for place, kind, change, restore in mutations(published(name, "1.0.0"), ""):
+        documents = documents_of(name, cases, loaded)
+        for document in documents:
+            document.valid = fits(name, document.value)
+        every = list(mutations(published(name, "1.0.0"), ""))
+        for place, kind, change, restore in every[:: arguments.every]:
             change()
             CHANGED.add(block)  # type: ignore[arg-type]
-            killers = (
-                case
-                for case in chosen[: about + FEW]
-                if says_of(case, loaded, SECONDS) != case.says
-            )
-            killer = next(killers, None)
+            killer = killer_of(documents, name, place, fits, loaded)
             restore()
             CHANGED.clear()
             FRESH.clear()

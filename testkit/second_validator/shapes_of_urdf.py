@@ -19,7 +19,8 @@ class Shape:
     def __init__(self, element: Any, version: tuple[int, int]) -> None:
         self.back = transposed(rotation_of(element["origin"], version))
         self.position = position_of(element["origin"])
-        ((self.kind, inside),) = element["geometry"].items()
+        stated = element["geometry"].items()
+        ((self.kind, inside),) = [pair for pair in stated if not pair[0].startswith("x_")]
         size = inside.get("size", (0.0, 0.0, 0.0))
         self.half = tuple(side / 2 for side in size)
         self.radius = inside.get("radius", 0.0)

@@ -8,12 +8,12 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
 use crate::shapes::{fits, two_boxes};
-use crate::{Make, canonical, mesh_files, meshes};
+use crate::{Make, canonical, mesh_files, meshes, schemas};
 
 /// Name and URDD. Files that several bases share are stored in the first of them.
 pub fn shared() -> Vec<(&'static str, Make)> {
     let base = |make: fn() -> Fixture| -> Make { Box::new(move || canonical(make())) };
-    vec![
+    let mut bases = vec![
         ("toy", base(Fixture::toy)),
         ("toy_core", base(|| Fixture::core(&toy_robot()))),
         ("composition", base(composed)),
@@ -25,7 +25,9 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("no_shapes", base(meshes::without_shapes)),
         ("placed_scenes", base(mesh_files::placed_scenes::base)),
         ("two_boxes", base(two_boxes)),
-    ]
+    ];
+    bases.extend(schemas::shared().into_iter().filter(|(name, _)| *name != "learned"));
+    bases
 }
 
 /// A toy and an extension whose schema allows everything.

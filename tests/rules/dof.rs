@@ -107,5 +107,21 @@ pub fn cases() -> Vec<Case> {
                 f.set("urdf_module", "/joints/2/mimic/multiplier", json!(1e200));
             },
         ),
+        // The product is finite, the sum is not.
+        changed(
+            DOF007,
+            "sum-beyond-binary64",
+            true,
+            || locked_driver(1.0),
+            |f| {
+                for (at, driver) in [(1, "a"), (2, "b")] {
+                    let mimic = format!("<mimic joint=\"{driver}\"");
+                    f.urdf_replace(&mimic, &format!("{mimic} offset=\"1e308\""));
+                    f.set("urdf_module", &format!("/joints/{at}/mimic/offset"), json!(1e308));
+                    let resolved = format!("/joint_idx_to_mimic_mapping/{at}/offset");
+                    f.set("dof_module", &resolved, json!(1e308));
+                }
+            },
+        ),
     ]
 }

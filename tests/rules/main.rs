@@ -23,6 +23,7 @@ mod meshes;
 mod messages;
 mod numbers;
 mod one_case;
+mod schemas;
 mod shapes;
 mod source;
 mod two_faults;
@@ -119,6 +120,7 @@ fn cases() -> Vec<Case> {
         shapes::cases(),
         kinematics::cases(),
         learned::cases(),
+        schemas::cases(),
         numbers::cases(),
     ]
     .into_iter()

@@ -53,7 +53,8 @@ impl Scan {
     }
 }
 
-/// Scores the codes that a command printed for cases; `None` if it printed none at all.
+/// Scores the codes that a command printed for cases; `None` if it printed none at all. What cannot be read has no code:
+/// any that is printed for it is one too many.
 pub fn score<'a>(
     ran: impl Iterator<Item = (&'a Item, &'a BTreeSet<Code>)> + Clone,
 ) -> Option<PrintedCodes> {
@@ -62,6 +63,13 @@ pub fn score<'a>(
     }
     let (mut of, mut missing, mut extra) = (0, Vec::new(), Vec::new());
     for (item, codes) in ran {
+        if item.verdict == Verdict::Unreadable {
+            if !codes.is_empty() {
+                extra.push(item.id.clone());
+            }
+            of += 1;
+            continue;
+        }
         let Some(code) = item.code.as_deref() else { continue };
         let is_printed = codes.iter().any(|printed| printed.as_str() == code);
         match (item.kind, item.verdict) {
@@ -83,6 +91,39 @@ pub fn score<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn item(kind: Kind, verdict: Verdict, code: Option<&str>) -> Item {
+        Item {
+            id: format!("{kind:?} {verdict:?}"),
+            folder: String::new(),
+            kind,
+            code: code.map(str::to_owned),
+            title: String::new(),
+            profile: "1.0",
+            spec_versions: semver::VersionReq::STAR,
+            verdict,
+            findings: Vec::new(),
+            is_about_reading: code.is_none(),
+            profiles: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_has_no_code() {
+        let unreadable = item(Kind::Invalid, Verdict::Unreadable, None);
+        let near_miss = item(Kind::NearMiss, Verdict::Accept, None);
+        let rejected = item(Kind::Invalid, Verdict::Reject, Some("DOF003"));
+        let none = BTreeSet::new();
+        let one = BTreeSet::from([Code::DOF003]);
+        let score = |printed: &BTreeSet<Code>| {
+            let ran = [(&unreadable, printed), (&near_miss, printed), (&rejected, &one)];
+            let score = score(ran.into_iter()).expect("a code was printed");
+            (score.of, score.right, score.missing, score.extra)
+        };
+        let [one_case, two_cases] = [1, 2].map(Count::saturating);
+        assert_eq!(score(&none), (two_cases, two_cases, vec![], vec![]));
+        assert_eq!(score(&one), (two_cases, one_case, vec![], vec![unreadable.id.clone()]));
+    }
 
     #[test]
     fn finds_codes_that_are_words_of_their_own() {

@@ -199,9 +199,10 @@ const MAX_NAMED: usize = 10;
 
 fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {
     writeln!(out, "printed codes: {} of {} right", printed.right.get(), printed.of.get())?;
-    for (cases, what) in
-        [(&printed.missing, "not printed"), (&printed.extra, "printed for a near miss")]
-    {
+    for (cases, what) in [
+        (&printed.missing, "not printed"),
+        (&printed.extra, "printed for a near miss, or for what cannot be read"),
+    ] {
         let named: Vec<&str> = cases.iter().take(MAX_NAMED).map(String::as_str).collect();
         let more = match cases.len().saturating_sub(MAX_NAMED) {
             0 => String::new(),

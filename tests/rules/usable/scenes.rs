@@ -125,6 +125,12 @@ pub fn collada_rows() -> Vec<Row> {
         ),
         row("collada-made-flat", "part.dae", placed("<scale>0 0 0</scale>"), false),
         row(
+            "collada-with-an-offset-that-is-no-number",
+            "part.dae",
+            changed(r#"offset="0""#, r#"offset="a""#),
+            false,
+        ),
+        row(
             "collada-with-an-offset-of-1024",
             "part.dae",
             changed(r#"offset="0""#, r#"offset="1024""#),

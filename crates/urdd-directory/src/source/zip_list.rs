@@ -14,8 +14,8 @@ const LISTED: &[u8] = b"PK\x01\x02";
 const LISTED_LENGTH: usize = 46;
 const HEADER: &[u8] = b"PK\x03\x04";
 const HEADER_LENGTH: usize = 30;
-/// Longest data descriptor, which may follow an entry with its checksum and sizes.
-const LONGEST_DESCRIPTOR: usize = 24;
+/// The signature that most programs write before a data descriptor.
+const DESCRIPTOR: &[u8] = b"PK\x07\x08";
 
 /// Bits of an entry's flags.
 const ENCRYPTED: u16 = 1;
@@ -58,6 +58,14 @@ pub struct Packed {
     pub end: usize,
 }
 
+/// What an entry and its local header occupy.
+struct Place {
+    begin: usize,
+    end: usize,
+    /// Checksum and both sizes, where a data descriptor with them may follow.
+    descriptor: Option<[u32; 3]>,
+}
+
 /// Every entry, in the order of the central directory.
 ///
 /// # Errors
@@ -94,7 +102,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
     if entries.len() != usize::from(stated) {
         return Err(ArchiveFault::Count { stated: stated.into(), listed: entries.len() });
     }
-    without_gaps(places, start)?;
+    without_gaps(bytes, places, start)?;
     Ok(entries)
 }
 
@@ -131,13 +139,13 @@ fn is_end(bytes: &[u8], at: usize) -> bool {
     at + END_LENGTH + comment == bytes.len() || start.checked_add(size) == Some(at)
 }
 
-/// An entry and its extent with its local header: start, end, and whether a data descriptor may follow.
+/// An entry, and what it occupies with its local header.
 fn entry<'a>(
     bytes: &[u8],
     list: usize,
     fields: Fields<'_>,
     name: &'a [u8],
-) -> Result<(Listed<'a>, (usize, usize, bool)), ArchiveFault> {
+) -> Result<(Listed<'a>, Place), ArchiveFault> {
     let fail = |fault| Err(entry_fault(name, fault));
     let (crc, packed, size) = (fields.word(16), fields.word(20), fields.word(24));
     let begin = fields.word(42) as usize;
@@ -176,22 +184,35 @@ fn entry<'a>(
         kind: if has_mode { (fields.word(38) >> 16) & 0o170_000 } else { 0 },
         packed: Packed { method: fields.short(10), crc, size: size.into(), start, end },
     };
-    Ok((listed, (begin, end, has_descriptor)))
+    let descriptor = has_descriptor.then_some([crc, packed, size]);
+    Ok((listed, Place { begin, end, descriptor }))
 }
 
-/// Whether entries are contiguous from the first byte to the central directory. Gaps may contain another archive.
-fn without_gaps(mut places: Vec<(usize, usize, bool)>, list: usize) -> Result<(), ArchiveFault> {
-    places.sort_unstable();
+/// Whether entries are contiguous from the first byte to the central directory, apart from data descriptors. Other bytes
+/// may contain another archive.
+fn without_gaps(bytes: &[u8], mut places: Vec<Place>, list: usize) -> Result<(), ArchiveFault> {
+    places.sort_unstable_by_key(|place| (place.begin, place.end));
     let mut at = 0;
-    let mut room = 0;
-    for (begin, end, has_descriptor) in places.into_iter().chain([(list, list, false)]) {
-        if begin < at || begin - at > room {
+    let mut descriptor = None;
+    for place in places.into_iter().chain([Place { begin: list, end: list, descriptor: None }]) {
+        let between = bytes.get(at..place.begin).ok_or(ArchiveFault::OtherBytes)?;
+        let is_descriptor = || descriptor.is_some_and(|values| describes(between, values));
+        if !between.is_empty() && !is_descriptor() {
             return Err(ArchiveFault::OtherBytes);
         }
-        at = end;
-        room = if has_descriptor { LONGEST_DESCRIPTOR } else { 0 };
+        (at, descriptor) = (place.end, place.descriptor);
     }
     Ok(())
+}
+
+/// Whether these bytes are a data descriptor with this checksum and these sizes, which are of 32 or 64 bits.
+fn describes(bytes: &[u8], [crc, packed, size]: [u32; 3]) -> bool {
+    let narrow = [crc, packed, size].map(u32::to_le_bytes).concat();
+    let wide = [packed, size].map(|size| u64::from(size).to_le_bytes()).concat();
+    let wide = [&crc.to_le_bytes()[..], &wide].concat();
+    let unsigned = bytes.strip_prefix(DESCRIPTOR).unwrap_or(bytes);
+    // A checksum may equal the signature.
+    [bytes, unsigned].iter().any(|bytes| *bytes == narrow || *bytes == wide)
 }
 
 fn broken(reason: &str) -> ArchiveFault {

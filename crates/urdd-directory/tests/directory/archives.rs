@@ -112,6 +112,38 @@ fn sizes_in_an_extra_field_are_of_zip64() {
     assert!(Archive::of_any("robot", bytes).is_ok(), "what other programs pack is read");
 }
 
+/// After an entry whose flags allow a data descriptor there may be one, and no other bytes.
+#[test]
+fn a_data_descriptor_states_checksum_and_sizes() {
+    let whole = stored(&[("urdd.json", FILE, b"{}")]);
+    let [size, crc] = [18, 14].map(|at| <[u8; 4]>::try_from(&whole[at..at + 4]).unwrap());
+    let narrow = [crc, size, size].concat();
+    let wide = [&crc[..], &size, &[0; 4], &size, &[0; 4]].concat();
+    let after = |descriptor: &[u8]| {
+        let (entry, rest) = whole.split_at(30 + "urdd.json{}".len());
+        let mut bytes = [entry, descriptor, rest].concat();
+        bytes[6] = 1 << 3;
+        let list = entry.len() + descriptor.len();
+        bytes[list + 8] = 1 << 3;
+        let start = bytes.len() - 6;
+        bytes[start] = list.try_into().unwrap();
+        Archive::new("robot", bytes).map(|_| ())
+    };
+    for form in [narrow, wide] {
+        for right in [form.clone(), [b"PK\x07\x08", &form[..]].concat()] {
+            assert_eq!(after(&right), Ok(()), "{right:?}");
+            for at in 0..right.len() {
+                let mut other = right.clone();
+                other[at] ^= 1;
+                assert_eq!(after(&other), Err(ArchiveFault::OtherBytes), "{other:?}");
+            }
+            assert_eq!(after(&right[1..]), Err(ArchiveFault::OtherBytes), "{right:?}");
+        }
+    }
+    assert_eq!(after(&[]), Ok(()), "some programs set the flag of an entry without one");
+    assert_eq!(after(&[0; 24]), Err(ArchiveFault::OtherBytes));
+}
+
 #[test]
 fn an_archive_beyond_the_limit_is_not_read() {
     let folder = tempfile::tempdir().unwrap();

@@ -37,13 +37,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     let source = source(context).map(|file| file.path.as_str());
     let listed = context.metadata().map(listed_files).into_iter().flatten();
-    for listed in listed.chain(source) {
-        let opened = entries::look(context, listed).and_then(|_| context.root().open_file(listed));
+    // A document may name a file outside of its module's folder, which is not listed.
+    let modules = MESH_MODULES.iter().filter_map(|kind| context.module(*kind));
+    let named = modules.flat_map(paths::of_module).filter(|named| !named.from_parent());
+    for needed in listed.chain(source).chain(named.map(|named| named.path)) {
+        let opened = entries::look(context, needed).and_then(|_| context.root().open_file(needed));
         match opened {
             // DIR015 reports an invalid path.
             Ok(_) | Err(ReadError::Path(_)) => {}
             Err(error) => {
-                unreadable.entry(listed.to_owned()).or_insert(error);
+                unreadable.entry(needed.to_owned()).or_insert(error);
             }
         }
     }
