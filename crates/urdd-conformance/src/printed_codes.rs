@@ -92,7 +92,7 @@ pub fn score<'a>(
 mod tests {
     use super::*;
 
-    fn item(kind: Kind, verdict: Verdict, code: Option<&str>) -> Item {
+    fn item(kind: CaseKind, verdict: Verdict, code: Option<&str>) -> Item {
         Item {
             id: format!("{kind:?} {verdict:?}"),
             folder: String::new(),
@@ -110,9 +110,9 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_has_no_code() {
-        let unreadable = item(Kind::Invalid, Verdict::Unreadable, None);
-        let near_miss = item(Kind::NearMiss, Verdict::Accept, None);
-        let rejected = item(Kind::Invalid, Verdict::Reject, Some("DOF003"));
+        let unreadable = item(CaseKind::Invalid, Verdict::Unreadable, None);
+        let near_miss = item(CaseKind::NearMiss, Verdict::Accept, None);
+        let rejected = item(CaseKind::Invalid, Verdict::Reject, Some("DOF003"));
         let none = BTreeSet::new();
         let one = BTreeSet::from([Code::DOF003]);
         let score = |printed: &BTreeSet<Code>| {

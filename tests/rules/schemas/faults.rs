@@ -2,14 +2,11 @@
 
 use serde_json::Value;
 
-/// Whether there is a case for every place of the schemas.
-const EVERY_PLACE: bool = false;
-
 /// The keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Type,
-    Required { may_be_null: bool, is_first: bool },
+    Required,
     Unknown,
     Minimum,
     Maximum,
@@ -45,7 +42,7 @@ impl Kind {
     const fn word(self) -> &'static str {
         match self {
             Kind::Type => "of-another-type",
-            Kind::Required { .. } => "missing",
+            Kind::Required => "missing",
             Kind::Unknown => "with-an-unknown-key",
             Kind::Minimum => "below-the-minimum",
             Kind::Maximum => "above-the-maximum",
@@ -63,27 +60,12 @@ impl Fault {
         format!("{} {}", self.place, self.kind.word())
     }
 
-    /// Whether it is among the cases. All would be more than twice as many. Of keys that must be there, those count that
-    /// may be null, which programs take for the same as missing, and one more of each object.
-    pub const fn is_case(&self) -> bool {
-        match self.kind {
-            Kind::Required { may_be_null, is_first } => EVERY_PLACE || may_be_null || is_first,
-            _ => true,
-        }
-    }
-
-    /// Equal for faults of which one is a case: a type once for each form of value that is not an object, a bound once for
-    /// each form in a module, all others once for each definition, also where several modules have it.
+    /// Equal for faults of which one is a case: once for each definition, also where several modules have it.
     pub fn kept_once(&self, module: &str) -> String {
         let (word, schema) = (self.kind.word(), &self.schema);
-        let is_object = schema.contains("\"properties\"");
-        match self.kind {
-            Kind::Type if !EVERY_PLACE && !is_object => format!("{schema} {word}"),
-            Kind::Minimum | Kind::Maximum | Kind::Fewer | Kind::More if !EVERY_PLACE => {
-                format!("{module} {schema} {word}")
-            }
-            _ if self.place.starts_with("/$defs") => format!("{} {schema} {word}", self.place),
-            _ => format!("{module}{} {word}", self.place),
+        match self.place.starts_with("/$defs") {
+            true => format!("{} {schema} {word}", self.place),
+            false => format!("{module}{} {word}", self.place),
         }
     }
 

@@ -104,7 +104,7 @@ fn chosen(
         if module == "link_shapes_skips_module" && fault.key() == "/skipped_reasons missing" {
             continue;
         }
-        if !fault.is_case() || !known.insert(fault.kept_once(module)) {
+        if !known.insert(fault.kept_once(module)) {
             continue;
         }
         *used.entry(fault.reference.clone()).or_default() += 1;

@@ -174,25 +174,16 @@ impl Walk<'_> {
             let change = Change::Set(json!(1));
             self.fault(Kind::Unknown, schema, at, "/unknown", change);
         }
-        let mut is_first = true;
         for name in schema["required"].as_array().into_iter().flatten() {
             let name = name.as_str().expect("a name");
-            let may_be_null = self.may_be_null(&properties[name]);
-            let kind = Kind::Required { may_be_null, is_first: is_first && !may_be_null };
-            is_first &= may_be_null;
             let place = at.inside(name, "");
-            self.fault(kind, schema, &place, &format!("/{name}"), Change::Remove);
+            self.fault(Kind::Required, schema, &place, &format!("/{name}"), Change::Remove);
         }
         for (name, inner) in properties {
             if let (Some(value), true) = (map.get(name), name != "$schema") {
                 self.visit(inner, value, &at.inside(name, &format!("/{name}")), true);
             }
         }
-    }
-
-    fn may_be_null(&self, schema: &Value) -> bool {
-        let alternatives = schema["anyOf"].as_array().into_iter().flatten();
-        types(schema).contains(&"null") || alternatives.into_iter().any(|one| one["type"] == "null")
     }
 
     fn list(&mut self, schema: &Value, list: &[Value], at: &At) {
