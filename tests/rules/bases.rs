@@ -40,19 +40,23 @@ pub fn extended(mut toy: Fixture) -> Fixture {
 
 /// A gripper on an arm on a base: links and joints in the order of the composition.
 fn arm_and_gripper() -> Robot {
+    in_a_line(
+        ["world", "a_base", "a_tip", "g_hand", "g_finger"],
+        ["stand", "a_elbow", "mount", "g_slide"],
+    )
+}
+
+/// A robot of five links in a line. Its second joint turns, the others are fixed.
+pub fn in_a_line(links: [&str; 5], joints: [&str; 4]) -> Robot {
     let mut robot = Robot::new("arm_and_gripper");
-    for name in ["world", "a_base", "a_tip", "g_hand", "g_finger"] {
+    for name in links {
         let mut link = link(name);
         link.inertial = Some(solid_box(1.0, [0.1; 3]));
         robot.urdf.links.push(link);
     }
-    for (name, joint_type, parent, child) in [
-        ("stand", JointType::Fixed, "world", "a_base"),
-        ("a_elbow", JointType::Continuous, "a_base", "a_tip"),
-        ("mount", JointType::Fixed, "a_tip", "g_hand"),
-        ("g_slide", JointType::Fixed, "g_hand", "g_finger"),
-    ] {
-        let mut joint = joint(name, joint_type, parent, child);
+    for (idx, name) in joints.into_iter().enumerate() {
+        let joint_type = if idx == 1 { JointType::Continuous } else { JointType::Fixed };
+        let mut joint = joint(name, joint_type, links[idx], links[idx + 1]);
         joint.origin = origin([0.0, 0.0, 0.1], [0.0; 3]);
         robot.urdf.joints.push(joint);
     }

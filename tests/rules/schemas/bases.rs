@@ -9,6 +9,7 @@ use testkit::robot::*;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::*;
 
+use crate::bases::in_a_line;
 use crate::meshes::{boxy, robot_of};
 use crate::{Make, canonical};
 
@@ -108,23 +109,8 @@ fn every_element() -> Fixture {
 
 /// A gripper on an arm of two joints, which was itself put together.
 fn parts_of_parts() -> Fixture {
-    let mut robot = Robot::new("arm_and_gripper");
-    for name in ["world", "a_base", "a_tip", "a_end", "g_hand"] {
-        let mut link = link(name);
-        link.inertial = Some(solid_box(1.0, [0.1; 3]));
-        robot.urdf.links.push(link);
-    }
-    for (name, joint_type, parent, child) in [
-        ("stand", JointType::Fixed, "world", "a_base"),
-        ("a_elbow", JointType::Continuous, "a_base", "a_tip"),
-        ("a_slide", JointType::Fixed, "a_tip", "a_end"),
-        ("mount", JointType::Fixed, "a_end", "g_hand"),
-    ] {
-        robot.urdf.joints.push(Joint {
-            origin: origin([0.0, 0.0, 0.1], [0.0; 3]),
-            ..joint(name, joint_type, parent, child)
-        });
-    }
+    let links = ["world", "a_base", "a_tip", "a_end", "g_hand"];
+    let robot = in_a_line(links, ["stand", "a_elbow", "a_slide", "mount"]);
     let part = |id: &str, source: Value| {
         json!({
             "id": id, "name": id, "source": source, "prefix": format!("{}_", &id[..1]),

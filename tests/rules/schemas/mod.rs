@@ -9,34 +9,18 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 use testkit::fixture::{Fixture, ROOT};
+use urdd_format::registry::{self, Profile};
 use urdd_validate::code::Code::SCH001;
 
 pub use self::bases::shared;
 use self::faults::{Change, Fault};
 use crate::{Case, changed};
 
-/// Modules whose faults are cases, `urdd.json` first. Every other name of a schema is none of version 1.
-const MODULES: [&str; 19] = [
-    "root_metadata",
-    "urdf_module",
-    "dof_module",
-    "chain_module",
-    "connections_module",
-    "bounds_module",
-    "kinematics_samples_module",
-    "composition_module",
-    "named_configurations_module",
-    "original_meshes_module",
-    "plain_meshes_module",
-    "convex_hull_meshes_module",
-    "convex_decomposition_meshes_module",
-    "link_shapes_approximations_module",
-    "link_shapes_max_distance_from_origin_module",
-    "link_shapes_distance_statistics_module",
-    "link_shapes_simple_skips_module",
-    "link_shapes_skips_module",
-    "self_collision_model_module",
-];
+/// Modules whose faults are cases, `urdd.json` first.
+fn modules() -> impl Iterator<Item = &'static str> {
+    let of_v1 = registry::modules().iter().filter(|spec| spec.profile == Profile::V1);
+    std::iter::once("root_metadata").chain(of_v1.map(|spec| spec.kind.name()))
+}
 
 fn schema(module: &str) -> Value {
     let path = testkit::repository().join(format!("schema/{module}/1.0.0.json"));
@@ -57,7 +41,7 @@ fn has(urdd: &Fixture, module: &str) -> bool {
 pub fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     let (mut known, mut names) = (BTreeSet::new(), BTreeSet::new());
-    for module in MODULES {
+    for module in modules() {
         let schema = schema(module);
         let faults = bases::all()
             .iter()
@@ -150,8 +134,7 @@ fn keys_of_ones_own(base: &'static str) -> Case {
         false,
         move || bases::named(base),
         |urdd| {
-            let modules: Vec<&str> =
-                MODULES.into_iter().filter(|module| has(urdd, module)).collect();
+            let modules: Vec<&str> = modules().filter(|module| has(urdd, module)).collect();
             let modules = match modules.last() {
                 Some(last @ &"self_collision_model_module") => vec![*last],
                 _ => modules,
@@ -170,7 +153,7 @@ fn keys_of_ones_own(base: &'static str) -> Case {
 #[test]
 fn every_place_of_a_schema_is_in_a_base() {
     let mut missing = Vec::new();
-    for module in MODULES {
+    for module in modules() {
         let schema = schema(module);
         let there = bases::all().iter().filter(|(_, base)| has(base, module));
         let places: BTreeSet<String> =
