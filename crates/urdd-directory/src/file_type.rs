@@ -58,6 +58,14 @@ impl FileType {
         known.map(|(_, of)| *of)
     }
 
+    /// What a file is, or where it is xacro, what its name says that xacro makes of it: an SRDF of `NAME.srdf.xacro`.
+    pub fn of_made(path: &Path) -> Option<FileType> {
+        match FileType::of(path)? {
+            FileType::Xacro => FileType::of(&path.with_extension("")),
+            other => Some(other),
+        }
+    }
+
     /// Whether a path has the name of a file of this type.
     pub fn is_of(self, path: &Path) -> bool {
         FileType::of(path) == Some(self)

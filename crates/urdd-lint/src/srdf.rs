@@ -126,13 +126,7 @@ fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
     let (mut seen, mut found) = (BTreeSet::new(), Vec::new());
     let mut expanded = 0;
     let of_urdf = LazyCell::new(|| defaults(urdf));
-    // What xacro makes an SRDF of is named `NAME.srdf.xacro`.
-    let is_xacro = |path: &Path| FileType::Xacro.is_of(path);
-    let ends = |name: &String| {
-        let path = Path::new(name);
-        let made = if is_xacro(path) { &*path.with_extension("") } else { path };
-        FileType::Srdf.is_of(made)
-    };
+    let ends = |name: &String| FileType::of_made(Path::new(name)) == Some(FileType::Srdf);
     for (folder, shown, is_own) in folders(urdf.files, urdf.folder) {
         for name in names(urdf.files, &folder).into_iter().filter(ends) {
             let path = folder.join(&name);
@@ -144,7 +138,7 @@ fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
             let Ok(bytes) = urdf.files.read(&path, MAX_SRDF_BYTES) else { continue };
             let mut text = String::from_utf8_lossy(&bytes).into_owned();
             let mut trail = None;
-            if is_xacro(&path) {
+            if FileType::Xacro.is_of(&path) {
                 if expanded == MAX_EXPANDED || !has_name(&text) {
                     continue;
                 }

@@ -292,7 +292,7 @@ impl<'t> Links<'t> {
             return FileKind::Robot;
         }
         // `NAME.srdf.xacro`: what its macros make may be unknown.
-        let is_srdf = FileType::Xacro.is_of(path) && FileType::Srdf.is_of(&path.with_extension(""));
+        let is_srdf = FileType::of_made(path) == Some(FileType::Srdf);
         match (file.root.as_str(), self.makers.contains(&maker), self.srdf.contains(&maker)) {
             ("robot", ..) if is_srdf => FileKind::Neither(Reason::Srdf),
             ("robot", true, _) => FileKind::Robot,

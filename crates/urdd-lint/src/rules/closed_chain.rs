@@ -25,12 +25,10 @@ declare_lint! {
 const MEET: f64 = 1e-6;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let couplings = named(urdf.root, "coupling").filter(|one| ends(*one).is_some()).count();
-    let loops: Vec<_> =
-        named(urdf.root, "loop").filter_map(|one| Some((one, ends(one)?))).collect();
-    if loops.is_empty() && couplings == 0 {
-        return Some(());
-    }
+    let closing = children(urdf.root).filter(|(name, _)| ["loop", "coupling"].contains(name));
+    let closing = closing.filter_map(|(name, node)| Some((name, node, ends(node)?)));
+    let closing: Vec<(&str, Node, [Node; 2])> = closing.collect();
+    let Some((_, first, _)) = closing.first() else { return Some(()) };
     let (robot, bodies) = urdf.bodies(findings)?;
     let poses = at_default(robot, &bodies.tree);
     let links: BTreeMap<&str, usize> =
@@ -47,7 +45,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             format!("{all} joints move by themselves, of which {some} are `independent`")
         }
     };
-    let gaps = loops.iter().filter_map(|(node, ends)| {
+    let loops = closing.iter().filter(|(name, ..)| *name == "loop");
+    let gaps = loops.clone().filter_map(|(_, node, ends)| {
         let [a, b] = ends.map(|end| {
             let link = links.get(end.attribute("link")?.trim())?;
             Some(poses[*link] * origin(end))
@@ -63,8 +62,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             _ => 0.0,
         };
-        if node.attribute("type") == Some("prismatic") {
-            let along = (a.rotation * axis).normalize();
+        // An axis without a direction leaves nothing free.
+        let along = (a.rotation * axis).try_normalize(0.0);
+        if let (Some("prismatic"), Some(along)) = (node.attribute("type"), along) {
             apart -= along * apart.dot(&along);
         }
         Some((*node, apart.norm(), angle))
@@ -90,15 +90,14 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         1 => Some(format!("1 {one}")),
         _ => Some(format!("{count} {one}s")),
     };
-    let closing = [count(loops.len(), "loop"), count(couplings, "coupling")];
-    let closing: Vec<String> = closing.into_iter().flatten().collect();
+    let loops = loops.count();
+    let counts = [count(loops, "loop"), count(closing.len() - loops, "coupling")];
+    let counts: Vec<String> = counts.into_iter().flatten().collect();
     let message = format!(
         "no program keeps {} of the robot: {of_tree}{open}; close the chain in the program's own format",
-        closing.join(" and ")
+        counts.join(" and ")
     );
-    let first = children(urdf.root)
-        .find(|(name, node)| ["loop", "coupling"].contains(name) && ends(*node).is_some());
-    urdf.at(first.map_or(urdf.root, |(_, node)| node), message).report(findings);
+    urdf.at(*first, message).report(findings);
     Some(())
 }
 

@@ -46,4 +46,7 @@ fn gaps_are_those_of_the_geometry() {
     let raised = end("<origin xyz=\"0.17 0 0.3\"/>");
     assert_eq!(said(&raised, "\"pin\" type=\"prismatic\""), expected("0.03 m"));
     assert_eq!(said(&raised, "\"pin\" type=\"spherical\""), expected("0.301 m"));
+    // An axis without a direction allows none.
+    let no_axis = format!("{SHORT}<axis xyz=\"0 0 0\"/>");
+    assert_eq!(said(&no_axis, "\"pin\" type=\"prismatic\""), expected("0.01 m"));
 }

@@ -40,7 +40,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // A document may name a file outside of its module's folder, which is not listed.
     let modules = MESH_MODULES.iter().filter_map(|kind| context.module(*kind));
     let named = modules.flat_map(paths::of_module).filter(|named| !named.from_parent());
-    for needed in listed.chain(source).chain(named.map(|named| named.path)) {
+    // Most are listed, too: each is opened once.
+    let needed: BTreeSet<&str> =
+        listed.chain(source).chain(named.map(|named| named.path)).collect();
+    for needed in needed {
         let opened = entries::look(context, needed).and_then(|_| context.root().open_file(needed));
         match opened {
             // DIR015 reports an invalid path.
