@@ -11,8 +11,8 @@ use urdd_document::module::is_extension;
 use urdd_format::registry::ModuleKind;
 
 /// Families of the rules about `urdd.json`, `VERSION`, `module.json` of Core modules and the source.
-const FAMILIES: [&str; 12] =
-    ["DIR", "JSN", "SCH", "URD", "SRC", "DOF", "CHN", "CON", "BND", "CMP", "CNF", "KIN"];
+const FAMILIES: [&str; 13] =
+    ["DIR", "JSN", "SCH", "URD", "SRC", "DOF", "CHN", "CON", "BND", "CMP", "CNF", "LOP", "KIN"];
 /// Rules of these families about what the profile passes over: mirrors that are missing, and drafts.
 const OTHERS: [&str; 2] = ["DIR010", "DIR030"];
 /// Rule about what documents name: the profile reads the documents of Core modules alone.

@@ -18,6 +18,7 @@ pub mod json_scan;
 pub mod layout;
 pub mod limits;
 pub mod listing;
+pub mod loops_toml;
 pub mod metadata;
 pub mod outputs;
 pub mod path;

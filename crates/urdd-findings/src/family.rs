@@ -39,6 +39,7 @@ pub const FAMILIES: &[Family] = families! {
     LRN "learned model" "The learned model of self-collisions, and how often it is wrong.";
     KIN "kinematics" "Stored poses of links, computed again from the joints.";
     CNF "named configurations" "Configurations with a name, such as `home`.";
+    LOP "loops" "Kinematic loops: what holds them, whether they close, and which DOFs move freely.";
     LEG "legacy" "URDDs from before version 1.";
     LNT "lint" "What programs refuse, leave out or read otherwise in a URDF. Only `urdd lint` has them.";
 };

@@ -8,7 +8,10 @@ use super::root_metadata::ConformanceClass;
 use super::*;
 
 /// Version of the specification that this crate implements.
-pub const SPEC_VERSION: &str = "1.0.0";
+pub const SPEC_VERSION: &str = "1.1.0";
+
+/// The first version of the specification, which each URDD states that has no module of a later one.
+pub const FIRST_SPEC_VERSION: &str = "1.0.0";
 
 /// Version of the program and the packages `urdd`, as they state it in what they write. Crates have another.
 pub const PROGRAM_VERSION: &str = "1.3.0";
@@ -56,6 +59,14 @@ macro_rules! kinds {
             /// Folder of the module, relative to the URDD's root.
             pub fn folder(self) -> &'static str {
                 match self { $(ModuleKind::$kind => concat!($folder, $name),)* }
+            }
+
+            /// The version of the specification that has it first; what `urdd_version` is at least.
+            pub fn since(self) -> &'static str {
+                match self {
+                    ModuleKind::Loops => "1.1.0",
+                    _ => FIRST_SPEC_VERSION,
+                }
             }
 
             /// The lowest conformance class that requires the module; `None` if none does.
@@ -115,6 +126,8 @@ kinds! {
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
     /// A network that estimates distances between links. Optional.
     SelfCollisionModel = "self_collision_model_module" in "link_shapes_modules/", None, needs [Dof, Chain, Bounds, ConvexDecompositionMeshes, LinkShapesSkips];
+    /// What closes the loops of a robot that is no tree. Robots with loops only.
+    Loops = "loops_module" in "", None, needs [Urdf, Dof, Chain, Bounds];
     /// Error of linearised distances. Legacy only.
     LinkShapesLieAlgErrorModels = "link_shapes_lie_alg_error_models_module" in "link_shapes_modules/", None, needs [];
     /// A viewer's state. Legacy only.
@@ -184,6 +197,7 @@ modules! {
     LinkShapesSimpleSkips(link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "1.0.0", V1;
     LinkShapesSkips(link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "1.0.0", V1;
     SelfCollisionModel(self_collision_model::SelfCollisionModelModule): SelfCollisionModel @ "1.0.0", V1;
+    Loops(loops::LoopsModule): Loops @ "1.0.0", V1;
     LegacyUrdf(legacy::urdf::UrdfModule): Urdf @ "0.0.3" | "0.0.1", Legacy;
     LegacyDof(legacy::kinematics::DofModule): Dof @ "0.0.2" | "0.0.1", Legacy;
     LegacyChain(legacy::kinematics::ChainModule): Chain @ "0.0.1", Legacy;

@@ -3,6 +3,7 @@
 use super::donor::edits::{Decisions, Edits};
 use super::error::{GenerateError, Result};
 use super::kinematics_samples::kinematics_samples_module;
+use super::loops::{Made, closed};
 use super::meshes::mesh_files;
 use super::named::{Named, reference, without_reference};
 use super::settings::{Progress, Settings};
@@ -13,6 +14,7 @@ use urdd_format::composition::CompositionModule;
 use urdd_format::dof::DofModule;
 use urdd_format::kinematics_samples::KinematicsSamplesModule;
 use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::loops::LoopsModule;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::ModuleKind;
@@ -34,8 +36,12 @@ pub(crate) struct Context<'a> {
     pub samples: KinematicsSamplesModule,
     pub edits: Edits,
     pub named: Named,
-    /// The named configuration in which pairs that touch are skipped, in place of the default configuration.
+    /// The configuration in which pairs that touch are skipped, in place of the default configuration: a named one, or the
+    /// closed one of a robot with loops.
     pub reference: Option<NamedConfiguration>,
+    pub loops: Option<LoopsModule>,
+    /// What is to say of them.
+    pub loop_notes: Vec<Note>,
 }
 
 impl<'a> Context<'a> {
@@ -61,13 +67,27 @@ impl<'a> Context<'a> {
         let named = Named::of(&decisions.configurations, &dof, &bounds);
         let reference = reference(settings.reference.as_deref(), &named)
             .map_err(|fault| GenerateError::Reference { file: source.shown.clone(), fault })?;
-        let decisions = match &settings.reference {
-            Some(_) => without_reference(decisions, reference.is_some()),
-            None => decisions,
+        let found = Made {
+            source,
+            chain: &chain,
+            dof: &dof,
+            bounds: &bounds,
+            space: &space,
+            kinematics: &kinematics,
+            cancellation: &settings.cancellation,
+        };
+        let beginning = reference.as_ref().map(|reference| &*reference.configuration);
+        let (loops, loop_notes) = found.module(beginning)?;
+        let reference = reference.or_else(|| loops.as_ref().and_then(closed));
+        let decisions = match settings.reference.is_some() || loops.is_some() {
+            true => without_reference(decisions, reference.is_some()),
+            false => decisions,
         };
         Ok(Context {
             named,
             reference,
+            loops,
+            loop_notes,
             edits: Edits::of(decisions, &chain),
             source,
             settings,

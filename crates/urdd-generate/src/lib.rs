@@ -36,6 +36,7 @@ mod given;
 mod inputs;
 mod kinematics_samples;
 mod learned;
+mod loops;
 mod made;
 mod mesh_stages;
 #[doc(hidden)]

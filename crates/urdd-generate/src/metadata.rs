@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 
 use super::error::{GenerateError, Result};
 use urdd_directory::writer::sha256;
-use urdd_format::registry::{ModuleKind, PROGRAM_VERSION, SPEC_VERSION};
+use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind, PROGRAM_VERSION};
 use urdd_format::root_metadata::{
     ConformanceClass, FileEntry, Generator, ModuleEntry, RootMetadata, Source, Version,
 };
@@ -66,6 +66,14 @@ pub(super) fn inputs<'a>(
     sha256(&Sha256::digest(text)).as_str().to_owned()
 }
 
+/// The lowest version of the specification that has all modules (SPEC 4.1).
+fn spec_version(made: &[Entry]) -> &'static str {
+    let kinds = ModuleKind::ALL.iter().filter(|kind| {
+        made.iter().any(|entry| entry.module.name == kind.name())
+    });
+    kinds.map(|kind| kind.since()).max().unwrap_or(FIRST_SPEC_VERSION)
+}
+
 /// The highest conformance class whose modules are all present.
 pub(super) fn class(made: &[Entry]) -> ConformanceClass {
     let has = |kind: ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
@@ -90,7 +98,7 @@ pub(super) fn document(
     extensions: Vec<Value>,
 ) -> Result<Value> {
     let metadata = RootMetadata {
-        urdd_version: version(SPEC_VERSION),
+        urdd_version: version(spec_version(made)),
         robot_name: robot_name.to_owned(),
         conformance_class: class(made),
         generator: Some(Generator {

@@ -57,9 +57,10 @@ impl<'a> Modules<'a> {
         let composition = context.composition.map(|_| ModuleKind::Composition);
         let has_named = !context.named.configurations.is_empty();
         let named = has_named.then_some(ModuleKind::NamedConfigurations);
+        let loops = context.loops.as_ref().map(|_| ModuleKind::Loops);
         Modules {
             context,
-            selected: context.settings.selection.kinds().chain(composition).chain(named).collect(),
+            selected: context.settings.selection.kinds().chain(composition).chain(named).chain(loops).collect(),
             replaced,
             writer,
             root,

@@ -20,9 +20,10 @@ fn known() -> String {
     names.chain(["core", "geometry", "shapes", "all"]).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1 that cannot be selected: the composition module, which every composed robot gets, and the named
-/// configurations, which every robot with such configurations gets.
-const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition, ModuleKind::NamedConfigurations];
+/// The modules of version 1 that cannot be selected: the composition module, which every composed robot gets, the named
+/// configurations, which every robot with such configurations gets, and the loops, which every robot with loops gets.
+const NOT_SELECTABLE: &[ModuleKind] =
+    &[ModuleKind::Composition, ModuleKind::NamedConfigurations, ModuleKind::Loops];
 
 /// The modules of version 1 that can be selected, in the order of the specification.
 pub(crate) fn kinds() -> Vec<ModuleKind> {

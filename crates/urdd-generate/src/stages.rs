@@ -98,6 +98,8 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
         let (pieces, skips) = (pieces.get()?, skips.get()?);
         learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
     })?;
+    modules.add(ModuleKind::Loops, |_| made(&context.loops))?;
+    modules.notes.extend(context.loop_notes.iter().cloned());
     Ok(count.unwrap_or_default())
 }
 

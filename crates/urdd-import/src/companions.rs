@@ -1,10 +1,11 @@
 //! What a URDF cannot say, in the files beside it: `NAME.srdf` for named configurations and pairs that never collide,
-//! `NAME.export.toml` for what exports need.
+//! `NAME.export.toml` for what exports need, `NAME.loops.toml` for what closes chains.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use urdd_directory::export_toml::{ActuatorKind, File, JointGains, unplaced};
+use urdd_directory::loops_toml::{self, CouplingTable, FrameTable, LoopTable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_kinematics::rotation::from_rotation_vector;
@@ -115,6 +116,48 @@ pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
         robot.push(pair.with("reason", apart.reason));
     }
     Some(robot.document(&[format!("`urdd import` made this file from {original}.")]))
+}
+
+/// The text of `NAME.loops.toml`; none where it would say nothing.
+pub fn loops(model: &Model) -> Option<String> {
+    let mut file = loops_toml::File::default();
+    let mut names = HashSet::new();
+    let mut named = |name: &Option<String>, kind: &str, place: usize| {
+        let base = name.clone().unwrap_or_else(|| format!("{kind}{}", place + 1));
+        let further = (2..).map(|number| format!("{base}_{number}"));
+        let free = std::iter::once(base.clone()).chain(further).find(|name| !names.contains(name));
+        let free = free.unwrap_or(base);
+        names.insert(free.clone());
+        free
+    };
+    for (place, closing) in model.closings.iter().enumerate() {
+        let [a, b] = &closing.ends;
+        let table = |frame: &Isometry3<f64>| FrameTable {
+            xyz: frame.translation.vector.into(),
+            rpy: urdd_kinematics::rotation::to_rpy(frame.rotation.to_rotation_matrix().matrix()),
+        };
+        file.loops.push(unplaced(LoopTable {
+            name: named(&closing.name, "loop_", place),
+            kind: closing.kind,
+            link_a: unplaced(model.bodies[a.body].name.clone()),
+            frame_a: table(&a.frame),
+            link_b: unplaced(model.bodies[b.body].name.clone()),
+            frame_b: table(&b.frame),
+        }));
+    }
+    for (place, coupled) in model.couplings.iter().enumerate() {
+        let mut terms = BTreeMap::new();
+        for (joint, coefficients) in &coupled.terms {
+            terms.insert(unplaced(joint.clone()), coefficients.clone());
+        }
+        let name = named(&coupled.name, "coupling_", place);
+        file.couplings.push(unplaced(CouplingTable { name, constant: coupled.constant, terms }));
+    }
+    if file.is_empty() {
+        return None;
+    }
+    let head = "# `urdd import` made this file: what closes the chains of the robot; `urdd generate` reads it.\n";
+    file.to_text().ok().map(|text| head.to_owned() + &text)
 }
 
 /// The text of `NAME.export.toml`; none where it would say nothing.

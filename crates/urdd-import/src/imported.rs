@@ -34,6 +34,8 @@ use urdd_xml::Xml;
 
 /// What is put behind a name for the file that exports read.
 const SETUP: &str = ".export.toml";
+/// The same for what closes chains.
+const LOOPS: &str = ".loops.toml";
 /// The same for named configurations and pairs.
 const SRDF: &str = ".srdf";
 
@@ -75,7 +77,7 @@ impl Imported {
             reason: error.to_string(),
         })?;
         let packages = Packages::default();
-        Ok(Settings { files, packages, allowed_folders: Vec::new(), ..settings.clone() })
+        Ok(Settings { files, packages, allowed_folders: Vec::new(), loops: None, ..settings.clone() })
     }
 
     /// Reads the URDF. Errors and notes name the description, without a place: nobody has the URDF on disk. `settings` are
@@ -248,6 +250,9 @@ fn written(
     files.insert(name.clone(), text.into_bytes().into());
     if let Some(srdf) = companions::srdf(&model, &tree, &original) {
         files.insert(base.to_owned() + SRDF, srdf.into_bytes().into());
+    }
+    if let Some(loops) = companions::loops(&model) {
+        files.insert(base.to_owned() + LOOPS, loops.into_bytes().into());
     }
     if let Some(setup) = companions::setup(&model, &tree) {
         files.insert(base.to_owned() + SETUP, setup.into_bytes().into());

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use urdd_directory::account::{Charged, Cost};
+use urdd_format::loops::LoopKind;
 
 use super::features::Tally;
 use super::place::{Place, TextFile};
@@ -31,6 +32,10 @@ pub struct Model {
     pub apart: Charged<Apart>,
     /// Pairs of bodies that are checked, though a joint connects them.
     pub checked: Charged<Apart>,
+    /// What closes its chains, beside the tree.
+    pub closings: Charged<Closing>,
+    /// Equations between its joints that no mimic can say.
+    pub couplings: Charged<Coupled>,
     /// What stands in the URDF as it is.
     pub elements: Charged<GazeboElement>,
     /// The coefficient of friction of all shapes, where all have the same.
@@ -271,6 +276,37 @@ pub struct JointValue {
     pub values: Vec<f64>,
 }
 
+/// What holds two bodies together, beside the tree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Closing {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// What it holds.
+    pub kind: LoopKind,
+    /// Where.
+    pub ends: [End; 2],
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A frame on a body, by index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct End {
+    pub body: usize,
+    pub frame: Isometry3<f64>,
+}
+
+/// An equation between joints: the constant, and a polynomial without one of each, add up to 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coupled {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// The constant.
+    pub constant: f64,
+    /// Names of joints, and up to four coefficients.
+    pub terms: Vec<(String, Vec<f64>)>,
+}
+
 /// A complete XML element that stands in the URDF as it is, such as `<gazebo>` with a plugin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GazeboElement(pub String);
@@ -333,6 +369,19 @@ impl Cost for JointValue {
 impl Cost for Apart {
     fn cost(&self) -> usize {
         PART
+    }
+}
+
+impl Cost for Closing {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.as_ref().map_or(0, String::len)
+    }
+}
+
+impl Cost for Coupled {
+    fn cost(&self) -> usize {
+        let names = self.name.iter().chain(self.terms.iter().map(|(name, _)| name));
+        ENTRY + LETTER * names.map(String::len).sum::<usize>()
     }
 }
 

@@ -58,7 +58,7 @@ pub struct ForwardKinematics {
     /// One step per joint; parents come before children.
     pub(super) steps: Vec<Step>,
     /// For each link, the index of the step that moves it; `None` for the root.
-    step_of: Vec<Option<usize>>,
+    pub(super) step_of: Vec<Option<usize>>,
 }
 
 #[derive(Debug, Clone)]

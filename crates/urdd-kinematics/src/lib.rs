@@ -12,6 +12,7 @@ mod forward;
 pub mod inverse;
 mod jacobian;
 mod joint;
+pub mod loops;
 pub mod pose;
 pub mod pose_matrix;
 pub mod rotation;

@@ -26,6 +26,7 @@ mod installed;
 mod installs;
 mod launch;
 mod load;
+pub mod loops;
 pub mod macros;
 mod meshes;
 pub mod note;

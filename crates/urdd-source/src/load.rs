@@ -8,7 +8,8 @@ use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
-use super::note::{Note, Remark, SourcePlace};
+use super::loops::{self, Said};
+use super::note::{Note, NoteKind, Remark, SourcePlace};
 use super::repair;
 use super::settings::Settings;
 use super::urdf::{self, Reading};
@@ -19,6 +20,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_directory::position::{LineIndex, Position};
+use urdd_format::short::Short;
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::Xml;
@@ -46,6 +48,8 @@ pub struct Source {
     pub notes: Vec<Note>,
     /// Where each mesh in `reading.mesh_offsets` is.
     pub mesh_places: Vec<SourcePlace>,
+    /// What is said of the robot's loops.
+    pub loops: Option<Said>,
 }
 
 impl Source {
@@ -81,8 +85,25 @@ pub fn load_with<T>(
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let mut notes = Vec::new();
-    let read = read(path, settings, cancellation, &mut notes)?;
-    mend(&Xml::new(&read.text), &read, notes, also)
+    let mut read = read(path, settings, cancellation, &mut notes)?;
+    let said = loops::beside(path, settings)?;
+    if let Some(said) = said.as_ref().filter(|said| !said.retyped.is_empty()) {
+        let (text, missing) = loops::retyped(&Xml::new(&read.text), &said.retyped);
+        let file = said.text.as_ref().map_or(&read.shown, |(file, _)| file);
+        notes.extend(missing.iter().map(|joint| Note {
+            kind: NoteKind::LeftOut,
+            file: file.clone(),
+            line: 0,
+            column: 0,
+            problem: format!("the URDF has no joint `{}`, which is to be another", Short::of(joint)),
+            assumed: "the name is passed over".to_owned(),
+        }));
+        read.is_verbatim &= text == read.text;
+        read.text = text;
+    }
+    let (mut source, also) = mend(&Xml::new(&read.text), &read, notes, also)?;
+    source.loops = said.or(source.loops);
+    Ok((source, also))
 }
 
 /// The text of a description as an author sees it.
@@ -318,6 +339,21 @@ fn mend<T>(
             repaired = Some(apply(xml.text(), std::mem::take(&mut reading.edits)));
             continue;
         }
+        let plus = xml.document().map_or(Ok(None), loops::urdf_plus).unwrap_or_else(|fault| {
+            let offset = repaired.is_none().then_some(fault.offset);
+            let place = origin.offsets(xml.text(), offset.into_iter()).pop();
+            let place = place.unwrap_or(SourcePlace { file: shown.clone(), line: 0, column: 0 });
+            let SourcePlace { file, line, column } = place;
+            notes.push(Note {
+                kind: NoteKind::LeftOut,
+                file,
+                line,
+                column,
+                problem: format!("this is no loop or coupling of URDF+: {}", fault.fault),
+                assumed: "the loops of this URDF are left out".to_owned(),
+            });
+            None
+        });
         let also = also(xml, is_verbatim);
         let source = Source {
             folder: read.folder.clone(),
@@ -327,6 +363,7 @@ fn mend<T>(
             reading,
             notes,
             mesh_places: std::mem::take(places),
+            loops: plus,
             shown: shown.clone(),
         };
         return Ok((source, also));

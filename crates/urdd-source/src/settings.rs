@@ -21,6 +21,8 @@ pub struct Settings {
     pub import: ImportOptions,
     /// The robots that are declared of files: of one in a folder, and of one that is named without arguments.
     pub robots: Arc<[Declared]>,
+    /// The file that says what closes the robot's loops. By default the one beside the URDF.
+    pub loops: Option<PathBuf>,
     /// Where files are.
     pub files: Files,
 }

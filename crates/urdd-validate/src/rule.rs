@@ -99,7 +99,8 @@ pub const fn of_family(code: &str) -> Consequence {
         | [b'C', b'O', b'N', ..]
         | [b'B', b'N', b'D', ..]
         | [b'K', b'I', b'N', ..]
-        | [b'C', b'N', b'F', ..] => Consequence::WrongMotion,
+        | [b'C', b'N', b'F', ..]
+        | [b'L', b'O', b'P', ..] => Consequence::WrongMotion,
         [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
         [b'S', b'H', b'P', ..] => Consequence::Collisions,
         [b'S', b'R', b'C', ..] => Consequence::Looseness,

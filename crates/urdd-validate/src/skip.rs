@@ -35,6 +35,10 @@ pub const NO_SAMPLES: SkipReason = left_out("the statistics are over no samples"
 /// There is no list of shapes.
 pub const NO_SHAPES: SkipReason = left_out("there is no list of shapes");
 
+/// The loops tie too many joints to each other at once.
+pub const TOO_MANY_LOOPS: SkipReason =
+    left_out("the loops depend on too many joints at once for this program to count what is free");
+
 /// None of the modules that a rule is about can be used.
 pub fn none_usable(kinds: &[ModuleKind]) -> SkipReason {
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();

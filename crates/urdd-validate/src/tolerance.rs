@@ -169,3 +169,13 @@ pub const LEGACY_SAMPLES: u32 = 10_000;
 pub fn mean_tolerance(samples: u32, largest: f64) -> f64 {
     f64::from(samples) * f64::EPSILON * largest
 }
+
+/// A loop is closed within this angle, rad, and this fraction of the reach; a coupling holds within this fraction of its
+/// summands. As rotations and positions.
+pub const CLOSED: f64 = 1e-9;
+
+/// The sum of a coupling may always be this far from 0.
+pub const LEAST_SUM: f64 = 1e-12;
+
+/// A loop that closes only within more than this fraction of the reach, or this angle, rad, is loose.
+pub const LOOSE: f64 = 1e-6;

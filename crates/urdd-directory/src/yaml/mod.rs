@@ -7,6 +7,7 @@ mod open;
 pub mod places;
 pub mod scalar;
 pub mod transcript;
+pub mod words;
 
 use std::fmt;
 

@@ -18,7 +18,7 @@ pub fn column(family: &str) -> &str {
     match family {
         "JSN" | "YML" | "SCH" | "EXT" => "TXT",
         "CMP" => "URD",
-        "CNF" => "KIN",
+        "CNF" | "LOP" => "KIN",
         "LRN" => "SHP",
         own => own,
     }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, LETTER};
+use super::super::model::{Body, Closing, Coupled, LETTER};
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::compiler::Compilers;
@@ -271,4 +271,7 @@ pub struct Made {
     pub joints: HashMap<(usize, usize), (usize, usize)>,
     /// The body and joint that each follower follows.
     pub leaders: HashMap<(usize, usize), (usize, usize)>,
+    /// What closes its chains, and equations that no mimic can say.
+    pub closings: Charged<Closing>,
+    pub couplings: Charged<Coupled>,
 }

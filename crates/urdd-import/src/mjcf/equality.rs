@@ -1,14 +1,16 @@
-//! Equalities: joints that follow others as mimics; the rest is lost by name.
+//! Equalities: joints that follow others as mimics, other equations of joints, and what closes chains.
 
 use super::super::features::{self, Tally};
-use super::super::model::Mimic;
-use super::super::refusal::Fallible;
+use super::super::model::{Closing, Coupled, Mimic};
+use super::super::refusal::{self, Fallible, at};
 use super::body::{Made, RawBody, WORLD};
+use super::closing::Placed;
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::joint::MjcfJointKind;
 use super::lookup::Lookup;
 use super::reading::{View, flag};
+use urdd_directory::account::{Account, Charged};
 use urdd_format::short::Short;
 
 /// Joints that follow one another; a longer chain is left out.
@@ -24,29 +26,47 @@ pub fn equalities<'d>(
     lookup: &Lookup<'_>,
     made: &mut Made,
     tally: &mut Tally,
+    account: &Account,
 ) -> Fallible<()> {
+    let mut closings = Charged::default();
+    let placed = Placed::of(made, all);
+    for element in root.sections("equality") {
+        let is_tie = matches!(element.tag.as_str(), "connect" | "weld" | "distance");
+        if !is_tie {
+            continue;
+        }
+        let view = View::new(element, defaults, MAIN)?;
+        let closing = tie(view, is_active(view)?, all, lookup, (made, &placed), tally)?;
+        if let Some(closing) = closing {
+            closings.push(closing, account).map_err(|why| at(element.place, why))?;
+        }
+    }
+    made.closings = closings;
     for element in root.sections("equality") {
         let view = View::new(element, defaults, MAIN)?;
-        let of_class = view.equality_default();
-        let is_active = match flag(element, "active")? {
-            Some(active) => active,
-            None => of_class.map_or(Ok(None), |of| flag(of, "active"))?.unwrap_or(true),
-        };
         match element.tag.as_str() {
-            "joint" if is_active => couple(view, all, lookup, made, tally)?,
+            "joint" if is_active(view)? => couple(view, all, lookup, made, tally, account)?,
             "joint" => {
                 tally.count(features::COUPLINGS);
                 tally
                     .remark(element.place, "the equality is not active, so its joint moves freely");
             }
-            "connect" | "weld" | "distance" => {
-                tie(view, is_active, all, lookup, made, tally)?;
-            }
+            "connect" | "weld" | "distance" => {}
             "tendon" => tally.count(features::TENDONS),
             _ => tally.count(features::SOFT),
         }
     }
     Ok(())
+}
+
+fn is_active(view: View<'_>) -> Fallible<bool> {
+    Ok(match flag(view.element, "active")? {
+        Some(active) => active,
+        None => {
+            let of_class = view.equality_default();
+            of_class.map_or(Ok(None), |of| flag(of, "active"))?.unwrap_or(true)
+        }
+    })
 }
 
 /// Two bodies that are tied to each other, beside the tree.
@@ -55,16 +75,19 @@ fn tie(
     is_active: bool,
     all: &[RawBody<'_>],
     lookup: &Lookup<'_>,
-    made: &Made,
+    (made, placed): (&Made, &Placed<'_>),
     tally: &mut Tally,
-) -> Fallible<()> {
+) -> Fallible<Option<Closing>> {
     let element = view.element;
     let named = |key| element.text(key).map(|name| Short::of(name).to_string());
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
     let mut who = [named("body1"), named("body2")].map(|name| name.unwrap_or("world".to_owned()));
-    let (mut feature, mut what) = (features::CLOSED, "closes a chain, which a URDF cannot say");
+    let (mut feature, mut what) = (features::CLOSED, "closes a chain, in another way than is read here; it is left out");
+    let mut closing = None;
     if let [Some(one), Some(other)] = sites {
+        let named = [element.text("site1"), element.text("site2")].map(Option::unwrap_or_default);
+        closing = placed.sites(view, named);
         who = [one, other];
     } else {
         let mut bodies = Vec::new();
@@ -78,10 +101,20 @@ fn tie(
         } else if !bodies.iter().all(|body| *body == WORLD || made.index.contains_key(body)) {
             (feature, what) =
                 (features::TIES, "is of a body that is not of the robot; it is left out");
+        } else if let Some(first) = bodies.first() {
+            let both = [*first, bodies.get(1).copied().unwrap_or(WORLD)];
+            closing = placed.bodies(view, both, made)?;
         }
     }
     if !is_active {
         (feature, what) = (features::TIES, "is not active; it is left out");
+    }
+    if feature.name == features::CLOSED.name {
+        if closing.is_some() {
+            tally.count(feature);
+            return Ok(closing);
+        }
+        feature = features::TIES;
     }
     tally.count(feature);
     let [one, other] = who;
@@ -92,7 +125,7 @@ fn tie(
     let name = named("name").map(|name| format!(" `{name}`")).unwrap_or_default();
     let text = format!("the {}{name} of `{one}` and `{other}`{at} {what}", element.tag);
     tally.remark(element.place, text.replace(char::is_control, " "));
-    Ok(())
+    Ok(None)
 }
 
 fn couple(
@@ -101,6 +134,7 @@ fn couple(
     lookup: &Lookup<'_>,
     made: &mut Made,
     tally: &mut Tally,
+    account: &Account,
 ) -> Fallible<()> {
     let element = view.element;
     let names = [element.text("joint1"), element.text("joint2")];
@@ -137,6 +171,23 @@ fn couple(
             made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
             made.leaders.insert((body, place), (leading_body, leading_place));
             tally.count(features::MIMICS);
+        } else if let Some((leader, at_leader)) = leading.filter(|(leader, _)| {
+            is_plain(*leader) && is_plain(follower) && *leader != follower
+        }) {
+            let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
+            let [of_follower, of_leader] = [follower, leader].map(|at| raw(at).reference);
+            let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));
+            let (moved, coefficients) = about_zero(&powers.collect::<Vec<_>>(), of_leader);
+            let coupled = Coupled {
+                name: element.text("name").map(|name| format!("{name}{suffix}")),
+                constant: -of_follower - moved,
+                terms: vec![
+                    (name((body, place)), vec![1.0]),
+                    (name(at_leader), coefficients.iter().map(|of| -of).collect()),
+                ],
+            };
+            tally.count(features::POLYNOMIALS);
+            made.couplings.push(coupled, account).map_err(|why| refusal::at(element.place, why))?;
         } else {
             tally.count(features::COUPLINGS);
             let reason = reason.unwrap_or_default();
@@ -144,6 +195,21 @@ fn couple(
         }
     }
     Ok(())
+}
+
+/// The polynomial of x - x0 as one of x: its constant, and the four other coefficients.
+fn about_zero(powers: &[f64], x0: f64) -> (f64, [f64; 4]) {
+    let mut coefficients = [0.0; 5];
+    // Horner's rule: what is there times x - x0, and the next coefficient.
+    for power in powers.iter().rev() {
+        for at in (0..5).rev() {
+            let lower = if at == 0 { 0.0 } else { coefficients[at - 1] };
+            coefficients[at] = lower - x0 * coefficients[at];
+        }
+        coefficients[0] += power;
+    }
+    let [constant, rest @ ..] = coefficients;
+    (constant, rest)
 }
 
 /// Whether a joint follows another, over however many; and over how many.

@@ -4,6 +4,7 @@ mod actuator;
 mod assets;
 mod attach;
 mod body;
+mod closing;
 mod compiler;
 mod contact;
 mod defaults;
@@ -90,7 +91,7 @@ fn model(
     let mut made = maker.make()?;
     refused::say(root, &bodies.all, &made, &maker.assets, maker.tally);
     let (assets, all) = (maker.assets.all, &bodies.all);
-    equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally)?;
+    equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally, account)?;
     drive::drive(root, &defaults, &compilers, &lookup, &mut made, &mut tally)?;
     let configurations = keyframe::configurations(root, &bodies, &made, &mut tally, account)?;
     let pairs = contacts.pairs(all, &made, &mut tally, account)?;
@@ -103,6 +104,8 @@ fn model(
         configurations,
         apart: pairs.apart,
         checked: pairs.checked,
+        closings: made.closings,
+        couplings: made.couplings,
         friction,
         tally,
         ..Model::default()

@@ -10,6 +10,7 @@ pub mod extensions;
 pub mod kinematics;
 pub mod learned;
 pub mod legacy;
+pub mod loops;
 pub mod meshes;
 pub mod named_configurations;
 mod prelude;
@@ -39,6 +40,7 @@ pub fn all() -> Vec<&'static Rule> {
         learned::rules(),
         kinematics::rules(),
         named_configurations::rules(),
+        loops::rules(),
         legacy::rules(),
     ];
     let mut rules = families.concat();

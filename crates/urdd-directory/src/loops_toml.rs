@@ -1,0 +1,70 @@
+//! The tables of `NAME.loops.toml`: what closes the loops of a robot whose URDF cannot say it. Imports write it, other formats
+//! of loops are read as it, and `urdd generate` makes `loops_module` of it.
+
+#![expect(missing_docs, reason = "docs/loops.md says what they mean")]
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use toml::{Spanned, Table};
+use urdd_format::loops::LoopKind;
+
+use crate::export_toml::Name;
+
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct File {
+    /// Joints or DOFs that move freely, by name. Without it, which ones do is chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub independent: Option<Vec<Name>>,
+    #[serde(rename = "loop", skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<Spanned<LoopTable>>,
+    #[serde(rename = "coupling", skip_serializing_if = "Vec::is_empty")]
+    pub couplings: Vec<Spanned<CouplingTable>>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoopTable {
+    pub name: String,
+    pub kind: LoopKind,
+    pub link_a: Name,
+    #[serde(default)]
+    pub frame_a: FrameTable,
+    pub link_b: Name,
+    #[serde(default)]
+    pub frame_b: FrameTable,
+}
+
+/// A frame in its link's frame: position, m, and fixed-axis roll, pitch and yaw, rad.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FrameTable {
+    pub xyz: [f64; 3],
+    pub rpy: [f64; 3],
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingTable {
+    pub name: String,
+    #[serde(default)]
+    pub constant: f64,
+    /// For each DOF, by name, up to four coefficients: of its position, its square, and so on.
+    pub terms: BTreeMap<Name, Vec<f64>>,
+}
+
+impl File {
+    /// Whether it says nothing.
+    pub fn is_empty(&self) -> bool {
+        self.loops.is_empty() && self.couplings.is_empty()
+    }
+
+    /// The text of the file.
+    ///
+    /// # Errors
+    /// None are known: each value has a form in TOML.
+    pub fn to_text(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(&Table::try_from(self)?)
+    }
+}

@@ -1,0 +1,268 @@
+//! What loops and couplings hold: how far a configuration is from it, and how that changes with the DOFs.
+
+use nalgebra::{Isometry3, Matrix3, Vector3};
+
+use super::{Ends, Group, Loops, Sum};
+use crate::forward::ForwardKinematics;
+use crate::jacobian::columns;
+use crate::rotation::to_rotation_vector;
+use urdd_format::loops::LoopKind;
+
+/// How far a loop is from closed (SPEC 6.8.3).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gap {
+    /// m.
+    pub position: f64,
+    /// rad, while small.
+    pub rotation: f64,
+}
+
+/// Fraction of the reach, and angle in rad, within which a loop without tolerances counts as closed; fraction of its
+/// summands within which a coupling holds (SPEC 6.8.4, 6.8.5).
+pub(super) const CLOSED: f64 = 1e-9;
+
+/// The sum of a coupling may always be this far from 0.
+const LEAST_SUM: f64 = 1e-12;
+
+/// The numbers of a position or a rotation that are held: those of a table of SPEC 6.8.3.
+#[derive(Clone, Copy, PartialEq)]
+enum Turn {
+    All,
+    Direction,
+    RightAngle,
+    Nothing,
+}
+
+/// Which components of the position are held, and what of the rotation.
+fn held(kind: LoopKind) -> ([bool; 3], Turn) {
+    let all = [true; 3];
+    match kind {
+        LoopKind::Fixed => (all, Turn::All),
+        LoopKind::Revolute => (all, Turn::Direction),
+        LoopKind::Prismatic => ([true, true, false], Turn::All),
+        LoopKind::Cylindrical => ([true, true, false], Turn::Direction),
+        LoopKind::Universal => (all, Turn::RightAngle),
+        LoopKind::Spherical => (all, Turn::Nothing),
+        LoopKind::Planar => ([false, false, true], Turn::Direction),
+    }
+}
+
+/// Rows of a loop: three of the position, three of the rotation. What is not held is 0.
+pub(super) const ROWS: usize = 6;
+
+impl Ends {
+    /// The pose of frame B in frame A.
+    fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
+        let [a, b] = self.world(poses);
+        a.inv_mul(&b)
+    }
+
+    fn world(&self, poses: &[Isometry3<f64>]) -> [Isometry3<f64>; 2] {
+        [0, 1].map(|end| poses[self.links[end]] * self.frames[end])
+    }
+
+    fn gap(&self, poses: &[Isometry3<f64>]) -> Gap {
+        let between = self.between(poses);
+        let (axes, turn) = held(self.kind);
+        let mut position = between.translation.vector;
+        for (value, held) in position.iter_mut().zip(axes) {
+            *value = if held { *value } else { 0.0 };
+        }
+        let matrix = *between.rotation.to_rotation_matrix().matrix();
+        let axis = matrix.column(2);
+        let rotation = match turn {
+            Turn::All => (matrix - Matrix3::identity()).norm() / std::f64::consts::SQRT_2,
+            Turn::Direction => (axis - Vector3::z()).norm(),
+            Turn::RightAngle => axis.z.abs(),
+            Turn::Nothing => 0.0,
+        };
+        Gap { position: position.norm(), rotation }
+    }
+
+    /// What is not 0 that should be: rows of the position divided by the reach, rows of the rotation in rad.
+    fn residual(&self, poses: &[Isometry3<f64>], reach: f64, rows: &mut [f64]) {
+        let between = self.between(poses);
+        let (axes, turn) = held(self.kind);
+        for ((row, value), held) in rows.iter_mut().zip(between.translation.vector.iter()).zip(axes) {
+            *row = if held { value / reach } else { 0.0 };
+        }
+        let axis = between.rotation * Vector3::z();
+        let turned = match turn {
+            Turn::All => Vector3::from(to_rotation_vector(&between.rotation)),
+            Turn::Direction => axis - Vector3::z(),
+            Turn::RightAngle => Vector3::new(axis.z, 0.0, 0.0),
+            Turn::Nothing => Vector3::zeros(),
+        };
+        rows[3..ROWS].copy_from_slice(turned.as_slice());
+    }
+
+    /// Adds to `column(dof)`, of `ROWS` rows each, how the rows change with the DOF in its unit.
+    fn jacobian(
+        &self,
+        kinematics: &ForwardKinematics,
+        poses: &[Isometry3<f64>],
+        configuration: &[f64],
+        (reach, units): (f64, &[f64]),
+        mut add: impl FnMut(usize, [f64; ROWS]),
+    ) {
+        let [a, b] = self.world(poses);
+        let to_a = a.rotation.inverse();
+        let point = b.translation.vector.into();
+        let (axes, turn) = held(self.kind);
+        let axis = to_a * (b.rotation * Vector3::z());
+        for (steps, sign) in self.steps.iter().zip([-1.0, 1.0]) {
+            for step in steps {
+                let step = &kinematics.steps[*step];
+                let frame = poses[step.parent].rotation * step.origin.rotation;
+                let child = &poses[step.child].translation.vector;
+                columns(step, &frame, child, &point, configuration, |dof, linear, angular| {
+                    let factor = sign * units[dof];
+                    let linear = to_a * linear * (factor / reach);
+                    let angular = to_a * angular * factor;
+                    let turned = match turn {
+                        Turn::All => angular,
+                        Turn::Direction => angular.cross(&axis),
+                        Turn::RightAngle => Vector3::new(angular.cross(&axis).z, 0.0, 0.0),
+                        Turn::Nothing => Vector3::zeros(),
+                    };
+                    let mut rows = [0.0; ROWS];
+                    for row in 0..3 {
+                        rows[row] = if axes[row] { linear[row] } else { 0.0 };
+                        rows[row + 3] = turned[row];
+                    }
+                    add(dof, rows);
+                });
+            }
+        }
+    }
+}
+
+impl Loops {
+    /// Writes how far each loop is from closed, for the link poses of a configuration.
+    ///
+    /// # Panics
+    /// If `out` has fewer entries than there are loops.
+    pub fn gaps_into(&self, poses: &[Isometry3<f64>], out: &mut [Gap]) {
+        for (one, out) in self.loops.iter().zip(out) {
+            *out = one.gap(poses);
+        }
+    }
+
+    /// How far each loop is from closed, in the order of the module.
+    pub fn gaps(&self, poses: &[Isometry3<f64>]) -> Vec<Gap> {
+        self.loops.iter().map(|one| one.gap(poses)).collect()
+    }
+
+    /// The sum of each coupling, which should be 0, in the order of the module.
+    pub fn sums(&self, configuration: &[f64]) -> Vec<f64> {
+        self.couplings.iter().map(|one| one.at(configuration).value).collect()
+    }
+
+    /// Whether all loops are closed and all couplings hold (SPEC 6.8.6), for a configuration and its link poses.
+    pub fn is_closed(&self, configuration: &[f64], poses: &[Isometry3<f64>]) -> bool {
+        let loops = self.loops.iter().all(|one| {
+            let (gap, [position, rotation]) = (one.gap(poses), one.tolerances);
+            gap.position <= position + CLOSED * self.reach && gap.rotation <= rotation + CLOSED
+        });
+        loops && self.couplings.iter().all(|one| one.at(configuration).holds())
+    }
+
+    /// Writes what is not 0 that should be: [`Group::num_rows`] numbers.
+    pub(super) fn residual_into(
+        &self,
+        group: &Group,
+        configuration: &[f64],
+        poses: &[Isometry3<f64>],
+        out: &mut [f64],
+    ) {
+        let (loops, sums) = out.split_at_mut(ROWS * group.loops.len());
+        for (one, rows) in group.loops.iter().zip(loops.chunks_exact_mut(ROWS)) {
+            self.loops[*one].residual(poses, self.reach, rows);
+        }
+        for (one, row) in group.couplings.iter().zip(sums) {
+            let one = &self.couplings[*one];
+            *row = one.at(configuration).value / one.largest(configuration, &self.units);
+        }
+    }
+
+    /// Writes the derivatives of the rows: a column of [`Group::num_rows`] numbers for each DOF of the group, in the DOF's
+    /// unit.
+    pub(super) fn jacobian_into(
+        &self,
+        group: &Group,
+        kinematics: &ForwardKinematics,
+        configuration: &[f64],
+        poses: &[Isometry3<f64>],
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
+        let rows = group.num_rows();
+        for (place, one) in group.loops.iter().enumerate() {
+            let scale = (self.reach, &*self.units);
+            self.loops[*one].jacobian(kinematics, poses, configuration, scale, |dof, column| {
+                let Ok(at) = group.dofs.binary_search(&dof) else { return };
+                let begin = at * rows + place * ROWS;
+                for (out, value) in out[begin..begin + ROWS].iter_mut().zip(column) {
+                    *out += value;
+                }
+            });
+        }
+        for (place, one) in group.couplings.iter().enumerate() {
+            let one = &self.couplings[*one];
+            let largest = one.largest(configuration, &self.units);
+            for (dof, coefficients) in &one.terms {
+                let Ok(at) = group.dofs.binary_search(dof) else { continue };
+                let slope: f64 = slopes(coefficients, configuration[*dof]).iter().sum();
+                let slope = slope * self.units[*dof];
+                out[at * rows + ROWS * group.loops.len() + place] += slope / largest;
+            }
+        }
+    }
+}
+
+impl Group {
+    pub(super) fn num_rows(&self) -> usize {
+        ROWS * self.loops.len() + self.couplings.len()
+    }
+}
+
+/// The sum of a coupling, and the sum of the absolute values of its summands.
+struct Summed {
+    value: f64,
+    size: f64,
+}
+
+impl Summed {
+    fn holds(&self) -> bool {
+        self.value.is_finite() && self.value.abs() <= (CLOSED * self.size).max(LEAST_SUM)
+    }
+}
+
+impl Sum {
+    fn at(&self, configuration: &[f64]) -> Summed {
+        let mut sum = Summed { value: self.constant, size: self.constant.abs() };
+        for (dof, coefficients) in &self.terms {
+            let mut power = 1.0;
+            for coefficient in coefficients {
+                power *= configuration[*dof];
+                sum.value += coefficient * power;
+                sum.size += (coefficient * power).abs();
+            }
+        }
+        sum
+    }
+
+    /// The largest derivative of a summand, each in its DOF's unit; 1 where all are 0.
+    fn largest(&self, configuration: &[f64], units: &[f64]) -> f64 {
+        let slopes = self.terms.iter().flat_map(|(dof, coefficients)| {
+            slopes(coefficients, configuration[*dof]).map(|slope| (slope * units[*dof]).abs())
+        });
+        let largest = slopes.fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+}
+
+/// The derivatives of the summands of a term.
+fn slopes([a, b, c, d]: &[f64; 4], q: f64) -> [f64; 4] {
+    [*a, 2.0 * b * q, 3.0 * c * q * q, 4.0 * d * q * q * q]
+}

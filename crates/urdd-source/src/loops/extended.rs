@@ -1,0 +1,183 @@
+//! Extended URDF: a YAML beside a URDF with pairs of links that are to coincide.
+//!
+//! Facts: V. Batto et al., Extended URDF (2024), and the loader of example-parallel-robots. Frames are those of the two links;
+//! `6d` holds position and rotation, `3d` the position.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+use urdd_directory::export_toml::unplaced;
+use urdd_directory::loops_toml::{File, FrameTable, LoopTable};
+use urdd_directory::yaml::words;
+use urdd_format::loops::LoopKind;
+use urdd_xml::Xml;
+use urdd_xml::element::{Edit, apply, attribute, children};
+
+use super::Said;
+use crate::error::SourceError;
+
+/// The key by which such a file is known.
+pub(super) const KEY: &str = "closed_loop";
+
+#[derive(Deserialize)]
+struct Extended {
+    closed_loop: Vec<[String; 2]>,
+    #[serde(rename = "type")]
+    types: Vec<String>,
+    #[serde(default)]
+    name_mot: Option<Vec<String>>,
+    #[serde(default)]
+    joint_name: Option<Vec<String>>,
+    #[serde(default)]
+    joint_type: Option<Vec<String>>,
+}
+
+/// Reads such a file.
+pub(super) fn read(path: &Path, text: String) -> Result<Said, SourceError> {
+    let shown = path.display().to_string();
+    let said = Said { text: Some((shown.clone(), text)), ..Said::default() };
+    let refused = |line: usize, column: usize, fault: String| SourceError::Import {
+        file: shown.clone(),
+        line: u32::try_from(line).unwrap_or(1),
+        column: u32::try_from(column).unwrap_or(1),
+        fault,
+    };
+    let text = said.text.as_ref().map_or("", |(_, text)| text);
+    let words = words::read(text).map_err(|error| refused(error.line, error.column, error.reason))?;
+    let read = Extended::deserialize(words).map_err(|error| refused(1, 1, error.to_string()))?;
+    let lengths = [
+        ("closed_loop", read.closed_loop.len(), "type", read.types.len()),
+        (
+            "joint_name",
+            read.joint_name.as_ref().map_or(0, Vec::len),
+            "joint_type",
+            read.joint_type.as_ref().map_or(0, Vec::len),
+        ),
+    ];
+    for (a, of_a, b, of_b) in lengths {
+        if of_a != of_b {
+            let fault = format!("`{a}` has {of_a} entries and `{b}` has {of_b}: one for each");
+            return Err(refused(1, 1, fault));
+        }
+    }
+    let mut file = File::default();
+    for ([a, b], word) in read.closed_loop.into_iter().zip(&read.types) {
+        let kind = match word.to_ascii_lowercase().as_str() {
+            "6d" => LoopKind::Fixed,
+            "3d" => LoopKind::Spherical,
+            _ => {
+                let word = word.escape_debug();
+                return Err(refused(1, 1, format!("`{word}` in `type` is neither 6d nor 3d")));
+            }
+        };
+        let table = LoopTable {
+            name: a.clone(),
+            kind,
+            link_a: unplaced(a),
+            frame_a: FrameTable::default(),
+            link_b: unplaced(b),
+            frame_b: FrameTable::default(),
+        };
+        file.loops.push(Spanned::new(0..0, table));
+    }
+    file.independent = read.name_mot.map(|names| names.into_iter().map(unplaced).collect());
+    let mut retyped = Vec::new();
+    let words = read.joint_type.unwrap_or_default();
+    for (joint, word) in read.joint_name.unwrap_or_default().into_iter().zip(words) {
+        let Some(kind) = Retyped::of(&word) else {
+            let (word, joint) = (word.escape_debug(), joint.escape_debug());
+            let fault = format!(
+                "the joint `{joint}` is to be `{word}`: there are SPHERICAL, FIXED, and UJOINT_ with two of X, Y and Z"
+            );
+            return Err(refused(1, 1, fault));
+        };
+        retyped.push((joint, kind));
+    }
+    Ok(Said { file, retyped, ..said })
+}
+
+/// What a joint is to be instead of what the URDF says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retyped {
+    /// A ball.
+    Spherical,
+    /// Fixed.
+    Fixed,
+    /// Two hinges one after the other, about axes of the joint's frame.
+    Universal([char; 2]),
+}
+
+impl Retyped {
+    fn of(word: &str) -> Option<Self> {
+        match word {
+            "SPHERICAL" => Some(Retyped::Spherical),
+            "FIXED" => Some(Retyped::Fixed),
+            _ => {
+                let axes: Vec<char> = word.strip_prefix("UJOINT_")?.chars().collect();
+                let axes: [char; 2] = axes.try_into().ok()?;
+                axes.iter().all(|axis| "XYZ".contains(*axis)).then_some(Retyped::Universal(axes))
+            }
+        }
+    }
+}
+
+fn unit(axis: char) -> &'static str {
+    match axis {
+        'X' => "1 0 0",
+        'Y' => "0 1 0",
+        _ => "0 0 1",
+    }
+}
+
+/// The text of a URDF with other types of joints, and the names of joints that it does not have. A universal joint `NAME`
+/// becomes two, `NAME_Z` and `NAME_Y`, with the link `NAME_Z` between.
+pub fn retyped(xml: &Xml<'_>, joints: &[(String, Retyped)]) -> (String, Vec<String>) {
+    let Ok(document) = xml.document() else { return (xml.text().to_owned(), Vec::new()) };
+    let mut edits: Vec<Edit> = Vec::new();
+    let mut missing = Vec::new();
+    for (name, kind) in joints {
+        let mut elements = children(document.root_element());
+        let is_it = |element| attribute(element, "name").is_some_and(|of| of.value() == name);
+        let joint = elements.find(|(word, element)| *word == "joint" && is_it(*element));
+        let Some((_, joint)) = joint else {
+            missing.push(name.clone());
+            continue;
+        };
+        let inside = |name: &str| children(joint).find(|(word, _)| *word == name).map(|(_, it)| it);
+        let child = inside("child").and_then(|child| attribute(child, "link"));
+        let (Some(named), Some(of_type), Some(child)) =
+            (attribute(joint, "name"), attribute(joint, "type"), child)
+        else {
+            continue;
+        };
+        let mut edit = |range, text: String| edits.push(Edit { range, text });
+        match kind {
+            Retyped::Spherical => edit(of_type.range_value(), "spherical".to_owned()),
+            Retyped::Fixed => edit(of_type.range_value(), "fixed".to_owned()),
+            Retyped::Universal([first, second]) => {
+                let raw = &xml.text()[named.range_value()];
+                let between = format!("{raw}_{first}");
+                edit(of_type.range_value(), "continuous".to_owned());
+                edit(named.range_value(), between.clone());
+                let last = xml.text()[child.range_value()].to_owned();
+                edit(child.range_value(), between.clone());
+                let axis = format!("<axis xyz=\"{}\"/>", unit(*first));
+                match inside("axis") {
+                    Some(old) => edit(old.range(), axis),
+                    None => {
+                        let end = inside("child").map_or(0, |child| child.range().end);
+                        edit(end..end, axis);
+                    }
+                }
+                let end = joint.range().end;
+                let more = format!(
+                    "\n  <link name=\"{between}\"/>\n  <joint name=\"{raw}_{second}\" type=\"continuous\"><parent link=\"{between}\"/><child link=\"{last}\"/><axis xyz=\"{}\"/></joint>",
+                    unit(*second)
+                );
+                edit(end..end, more);
+            }
+        }
+    }
+    (apply(xml.text(), edits), missing)
+}
