@@ -14,7 +14,7 @@ from .schema import fits
 META = "urdd.json"
 BAD_PART = re.compile(r"[\\:\x00-\x1f\x7f-\x9f]")
 KNOWN_MAJOR = 1
-KNOWN_VERSION = (1, 0, 0)
+KNOWN_VERSION = (1, 1, 0)  # of this specification
 PARENTS = ("mesh_modules", "link_shapes_modules")
 
 
@@ -117,7 +117,7 @@ def check_entries(urdd: Urdd) -> None:
         if paths != sorted(set(paths)):
             urdd.report.error("DIR026", META, pointer + "/files")
     keys = [
-        (ORDER.index(name), b"") if name in TABLE else (len(ORDER), name.encode()) for name in names
+        (ORDER.index(name), b"") if name in ORDER else (len(ORDER), name.encode()) for name in names
     ]
     if keys != sorted(keys):
         urdd.report.error("DIR026", META, "/modules")

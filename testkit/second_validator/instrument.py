@@ -39,6 +39,7 @@ MESH_MODULES = (
 # Functions on a whole URDD that are remembered: the documents that each reads, and whether meshes.
 STAGES = {
     "check_core": (CORE_MODULES, False),
+    "check_loops": ((*CORE_MODULES, "loops_module"), False),
     "check_derived_meshes": (MESH_MODULES, True),
     "check_originals": (MESH_MODULES, True),
     "check_shapes": ((*MESH_MODULES, *SHAPE_MODULES), True),

@@ -200,6 +200,21 @@ def compose(a: Pose, b: Pose) -> Pose:
     return product(a[0], b[0]), add(turned(a[0], b[1]), a[1])
 
 
+def joint_position(robot: Robot, joint: int, configuration: Vector) -> list[float]:
+    """9.1: a joint's q."""
+    mimic = robot.mimics[joint]
+    if mimic:
+        dof, multiplier, offset = mimic
+        return [offset if dof is None else multiplier * configuration[dof] + offset]
+    return [configuration[dof] for dof in robot.dofs_of[joint]]
+
+
+def moved(robot: Robot, joint: int, parent: Pose, q: Vector) -> Pose:
+    """9.1: the pose of a joint's child link, from that of its parent link."""
+    motion_of_q = motion(robot.joints[joint]["joint_type"], robot.axes[joint], q)
+    return compose(compose(parent, robot.origins[joint]), motion_of_q)
+
+
 def poses(robot: Robot, configuration: Vector) -> list[Pose]:
     """9.1: the poses of all links."""
     found = [ORIGIN] * len(robot.links)
@@ -207,13 +222,8 @@ def poses(robot: Robot, configuration: Vector) -> list[Pose]:
         for link in level:
             joint = robot.above[link]
             assert joint is not None
-            q = [configuration[dof] for dof in robot.dofs_of[joint]]
-            mimic = robot.mimics[joint]
-            if mimic:
-                dof, multiplier, offset = mimic
-                q = [offset if dof is None else multiplier * configuration[dof] + offset]
-            moved = motion(robot.joints[joint]["joint_type"], robot.axes[joint], q)
-            found[link] = compose(compose(found[robot.parent[joint]], robot.origins[joint]), moved)
+            q = joint_position(robot, joint, configuration)
+            found[link] = moved(robot, joint, found[robot.parent[joint]], q)
     return found
 
 

@@ -11,6 +11,7 @@ from .derived_rules import check_core
 from .directory import META, check_directory
 from .documents import read_documents
 from .extensions import check_extensions
+from .loops import check_loops
 from .matrix_rules import check_all_matrices
 from .mesh_rules import check_mesh_lists
 from .model_rules import check_model
@@ -54,6 +55,8 @@ def judge_tree(tree: Tree) -> Report:
         read_documents(urdd)
         check_urdf(urdd)
         robot = check_core(urdd)
+        if robot:
+            check_loops(urdd, robot)
         check_composition(urdd)
         check_extensions(urdd)
         check_originals(urdd)
