@@ -105,6 +105,11 @@ struct SampleRange;
 struct ModelEvaluation;
 struct ModelTestVector;
 struct SelfCollisionModelModule;
+struct Loop;
+struct Coupling;
+struct CouplingTerm;
+struct ClosedSample;
+struct LoopsModule;
 
 /// How much of the specification a URDD carries and fulfils; each class holds those before it.
 /// - `Core`: Kinematics: urdf, dof, chain, connections, bounds (and kinematics samples, recommended).
@@ -2522,6 +2527,165 @@ struct SelfCollisionModelModule {
         visitor.required("calibration", self.calibration);
         visitor.required("evaluation", self.evaluation);
         visitor.required("test_vectors", self.test_vectors);
+        visitor.optional("$schema", self.schema);
+        visitor.extra(self.extra);
+    }
+};
+
+/// What a loop holds. The axes are those of its frames: z is the axis of a hinge, slide or plane.
+/// - `Fixed`: Position and rotation: a weld.
+/// - `Revolute`: The position, and the direction of z: a hinge about z.
+/// - `Prismatic`: The position along x and y, and the rotation: a slide along z.
+/// - `Cylindrical`: The position along x and y, and the direction of z: a hinge about z that slides along it.
+/// - `Universal`: The position, and the right angle between z of both frames: a universal joint.
+/// - `Spherical`: The position: a ball.
+/// - `Planar`: The position along z, and the direction of z: frame B moves in the x-y plane of frame A.
+enum class LoopKind { fixed, revolute, prismatic, cylindrical, universal, spherical, planar };
+
+template <> struct detail::Words<LoopKind> {
+    static constexpr std::array<std::string_view, 7> words{"Fixed", "Revolute", "Prismatic", "Cylindrical", "Universal", "Spherical", "Planar"};
+};
+
+/// What holds two links together besides the joints of the tree.
+struct Loop {
+    /// Its name; unique among loops and couplings.
+    std::string name;
+    /// Which numbers of the pose of frame B in frame A are held.
+    LoopKind kind{};
+    /// The link that frame A is fixed to.
+    ///
+    /// Index of: `link`.
+    std::size_t link_a_idx{};
+    /// Frame A, in that link's frame.
+    ///
+    /// Frame: `link`.
+    Pose frame_a;
+    /// The link that frame B is fixed to: another one.
+    ///
+    /// Index of: `link`.
+    std::size_t link_b_idx{};
+    /// Frame B, in that link's frame.
+    ///
+    /// Frame: `link`.
+    Pose frame_b;
+    /// How far the held position may be off where the loop counts as closed, m: the precision of the source. Not
+    /// negative.
+    ///
+    /// Unit: `m`.
+    double position_tolerance{};
+    /// How far the held rotation may be off there, rad. Not negative.
+    ///
+    /// Unit: `rad`.
+    double rotation_tolerance{};
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("name", self.name);
+        visitor.required("kind", self.kind);
+        visitor.required("link_a_idx", self.link_a_idx);
+        visitor.required("frame_a", self.frame_a);
+        visitor.required("link_b_idx", self.link_b_idx);
+        visitor.required("frame_b", self.frame_b);
+        visitor.required("position_tolerance", self.position_tolerance);
+        visitor.required("rotation_tolerance", self.rotation_tolerance);
+        visitor.extra(self.extra);
+    }
+};
+
+/// What a DOF adds to the sum of a coupling: c1 q + c2 q^2 + c3 q^3 + c4 q^4.
+struct CouplingTerm {
+    /// The DOF.
+    ///
+    /// Index of: `dof`.
+    std::size_t dof_idx{};
+    /// c1, c2, c3 and c4.
+    std::array<double, 4> coefficients;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("dof_idx", self.dof_idx);
+        visitor.required("coefficients", self.coefficients);
+        visitor.extra(self.extra);
+    }
+};
+
+/// An equation between DOFs: the constant and all terms add up to 0.
+struct Coupling {
+    /// Its name; unique among loops and couplings.
+    std::string name;
+    /// The constant.
+    ///
+    /// Unit: `rad or m`.
+    double constant{};
+    /// One term for each DOF, in DOF order.
+    std::vector<CouplingTerm> terms;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("name", self.name);
+        visitor.required("constant", self.constant);
+        visitor.required("terms", self.terms);
+        visitor.extra(self.extra);
+    }
+};
+
+/// A closed configuration whose independent DOFs have the values of a sampled configuration.
+struct ClosedSample {
+    /// The number of the sampled configuration.
+    ///
+    /// Index of: `sample`.
+    std::size_t sample_idx{};
+    /// One value per DOF, rad or m; null where none was found that is closed.
+    ///
+    /// Unit: `rad or m`. Length: `dofs`.
+    std::optional<std::vector<double>> configuration;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("sample_idx", self.sample_idx);
+        visitor.required("configuration", self.configuration);
+        visitor.extra(self.extra);
+    }
+};
+
+/// What closes the kinematic loops of a robot, and couplings between its DOFs. The links and joints of the other
+/// modules are its spanning tree.
+struct LoopsModule {
+    /// The loops.
+    std::vector<Loop> loops;
+    /// Equations between DOFs, such as gears between joints of different branches.
+    std::vector<Coupling> couplings;
+    /// The DOFs that move freely, ascending; the others follow from them. Their number is the mobility at the reference
+    /// configuration.
+    ///
+    /// Index of: `dof`.
+    std::vector<std::size_t> independent_dof_idxs;
+    /// A configuration in which all loops are closed and all couplings hold: one value per DOF, rad or m.
+    ///
+    /// Unit: `rad or m`. Length: `dofs`.
+    std::vector<double> reference_configuration;
+    /// Sampled configurations that are closed, numbered from 0 without gaps.
+    std::vector<ClosedSample> closed_samples;
+    /// The JSON Schema that this document follows, for editors.
+    std::optional<std::string> schema;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    static constexpr const char *module_name{"loops_module"};
+    static constexpr const char *module_folder{"loops_module"};
+    static constexpr const char *module_version{"1.0.0"};
+    static constexpr std::array<const char *, 4> depends_on{"urdf_module", "dof_module", "chain_module", "bounds_module"};
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("loops", self.loops);
+        visitor.required("couplings", self.couplings);
+        visitor.required("independent_dof_idxs", self.independent_dof_idxs);
+        visitor.required("reference_configuration", self.reference_configuration);
+        visitor.required("closed_samples", self.closed_samples);
         visitor.optional("$schema", self.schema);
         visitor.extra(self.extra);
     }

@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 use urdd_directory::source::Memory;
 use urdd_directory::{canonical, file_entry};
 use urdd_format::link_shapes_skips::SkipEdit;
-use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind};
 use urdd_format::urdf::*;
 
 use super::core::{Core, kinematics_samples_module};
@@ -134,8 +134,10 @@ impl Fixture {
                         "depends_on": depends_on, "files": [] })
             })
             .collect();
+        let since = modules.iter().map(|(kind, _)| kind.since()).max();
+        let version = since.unwrap_or(FIRST_SPEC_VERSION);
         let root = json!({
-            "urdd_version": SPEC_VERSION,
+            "urdd_version": version,
             "robot_name": robot.urdf.name,
             "conformance_class": class,
             "generator": { "name": "tests/support", "version": "1" },

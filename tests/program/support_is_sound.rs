@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use urdd_format::registry::{ModuleKind, SPEC_VERSION, find};
+use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind, find};
 use urdd_format::root_metadata::RootMetadata;
 
 use testkit::fixture::{Fixture, ROOT, URDF};
@@ -31,7 +31,7 @@ fn toy_holds_what_it_promises() {
         .iter()
         // What a class requires, and what is recommended for all.
         .filter(|kind| kind.class().is_some() || **kind == ModuleKind::KinematicsSamples)
-        .filter(|kind| find(**kind, SPEC_VERSION).is_some());
+        .filter(|kind| find(**kind, FIRST_SPEC_VERSION).is_some());
     // And `urdd.json`.
     assert_eq!(toy.documents.len(), kinds.count() + 1);
     let reasons = toy.get("link_shapes_simple_skips_module", "/reasons/full_convex_hulls");

@@ -8,7 +8,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
 use crate::shapes::{fits, two_boxes};
-use crate::{Make, canonical, mesh_files, meshes, schemas};
+use crate::{Make, canonical, loops, mesh_files, meshes, schemas};
 
 /// Name and URDD. Files that several bases share are stored in the first of them.
 pub fn shared() -> Vec<(&'static str, Make)> {
@@ -21,6 +21,7 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("extension_core", base(|| extended(Fixture::core(&toy_robot())))),
         ("learned", base(testkit::model::fixture)),
         ("lone_box", base(fits::lone_box)),
+        ("loops_free", base(loops::free)),
         ("named_configurations", base(configured)),
         ("no_shapes", base(meshes::without_shapes)),
         ("placed_scenes", base(mesh_files::placed_scenes::base)),

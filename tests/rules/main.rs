@@ -18,6 +18,7 @@ mod dof;
 mod extensions;
 mod kinematics;
 mod learned;
+mod loops;
 mod mesh_files;
 mod meshes;
 mod messages;

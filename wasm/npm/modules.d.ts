@@ -2274,6 +2274,160 @@ export interface SelfCollisionModelModule extends Extensible {
   $schema?: string;
 }
 
+/**
+ * What holds two links together besides the joints of the tree.
+ */
+export interface Loop extends Extensible {
+  /**
+   * Its name; unique among loops and couplings.
+   */
+  name: string;
+  /**
+   * Which numbers of the pose of frame B in frame A are held.
+   */
+  kind: LoopKind;
+  /**
+   * The link that frame A is fixed to.
+   *
+   * Index of: `link`.
+   */
+  link_a_idx: number;
+  /**
+   * Frame A, in that link's frame.
+   *
+   * Frame: `link`.
+   */
+  frame_a: Pose;
+  /**
+   * The link that frame B is fixed to: another one.
+   *
+   * Index of: `link`.
+   */
+  link_b_idx: number;
+  /**
+   * Frame B, in that link's frame.
+   *
+   * Frame: `link`.
+   */
+  frame_b: Pose;
+  /**
+   * How far the held position may be off where the loop counts as closed, m: the precision of the
+   * source. Not negative.
+   *
+   * Unit: `m`.
+   */
+  position_tolerance: number;
+  /**
+   * How far the held rotation may be off there, rad. Not negative.
+   *
+   * Unit: `rad`.
+   */
+  rotation_tolerance: number;
+}
+
+/**
+ * What a loop holds. The axes are those of its frames: z is the axis of a hinge, slide or plane.
+ * - `Fixed`: Position and rotation: a weld.
+ * - `Revolute`: The position, and the direction of z: a hinge about z.
+ * - `Prismatic`: The position along x and y, and the rotation: a slide along z.
+ * - `Cylindrical`: The position along x and y, and the direction of z: a hinge about z that slides
+ * along it.
+ * - `Universal`: The position, and the right angle between z of both frames: a universal joint.
+ * - `Spherical`: The position: a ball.
+ * - `Planar`: The position along z, and the direction of z: frame B moves in the x-y plane of frame A.
+ */
+export type LoopKind = "Fixed" | "Revolute" | "Prismatic" | "Cylindrical" | "Universal" | "Spherical" | "Planar";
+
+/**
+ * An equation between DOFs: the constant and all terms add up to 0.
+ */
+export interface Coupling extends Extensible {
+  /**
+   * Its name; unique among loops and couplings.
+   */
+  name: string;
+  /**
+   * The constant.
+   *
+   * Unit: `rad or m`.
+   */
+  constant: number;
+  /**
+   * One term for each DOF, in DOF order.
+   */
+  terms: CouplingTerm[];
+}
+
+/**
+ * What a DOF adds to the sum of a coupling: c1 q + c2 q^2 + c3 q^3 + c4 q^4.
+ */
+export interface CouplingTerm extends Extensible {
+  /**
+   * The DOF.
+   *
+   * Index of: `dof`.
+   */
+  dof_idx: number;
+  /**
+   * c1, c2, c3 and c4.
+   */
+  coefficients: [number, number, number, number];
+}
+
+/**
+ * A closed configuration whose independent DOFs have the values of a sampled configuration.
+ */
+export interface ClosedSample extends Extensible {
+  /**
+   * The number of the sampled configuration.
+   *
+   * Index of: `sample`.
+   */
+  sample_idx: number;
+  /**
+   * One value per DOF, rad or m; null where none was found that is closed.
+   *
+   * Unit: `rad or m`. Length: `dofs`.
+   */
+  configuration: number[] | null;
+}
+
+/**
+ * What closes the kinematic loops of a robot, and couplings between its DOFs. The links and joints of
+ * the other modules are its spanning tree.
+ */
+export interface LoopsModule extends Extensible {
+  /**
+   * The loops.
+   */
+  loops: Loop[];
+  /**
+   * Equations between DOFs, such as gears between joints of different branches.
+   */
+  couplings: Coupling[];
+  /**
+   * The DOFs that move freely, ascending; the others follow from them. Their number is the mobility at
+   * the reference configuration.
+   *
+   * Index of: `dof`.
+   */
+  independent_dof_idxs: number[];
+  /**
+   * A configuration in which all loops are closed and all couplings hold: one value per DOF, rad or m.
+   *
+   * Unit: `rad or m`. Length: `dofs`.
+   */
+  reference_configuration: number[];
+  /**
+   * Sampled configurations that are closed, numbered from 0 without gaps.
+   */
+  closed_samples: ClosedSample[];
+  /**
+   * The JSON Schema that this document follows, for editors.
+   */
+  $schema?: string;
+}
+
 /** The documents by the names of their modules. */
 export interface Documents {
   "urdd.json": RootMetadata;
@@ -2295,4 +2449,5 @@ export interface Documents {
   link_shapes_simple_skips_module: LinkShapesSimpleSkipsModule;
   link_shapes_skips_module: LinkShapesSkipsModule;
   self_collision_model_module: SelfCollisionModelModule;
+  loops_module: LoopsModule;
 }

@@ -118,7 +118,8 @@ pub struct Expected {
     pub pointer: Option<String>,
 }
 
-fn every_version_one() -> VersionReq {
+/// All versions with the major number 1.
+pub(crate) fn every_version_one() -> VersionReq {
     VersionReq::parse(">=1.0.0, <2.0.0").unwrap_or_default()
 }
 

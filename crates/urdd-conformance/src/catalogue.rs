@@ -3,14 +3,14 @@
 use semver::VersionReq;
 use serde::Serialize;
 
-use crate::case::{Case, CaseKind, Expected, Verdict};
+use crate::case::{Case, CaseKind, Expected, Verdict, every_version_one};
 use crate::data::Damage;
 use crate::profile;
 use crate::suite::Suite;
-use crate::valid;
+use crate::valid::{self, carried};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_format::conformance::ValidatorProfile;
-use urdd_format::registry::{PROGRAM_VERSION, Profile, SPEC_VERSION};
+use urdd_format::registry::{FIRST_SPEC_VERSION, PROGRAM_VERSION, Profile, SPEC_VERSION};
 
 /// The catalogue of an exported suite, of all that is accepted or rejected.
 pub const CATALOGUE: &str = "suite.json";
@@ -84,7 +84,8 @@ pub fn items(suite: &Suite) -> Result<Vec<Item>, Damage> {
             code: None,
             title: format!("what urdd generate makes of {robot}.urdf"),
             profile: Profile::V1.as_str(),
-            spec_versions: every_version_one(),
+            spec_versions: versions(carried(&suite.data, &robot).file(ROOT_METADATA))
+                .unwrap_or_else(every_version_one),
             verdict: Verdict::Accept,
             findings: Vec::new(),
             is_about_reading: false,
@@ -108,12 +109,24 @@ fn item(suite: &Suite, case: &Case) -> Result<Item, Damage> {
         code: (!case.is_about_reading()).then(|| case.code.clone()),
         title: case.title.clone(),
         profile: edition.as_str(),
-        spec_versions: case.spec_versions.clone(),
+        spec_versions: suite
+            .bases
+            .get(&case.base)
+            .and_then(|base| versions(base.file(ROOT_METADATA)))
+            .unwrap_or_else(|| case.spec_versions.clone()),
         verdict: case.verdict,
         findings: case.expected.clone(),
         is_about_reading: case.is_about_reading(),
         profiles: is_core_json.then_some(ValidatorProfile::CoreJson).into_iter().collect(),
     })
+}
+
+/// The versions of the specification that know all modules of a URDD, by what its metadata states; `None` for all of
+/// version 1. To an older one, a module that was added later is unknown, and its faults are none.
+fn versions(metadata: Option<&[u8]>) -> Option<VersionReq> {
+    let metadata: serde_json::Value = serde_json::from_slice(metadata?).ok()?;
+    let stated = metadata["urdd_version"].as_str().filter(|stated| *stated != FIRST_SPEC_VERSION)?;
+    VersionReq::parse(&format!(">={stated}, <2.0.0")).ok()
 }
 
 /// The catalogues, by their names. The first stays as readers of it know it.
@@ -147,7 +160,3 @@ fn text<T: Serialize>(
     })
 }
 
-/// All versions with the major number of the suite's version, from that version on.
-fn every_version_one() -> VersionReq {
-    VersionReq::parse(&format!("^{SPEC_VERSION}")).unwrap_or_default()
-}

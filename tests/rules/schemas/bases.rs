@@ -19,6 +19,7 @@ pub fn shared() -> Vec<(&'static str, Make)> {
     vec![
         ("every_element", base(every_element)),
         ("parts_of_parts", base(parts_of_parts)),
+        ("loops", base(crate::loops::linkage)),
         ("mesh_and_box", base(mesh_and_box)),
         ("learned", base(testkit::model::fixture)),
     ]

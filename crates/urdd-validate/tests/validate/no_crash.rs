@@ -192,7 +192,7 @@ fn nonsense(place: &mut Value, document: &Value, dice: &mut Dice) {
 
 fn spec(module: &str) -> Option<&'static ModuleSpec> {
     let kind = ModuleKind::ALL.iter().find(|kind| kind.name() == module)?;
-    registry::find(*kind, registry::SPEC_VERSION)
+    registry::find(*kind, registry::FIRST_SPEC_VERSION)
 }
 
 fn fits_schema(folder: &str, document: &Value) -> bool {
