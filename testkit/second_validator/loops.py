@@ -29,6 +29,7 @@ from .numeric import (
 FILE = file_of("loops_module")
 BEFORE = ("urdf_module", "dof_module", "chain_module", "bounds_module")
 MAX_WORK = 200_000  # 13.5: joints and DOFs that are looked at, over all configurations
+LONGEST = math.pi * (1 + RELATIVE)  # 6.8.6: of a rotation vector
 EZ = (0.0, 0.0, 1.0)
 # 6.8.3: of each kind, the held components of the position, and what it holds of the rotation
 HELD: dict[str, tuple[tuple[int, ...], str]] = {
@@ -200,6 +201,8 @@ def check_configurations(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> 
         elif k is not None and known_dofs and not follows_sample(robot, independent, k, q):
             report.error("LOP006", FILE, pointer)  # 6.8.8
         elif not all(is_within(robot, dof, value) for dof, value in enumerate(q)):
+            report.error("LOP007", FILE, pointer)  # 6.8.6
+        elif any(norm(q[at : at + 3]) > LONGEST for at in robot.rotation_vectors()):
             report.error("LOP007", FILE, pointer)  # 6.8.6
         elif can_close and not is_closed(robot, loops, document["couplings"], q):
             report.error("LOP008", FILE, pointer)  # 6.8.6

@@ -23,7 +23,7 @@ from .numeric import (
 
 Row = dict[int, float]
 EDGES = (1e-6, 1e-4)  # 6.8.7: a singular value between these may be counted or not
-NOISE = 1e-9  # numbers as small as this, among numbers near 1, may be rounding alone
+LEAST = 1e-9  # 6.8.7: singular values that are not above this do not count
 SMALL_ANGLE = 0.02
 NEARLY_ORTHOGONAL = 1e-14
 NEGLIGIBLE = 1e-28
@@ -107,8 +107,8 @@ def rows_of_loop(robot: Robot, loop: Any, q: list[float], reach: float) -> list[
     return [rows[place] for place in (*loop.components, *turns[loop.rotation])]
 
 
-def matrix(robot: Robot, loops: list[Any], couplings: list[Any], q: list[float]) -> Any:
-    """6.8.7: the rows of M; None where a row of a coupling may be rounding alone."""
+def matrix(robot: Robot, loops: list[Any], couplings: list[Any], q: list[float]) -> list[Row]:
+    """6.8.7: the rows of M."""
     reach = robot.reach()
     unit = [reach if robot.is_length(dof) else 1.0 for dof in range(len(q))]
     rows = [row for loop in loops for row in rows_of_loop(robot, loop, q, reach)]
@@ -124,10 +124,7 @@ def matrix(robot: Robot, loops: list[Any], couplings: list[Any], q: list[float])
                 row[dof] += summand
                 size = max(size, abs(summand))
                 power *= q[dof]
-        largest = max(abs(value) for value in row.values())
-        if 0 < largest <= NOISE * size:
-            return None
-        rows.append({dof: value / largest if largest > 0 else 0.0 for dof, value in row.items()})
+        rows.append({dof: value / size if size > 0 else 0.0 for dof, value in row.items()})
     return rows
 
 
@@ -191,10 +188,8 @@ def independence(
 ) -> str:
     """LOP009 or LOP010, where the independent DOFs break one of them, or nothing."""
     rows = matrix(robot, loops, couplings, q)
-    if rows is None:
-        return ""
     numbers = [value for row in rows for value in row.values()]
-    if not finite([sum(map(mul, numbers, numbers))]) or 0 < max(map(abs, [0.0, *numbers])) <= NOISE:
+    if not finite([sum(map(mul, numbers, numbers))]):
         return ""
     others = set(range(len(q))) - set(independent)
     rest = [{dof: value for dof, value in row.items() if dof in others} for row in rows]
@@ -212,9 +207,9 @@ def independence(
 
 def least_rank(values: list[float], largest: float) -> int:
     """The fewest singular values that may be counted."""
-    return len([value for value in values if value > EDGES[1] * largest])
+    return len([value for value in values if value > max(LEAST, EDGES[1] * largest)])
 
 
 def most_rank(values: list[float], largest: float) -> int:
     """The most singular values that may be counted."""
-    return len([value for value in values if value >= EDGES[0] * largest])
+    return len([value for value in values if value > LEAST and value >= EDGES[0] * largest])
