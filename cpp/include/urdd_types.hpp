@@ -2600,6 +2600,9 @@ struct CouplingTerm {
     /// Index of: `dof`.
     std::size_t dof_idx{};
     /// c1, c2, c3 and c4.
+    ///
+    /// Unit: `1 or rad/m or m/rad or 1/rad or 1/m or rad/m^2 or m/rad^2 or 1/rad^2 or 1/m^2 or rad/m^3 or m/rad^3 or
+    /// 1/rad^3 or 1/m^3 or rad/m^4 or m/rad^4`.
     std::array<double, 4> coefficients;
     /// Other keys: `x_` and those of later minor versions. An object, or null.
     Json extra;

@@ -184,7 +184,7 @@ def check_configurations(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> 
     for place, sample in enumerate(document["closed_samples"]):
         pointer = f"/closed_samples/{place}"
         if sample["sample_idx"] != place:
-            report.error("LOP006", FILE, pointer + "/sample_idx")  # 6.8.8
+            report.error("LOP013", FILE, pointer + "/sample_idx")  # 6.8.8
         if sample["configuration"] is not None:
             stated.append((place, sample["configuration"], pointer + "/configuration"))
     known_dofs = report.clean("LOP005")
@@ -199,7 +199,7 @@ def check_configurations(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> 
         elif number >= most:
             continue
         elif k is not None and known_dofs and not follows_sample(robot, independent, k, q):
-            report.error("LOP006", FILE, pointer)  # 6.8.8
+            report.error("LOP013", FILE, pointer)  # 6.8.8
         elif not all(is_within(robot, dof, value) for dof, value in enumerate(q)):
             report.error("LOP007", FILE, pointer)  # 6.8.6
         elif any(norm(q[at : at + 3]) > LONGEST for at in robot.rotation_vectors()):

@@ -2370,6 +2370,9 @@ export interface CouplingTerm extends Extensible {
   dof_idx: number;
   /**
    * c1, c2, c3 and c4.
+   *
+   * Unit: `1 or rad/m or m/rad or 1/rad or 1/m or rad/m^2 or m/rad^2 or 1/rad^2 or 1/m^2 or rad/m^3 or
+   * m/rad^3 or 1/rad^3 or 1/m^3 or rad/m^4 or m/rad^4`.
    */
   coefficients: [number, number, number, number];
 }

@@ -125,7 +125,8 @@ fn item(suite: &Suite, case: &Case) -> Result<Item, Damage> {
 /// version 1. To an older one, a module that was added later is unknown, and its faults are none.
 fn versions(metadata: Option<&[u8]>) -> Option<VersionReq> {
     let metadata: serde_json::Value = serde_json::from_slice(metadata?).ok()?;
-    let stated = metadata["urdd_version"].as_str().filter(|stated| *stated != FIRST_SPEC_VERSION)?;
+    let stated =
+        metadata["urdd_version"].as_str().filter(|stated| *stated != FIRST_SPEC_VERSION)?;
     VersionReq::parse(&format!(">={stated}, <2.0.0")).ok()
 }
 
@@ -159,4 +160,3 @@ fn text<T: Serialize>(
         left_out,
     })
 }
-

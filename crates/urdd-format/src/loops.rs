@@ -75,7 +75,9 @@ module! {
         /// The DOF.
         pub dof_idx: DofIdx,
         /// c1, c2, c3 and c4.
-        pub coefficients: [f64; 4],
+        pub coefficients: [f64; 4] where {
+            unit: "1 or rad/m or m/rad or 1/rad or 1/m or rad/m^2 or m/rad^2 or 1/rad^2 or 1/m^2 or rad/m^3 or m/rad^3 or 1/rad^3 or 1/m^3 or rad/m^4 or m/rad^4"
+        },
     }
 
     /// A closed configuration whose independent DOFs have the values of a sampled configuration.

@@ -68,9 +68,9 @@ pub(super) fn inputs<'a>(
 
 /// The lowest version of the specification that has all modules (SPEC 4.1).
 fn spec_version(made: &[Entry]) -> &'static str {
-    let kinds = ModuleKind::ALL.iter().filter(|kind| {
-        made.iter().any(|entry| entry.module.name == kind.name())
-    });
+    let kinds = ModuleKind::ALL
+        .iter()
+        .filter(|kind| made.iter().any(|entry| entry.module.name == kind.name()));
     kinds.map(|kind| kind.since()).max().unwrap_or(FIRST_SPEC_VERSION)
 }
 

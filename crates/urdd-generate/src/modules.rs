@@ -60,7 +60,14 @@ impl<'a> Modules<'a> {
         let loops = context.loops.as_ref().map(|_| ModuleKind::Loops);
         Modules {
             context,
-            selected: context.settings.selection.kinds().chain(composition).chain(named).chain(loops).collect(),
+            selected: context
+                .settings
+                .selection
+                .kinds()
+                .chain(composition)
+                .chain(named)
+                .chain(loops)
+                .collect(),
             replaced,
             writer,
             root,

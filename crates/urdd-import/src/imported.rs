@@ -77,7 +77,13 @@ impl Imported {
             reason: error.to_string(),
         })?;
         let packages = Packages::default();
-        Ok(Settings { files, packages, allowed_folders: Vec::new(), loops: None, ..settings.clone() })
+        Ok(Settings {
+            files,
+            packages,
+            allowed_folders: Vec::new(),
+            loops: None,
+            ..settings.clone()
+        })
     }
 
     /// Reads the URDF. Errors and notes name the description, without a place: nobody has the URDF on disk. `settings` are

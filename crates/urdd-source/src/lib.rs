@@ -28,6 +28,7 @@ mod launch;
 mod load;
 pub mod loops;
 pub mod macros;
+mod made_from;
 mod meshes;
 pub mod note;
 pub mod origin;

@@ -9,17 +9,16 @@ use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::loops::{self, Said};
+use super::made_from::Origin;
 use super::note::{Note, NoteKind, Remark, SourcePlace};
 use super::repair;
 use super::settings::Settings;
 use super::urdf::{self, Reading};
 use super::watch::Trail;
-use super::written::WrittenMap;
 use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
-use urdd_directory::position::{LineIndex, Position};
 use urdd_format::short::Short;
 use urdd_format::urdf::UrdfModule;
 
@@ -95,7 +94,10 @@ pub fn load_with<T>(
             file: file.clone(),
             line: 0,
             column: 0,
-            problem: format!("the URDF has no joint `{}`, which is to be another", Short::of(joint)),
+            problem: format!(
+                "the URDF has no joint `{}`, which is to be another",
+                Short::of(joint)
+            ),
             assumed: "the name is passed over".to_owned(),
         }));
         read.is_verbatim &= text == read.text;
@@ -377,62 +379,6 @@ fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = N
         let (problem, assumed) = (remark.problem.clone(), remark.assumed.clone());
         Note { kind: remark.kind, file, line, column, problem, assumed }
     })
-}
-
-/// What a text was made from.
-struct Origin<'a> {
-    shown: &'a str,
-    /// Number of lines that are missing at the beginning.
-    first_line: u32,
-    trail: Option<&'a Trail>,
-    path: &'a Path,
-}
-
-impl Origin<'_> {
-    /// Where offsets of the text are in the user's files.
-    fn offsets(&self, text: &str, offsets: impl Iterator<Item = usize>) -> Vec<SourcePlace> {
-        let lines = LineIndex::new(text);
-        self.places(text, offsets.map(|offset| lines.position(offset)).collect())
-    }
-
-    /// Where places of the text are in the user's files: lines of an expansion are in none.
-    fn places(&self, text: &str, places: Vec<Position>) -> Vec<SourcePlace> {
-        let Some(trail) = self.trail.filter(|_| !places.is_empty()) else {
-            let line = |at: Position| if at.line == 0 { 0 } else { at.line + self.first_line };
-            let place = |at: Position| SourcePlace {
-                file: self.shown.to_owned(),
-                line: line(at),
-                column: at.column,
-            };
-            return places.into_iter().map(place).collect();
-        };
-        let found = WrittenMap::new(text, trail, self.path).find(places.iter().copied());
-        let place = |at: Position| match found.get(&at) {
-            Some(written) => SourcePlace {
-                file: written.named(self.shown),
-                line: written.at.line,
-                column: written.at.column,
-            },
-            None => SourcePlace { file: self.shown.to_owned(), line: 0, column: 0 },
-        };
-        places.into_iter().map(place).collect()
-    }
-
-    fn faults(&self, text: &str, mut faults: Vec<PlacedFault>) -> Vec<PlacedFault> {
-        let places = faults.iter().map(|one| Position { line: one.line, column: one.column });
-        let places = self.places(text, places.collect());
-        for (placed, SourcePlace { file, line, column }) in faults.iter_mut().zip(places) {
-            placed.file = Some(file).filter(|file| file != self.shown);
-            (placed.line, placed.column) = (line, column);
-            if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } =
-                &mut placed.fault
-                && *first > 0
-            {
-                *first = if self.trail.is_some() { 0 } else { *first + self.first_line };
-            }
-        }
-        faults
-    }
 }
 
 /// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC

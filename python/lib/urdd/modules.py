@@ -19,6 +19,7 @@ __all__ = [
     "Calibration",
     "Capsule",
     "ChainModule",
+    "ClosedSample",
     "Collision",
     "Color",
     "CompositionBase",
@@ -29,6 +30,8 @@ __all__ = [
     "ConnectionsModule",
     "ConvexDecompositionMeshesModule",
     "ConvexHullMeshesModule",
+    "Coupling",
+    "CouplingTerm",
     "Cuboid",
     "Cylinder",
     "DecompositionMethod",
@@ -61,6 +64,9 @@ __all__ = [
     "LinkShapesMaxDistanceFromOriginModule",
     "LinkShapesSimpleSkipsModule",
     "LinkShapesSkipsModule",
+    "Loop",
+    "LoopKind",
+    "LoopsModule",
     "Mass",
     "Material",
     "Mesh",
@@ -168,6 +174,17 @@ SkippedReason: TypeAlias = Literal["SameLink", "Always", "Adjacent", "Default", 
 - `Default`: In contact in the default configuration.
 - `Never`: Never in contact, as far as the samples show: the number of samples is `num_samples` of
   `link_shapes_distance_statistics_module`.
+"""
+
+LoopKind: TypeAlias = Literal["Fixed", "Revolute", "Prismatic", "Cylindrical", "Universal", "Spherical", "Planar"]
+"""What a loop holds. The axes are those of its frames: z is the axis of a hinge, slide or plane.
+- `Fixed`: Position and rotation: a weld.
+- `Revolute`: The position, and the direction of z: a hinge about z.
+- `Prismatic`: The position along x and y, and the rotation: a slide along z.
+- `Cylindrical`: The position along x and y, and the direction of z: a hinge about z that slides along it.
+- `Universal`: The position, and the right angle between z of both frames: a universal joint.
+- `Spherical`: The position: a ball.
+- `Planar`: The position along z, and the direction of z: frame B moves in the x-y plane of frame A.
 """
 
 
@@ -1987,6 +2004,134 @@ class SelfCollisionModelModule:
     """What it gives in some configurations."""
 
 
+@dataclass(frozen=True)
+class Loop:
+    """What holds two links together besides the joints of the tree."""
+
+    name: str
+    """Its name; unique among loops and couplings."""
+
+    kind: LoopKind
+    """Which numbers of the pose of frame B in frame A are held."""
+
+    link_a_idx: int
+    """The link that frame A is fixed to.
+
+    Index of: `link`.
+    """
+
+    frame_a: Pose
+    """Frame A, in that link's frame.
+
+    Frame: `link`.
+    """
+
+    link_b_idx: int
+    """The link that frame B is fixed to: another one.
+
+    Index of: `link`.
+    """
+
+    frame_b: Pose
+    """Frame B, in that link's frame.
+
+    Frame: `link`.
+    """
+
+    position_tolerance: float
+    """How far the held position may be off where the loop counts as closed, m: the precision of the source. Not
+    negative.
+
+    Unit: `m`.
+    """
+
+    rotation_tolerance: float
+    """How far the held rotation may be off there, rad. Not negative.
+
+    Unit: `rad`.
+    """
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """An equation between DOFs: the constant and all terms add up to 0."""
+
+    name: str
+    """Its name; unique among loops and couplings."""
+
+    constant: float
+    """The constant.
+
+    Unit: `rad or m`.
+    """
+
+    terms: list[CouplingTerm]
+    """One term for each DOF, in DOF order."""
+
+
+@dataclass(frozen=True)
+class CouplingTerm:
+    """What a DOF adds to the sum of a coupling: c1 q + c2 q^2 + c3 q^3 + c4 q^4."""
+
+    dof_idx: int
+    """The DOF.
+
+    Index of: `dof`.
+    """
+
+    coefficients: list[float]
+    """c1, c2, c3 and c4.
+
+    Unit: `1 or rad/m or m/rad or 1/rad or 1/m or rad/m^2 or m/rad^2 or 1/rad^2 or 1/m^2 or rad/m^3 or m/rad^3 or
+    1/rad^3 or 1/m^3 or rad/m^4 or m/rad^4`.
+    """
+
+
+@dataclass(frozen=True)
+class ClosedSample:
+    """A closed configuration whose independent DOFs have the values of a sampled configuration."""
+
+    sample_idx: int
+    """The number of the sampled configuration.
+
+    Index of: `sample`.
+    """
+
+    configuration: list[float] | None
+    """One value per DOF, rad or m; null where none was found that is closed.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
+
+
+@dataclass(frozen=True)
+class LoopsModule:
+    """What closes the kinematic loops of a robot, and couplings between its DOFs. The links and joints of the other
+    modules are its spanning tree."""
+
+    loops: list[Loop]
+    """The loops."""
+
+    couplings: list[Coupling]
+    """Equations between DOFs, such as gears between joints of different branches."""
+
+    independent_dof_idxs: list[int]
+    """The DOFs that move freely, ascending; the others follow from them. Their number is the mobility at the
+    reference configuration.
+
+    Index of: `dof`.
+    """
+
+    reference_configuration: list[float]
+    """A configuration in which all loops are closed and all couplings hold: one value per DOF, rad or m.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
+
+    closed_samples: list[ClosedSample]
+    """Sampled configurations that are closed, numbered from 0 without gaps."""
+
+
 Source: TypeAlias = FileEntry
 """What a URDD was made from: in JSON an object of one key, here that key's value."""
 
@@ -2730,6 +2875,51 @@ def _self_collision_model_module(v: Any) -> SelfCollisionModelModule:
     )
 
 
+def _loop(v: Any) -> Loop:
+    return Loop(
+        name=v["name"],
+        kind=v["kind"],
+        link_a_idx=int(v["link_a_idx"]),
+        frame_a=_pose(v["frame_a"]),
+        link_b_idx=int(v["link_b_idx"]),
+        frame_b=_pose(v["frame_b"]),
+        position_tolerance=v["position_tolerance"],
+        rotation_tolerance=v["rotation_tolerance"],
+    )
+
+
+def _coupling(v: Any) -> Coupling:
+    return Coupling(
+        name=v["name"],
+        constant=v["constant"],
+        terms=[_coupling_term(x) for x in v["terms"]],
+    )
+
+
+def _coupling_term(v: Any) -> CouplingTerm:
+    return CouplingTerm(
+        dof_idx=int(v["dof_idx"]),
+        coefficients=v["coefficients"],
+    )
+
+
+def _closed_sample(v: Any) -> ClosedSample:
+    return ClosedSample(
+        sample_idx=int(v["sample_idx"]),
+        configuration=v["configuration"],
+    )
+
+
+def _loops_module(v: Any) -> LoopsModule:
+    return LoopsModule(
+        loops=[_loop(x) for x in v["loops"]],
+        couplings=[_coupling(x) for x in v["couplings"]],
+        independent_dof_idxs=[int(x) for x in v["independent_dof_idxs"]],
+        reference_configuration=v["reference_configuration"],
+        closed_samples=[_closed_sample(x) for x in v["closed_samples"]],
+    )
+
+
 class Modules(Reading):
     """The modules of a URDD, as typed objects. Each is read when it is first asked for, and then kept.
 
@@ -2841,6 +3031,12 @@ class Modules(Reading):
         passing over configurations that are far from any contact. It is an estimate, not a guarantee:
         `evaluation` says how often it is wrong."""
         return self._read("self_collision_model_module", _self_collision_model_module)
+
+    @property
+    def loops(self) -> LoopsModule:
+        """What closes the kinematic loops of a robot, and couplings between its DOFs. The links and joints of the
+        other modules are its spanning tree."""
+        return self._read("loops_module", _loops_module)
 
 
 def read_root_metadata(text: str) -> RootMetadata:

@@ -83,7 +83,8 @@ fn tie(
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
     let mut who = [named("body1"), named("body2")].map(|name| name.unwrap_or("world".to_owned()));
-    let (mut feature, mut what) = (features::CLOSED, "closes a chain, in another way than is read here; it is left out");
+    let (mut feature, mut what) =
+        (features::CLOSED, "closes a chain, in another way than is read here; it is left out");
     let mut closing = None;
     if let [Some(one), Some(other)] = sites {
         let named = [element.text("site1"), element.text("site2")].map(Option::unwrap_or_default);
@@ -171,9 +172,9 @@ fn couple(
             made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
             made.leaders.insert((body, place), (leading_body, leading_place));
             tally.count(features::MIMICS);
-        } else if let Some((leader, at_leader)) = leading.filter(|(leader, _)| {
-            is_plain(*leader) && is_plain(follower) && *leader != follower
-        }) {
+        } else if let Some((leader, at_leader)) = leading
+            .filter(|(leader, _)| is_plain(*leader) && is_plain(follower) && *leader != follower)
+        {
             let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
             let [of_follower, of_leader] = [follower, leader].map(|at| raw(at).reference);
             let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));

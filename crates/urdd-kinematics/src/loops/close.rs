@@ -2,8 +2,8 @@
 
 use nalgebra::Isometry3;
 
-use super::{Group, Loops};
 use super::equations::CLOSED;
+use super::model::{Group, Loops};
 use crate::error::ConfigurationError;
 use crate::forward::ForwardKinematics;
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use super::{Ends, Group, Loops, Sum};
+use super::model::{Ends, Group, Loops, ROWS, Sum};
 use crate::forward::ForwardKinematics;
 use crate::jacobian::columns;
 use crate::rotation::to_rotation_vector;
@@ -47,9 +47,6 @@ fn held(kind: LoopKind) -> ([bool; 3], Turn) {
     }
 }
 
-/// Rows of a loop: three of the position, three of the rotation. What is not held is 0.
-pub(super) const ROWS: usize = 6;
-
 impl Ends {
     /// The pose of frame B in frame A.
     fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
@@ -83,7 +80,8 @@ impl Ends {
     fn residual(&self, poses: &[Isometry3<f64>], reach: f64, rows: &mut [f64]) {
         let between = self.between(poses);
         let (axes, turn) = held(self.kind);
-        for ((row, value), held) in rows.iter_mut().zip(between.translation.vector.iter()).zip(axes) {
+        for ((row, value), held) in rows.iter_mut().zip(between.translation.vector.iter()).zip(axes)
+        {
             *row = if held { value / reach } else { 0.0 };
         }
         let axis = between.rotation * Vector3::z();
@@ -217,12 +215,6 @@ impl Loops {
                 out[at * rows + ROWS * group.loops.len() + place] += slope / largest;
             }
         }
-    }
-}
-
-impl Group {
-    pub(super) fn num_rows(&self) -> usize {
-        ROWS * self.loops.len() + self.couplings.len()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::Loops;
+use super::model::Loops;
 use crate::forward::ForwardKinematics;
 
 /// A column counts while what is left of it exceeds this fraction of the largest column (SPEC 6.8.7).
@@ -35,9 +35,11 @@ impl Loops {
             self.jacobian_into(group, kinematics, configuration, poses, &mut left);
             columns.push(left);
         }
-        let sizes = self.groups.iter().zip(&columns).flat_map(|(group, left)| {
-            left.chunks_exact(group.num_rows().max(1)).map(norm)
-        });
+        let sizes = self
+            .groups
+            .iter()
+            .zip(&columns)
+            .flat_map(|(group, left)| left.chunks_exact(group.num_rows().max(1)).map(norm));
         let largest = sizes.fold(0.0, f64::max);
         let mut dependent: Vec<usize> = Vec::new();
         for (group, left) in self.groups.iter().zip(&mut columns) {
@@ -45,9 +47,11 @@ impl Loops {
             let mut follows = vec![false; group.dofs.len()];
             for (all, least) in [(false, WELL), (true, RANK)] {
                 loop {
-                    let rest = group.dofs.iter().enumerate().filter(|(place, dof)| {
-                        !follows[*place] && (all || !preferred(**dof))
-                    });
+                    let rest = group
+                        .dofs
+                        .iter()
+                        .enumerate()
+                        .filter(|(place, dof)| !follows[*place] && (all || !preferred(**dof)));
                     let best = rest
                         .map(|(place, _)| (place, norm(&left[place * rows..(place + 1) * rows])))
                         .fold(None, better);

@@ -14,7 +14,7 @@ use urdd_format::loops::LoopKind;
 use urdd_xml::Xml;
 use urdd_xml::element::{Edit, apply, attribute, children};
 
-use super::Said;
+use super::said::{Retyped, Said};
 use crate::error::SourceError;
 
 /// The key by which such a file is known.
@@ -44,7 +44,8 @@ pub(super) fn read(path: &Path, text: String) -> Result<Said, SourceError> {
         fault,
     };
     let text = said.text.as_ref().map_or("", |(_, text)| text);
-    let words = words::read(text).map_err(|error| refused(error.line, error.column, error.reason))?;
+    let words =
+        words::read(text).map_err(|error| refused(error.line, error.column, error.reason))?;
     let read = Extended::deserialize(words).map_err(|error| refused(1, 1, error.to_string()))?;
     let lengths = [
         ("closed_loop", read.closed_loop.len(), "type", read.types.len()),
@@ -95,17 +96,6 @@ pub(super) fn read(path: &Path, text: String) -> Result<Said, SourceError> {
         retyped.push((joint, kind));
     }
     Ok(Said { file, retyped, ..said })
-}
-
-/// What a joint is to be instead of what the URDF says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Retyped {
-    /// A ball.
-    Spherical,
-    /// Fixed.
-    Fixed,
-    /// Two hinges one after the other, about axes of the joint's frame.
-    Universal([char; 2]),
 }
 
 impl Retyped {

@@ -2,16 +2,16 @@
 //! or the YAML of Extended URDF beside it.
 
 mod extended;
+mod said;
 mod urdf_plus;
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-pub use extended::{Retyped, retyped};
-pub use urdf_plus::urdf_plus;
+pub use extended::retyped;
+pub use said::{Retyped, Said};
 use urdd_directory::limits::MAX_TOML_BYTES;
 pub use urdd_directory::loops_toml::File;
-use urdd_directory::position::position;
+pub use urdf_plus::urdf_plus;
 
 use super::error::SourceError;
 use super::settings::Settings;
@@ -20,31 +20,6 @@ use super::settings::Settings;
 const ENDING: &str = "loops.toml";
 /// The ending of Extended URDF's.
 const EXTENDED: &str = "yaml";
-
-/// What a file says of loops.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Said {
-    /// The loops.
-    pub file: File,
-    /// Joints that have another type than the URDF says, by name.
-    pub retyped: Vec<(String, Retyped)>,
-    /// The file, as it is shown, and its text. `None` if the URDF itself says it.
-    pub text: Option<(String, String)>,
-}
-
-impl Said {
-    /// The error about a place of the file, if it is known.
-    pub fn error(&self, place: Option<Range<usize>>, urdf: &str, fault: String) -> SourceError {
-        let (file, at) = match &self.text {
-            Some((file, text)) => {
-                (file.clone(), place.map(|place| position(text, place.start)))
-            }
-            None => (urdf.to_owned(), None),
-        };
-        let (line, column) = at.map_or((1, 1), |at| (at.line, at.column));
-        SourceError::Import { file, line, column, fault }
-    }
-}
 
 /// Reads the file that is named in the settings, or the one beside a URDF, if there is one.
 ///

@@ -14,7 +14,7 @@ use urdd_kinematics::rotation::{from_rpy, to_rpy, unit_axis};
 use urdd_xml::element::{attribute, children};
 use urdd_xml::{Document, Node};
 
-use super::Said;
+use super::said::Said;
 
 /// What is wrong with an element, and where it begins.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -96,9 +96,7 @@ fn numbers(element: Node<'_, '_>, name: &str) -> Result<Option<[f64; 3]>, LoopFa
     let is_finite = numbers.iter().all(|number: &f64| number.is_finite());
     match <[f64; 3]>::try_from(numbers) {
         Ok(three) if is_finite => Ok(Some(three)),
-        _ => {
-            Err(fault(attribute.range().start, format!("`{name}` is not three finite numbers")))
-        }
+        _ => Err(fault(attribute.range().start, format!("`{name}` is not three finite numbers"))),
     }
 }
 
@@ -166,8 +164,8 @@ fn of_coupling(
     let (a, b) = (child(element, "predecessor")?, child(element, "successor")?);
     let ratio = child(element, "ratio")?;
     let value = text(ratio, "value")?.trim().parse::<f64>().ok().filter(|ratio| ratio.is_finite());
-    let value = value
-        .ok_or_else(|| fault(ratio.range().start, "the ratio is not a finite number"))?;
+    let value =
+        value.ok_or_else(|| fault(ratio.range().start, "the ratio is not a finite number"))?;
     let path = |end: Node<'_, '_>| -> Result<Vec<String>, LoopFault> {
         let mut at = text(end, "link")?;
         let mut path = Vec::new();

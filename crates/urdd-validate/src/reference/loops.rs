@@ -54,10 +54,8 @@ impl Gap {
             LoopKind::Spherical => (p.norm(), 0.0),
             LoopKind::Planar => (p.z.abs(), direction()),
         };
-        let most = [
-            one.position_tolerance + POSITION_OF_REACH * reach,
-            one.rotation_tolerance + CLOSED,
-        ];
+        let most =
+            [one.position_tolerance + POSITION_OF_REACH * reach, one.rotation_tolerance + CLOSED];
         Some(Gap { position, rotation, most })
     }
 
@@ -144,7 +142,10 @@ impl Held {
         let values = matrix.singular_values();
         let largest = largest.unwrap_or_else(|| values.max());
         let count = |fraction: f64| {
-            values.iter().filter(|value| **value > LEAST_VALUE && **value > fraction * largest).count()
+            values
+                .iter()
+                .filter(|value| **value > LEAST_VALUE && **value > fraction * largest)
+                .count()
         };
         (largest, [count(RANK_AT_LEAST), count(RANK_AT_MOST)])
     }

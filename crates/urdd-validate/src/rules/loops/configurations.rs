@@ -1,25 +1,33 @@
 use crate::reference::loops::{Gap, sum};
 use crate::rules::prelude::*;
-use urdd_format::loops::LoopsModule;
 use std::f64::consts::PI;
+use urdd_format::loops::LoopsModule;
 
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
 declare_rule! {
-    /// A configuration of `loops_module` has not one value for each DOF, a number or values that a sample has not, or samples
-    /// are not in order.
+    /// A configuration of `loops_module` has not one value for each DOF.
+    ///
+    /// A program that sets the robot to it reads the values of other joints, or stops.
+    ///
+    /// Write one value for each DOF, in DOF order.
+    LOP006 "closed-configuration-length-wrong", Error, clause "6.8.6", since "1.4.0",
+    phase References, needs [ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), Passed(DOF001)],
+    check closed_configuration_length_wrong,
+
+    /// A closed sample has another number than its place, or independent DOFs elsewhere than the sampled configuration.
     ///
     /// Sample k has the independent DOFs where the specification's sampled configuration k has them, so that all programs
     /// mean the same by it, and can be compared.
     ///
     /// Number samples from 0 without gaps, and take the values of the independent DOFs from the formulas of SPEC 9.3.
-    LOP006 "closed-configuration-wrong", Error, clause "6.8.8", since "1.4.0",
+    LOP013 "closed-sample-wrong", Error, clause "6.8.8", since "1.4.0",
     phase References, needs [
         ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), ModuleV1(Kind::Chain), ModuleV1(Kind::Bounds), Passed(DOF001),
         Passed(DOF003), Passed(DOF004), Passed(CHN002), Passed(CHN007), Passed(BND001), Passed(BND002), Passed(BND003),
-        Passed(BND006), Passed(LOP005),
-    ], check closed_configuration_wrong,
+        Passed(BND006), Passed(LOP005), Passed(LOP006),
+    ], check closed_sample_wrong,
 
     /// A configuration of `loops_module` has a limited joint beyond its limits, or a rotation vector longer than half a turn.
     ///
@@ -30,7 +38,7 @@ declare_rule! {
     LOP007 "closed-configuration-out-of-bounds", Error, clause "6.8.6", since "1.4.0",
     phase References, needs [
         ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), ModuleV1(Kind::Chain), ModuleV1(Kind::Bounds), Passed(BND001),
-        Passed(BND002), Passed(BND003), Passed(BND004), Passed(LOP006),
+        Passed(BND002), Passed(BND003), Passed(BND004), Passed(LOP006), Passed(LOP013),
     ], check closed_configuration_out_of_bounds,
 
     /// A loop is open, or a coupling does not hold, in a configuration that is said to be closed.
@@ -58,19 +66,23 @@ fn configurations(loops: &LoopsModule) -> impl Iterator<Item = (String, &[f64])>
     std::iter::once(reference).chain(samples)
 }
 
-fn closed_configuration_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
-    let loops = document!(context, Loops)?;
-    let dof = document!(context, Dof)?;
-    let chain = document!(context, Chain)?;
-    let bounds = &document!(context, Bounds)?.bounds;
-    let count = dof.num_dofs.get();
-    for (pointer, configuration) in configurations(loops) {
+fn closed_configuration_length_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let count = document!(context, Dof)?.num_dofs.get();
+    for (pointer, configuration) in configurations(document!(context, Loops)?) {
         if configuration.len() != count {
             finding_in(Kind::Loops, pointer, "this configuration needs one value per DOF")
                 .counts(count, configuration.len(), "values")
                 .report(findings);
         }
     }
+    Some(())
+}
+
+fn closed_sample_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let dof = document!(context, Dof)?;
+    let chain = document!(context, Chain)?;
+    let bounds = &document!(context, Bounds)?.bounds;
     let numbers = loops.closed_samples.iter().map(|sample| sample.sample_idx.0);
     let wrong = numbers.enumerate().find(|(place, number)| *place != *number as usize);
     if let Some((place, number)) = wrong {
@@ -83,9 +95,7 @@ fn closed_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
     let space = ConfigurationSpace::new(dof, chain, bounds).map_err(SkipReason::obstacle);
     let space = findings.or_skip(space)?;
     for (place, sample) in loops.closed_samples.iter().enumerate() {
-        let Some(found) = sample.configuration.as_ref().filter(|found| found.len() == count) else {
-            continue;
-        };
+        let Some(found) = &sample.configuration else { continue };
         let sampled = space.sampled(u64::from(sample.sample_idx.0));
         let independent: Vec<usize> =
             loops.independent_dof_idxs.iter().map(|idx| idx.get()).collect();
@@ -126,7 +136,11 @@ fn closed_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
 fn closed_configuration_out_of_bounds(context: &Context, findings: &mut Findings) -> Option<()> {
     let loops = document!(context, Loops)?;
     let bounds = document!(context, Bounds)?;
-    let space = ConfigurationSpace::new(document!(context, Dof)?, document!(context, Chain)?, &bounds.bounds);
+    let space = ConfigurationSpace::new(
+        document!(context, Dof)?,
+        document!(context, Chain)?,
+        &bounds.bounds,
+    );
     let space = findings.or_skip(space.map_err(SkipReason::obstacle))?;
     for (pointer, configuration) in configurations(loops) {
         for dofs in space.rotation_vectors() {

@@ -1,0 +1,242 @@
+//! The loops and couplings of a robot, and which of them share DOFs.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Isometry3;
+
+use crate::error::KinematicsError;
+use crate::forward::ForwardKinematics;
+use crate::pose::to_isometry;
+use urdd_format::dof::{DofModule, Quantity};
+use urdd_format::index::DofIdx;
+use urdd_format::loops::{LoopKind, LoopsModule};
+use urdd_format::pose::Pose;
+use urdd_format::registry::ModuleKind;
+
+/// The least length by which equations are scaled, m.
+const LEAST_REACH: f64 = 1e-3;
+
+/// Rows of a loop: three of the position, three of the rotation. What is not held is 0.
+pub(super) const ROWS: usize = 6;
+
+/// The loops and couplings of a robot.
+#[derive(Debug, Clone)]
+pub struct Loops {
+    pub(super) loops: Vec<Ends>,
+    pub(super) couplings: Vec<Sum>,
+    /// By what lengths are divided, m.
+    pub(super) reach: f64,
+    /// For each DOF, its unit: `reach` where it is a length, else 1.
+    pub(super) units: Vec<f64>,
+    /// Whether a loop or coupling depends on the DOF.
+    pub(super) moves: Vec<bool>,
+    /// What has no DOF in common, apart.
+    pub(super) groups: Vec<Group>,
+}
+
+/// Loops and couplings that share DOFs, directly or through others.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Group {
+    pub(super) loops: Vec<usize>,
+    pub(super) couplings: Vec<usize>,
+    /// Ascending.
+    pub(super) dofs: Vec<usize>,
+}
+
+/// A loop.
+#[derive(Debug, Clone)]
+pub(super) struct Ends {
+    pub(super) kind: LoopKind,
+    pub(super) links: [usize; 2],
+    pub(super) frames: [Isometry3<f64>; 2],
+    /// For each end, the joints that move it and not the other one, as indices of steps of the forward kinematics.
+    pub(super) steps: [Vec<usize>; 2],
+    /// The position's and the rotation's tolerance, m and rad.
+    pub(super) tolerances: [f64; 2],
+}
+
+/// A coupling.
+#[derive(Debug, Clone)]
+pub(super) struct Sum {
+    pub(super) constant: f64,
+    pub(super) terms: Vec<(usize, [f64; 4])>,
+}
+
+impl Loops {
+    /// The loops of a module. `reach` is by what lengths are divided (SPEC 5.6), m.
+    ///
+    /// # Errors
+    /// If an index is out of range, a frame is no pose, or a number is not finite.
+    pub fn new(
+        module: &LoopsModule,
+        kinematics: &ForwardKinematics,
+        dof: &DofModule,
+        reach: f64,
+    ) -> Result<Self, KinematicsError> {
+        let mut units: Vec<f64> = vec![1.0; kinematics.num_dofs()];
+        for (unit, dof) in units.iter_mut().zip(&dof.dofs) {
+            if dof.quantity == Quantity::Length {
+                *unit = reach.max(LEAST_REACH);
+            }
+        }
+        let mut all = Loops {
+            loops: Vec::with_capacity(module.loops.len()),
+            couplings: Vec::with_capacity(module.couplings.len()),
+            reach: reach.max(LEAST_REACH),
+            moves: vec![false; units.len()],
+            groups: Vec::new(),
+            units,
+        };
+        let mut together = Together((0..all.units.len()).collect());
+        for (place, one) in module.loops.iter().enumerate() {
+            let at = |key: &str| format!("/loops/{place}/{key}");
+            let links = [
+                (one.link_a_idx, at("link_a_idx"), &one.frame_a, at("frame_a")),
+                (one.link_b_idx, at("link_b_idx"), &one.frame_b, at("frame_b")),
+            ];
+            let mut frames = [Isometry3::identity(); 2];
+            for (frame, (link, link_at, pose, pose_at)) in frames.iter_mut().zip(links) {
+                if link.get() >= kinematics.num_links() {
+                    return Err(fault(link_at, format!("there is no link {}", link.get())));
+                }
+                *frame = isometry(pose, pose_at)?;
+            }
+            let links = [one.link_a_idx.get(), one.link_b_idx.get()];
+            let steps = kinematics.steps_between(links);
+            let moved =
+                steps.iter().flatten().flat_map(|step| kinematics.steps[*step].motion.dofs());
+            together.join(moved.copied(), &mut all.moves);
+            let tolerances = [one.position_tolerance, one.rotation_tolerance];
+            if !tolerances.iter().all(|tolerance| tolerance.is_finite()) {
+                return Err(fault(
+                    at("position_tolerance"),
+                    "a tolerance is not finite".to_owned(),
+                ));
+            }
+            all.loops.push(Ends { kind: one.kind, links, frames, steps, tolerances });
+        }
+        for (place, one) in module.couplings.iter().enumerate() {
+            let mut terms = Vec::with_capacity(one.terms.len());
+            for (number, term) in one.terms.iter().enumerate() {
+                let at = |key: &str| format!("/couplings/{place}/terms/{number}/{key}");
+                let dof = term.dof_idx.get();
+                if dof >= all.units.len() {
+                    return Err(fault(at("dof_idx"), format!("there is no DOF {dof}")));
+                }
+                terms.push((dof, term.coefficients));
+            }
+            let numbers = terms.iter().flat_map(|(_, coefficients)| coefficients);
+            if !numbers.chain([&one.constant]).all(|number| number.is_finite()) {
+                let at = format!("/couplings/{place}");
+                return Err(fault(at, "a number is not finite".to_owned()));
+            }
+            together.join(terms.iter().map(|(dof, _)| *dof), &mut all.moves);
+            all.couplings.push(Sum { constant: one.constant, terms });
+        }
+        all.groups = all.grouped(kinematics, together);
+        Ok(all)
+    }
+
+    fn grouped(&self, kinematics: &ForwardKinematics, mut together: Together) -> Vec<Group> {
+        let mut groups: BTreeMap<usize, Group> = BTreeMap::new();
+        let moved = (0..self.moves.len()).filter(|dof| self.moves[*dof]);
+        for dof in moved {
+            groups.entry(together.of(dof)).or_default().dofs.push(dof);
+        }
+        for (place, one) in self.loops.iter().enumerate() {
+            let mut steps = one.steps.iter().flatten();
+            let dof = steps.find_map(|step| kinematics.steps[*step].motion.dofs().first());
+            // A loop that no DOF moves is closed or not, whatever the configuration.
+            if let Some(dof) = dof {
+                groups.entry(together.of(*dof)).or_default().loops.push(place);
+            }
+        }
+        for (place, one) in self.couplings.iter().enumerate() {
+            if let Some((dof, _)) = one.terms.first() {
+                groups.entry(together.of(*dof)).or_default().couplings.push(place);
+            }
+        }
+        groups.into_values().collect()
+    }
+
+    /// The number of multiplications of one step of [`Loops::close`] for the largest group of loops.
+    pub fn work(&self) -> usize {
+        let of_group = |group: &Group| group.num_rows().saturating_mul(group.dofs.len().pow(2));
+        self.groups.iter().map(of_group).max().unwrap_or(0)
+    }
+
+    /// Whether there is neither a loop nor a coupling.
+    pub fn is_empty(&self) -> bool {
+        self.loops.is_empty() && self.couplings.is_empty()
+    }
+
+    /// Number of loops.
+    pub fn num_loops(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// The DOFs that a loop or coupling depends on, ascending.
+    pub fn dofs(&self) -> impl Iterator<Item = DofIdx> + '_ {
+        let moved = self.moves.iter().enumerate().filter(|(_, moves)| **moves);
+        moved.map(|(dof, _)| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX)))
+    }
+}
+
+/// Sets of DOFs that are joined: for each DOF, another of its set, or itself.
+struct Together(Vec<usize>);
+
+impl Together {
+    fn of(&mut self, mut dof: usize) -> usize {
+        while self.0[dof] != dof {
+            self.0[dof] = self.0[self.0[dof]];
+            dof = self.0[dof];
+        }
+        dof
+    }
+
+    fn join(&mut self, dofs: impl Iterator<Item = usize>, moves: &mut [bool]) {
+        let mut first = None;
+        for dof in dofs {
+            moves[dof] = true;
+            let of = self.of(dof);
+            let with = *first.get_or_insert(of);
+            self.0[of] = with;
+        }
+    }
+}
+
+fn isometry(pose: &Pose, pointer: String) -> Result<Isometry3<f64>, KinematicsError> {
+    to_isometry(pose).map_err(|error| fault(pointer, error.to_string()))
+}
+
+fn fault(pointer: String, fault: String) -> KinematicsError {
+    KinematicsError { module: ModuleKind::Loops, pointer, fault }
+}
+
+impl ForwardKinematics {
+    /// The indices of the steps that move one link and not the other, for each of two links, from the link to the root.
+    fn steps_between(&self, links: [usize; 2]) -> [Vec<usize>; 2] {
+        let [mut a, mut b] = links.map(|link| {
+            let mut steps = Vec::new();
+            let mut at = link;
+            while let Some(step) = self.step_of.get(at).copied().flatten() {
+                steps.push(step);
+                at = self.steps[step].parent;
+            }
+            steps
+        });
+        while let (Some(last), Some(other)) = (a.last(), b.last())
+            && last == other
+        {
+            a.pop();
+            b.pop();
+        }
+        [a, b]
+    }
+}
+
+impl Group {
+    pub(super) fn num_rows(&self) -> usize {
+        ROWS * self.loops.len() + self.couplings.len()
+    }
+}

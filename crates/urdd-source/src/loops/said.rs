@@ -1,0 +1,41 @@
+//! What a file says of loops.
+
+use std::ops::Range;
+
+use crate::error::SourceError;
+use urdd_directory::loops_toml::File;
+use urdd_directory::position::position;
+
+/// What a file says of loops.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Said {
+    /// The loops.
+    pub file: File,
+    /// Joints that have another type than the URDF says, by name.
+    pub retyped: Vec<(String, Retyped)>,
+    /// The file, as it is shown, and its text. `None` if the URDF itself says it.
+    pub text: Option<(String, String)>,
+}
+
+impl Said {
+    /// The error about a place of the file, if it is known.
+    pub fn error(&self, place: Option<Range<usize>>, urdf: &str, fault: String) -> SourceError {
+        let (file, at) = match &self.text {
+            Some((file, text)) => (file.clone(), place.map(|place| position(text, place.start))),
+            None => (urdf.to_owned(), None),
+        };
+        let (line, column) = at.map_or((1, 1), |at| (at.line, at.column));
+        SourceError::Import { file, line, column, fault }
+    }
+}
+
+/// What a joint is to be instead of what the URDF says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retyped {
+    /// A ball.
+    Spherical,
+    /// Fixed.
+    Fixed,
+    /// Two hinges one after the other, about axes of the joint's frame.
+    Universal([char; 2]),
+}
