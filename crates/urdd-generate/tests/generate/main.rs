@@ -8,6 +8,7 @@ mod connections;
 mod distinct;
 mod free;
 mod in_memory;
+mod loops;
 mod meshes_names;
 mod shape_documents;
 mod shapes_rounding;

@@ -8,6 +8,7 @@ mod closed_forms;
 mod configurations;
 mod faults;
 mod fill;
+mod loops;
 mod naive_kinematics;
 mod properties;
 mod rotations;

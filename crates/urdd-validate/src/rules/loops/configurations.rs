@@ -1,10 +1,9 @@
-use crate::reference::loops::{Gap, sum};
 use crate::rules::prelude::*;
 use std::f64::consts::PI;
 use urdd_format::loops::LoopsModule;
 
+use urdd_kinematics::ConfigurationSpace;
 use urdd_kinematics::rotation::from_rotation_vector;
-use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
 declare_rule! {
     /// A configuration of `loops_module` has not one value for each DOF.
@@ -40,24 +39,10 @@ declare_rule! {
         ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), ModuleV1(Kind::Chain), ModuleV1(Kind::Bounds), Passed(BND001),
         Passed(BND002), Passed(BND003), Passed(BND004), Passed(LOP006), Passed(LOP013),
     ], check closed_configuration_out_of_bounds,
-
-    /// A loop is open, or a coupling does not hold, in a configuration that is said to be closed.
-    ///
-    /// The finding says how far apart the ends of the loop are. A robot that is shown or simulated there is torn apart, or
-    /// flies away when a simulator pulls it together. Common mistakes: the solver stopped too early; the frame of one end is
-    /// that of the joint and not of the link; the robot was changed and the loops were not.
-    ///
-    /// Close the loops again: `urdd generate` does. If they cannot close, look at the two frames first.
-    LOP008 "loop-open", Error, clause "6.8.6", since "1.4.0",
-    phase Kinematics, needs [
-        ModuleV1(Kind::Loops), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof), Module(Kind::Urdf), ROBOT_SOUND,
-        Passed(CHN001), Passed(CHN003), Passed(CHN006), Passed(CHN008), Passed(CHN009), Passed(CHN010), Passed(DOF007),
-        Passed(LOP001), Passed(LOP003), Passed(LOP004), Passed(LOP007), Passed(LOP011),
-    ], check loop_open,
 }
 
 /// The configurations of the module, each with its place.
-fn configurations(loops: &LoopsModule) -> impl Iterator<Item = (String, &[f64])> {
+pub(super) fn configurations(loops: &LoopsModule) -> impl Iterator<Item = (String, &[f64])> {
     let reference = ("/reference_configuration".to_owned(), &*loops.reference_configuration);
     let samples = loops.closed_samples.iter().enumerate().filter_map(|(place, sample)| {
         let configuration = sample.configuration.as_deref()?;
@@ -164,51 +149,6 @@ fn closed_configuration_out_of_bounds(context: &Context, findings: &mut Findings
             }
             finding_in(Kind::Loops, format!("{pointer}/{idx}"), "a limited DOF cannot be there")
                 .values(format!("{lower:?} to {upper:?}"), format!("{q:?}"))
-                .tolerance(tolerance)
-                .report(findings);
-        }
-    }
-    Some(())
-}
-
-fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
-    let loops = document!(context, Loops)?;
-    let kinematics = ForwardKinematics::new(document!(context, Chain)?, document!(context, Dof)?);
-    let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
-    let reach = reach(context.robot()?, context.tree()?);
-    for (pointer, configuration) in configurations(loops) {
-        let poses = kinematics.link_poses(configuration).map_err(SkipReason::obstacle);
-        let poses = findings.or_skip(poses)?;
-        for (place, one) in loops.loops.iter().enumerate() {
-            let gap = Gap::of(one, &poses, reach)?;
-            if gap.is_closed() {
-                continue;
-            }
-            let message = format!(
-                "the loop `{}` (/loops/{place}) is open here: its ends are {} m and {} rad from where it holds them",
-                one.name,
-                number(gap.position, 4),
-                number(gap.rotation, 4)
-            );
-            let [position, rotation] = gap.most;
-            let (off, most, unit) = match gap.position <= position {
-                true => (gap.rotation, rotation, "rad"),
-                false => (gap.position, position, "m"),
-            };
-            finding_in(Kind::Loops, pointer.clone(), message)
-                .values(format!("at most {most:?} {unit}"), format!("{off:?} {unit}"))
-                .off_by(off, unit)
-                .report(findings);
-        }
-        for (place, coupling) in loops.couplings.iter().enumerate() {
-            let (sum, tolerance) = sum(coupling, configuration)?;
-            if sum.is_finite() && sum.abs() <= tolerance {
-                continue;
-            }
-            let message =
-                format!("the coupling `{}` (/couplings/{place}) does not hold here", coupling.name);
-            finding_in(Kind::Loops, pointer.clone(), message)
-                .values("a sum of 0", format!("{sum:?}"))
                 .tolerance(tolerance)
                 .report(findings);
         }

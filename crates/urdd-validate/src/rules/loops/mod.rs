@@ -4,9 +4,10 @@ mod configurations;
 mod couplings;
 mod ends;
 mod mobility;
+mod open;
 
 use crate::rule::rules;
 
 rules! {
-    ends, couplings, configurations, mobility
+    ends, couplings, configurations, open, mobility
 }
