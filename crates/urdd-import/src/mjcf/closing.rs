@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
 use super::super::model::{Closing, End};
 use super::super::refusal::Fallible;
-use super::body::{Made, RawBody, WORLD};
+use super::body::Made;
 use super::reading::View;
 use urdd_format::loops::LoopKind;
 
@@ -14,13 +14,11 @@ use urdd_format::loops::LoopKind;
 pub struct Placed<'m> {
     poses: Vec<Isometry3<f64>>,
     sites: HashMap<&'m str, usize>,
-    /// The world in the frame of the first body, if that does not move in it.
-    world: Option<Isometry3<f64>>,
 }
 
 impl<'m> Placed<'m> {
     /// Those of a robot that is made.
-    pub fn of(made: &'m Made, all: &[RawBody<'_>]) -> Self {
+    pub fn of(made: &'m Made) -> Self {
         let mut poses: Vec<Isometry3<f64>> = Vec::with_capacity(made.bodies.len());
         for body in &made.bodies {
             let parent = body.parent.and_then(|parent| poses.get(parent));
@@ -28,21 +26,7 @@ impl<'m> Placed<'m> {
         }
         let sites = made.bodies.iter().enumerate().filter(|(_, body)| body.is_frame);
         let sites = sites.map(|(index, body)| (body.name.as_str(), index)).collect();
-        let first = made.index.iter().find(|(_, index)| **index == 0).map(|(raw, _)| &all[*raw]);
-        let is_fixed = |raw: &&RawBody<'_>| {
-            !made.is_floating && raw.joints.is_empty() && raw.parent == Some(WORLD)
-        };
-        let world = first.filter(is_fixed).map(|raw| raw.pose.inverse());
-        Placed { poses, sites, world }
-    }
-
-    /// A body by its raw index, as the body that carries it and its pose there; the world too.
-    fn body(&self, raw: usize, made: &Made) -> Option<(usize, Isometry3<f64>)> {
-        match made.index.get(&raw) {
-            Some(index) => Some((*index, Isometry3::identity())),
-            None if raw == WORLD => Some((0, self.world?)),
-            None => None,
-        }
+        Placed { poses, sites }
     }
 
     /// The loop of a `connect` or `weld` between two bodies, by raw index. `None` if one is not of the robot, or it is of
@@ -53,11 +37,9 @@ impl<'m> Placed<'m> {
         [one, other]: [usize; 2],
         made: &Made,
     ) -> Fallible<Option<Closing>> {
-        let ends = self.body(one, made).zip(self.body(other, made));
-        let Some(((a, in_a), (b, in_b))) = ends.filter(|((a, _), (b, _))| a != b) else {
-            return Ok(None);
-        };
-        let (at_a, at_b) = (self.poses[a] * in_a, self.poses[b] * in_b);
+        let ends = made.index.get(&one).copied().zip(made.index.get(&other).copied());
+        let Some((a, b)) = ends.filter(|(a, b)| a != b) else { return Ok(None) };
+        let (at_a, at_b) = (self.poses[a], self.poses[b]);
         let anchor = view.numbers::<3>("anchor")?.unwrap_or_default();
         let (kind, frames) = match view.element.tag.as_str() {
             "connect" => {
@@ -80,7 +62,7 @@ impl<'m> Placed<'m> {
             _ => return Ok(None),
         };
         let [frame_a, frame_b] = frames;
-        let ends = [End { body: a, frame: in_a * frame_a }, End { body: b, frame: in_b * frame_b }];
+        let ends = [End { body: a, frame: frame_a }, End { body: b, frame: frame_b }];
         Ok(Some(closing(view, kind, ends)))
     }
 

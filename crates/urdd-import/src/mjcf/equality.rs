@@ -29,7 +29,7 @@ pub fn equalities<'d>(
     account: &Account,
 ) -> Fallible<()> {
     let mut closings = Charged::default();
-    let placed = Placed::of(made, all);
+    let placed = Placed::of(made);
     for element in root.sections("equality") {
         let is_tie = matches!(element.tag.as_str(), "connect" | "weld" | "distance");
         if !is_tie {

@@ -6,9 +6,10 @@ use nalgebra::Isometry3;
 use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, Shape};
+use super::super::model::{Body, Closing, Shape};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
+use super::closing::closing;
 use super::moving::{moving, needs_links, say_turned};
 use super::poses::{Frames, snapped};
 use super::scene::{Placeable, Scene, SdfJointKind, WORLD};
@@ -18,6 +19,8 @@ use super::spanning::branches;
 pub struct Bodies {
     pub bodies: Charged<Body>,
     pub is_held: bool,
+    /// What closes chains.
+    pub closings: Charged<Closing>,
 }
 
 /// Makes bodies: of the world if a joint holds on to it, of links, and of frames.
@@ -27,7 +30,7 @@ pub fn bodies(
     tally: &mut Tally,
     account: &Account,
 ) -> Result<Bodies, Refusal> {
-    let tree = branches(&scene, frames, tally)?;
+    let (tree, outside) = branches(&scene, frames, tally)?;
     let world = scene.links.len();
     let mut at = vec![None; world + 1];
     let mut made: Charged<Body> = Charged::default();
@@ -65,6 +68,13 @@ pub fn bodies(
         poses.push(pose);
         made.push(body, account).or_else(|why| Refusal::at(place, why))?;
     }
+    let mut closings = Charged::default();
+    for outside in outside {
+        if let Some(closing) = closing(&scene, frames, outside, &at, tally)? {
+            let place = closing.place;
+            closings.push(closing, account).or_else(|why| Refusal::at(place, why))?;
+        }
+    }
     for (link, index) in at.iter().enumerate().take(world) {
         let Some(index) = *index else { continue };
         let shapes = std::mem::take(&mut scene.links[link].shapes);
@@ -89,7 +99,7 @@ pub fn bodies(
         let charged = made.push(Body { is_frame: true, ..body }, account);
         charged.or_else(|why| Refusal::at(node.place, why))?;
     }
-    Ok(Bodies { is_held: at[world].is_some(), bodies: made })
+    Ok(Bodies { is_held: at[world].is_some(), bodies: made, closings })
 }
 
 /// A shape in the frame of its link.

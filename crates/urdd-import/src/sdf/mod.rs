@@ -3,6 +3,7 @@
 mod assets;
 mod bodies;
 mod chosen;
+mod closing;
 pub mod fault;
 mod included;
 mod inertial;
@@ -60,6 +61,7 @@ fn made(reader: &mut SdfReader, file: TextFile, options: &ImportOptions) -> Resu
         name,
         files: std::mem::take(&mut reader.files),
         is_floating: !made.is_held && !is_static,
+        closings: made.closings,
         bodies: made.bodies,
         assets: std::mem::take(&mut reader.assets.files),
         elements: std::mem::take(&mut reader.kept),

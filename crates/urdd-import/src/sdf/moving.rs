@@ -104,7 +104,7 @@ fn name_of(joint: &Joint, name: &str, which: usize) -> String {
 }
 
 /// The direction of an axis in the joint's frame.
-fn direction(
+pub fn direction(
     scene: &Scene,
     frames: &Frames,
     joint: usize,

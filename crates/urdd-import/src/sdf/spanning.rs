@@ -2,7 +2,6 @@
 
 use super::super::features::{self, Tally};
 use super::super::refusal::Refusal;
-use super::libsdformat::REFUSED;
 use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
 
@@ -17,14 +16,26 @@ pub struct Branch {
     pub is_turned: bool,
 }
 
-/// The branches of a scene: each link once, and the world if a joint holds on to it.
+/// A joint that closes a chain, so that it is no branch, and its links; the number of links means the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outside {
+    pub joint: usize,
+    pub parent: usize,
+    pub child: usize,
+}
+
+/// The branches of a scene, and the joints that are none: each link once, and the world if a joint holds on to it.
 ///
 /// Joints are taken in the order of the file, those first that are the first to hold their child, so that few are turned
-/// round. One that closes a chain is left out.
+/// round.
 ///
 /// # Errors
 /// If a joint names what is not there.
-pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec<Branch>, Refusal> {
+pub fn branches(
+    scene: &Scene,
+    frames: &Frames,
+    tally: &mut Tally,
+) -> Result<(Vec<Branch>, Vec<Outside>), Refusal> {
     let world = scene.links.len();
     let mut sets = Sets::new(world + 1);
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); world + 1];
@@ -37,27 +48,11 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec
             around[child].push((parent, index, true));
             is_child[child] = true;
         } else {
-            left_out.push((index, parent, child));
+            left_out.push(Outside { joint: index, parent, child });
         }
     }
     around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
-    left_out.sort_unstable();
-    for (index, parent, child) in left_out {
-        let node = &scene.nodes[scene.joints[index].node];
-        tally.count(features::CLOSED);
-        let [parent, child] = [parent, child].map(|link| {
-            scene.links.get(link).map_or(WORLD, |link| scene.nodes[link.node].name.as_str())
-        });
-        if parent == child {
-            let text = format!("{REFUSED}joint `{}` has `{child}` at both ends", node.name);
-            tally.remark(node.place, text);
-        }
-        let text = format!(
-            "the joint `{}` between `{parent}` and `{child}` is left out: it closes a chain",
-            node.name
-        );
-        tally.remark(node.place, text);
-    }
+    left_out.sort_unstable_by_key(|outside| outside.joint);
     let is_held = !around[world].is_empty();
     let canonical = frames.links[0].unwrap_or_default();
     let main = sets.of(if is_held { world } else { canonical });
@@ -99,7 +94,7 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Vec
             }
         }
     }
-    Ok(branches)
+    Ok((branches, left_out))
 }
 
 /// A joint, the link that it is on, and its child.

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use nalgebra::Vector3;
+use urdd_format::loops::LoopKind;
+
 use super::mjcf::of_text;
 use crate::features::{self, Feature};
 use crate::model::{Joint, Model};
@@ -247,19 +250,90 @@ fn ties_say_what_they_tie() {
         )
     };
     for (equality, said, closed) in [
+        (r#"<connect name="loop" body1="rod" body2="arm" anchor="0 0 1"/>"#, "", 1),
         (
-            r#"<connect name="loop" body1="rod" body2="arm" anchor="0 0 1"/>"#,
-            "the connect `loop` of `rod` and `arm` at 0 0 1 of `rod` closes a chain",
-            1,
+            r#"<distance name="rope" body1="rod" body2="arm"/>"#,
+            "the distance `rope` of `rod` and `arm` closes a chain, in another way than is read here",
+            0,
         ),
-        (r#"<weld body1="rod"/>"#, "the weld of `rod` and `world` closes a chain", 1),
+        (r#"<weld body1="rod"/>"#, "", 1),
         (r#"<weld body1="cart" body2="arm"/>"#, "follows a body that a program moves", 0),
         (r#"<weld body1="arm" body2="rod" active="false"/>"#, "is not active", 0),
     ] {
         let model = read(&text(equality));
         assert!(remarks(&model).contains(said), "{}", remarks(&model));
         assert_eq!(model.tally.number_of(features::CLOSED), closed, "{equality}");
+        assert_eq!(model.closings.len(), closed, "{equality}");
+        assert_eq!(model.tally.number_of(features::TIES), 1 - closed, "{equality}");
         // The world is not a body of the robot.
         assert_eq!(model.tally.number_of(features::BODIES), 2);
     }
+}
+
+/// A crank and a rod on a base that stands in the world, the rod turned by 90 degrees about x.
+fn linkage(equality: &str) -> Model {
+    read(&format!(
+        r#"<mujoco><compiler angle="radian"/><worldbody><body name="base" pos="1 2 3"><geom size="0.1"/><site name="s" pos="0.5 0 0"/>
+        <body name="crank" pos="0.1 0 0"><joint name="a" axis="0 0 1" ref="0.25"/><geom size="0.1"/>
+        <body name="rod" pos="0.2 0 0" quat="1 1 0 0"><joint name="b" axis="0 0 1"/><geom size="0.1"/><site name="t" pos="0 0.3 0"/>
+        </body></body></body></worldbody><equality>{equality}</equality></mujoco>"#
+    ))
+}
+
+#[test]
+fn what_closes_a_chain_has_its_frames_in_both_bodies() {
+    let frames = |equality: &str| {
+        let model = linkage(equality);
+        let [closing] = &model.closings[..] else { panic!("{}", remarks(&model)) };
+        let ends = closing.ends.map(|end| (model.bodies[end.body].name.clone(), end.frame));
+        (closing.kind, ends)
+    };
+    let near = |found: Vector3<f64>, expected: [f64; 3]| {
+        assert!((found - Vector3::from(expected)).norm() < 1e-12, "{found}, not {expected:?}");
+    };
+    // A point of the rod, in the base where the model has it: (0.1 + 0.2, 0, 0) and (0, 0, 0.3) turned about x.
+    let (kind, [(one, a), (other, b)]) =
+        frames(r#"<connect body1="rod" body2="base" anchor="0 0.3 0"/>"#);
+    assert_eq!((kind, &*one, &*other), (LoopKind::Spherical, "rod", "base"));
+    near(a.translation.vector, [0.0, 0.3, 0.0]);
+    near(b.translation.vector, [0.3, 0.0, 0.3]);
+    // The world, in which the base stands.
+    let (_, [_, (other, b)]) = frames(r#"<connect body1="rod" anchor="0 0.3 0"/>"#);
+    assert_eq!(other, "world");
+    near(b.translation.vector, [1.3, 2.0, 3.3]);
+    // A weld where the model has it, held at a point of the second body.
+    let (kind, [(_, a), (_, b)]) = frames(r#"<weld body1="base" body2="rod" anchor="0 0.1 0"/>"#);
+    assert_eq!(kind, LoopKind::Fixed);
+    near(a.translation.vector, [0.3, 0.0, 0.1]);
+    near(b.translation.vector, [0.0, 0.1, 0.0]);
+    assert!((a.rotation.angle() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    assert_eq!(b.rotation.angle(), 0.0);
+    // And where it says.
+    let (_, [(_, a), _]) = frames(r#"<weld body1="base" body2="rod" relpose="0.4 0 0 1 0 0 0"/>"#);
+    near(a.translation.vector, [0.4, 0.0, 0.0]);
+    assert_eq!(a.rotation.angle(), 0.0);
+    let (kind, ends) = frames(r#"<connect site1="s" site2="t"/>"#);
+    assert_eq!((kind, &*ends[0].0, &*ends[1].0), (LoopKind::Spherical, "s", "t"));
+}
+
+#[test]
+fn a_polynomial_of_joints_is_an_equation() {
+    let model =
+        linkage(r#"<joint name="cam" joint1="b" joint2="a" polycoef="0.1 0.2 0.3 0.4 0.5"/>"#);
+    let [coupled] = &model.couplings[..] else { panic!("{}", remarks(&model)) };
+    let value = |a: f64, b: f64| {
+        let at = |name: &str| if name == "a" { a } else { b };
+        let terms = coupled.terms.iter().map(|(name, coefficients)| {
+            let powers = coefficients.iter().enumerate();
+            powers.map(|(k, c)| c * at(name).powi(k as i32 + 1)).sum::<f64>()
+        });
+        coupled.constant + terms.sum::<f64>()
+    };
+    for a in [-1.0, 0.0, 0.25, 0.7] {
+        let x: f64 = a - 0.25;
+        let b = 0.1 + 0.2 * x + 0.3 * x.powi(2) + 0.4 * x.powi(3) + 0.5 * x.powi(4);
+        assert!(value(a, b).abs() < 1e-14, "{}", value(a, b));
+        assert!((value(a, b + 1.0).abs() - 1.0).abs() < 1e-14);
+    }
+    assert_eq!(model.tally.number_of(features::POLYNOMIALS), 1);
 }
