@@ -19,6 +19,9 @@ struct Feature {
 }
 
 const MIMIC: How = Otherwise("as equality constraints, which hold in simulation only");
+const CLOSED: How = Otherwise(
+    "hinges, balls and welds as `connect` and `weld`, in simulation only; start in the keyframe `closed`",
+);
 const CHAIN: How = Otherwise("as a chain of joints of one DOF, and a ball joint");
 const SLIDES: How = Otherwise("as three slides and a ball joint");
 const PLANAR: How = Otherwise("as two slides and a hinge");
@@ -72,7 +75,7 @@ impl Feature {
     }
 }
 
-const TABLE: [Feature; 23] = [
+const TABLE: [Feature; 24] = [
     Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 5]),
     Feature::new(
         "colours of visual geometry",
@@ -158,6 +161,14 @@ const TABLE: [Feature; 23] = [
         "other elements that URDF does not define, such as transmissions",
         other_elements,
         [Yes, Yes, No, No, CUSTOM],
+    ),
+    Feature::new(
+        "closed chains, and couplings of joints",
+        |of| {
+            let loops = of.robot.loops().ok().flatten();
+            loops.map_or(0, |module| module.loops.len() + module.couplings.len())
+        },
+        [No, No, CLOSED, No, No],
     ),
     // By format, in the order of `Format::ALL`.
     Feature {

@@ -9,6 +9,7 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
 use urdd_document::kept::{Kept, keep};
 use urdd_document::urdd::Urdd;
+use urdd_format::loops::LoopsModule;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::{ModuleKind, Profile};
 use urdd_format::shape_kind::ShapeKind;
@@ -30,6 +31,7 @@ pub struct Robot {
     motion: OnceLock<Arc<Motion>>,
     configurations: OnceLock<Configurations>,
     pub(super) named: OnceLock<Vec<NamedConfiguration>>,
+    pub(super) loops: OnceLock<Option<LoopsModule>>,
     /// The largest speeds, and the largest efforts.
     pub(super) limits: OnceLock<[Vec<f64>; 2]>,
     pub(super) masses: OnceLock<Vec<LinkMass>>,
@@ -74,6 +76,7 @@ impl Robot {
             motion: OnceLock::new(),
             configurations: OnceLock::new(),
             named: OnceLock::new(),
+            loops: OnceLock::new(),
             limits: OnceLock::new(),
             masses: OnceLock::new(),
             shapes: Default::default(),

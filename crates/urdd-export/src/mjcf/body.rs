@@ -33,6 +33,8 @@ pub(super) struct Bodies<'a> {
     /// Paths that already have an asset.
     named: HashSet<String>,
     inertials: Vec<Option<Element>>,
+    /// For each link, sites besides its own.
+    pub sites: Vec<Vec<Element>>,
     /// Links with visual geometry that is left out.
     invisible: Vec<String>,
     /// Whether moments of inertia violate the triangle inequality.
@@ -59,6 +61,7 @@ impl<'a> Bodies<'a> {
             named: HashSet::new(),
             inertials,
             invisible: Vec::new(),
+            sites: vec![Vec::new(); subject.links.len()],
             balanced,
             notes,
         })
@@ -132,6 +135,7 @@ impl<'a> Bodies<'a> {
         }
         element.extend(joints);
         element.extend(site(subject, self.options.sensors, link));
+        element.extend(std::mem::take(&mut self.sites[link]));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
@@ -235,7 +239,7 @@ fn primitive(geom: Element, pose: &Isometry3<f64>, primitive: Primitive) -> Elem
     geom.with("size", numbers(&size))
 }
 
-fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
+pub(super) fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
     let position = pose.translation.vector;
     let q = pose.rotation.quaternion();
     element.with("pos", numbers(position.as_slice())).with("quat", numbers(&[q.w, q.i, q.j, q.k]))
@@ -249,7 +253,7 @@ fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
 }
 
 /// The site of a frame of that name.
-fn site_named(frame: &str) -> Element {
+pub(super) fn site_named(frame: &str) -> Element {
     Element::new("site").with("name", frame).with("group", "4")
 }
 

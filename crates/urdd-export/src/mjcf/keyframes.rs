@@ -12,6 +12,9 @@ use urdd_xml::writer::Element;
 /// The name of the keyframe of a robot whose URDD names none.
 const DEFAULT: &str = "default";
 
+/// The name of the keyframe in which loops are closed.
+const CLOSED: &str = "closed";
+
 /// A keyframe for each named configuration. Without one, actuators, a free base and a locked joint get the default configuration,
 /// which differs from MuJoCo's zeros where 0 is out of bounds.
 pub(super) fn keyframes(
@@ -30,6 +33,15 @@ pub(super) fn keyframes(
     if named.is_empty() && is_needed {
         let zero = subject.robot.configurations()?.zero();
         keyframes.push(keyframe(subject, DEFAULT, actuators, &zero, stand)?);
+    }
+    // One in which the loops are closed comes first: MuJoCo pulls at those that are open.
+    if let Some(loops) = subject.robot.loops()? {
+        let mut name = CLOSED.to_owned();
+        while named.iter().any(|named| named.name.as_str() == name) {
+            name.push('_');
+        }
+        let reference = &loops.reference_configuration;
+        keyframes.push(keyframe(subject, &name, actuators, reference, stand)?);
     }
     for named in named {
         let name = named.name.as_str();

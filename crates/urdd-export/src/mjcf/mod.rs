@@ -12,6 +12,7 @@ mod body;
 #[doc(hidden)]
 pub mod inertia;
 mod keyframes;
+mod loops;
 #[doc(hidden)]
 pub mod surface;
 
@@ -31,6 +32,8 @@ const WORLD: &str = "the root link is called `world`, which is MuJoCo's own body
 pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export, ExportError> {
     let stand = Stand::new(subject, options.scene_of.is_some())?;
     let mut bodies = Bodies::new(subject, options)?;
+    let closings = loops::closings(subject, &mut bodies.notes)?;
+    bodies.sites = closings.sites;
     let world = bodies.world(stand.base_height)?;
     let mut notes = bodies.notes;
     if subject.is_floating && !subject.has_free_base() {
@@ -52,7 +55,9 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push(classes(subject));
     root.push_filled(bodies.assets);
     root.push(world);
-    root.push_filled(equality(subject, &mut notes));
+    let mut equality = equality(subject, &mut notes);
+    equality.extend(closings.equalities);
+    root.push_filled(equality);
     root.push_filled(contact(subject));
     let mut what = format!("Geoms for collision: {}.", subject.shapes);
     if let Some(kind) = options.model.actuators {
