@@ -8,6 +8,7 @@ mod choices;
 mod drake;
 mod fitted;
 mod fitted_spheres;
+mod front_ends;
 mod gazebo;
 mod gazebo_foreign;
 mod hostile_names;
