@@ -68,7 +68,7 @@ where
 
 /// Takes one of these words of the library.
 pub fn parser(words: &[Word]) -> PossibleValuesParser {
-    let value = |(word, about): &Word| match *about {
+    let value = |(word, about): &Word| match about.trim().trim_end_matches('.') {
         "" => PossibleValue::new(*word),
         about => PossibleValue::new(*word).help(about),
     };

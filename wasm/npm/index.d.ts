@@ -236,7 +236,8 @@ export interface ExportOptions {
   package?: string;
   /**
    * MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose files
-   * Kilted reads too.
+   * Kilted reads too. `humble`: MoveIt 2.5, ros2_control 2; `jazzy`: MoveIt 2.12, ros2_control 4; Kilted reads the same
+   * files.
    */
   ros?: "humble" | "jazzy";
   // These are written by hand.

@@ -9,14 +9,11 @@ use urdd_directory::export_toml::ActuatorKind;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::shape_kind::UnknownShapeKind;
-use urdd_format::word::{UnknownWord, with_word};
+use urdd_format::word::{UnknownWord, Word, with_word};
 use urdd_robot::ShapeKind;
 
 use crate::setup::gains::BANDWIDTH;
 use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
-
-/// A word that an option takes, and what it says; empty where the word says it.
-pub type Word = (&'static str, &'static str);
 
 /// The kinds of shapes.
 pub const KINDS: [Word; 6] = [
@@ -49,14 +46,6 @@ pub const REASONS: &[Word] = &[
     ("default", "In contact in the default configuration: zero, clamped to the bounds"),
     ("never", "In contact in no sampled configuration"),
 ];
-
-const ACTUATORS: &[Word] = &[
-    ("position", "They are told positions, rad or m"),
-    ("velocity", "They are told velocities, rad/s or m/s"),
-    ("motor", "They are told torques or forces, N m or N"),
-];
-
-const ROS: &[Word] = &[("humble", ""), ("jazzy", "")];
 
 const ALL: &[Format] = Format::ALL;
 
@@ -145,7 +134,7 @@ choices! {
     /// stay. Not for formats of spheres.
     root: Option<String> = None, "LINK" Kind::Text, TREE;
     /// MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
-    actuators: Option<ActuatorKind> = None, "KIND" Kind::Word(ACTUATORS), &[Format::Mjcf, Format::Usd];
+    actuators: Option<ActuatorKind> = None, "KIND" Kind::Word(ActuatorKind::WORDS), &[Format::Mjcf, Format::Usd];
     /// MJCF and USD: the frequency below which a joint follows its actuator, Hz.
     /// Default: that of `NAME.export.toml`, or 10.
     bandwidth: Option<f64> = None, "HZ" Kind::Number(BANDWIDTH), ALL;
@@ -160,7 +149,7 @@ choices! {
     package: Option<String> = None, "NAME" Kind::Text, &[Format::Moveit, Format::Drake];
     /// MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose files Kilted
     /// reads too.
-    ros: Option<Ros> = None, "DISTRIBUTION" Kind::Word(ROS), &[Format::Moveit];
+    ros: Option<Ros> = None, "DISTRIBUTION" Kind::Word(Ros::WORDS), &[Format::Moveit];
 }
 
 /// What front ends know of an option.

@@ -82,7 +82,7 @@ pub mod yaml;
 use urdd_robot::Robot;
 
 pub use carried::carried_table;
-pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS, Word};
+pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
 pub use format::Format;
@@ -101,7 +101,7 @@ pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states
 pub use srdf::merge::{MergedSrdf, merge_srdf};
 pub use srdf::read::SrdfError;
 pub use urdd_directory::export_toml::ActuatorKind;
-pub use urdd_format::word::UnknownWord;
+pub use urdd_format::word::{UnknownWord, Word};
 
 // What most files use.
 use gains::Gains;

@@ -132,7 +132,8 @@ def export(
         package: MoveIt: the name of the package. Default: the name of the folder. Drake: writes ``package.xml`` and a
             model directive beside the file.
         ros: MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose
-            files Kilted reads too.
+            files Kilted reads too. ``humble``: MoveIt 2.5, ros2_control 2; ``jazzy``: MoveIt 2.12, ros2_control 4;
+            Kilted reads the same files.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
             URDD ``NAME``, if it is there.
         force: overwrites existing files.

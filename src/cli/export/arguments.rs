@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, ValueEnum};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use serde_json::Value;
 
 use crate::cli::words::parser;
@@ -19,7 +19,7 @@ use urdd_export::{CHOICES, Choice, Format, Kind};
 )]
 pub struct ExportArguments {
     /// The format.
-    #[arg(value_enum)]
+    #[arg(value_parser = targets())]
     pub format: Target,
 
     /// A URDD: a folder or a zip archive.
@@ -150,35 +150,13 @@ fn argument(of: &'static Choice) -> Arg {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Target {
-    /// Pairs of links that need no check, for MoveIt.
-    Srdf,
-    /// URDF of the robot, with the URDD's shapes as collision geometry.
-    Urdf,
-    /// The same for Drake, with collision filter groups.
-    Drake,
-    /// For MuJoCo: bodies, joints, shapes, excluded pairs.
-    Mjcf,
-    /// Spheres and ignored pairs per link, for cuRobo.
-    Curobo,
-    /// Spheres per link, in Foam's format.
-    Foam,
-    /// URDF of the robot, with these spheres as collision geometry.
-    Spherized,
-    /// A configuration package for MoveIt 2: a folder.
-    Moveit,
-    /// For Gazebo and Drake: links, joints, shapes.
-    Sdf,
-    /// For Isaac, Newton and Omniverse: a `.usda` of rigid bodies, joints, shapes, filtered pairs.
-    Usd,
-    /// What exports need and the URDD does not say, guessed: groups, end effectors, tool frames.
-    Init,
+/// The words of formats, and that for what is no robot.
+fn targets() -> impl TypedValueParser<Value = Target> {
+    let init =
+        "What exports need and the URDD does not say, guessed: groups, end effectors, tool frames";
+    parser(&[Format::WORDS, &[("init", init)]].concat()).map(|word| Target(word.parse().ok()))
 }
 
-impl Target {
-    /// The format, which has the same word; `None` for what is no robot.
-    pub fn format(self) -> Option<Format> {
-        self.to_possible_value()?.get_name().parse().ok()
-    }
-}
+/// A format; `None` for what is no robot.
+#[derive(Clone, Copy)]
+pub struct Target(pub Option<Format>);

@@ -9,14 +9,14 @@ use serde_json::Value;
 use super::inputs;
 use super::output::{self, Failure, about, counted, shown};
 pub use arguments::ExportArguments;
-use arguments::{Target, name_of};
+use arguments::name_of;
 use urdd_directory::outputs::{self, Output, Target as Place};
 use urdd_export::{Choices, Export, Format, Note, Setup, export, merge_srdf};
 use urdd_robot::Robot;
 
 /// Runs `urdd export`.
 pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
-    match arguments.format.format() {
+    match arguments.format.0 {
         Some(format) => write_robot(arguments, format)?,
         None => write_setup(arguments)?,
     }
@@ -24,13 +24,12 @@ pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
 }
 
 fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {
-    let target = arguments.format;
     let output = arguments.output.as_deref().ok_or("give the file to write with -o")?;
-    let is_alone = matches!(target, Target::Srdf | Target::Curobo | Target::Foam);
+    let is_alone = matches!(format, Format::Srdf | Format::Curobo | Format::Foam);
     if output.as_os_str() == "-" && !is_alone {
         Err("this format writes other files beside its own: give a file with -o")?;
     }
-    if arguments.update && !matches!(target, Target::Srdf | Target::Moveit) {
+    if arguments.update && !matches!(format, Format::Srdf | Format::Moveit) {
         Err("--update is for srdf and moveit only; --force overwrites a file")?;
     }
     let robot = inputs::open(&arguments.path)?;
@@ -124,9 +123,9 @@ fn write(arguments: &ExportArguments, output: &Path, mut made: Export) -> Result
         });
     }
     files.push(Output { path: own, bytes: made.text.as_bytes(), replaces: force || is_merged });
-    let also = match arguments.format {
-        Target::Srdf => "; --update replaces the pairs of links in it",
-        Target::Moveit => {
+    let also = match arguments.format.0 {
+        Some(Format::Srdf) => "; --update replaces the pairs of links in it",
+        Some(Format::Moveit) => {
             "; --update replaces the pairs of links in the SRDF, and leaves other files as they are"
         }
         _ => "",

@@ -12,8 +12,9 @@ fn about(choice: &Choice, code: &str) -> String {
     let mut text = choice.about(false);
     if let Kind::Word(words) = choice.kind {
         let said = words.iter().filter(|(_, about)| !about.is_empty());
-        let said: Vec<String> =
-            said.map(|(word, about)| format!("`{word}`: {}", lower(about))).collect();
+        let said: Vec<String> = said
+            .map(|(word, about)| format!("`{word}`: {}", lower(about.trim().trim_end_matches('.'))))
+            .collect();
         text += &if said.is_empty() { String::new() } else { format!(" {}.", said.join("; ")) };
     }
     if choice.kind == Kind::Detail {
