@@ -11,8 +11,9 @@ use super::output::{self, Failure, about, counted, shown};
 pub use arguments::ExportArguments;
 use arguments::name_of;
 use urdd_directory::outputs::{self, Output, Target as Place};
-use urdd_export::{Choices, Export, Format, Note, Setup, export, merge_srdf};
+use urdd_export::{Choices, Export, Format, Note, Setup, export};
 use urdd_robot::Robot;
+use urdd_srdf::merge_srdf;
 
 /// Runs `urdd export`.
 pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::made::export;
-use urdd_export::{Choices, Export, ExportError, Format, Note, merge_srdf};
+use urdd_export::{Choices, Export, ExportError, Format, Note};
 use urdd_robot::Robot;
+use urdd_srdf::merge_srdf;
 
 use testkit::robots::made_of;
 use testkit::trials::sample;

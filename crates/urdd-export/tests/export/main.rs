@@ -45,7 +45,6 @@ mod spheres_judge;
 mod spheres_surface;
 mod srdf;
 mod srdf_import;
-mod srdf_merge;
 mod states;
 mod textured_box;
 mod textures;
