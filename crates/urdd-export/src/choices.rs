@@ -89,9 +89,8 @@ macro_rules! choices {
             default: || <$type as Chosen>::write(&$default),
             is_chosen: |choices| choices.$name != $default,
             check: |choices| choices.$name.check($kind),
-            set: |choices, value, of| {
-                choices.$name = Chosen::read(value, of)?;
-                Ok(())
+            set: |choices, value| {
+                Some(Chosen::read(value, $kind)?.map(|read| choices.$name = read))
             },
         },)+];
     };
@@ -167,7 +166,7 @@ pub struct Choice {
     pub default: fn() -> Value,
     pub(super) is_chosen: fn(&Choices) -> bool,
     pub(super) check: fn(&Choices) -> Result<(), OutOfRange>,
-    set: fn(&mut Choices, &Value, &Choice) -> Result<(), ChoiceError>,
+    set: fn(&mut Choices, &Value) -> Option<Result<(), ChoiceError>>,
 }
 
 /// What an option takes, as JSON.
@@ -244,25 +243,27 @@ impl Choice {
     /// # Errors
     /// If it does not take the value.
     pub fn set(&self, choices: &mut Choices, value: &Value) -> Result<(), ChoiceError> {
-        if value.is_null() { Ok(()) } else { (self.set)(choices, value, self) }
-    }
-
-    fn wrong(&self) -> ChoiceError {
-        let expected = match self.kind {
-            Kind::Flag => "true or false",
-            Kind::Number(_) => "a number",
-            Kind::Word(_) | Kind::Text => "a text",
-            Kind::Words(_) => "a list of words",
-            Kind::Fit => "two numbers",
-            Kind::Detail => "true, false or a number",
-        };
-        ChoiceError::Type { option: self.name, expected }
+        if value.is_null() {
+            return Ok(());
+        }
+        (self.set)(choices, value).unwrap_or_else(|| {
+            let expected = match self.kind {
+                Kind::Flag => "true or false",
+                Kind::Number(_) => "a number",
+                Kind::Word(_) | Kind::Text => "a text",
+                Kind::Words(_) => "a list of words",
+                Kind::Fit => "two numbers",
+                Kind::Detail => "true, false or a number",
+            };
+            Err(ChoiceError::Type { option: self.name, expected })
+        })
     }
 }
 
 /// What an option is in the library, from and to JSON.
 trait Chosen: Sized {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError>;
+    /// `None` for a value of another type.
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>>;
 
     fn write(&self) -> Value {
         Value::Null
@@ -273,9 +274,47 @@ trait Chosen: Sized {
     }
 }
 
+/// How a value of a type is read, and, where one is a default, written.
+macro_rules! chosen {
+    ($($type:ty: $read:expr $(, $write:expr)?;)*) => {$(
+        impl Chosen for $type {
+            fn read(value: &Value, _kind: Kind) -> Option<Result<Self, ChoiceError>> {
+                let read: fn(&Value) -> Option<Result<Self, ChoiceError>> = $read;
+                read(value)
+            }
+
+            $(fn write(&self) -> Value {
+                let write: fn(&Self) -> Value = $write;
+                write(self)
+            })?
+        }
+    )*};
+}
+
+chosen! {
+    bool: |value| value.as_bool().map(Ok), |of| (*of).into();
+    String: |value| value.as_str().map(|text| Ok(text.to_owned()));
+    ActuatorKind: |value| value.as_str().map(|word| Ok(word.parse()?));
+    Ros: |value| value.as_str().map(|word| Ok(word.parse()?));
+    Shapes: |value| value.as_str().map(|word| Ok(word.parse()?)), |of| of.word().into();
+    Vec<SkippedReason>: |value| {
+        let words: Option<Vec<&str>> = value.as_array()?.iter().map(Value::as_str).collect();
+        Some(words?.into_iter().map(|word| Ok(word.parse()?)).collect())
+    };
+    Fit: |value| match value.as_array().map(Vec::as_slice) {
+        None if value == &Value::Bool(true) => Some(Ok(Fit::default())),
+        Some([volume, standoff]) => {
+            // JSON has no number that is not finite.
+            let [volume, standoff] = [volume, standoff].map(|of| of.as_f64().unwrap_or(f64::NAN));
+            Some(Fit::new(volume, standoff).map_err(Into::into))
+        }
+        _ => None,
+    }, |of| vec![of.volume, of.standoff].into();
+}
+
 impl<T: Chosen> Chosen for Option<T> {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        T::read(value, choice).map(Some)
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        Some(T::read(value, kind)?.map(Some))
     }
 
     fn check(&self, kind: Kind) -> Result<(), OutOfRange> {
@@ -283,21 +322,10 @@ impl<T: Chosen> Chosen for Option<T> {
     }
 }
 
-impl Chosen for bool {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        value.as_bool().ok_or_else(|| choice.wrong())
-    }
-
-    fn write(&self) -> Value {
-        (*self).into()
-    }
-}
-
 impl Chosen for f64 {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        let number = value.as_f64().ok_or_else(|| choice.wrong())?;
-        number.check(choice.kind)?;
-        Ok(number)
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        let number = value.as_f64()?;
+        Some(number.check(kind).map(|()| number).map_err(Into::into))
     }
 
     fn check(&self, kind: Kind) -> Result<(), OutOfRange> {
@@ -307,8 +335,8 @@ impl Chosen for f64 {
 }
 
 impl Chosen for usize {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        f64::read(value, choice).map(|number| number as usize)
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        Some(f64::read(value, kind)?.map(|number| number as usize))
     }
 
     fn write(&self) -> Value {
@@ -320,63 +348,12 @@ impl Chosen for usize {
     }
 }
 
-impl Chosen for String {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        value.as_str().map(str::to_owned).ok_or_else(|| choice.wrong())
-    }
-}
-
-macro_rules! words {
-    ($($type:ty)*) => {$(
-        impl Chosen for $type {
-            fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-                Ok(value.as_str().ok_or_else(|| choice.wrong())?.parse()?)
-            }
-        }
-    )*};
-}
-
-words! { ActuatorKind Ros SkippedReason }
-
-impl Chosen for Shapes {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        Ok(value.as_str().ok_or_else(|| choice.wrong())?.parse()?)
-    }
-
-    fn write(&self) -> Value {
-        self.word().into()
-    }
-}
-
-impl Chosen for Vec<SkippedReason> {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        let words = value.as_array().ok_or_else(|| choice.wrong())?;
-        words.iter().map(|word| SkippedReason::read(word, choice)).collect()
-    }
-}
-
-impl Chosen for Fit {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
-        // JSON has no number that is not finite.
-        let number = |of: &Value| of.as_f64().unwrap_or(f64::NAN);
-        match value.as_array().map(Vec::as_slice) {
-            None if value == &Value::Bool(true) => Ok(Fit::default()),
-            Some([volume, standoff]) => Ok(Fit::new(number(volume), number(standoff))?),
-            _ => Err(choice.wrong()),
-        }
-    }
-
-    fn write(&self) -> Value {
-        [self.volume, self.standoff].to_vec().into()
-    }
-}
-
 impl Chosen for Detail {
-    fn read(value: &Value, choice: &Choice) -> Result<Self, ChoiceError> {
+    fn read(value: &Value, _kind: Kind) -> Option<Result<Self, ChoiceError>> {
         match value {
-            Value::Bool(true) => Ok(Detail::Full),
-            Value::Bool(false) => Ok(Detail::Nothing),
-            number => Ok(Detail::new(number.as_f64().ok_or_else(|| choice.wrong())?)?),
+            Value::Bool(true) => Some(Ok(Detail::Full)),
+            Value::Bool(false) => Some(Ok(Detail::Nothing)),
+            number => Some(Detail::new(number.as_f64()?).map_err(Into::into)),
         }
     }
 
