@@ -4,88 +4,81 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
+use serde_json::Value;
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
 use urdd_export::{
-    Choices, Detail, ExportError, Fit, Setup, SetupError, SphereBudget, joint_groups_of_srdf,
+    Choice, ChoiceError, Choices, Detail, ExportError, Kind, Setup, SetupError,
+    joint_groups_of_srdf,
 };
 
 use crate::advice;
 use crate::errors::{of_robot, raise};
-use crate::generate::skipped_reasons;
 use crate::robot::Robot;
 use crate::work;
 
 /// The text, its path in a folder, the other files by path, notes, and the report.
 type Made<'py> = (String, Option<String>, Vec<(String, Bound<'py, PyBytes>)>, Vec<String>, String);
 
-/// The options of `urdd.export`, which checks their types.
-#[derive(FromPyObject)]
-pub struct Options {
-    shapes: String,
-    reasons: Option<Vec<String>>,
-    keep_pairs: bool,
-    spheres: Option<usize>,
-    total_spheres: Option<usize>,
-    cover: bool,
-    samples: usize,
-    visuals: bool,
-    detail: Option<f64>,
-    mesh_folder: Option<String>,
-    actuators: Option<String>,
-    bandwidth: Option<f64>,
-    floating_base: bool,
-    merge_fixed: bool,
-    root: Option<String>,
-    fit: Option<(f64, f64)>,
-    sensors: bool,
-    scene: bool,
-    output: Option<PathBuf>,
-    setup: Option<PathBuf>,
-    package: Option<String>,
-    ros: Option<String>,
-    robot_file: Option<String>,
+/// The options of `urdd.export` by name, and the folder where a setup is sought.
+type Options<'py> = Bound<'py, PyDict>;
+
+fn choices(given: &Options, urdd: &Path, robot: &urdd_robot::Robot) -> PyResult<Choices> {
+    let py = given.py();
+    let mut choices = Choices::default();
+    let mut setup: Option<PathBuf> = None;
+    for (name, value) in given {
+        match name.extract::<&str>()? {
+            "output" => choices.output = value.extract()?,
+            "setup" => setup = value.extract()?,
+            _ if value.is_none() => {}
+            name => {
+                let choice = Choice::named(name).map_err(of_value)?;
+                choice.set(&mut choices, &json(choice, &value)?).map_err(|error| match error {
+                    ChoiceError::Shapes(error) => of_robot(py, &error.into()),
+                    error @ ChoiceError::Type { .. } => PyTypeError::new_err(error.to_string()),
+                    error => of_value(error),
+                })?;
+            }
+        }
+    }
+    let setup = Setup::find(setup.as_deref(), urdd, robot);
+    Ok(Choices { setup: setup.map_err(|error| of_setup(py, error))?, ..choices })
 }
 
-impl Options {
-    fn choices(self, py: Python<'_>, urdd: &Path, robot: &urdd_robot::Robot) -> PyResult<Choices> {
-        let setup = Setup::find(self.setup.as_deref(), urdd, robot);
-        let detail = match self.detail {
-            None => Detail::Full,
-            Some(given) => Detail::new(given).map_err(of_value)?,
-        };
-        let fit = self.fit.map(|(volume, standoff)| Fit::new(volume, standoff));
-        let shapes = self.shapes.parse::<urdd_export::Shapes>();
-        let ros = self.ros.map(|word| word.parse());
-        let actuators = self.actuators.map(|word| word.parse());
-        Ok(Choices {
-            shapes: shapes.map_err(|error| of_robot(py, &error.into()))?,
-            reasons: skipped_reasons(self.reasons).map_err(of_value)?,
-            keep_pairs: self.keep_pairs,
-            spheres: SphereBudget::new(self.spheres, self.total_spheres),
-            cover: self.cover,
-            samples: self.samples,
-            visuals: self.visuals.then_some(detail),
-            mesh_folder: self.mesh_folder,
-            output: self.output,
-            package: self.package,
-            ros: ros.transpose().map_err(of_value)?,
-            robot_file: self.robot_file,
-            floating_base: self.floating_base,
-            merge_fixed: self.merge_fixed,
-            root: self.root,
-            fit: fit.transpose().map_err(of_value)?,
-            actuators: actuators.transpose().map_err(of_value)?,
-            bandwidth: self.bandwidth,
-            sensors: self.sensors,
-            scene: self.scene,
-            setup: setup.map_err(|error| of_setup(py, error))?,
-        })
-    }
+/// A value of an option, as Python has it.
+fn json(choice: &Choice, value: &Bound<PyAny>) -> PyResult<Value> {
+    let number = |value: &Bound<PyAny>| value.extract::<f64>();
+    Ok(match choice.kind {
+        Kind::Flag => value.is_truthy()?.into(),
+        Kind::Detail if value.is_instance_of::<PyBool>() => value.is_truthy()?.into(),
+        Kind::Number(range) if range.unit.is_none() => {
+            // Numbers of NumPy too, and none with a fraction.
+            let index = value.py().import("operator")?.call_method1("index", (value,))?;
+            number(&index)?.into()
+        }
+        // JSON has no number that is not finite.
+        Kind::Number(range) => range.check(number(value)?).map_err(of_value)?.into(),
+        Kind::Detail => {
+            let given = number(value)?;
+            Detail::new(given).map_err(of_value)?;
+            given.into()
+        }
+        Kind::Fit => vec![number(&value.get_item(0)?)?, number(&value.get_item(1)?)?].into(),
+        Kind::Words(_) if value.is_instance_of::<PyString>() => {
+            let said = format!("{} must be a list of words: [{}]", choice.name, value.repr()?);
+            return Err(PyTypeError::new_err(said));
+        }
+        Kind::Words(_) => {
+            let words = value.try_iter()?.map(|word| word?.extract::<String>());
+            words.collect::<PyResult<Vec<String>>>()?.into()
+        }
+        Kind::Word(_) | Kind::Text => value.extract::<String>()?.into(),
+    })
 }
 
 /// A robot, and the options of a format for it.
@@ -93,12 +86,12 @@ fn subject(
     py: Python<'_>,
     robot: &Robot,
     format: &str,
-    options: Options,
+    options: &Options,
 ) -> PyResult<(Arc<urdd_robot::Robot>, urdd_export::Options)> {
     let format = format.parse().map_err(of_value)?;
     let path = robot.path.clone();
     let robot = Arc::clone(robot.read(py)?);
-    let options = options.choices(py, &path, &robot)?.options(format);
+    let options = choices(options, &path, &robot)?.options(format);
     Ok((robot, options.map_err(of_value)?))
 }
 
@@ -108,11 +101,11 @@ pub fn base_pose(
     py: Python<'_>,
     robot: &Robot,
     format: &str,
-    options: Options,
+    options: Options<'_>,
     name: Option<String>,
     configuration: Vec<f64>,
 ) -> PyResult<Option<[f64; 7]>> {
-    let (robot, options) = subject(py, robot, format, options)?;
+    let (robot, options) = subject(py, robot, format, &options)?;
     let found = work::run(py, move |_| {
         urdd_export::base_pose(&robot, &options, name.as_deref(), &configuration)
     })?;
@@ -125,9 +118,9 @@ pub fn export<'py>(
     py: Python<'py>,
     robot: &Robot,
     format: &str,
-    options: Options,
+    options: Options<'py>,
 ) -> PyResult<Made<'py>> {
-    let (robot, options) = subject(py, robot, format, options)?;
+    let (robot, options) = subject(py, robot, format, &options)?;
     let made = work::run(py, move |_| urdd_export::export(&robot, &options))?;
     let made = made.map_err(|error| of_export(py, error))?;
     let files = made.files.iter();

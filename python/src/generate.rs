@@ -81,9 +81,7 @@ impl Options {
 }
 
 /// The reasons of these words.
-pub fn skipped_reasons(
-    words: Option<Vec<String>>,
-) -> Result<Option<Vec<SkippedReason>>, UnknownWord> {
+fn skipped_reasons(words: Option<Vec<String>>) -> Result<Option<Vec<SkippedReason>>, UnknownWord> {
     words.map(|words| words.iter().map(|word| word.parse()).collect()).transpose()
 }
 

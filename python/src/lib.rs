@@ -45,9 +45,6 @@ fn ranges() -> Vec<(&'static str, (u64, u64))> {
     vec![
         ("generate.pieces", ends(urdd_generate::PIECES)),
         ("generate.samples", ends(urdd_generate::SAMPLES)),
-        ("export.spheres", ends(urdd_export::SPHERES)),
-        ("export.total_spheres", ends(urdd_export::TOTAL_SPHERES)),
-        ("export.samples", ends(urdd_export::SAMPLES)),
     ]
 }
 

@@ -103,7 +103,7 @@ def test_numbers_of_numbers(arm: urdd.Robot) -> None:
         (lambda: arm.random(3, seed=-1), "a seed must be from 0"),
         (lambda: arm.inverse_kinematics("torch", [0, 0, 0], seed=-1), "a seed must be from 0"),
         (lambda: arm.inverse_kinematics("torch", [0, 0, 0], restarts=2**70), "restarts must be from 0"),
-        (lambda: urdd.export(arm, "curobo", spheres=10**13), "spheres must be from 1 to 10,000"),
+        (lambda: urdd.export(arm, "curobo", spheres=10**13), "`spheres` must be a whole number from 1 to 10,000"),
         (lambda: urdd.generate("a.urdf", "a", samples=10**13), "samples must be from 1 to 100,000"),
         (lambda: urdd.set_num_threads(-1), "at least 1"),
     ):

@@ -11,9 +11,10 @@ use serde_json::json;
 use super::configurations::{self, Listed};
 use super::inputs;
 use super::output::{self, Failure};
-use super::words::Shapes;
+use super::words::value_of;
+use urdd_export::KINDS;
 use urdd_format::escape;
-use urdd_robot::{Configurations, PairDistance, Proximity, Queries, RobotError};
+use urdd_robot::{Configurations, PairDistance, Proximity, Queries, RobotError, ShapeKind};
 
 /// Arguments of `urdd check-collisions`.
 ///
@@ -36,8 +37,8 @@ pub struct CheckCollisionsArguments {
     random: Option<u64>,
 
     /// Shapes that represent the links.
-    #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
-    shapes: Shapes,
+    #[arg(long, value_parser = value_of::<ShapeKind>(&KINDS), default_value = "pieces")]
+    shapes: ShapeKind,
 
     /// Number of nearest pairs to show for each configuration.
     #[arg(long, value_name = "K", default_value_t = 3)]
@@ -106,8 +107,8 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
         (None, Some(count)) => Chosen::Random(space, count),
         (None, None) => Chosen::Listed(Listed { values: space.zero(), count: 1 }),
     };
-    let proximity = robot.proximity(arguments.shapes.into()).map_err(&in_urdd)?;
-    let hidden = robot.skipped_contacts(arguments.shapes.into()).map_err(&in_urdd)?;
+    let proximity = robot.proximity(arguments.shapes).map_err(&in_urdd)?;
+    let hidden = robot.skipped_contacts(arguments.shapes).map_err(&in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
     if arguments.format == CollisionFormat::Text && sum {
         let (text, any) = sum_up(&proximity, hidden.as_ref(), &chosen, dofs).map_err(&in_urdd)?;

@@ -6,7 +6,9 @@ use super::generate_output::ResultFormat;
 use super::output::{Failure, one_line};
 use super::signals::Signals;
 use super::sources::{PackageArguments, XacroArguments};
-use super::words::{Preferred, Skip};
+use super::words::{Preferred, value_of};
+use urdd_export::REASONS;
+use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_generate::{
     Effort, MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, SAMPLES, Selection, Settings,
 };
@@ -52,8 +54,8 @@ pub(super) struct MakingArguments {
 
     /// Reasons for which collision checks skip pairs of shapes, separated by commas. Default: those of the URDD that is
     /// replaced; for a new one same-link, always, adjacent and default. `never` is based on samples alone.
-    #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
-    skip: Option<Vec<Skip>>,
+    #[arg(long, value_parser = value_of::<SkippedReason>(REASONS), value_name = "REASONS", value_delimiter = ',')]
+    skip: Option<Vec<SkippedReason>>,
 
     /// Named configuration of the URDD that is replaced in which pairs of links that touch are skipped, in place of the
     /// default configuration. `default` is that one again.
@@ -131,8 +133,7 @@ impl MakingArguments {
             },
             strict: self.strict,
             drop_edits: self.drop_edits,
-            skipped_reasons: (self.skip.as_ref())
-                .map(|skip| skip.iter().copied().map(Into::into).collect()),
+            skipped_reasons: self.skip.clone(),
             reference: self.reference.clone(),
             force: self.force,
             cancellation: signals.cancellation(),

@@ -1,10 +1,13 @@
 //! Terms of the format as command-line values.
 
-use urdd_format::link_shapes_skips::SkippedReason;
+use std::error::Error;
+use std::str::FromStr;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use urdd_export::Word;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::report::Severity;
 use urdd_format::root_metadata::ConformanceClass;
-use urdd_robot::ShapeKind;
 
 /// Declares values with the names of a type's, and what they say in `--help`.
 macro_rules! words {
@@ -53,34 +56,21 @@ words! {
         /// The collision elements.
         Collision,
     }
+}
 
-    /// A reason to skip a pair of shapes.
-    Skip for SkippedReason {
-        /// Both shapes belong to the same link.
-        SameLink,
-        /// In contact in every sampled configuration.
-        Always,
-        /// A joint connects the two links.
-        Adjacent,
-        /// In contact in the default configuration: zero, clamped to the bounds.
-        Default,
-        /// In contact in no sampled configuration.
-        Never,
-    }
+/// Takes one of these words of the library, as what it stands for.
+pub fn value_of<T>(words: &[Word]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err: Error + Send + Sync> + Clone + Send + Sync + 'static,
+{
+    parser(words).try_map(|word| word.parse::<T>())
+}
 
-    /// A kind of shapes.
-    Shapes for ShapeKind {
-        /// The convex pieces of links.
-        Pieces,
-        /// The convex hulls of links.
-        Hulls,
-        /// The bounding boxes of hulls.
-        Boxes,
-        /// The bounding spheres of hulls.
-        Spheres,
-        /// The bounding boxes of pieces.
-        PieceBoxes,
-        /// The bounding spheres of pieces.
-        PieceSpheres,
-    }
+/// Takes one of these words of the library.
+pub fn parser(words: &[Word]) -> PossibleValuesParser {
+    let value = |(word, about): &Word| match about.trim().trim_end_matches('.') {
+        "" => PossibleValue::new(*word),
+        about => PossibleValue::new(*word).help(about),
+    };
+    words.iter().map(value).collect::<Vec<_>>().into()
 }

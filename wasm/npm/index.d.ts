@@ -137,32 +137,110 @@ export type Format =
 export interface ExportOptions {
   /** The name of the file, after which meshes are named, or of the package; by default `robot`. */
   output?: string;
-  /** `source`: the collision elements of the source as it has them, and pieces for links without any. */
-  shapes?: ShapeKind | "source";
-  keep_pairs?: boolean;
-  /** Maximum number of spheres of a link, 1 to 10,000. */
-  spheres?: number;
-  /** Maximum number of spheres of all links, 1 to 65,535. */
-  total_spheres?: number;
-  /** Configurations in which spheres are measured, 100 to 1,000,000; by default 10,000. */
-  samples?: number;
-  /** Whether visual meshes are written; by default they are. */
-  visuals?: boolean;
-  actuators?: "position" | "velocity" | "motor";
-  /** Of position and velocity actuators, Hz, 0.01 to 1,000; by default 10. */
-  bandwidth?: number;
-  floating_base?: boolean;
-  /** Makes one body of links that are fixed to each other, with their frames on it. */
-  merge_fixed?: boolean;
-  /** The link that becomes the root. */
-  root?: string;
+  // `cargo xtask update` writes these.
   /**
-   * Puts a box, cylinder, capsule or sphere around each convex mesh in its place: the tightest that has at most so many
-   * times the volume of the mesh and is at most so many metres off it, such as `[1.2, 0.005]`.
+   * Shapes that represent the links, in the collision geometry and in the disabled pairs. `pieces`: the convex pieces
+   * of links; `hulls`: the convex hulls of links; `boxes`: the bounding boxes of hulls; `spheres`: the bounding spheres
+   * of hulls; `piece-boxes`: the bounding boxes of pieces; `piece-spheres`: the bounding spheres of pieces; `source`:
+   * the collision elements of the source: boxes, cylinders, capsules, spheres and meshes as it has them, and pieces for
+   * links that have none. Visual primitives stay primitives too.
+   */
+  shapes?: ShapeKind | "source";
+  /**
+   * Reasons for which pairs of links are disabled. Default: those of the URDD. A person's edits apply in either case.
+   */
+  reasons?: ("same-link" | "always" | "adjacent" | "default" | "never")[];
+  /**
+   * Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
+   * disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece, and USD then
+   * does.
+   */
+  keep_pairs?: boolean;
+  /**
+   * Maximum number of spheres per link. Default: 12 on average and at most 150 in total; with `cover`, 8. It is a whole
+   * number from 1 to 10,000.
+   */
+  spheres?: number;
+  /**
+   * Maximum number of spheres for all links together; each link has at least one. It is a whole number from 1 to
+   * 65,535.
+   */
+  total_spheres?: number;
+  /**
+   * Makes the spheres enclose each link completely. No collision is missed then, but often every configuration is in
+   * contact; the file states how often. By default, spheres are fitted to give the same answers as the shapes.
+   */
+  cover?: boolean;
+  /**
+   * Number of sampled configurations in which spheres are measured; fewer where that would take long. It is a whole
+   * number from 100 to 1,000,000.
+   */
+  samples?: number;
+  /**
+   * Visual geometry with fewer triangles: at most a part of them (`0.1`), or at most as many in total (`20000`).
+   * `false` leaves it out.
+   */
+  visuals?: boolean | number;
+  /**
+   * The folder of the mesh files, relative to the file. Default: the name of the file without its extension, followed
+   * by `_meshes`.
+   */
+  mesh_folder?: string;
+  /**
+   * MJCF, SDF and USD: the root link moves freely. Otherwise it is fixed to the world.
+   */
+  floating_base?: boolean;
+  /**
+   * Puts a box, cylinder, capsule or sphere around each convex mesh in its place, the tightest that has at most VOLUME
+   * times the volume of the mesh and is at most STANDOFF metres off it. Pairs are judged by these shapes. Not for
+   * formats of spheres.
    */
   fit?: [number, number];
-  /** MoveIt: the distribution of ROS 2 that reads the package; by default `jazzy`, whose files Kilted reads too. */
+  /**
+   * Makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps its frame: a
+   * site, a frame, an empty `Xform`, or in URDF an empty link. Not for formats of spheres.
+   */
+  merge_fixed?: boolean;
+  /**
+   * Makes another link the root: joints between it and the old root are turned round. Values, limits and names of
+   * joints stay. Not for formats of spheres.
+   */
+  root?: string;
+  /**
+   * MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from inertias, for
+   * `bandwidth`. `position`: they are told positions, rad or m; `velocity`: they are told velocities, rad/s or m/s;
+   * `motor`: they are told torques or forces, N m or N.
+   */
+  actuators?: "position" | "velocity" | "motor";
+  /**
+   * MJCF and USD: the frequency below which a joint follows its actuator, Hz. Default: that of `NAME.export.toml`, or
+   * 10. It is from 0.01 to 1,000 Hz.
+   */
+  bandwidth?: number;
+  /**
+   * MJCF: a gyroscope and an accelerometer at each IMU frame of `NAME.export.toml`.
+   */
+  sensors?: boolean;
+  /**
+   * MJCF: writes a scene with floor and light beside the file: `NAME_scene.xml`.
+   */
+  scene?: boolean;
+  /**
+   * cuRobo: writes the whole robot file, for the URDF of this path.
+   */
+  robot_file?: string;
+  /**
+   * MoveIt: the name of the package. Default: the name of the folder. Drake: writes `package.xml` and a model directive
+   * beside the file.
+   */
+  package?: string;
+  /**
+   * MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose files
+   * Kilted reads too. `humble`: MoveIt 2.5, ros2_control 2; `jazzy`: MoveIt 2.12, ros2_control 4; Kilted reads the same
+   * files.
+   */
   ros?: "humble" | "jazzy";
+  // These are written by hand.
   /** The content of an `export.toml`. */
   setup?: string;
 }

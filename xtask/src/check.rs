@@ -76,6 +76,7 @@ const TESTS: &[(&str, &str)] = &[
     ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
     ("carried::the_page", UPDATE),
+    ("front_ends::", UPDATE),
     ("imports::the_page", UPDATE),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];

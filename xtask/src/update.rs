@@ -17,7 +17,7 @@ const GENERATED: &[&str] = &[
     "python/lib/urdd",
     "schema",
     "tests/program",
-    "wasm/npm/modules.d.ts",
+    "wasm/npm",
     "cpp/include/urdd_types.hpp",
 ];
 
@@ -25,7 +25,7 @@ const GENERATED: &[&str] = &[
 const WRITERS: &[(&str, &[&str])] = &[
     ("rules", &["computed::the_suite_has", "clauses::"]),
     ("conformance", &["cases::the_pages_say"]),
-    ("export", &["carried::the_page"]),
+    ("export", &["carried::the_page", "front_ends::"]),
     ("format", &["typescript::", "cpp_types::"]),
     ("program", &["imports::the_page", "snapshots::", "spec_agrees::the_tables_of_fields"]),
 ];

@@ -3,11 +3,9 @@
 #![expect(missing_docs, reason = "the file that `urdd export init` writes says what they mean")]
 
 use std::collections::BTreeMap;
-use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use toml::{Spanned, Table};
-use urdd_format::word::{UnknownWord, with_word};
 
 /// A name, and where it is in the file.
 pub type Name = Spanned<String>;
@@ -152,37 +150,16 @@ pub struct CuroboTable {
     pub locked: BTreeMap<Name, Spanned<f64>>,
 }
 
-/// What an actuator is told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ActuatorKind {
-    /// A position, rad or m.
-    Position,
-    /// A velocity, rad/s or m/s.
-    Velocity,
-    /// A torque or a force, N m or N.
-    Motor,
-}
-
-impl ActuatorKind {
-    /// All kinds.
-    pub const ALL: &[ActuatorKind] =
-        &[ActuatorKind::Position, ActuatorKind::Velocity, ActuatorKind::Motor];
-
-    /// Its word for users, which is MuJoCo's too.
-    pub fn word(self) -> &'static str {
-        match self {
-            ActuatorKind::Position => "position",
-            ActuatorKind::Velocity => "velocity",
-            ActuatorKind::Motor => "motor",
-        }
-    }
-}
-
-impl FromStr for ActuatorKind {
-    type Err = UnknownWord;
-
-    fn from_str(word: &str) -> Result<ActuatorKind, UnknownWord> {
-        with_word(word, ActuatorKind::ALL, ActuatorKind::word, "are no actuators")
+urdd_format::words! {
+    /// What an actuator is told.
+    #[derive(Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum ActuatorKind "are no actuators" {
+        /// They are told positions, rad or m.
+        Position "position",
+        /// They are told velocities, rad/s or m/s.
+        Velocity "velocity",
+        /// They are told torques or forces, N m or N.
+        Motor "motor",
     }
 }

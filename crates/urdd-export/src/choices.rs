@@ -1,100 +1,56 @@
-//! What a person chose of the options of all formats, and which of it fits a format.
+//! What a person can choose of an export: one table. The command line, Python, JavaScript and docs/export.md have their
+//! options of it.
 
 use std::path::PathBuf;
 
+use serde_json::Value;
 use thiserror::Error;
+use urdd_directory::export_toml::ActuatorKind;
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::shape_kind::UnknownShapeKind;
+use urdd_format::word::{UnknownWord, Word, with_word};
 use urdd_robot::ShapeKind;
 
-use crate::{
-    Detail, DrakeOptions, Fit, Format, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, Ros, Setup, Shapes, SphereBudget, SphereOptions, UsdOptions,
+use crate::setup::gains::BANDWIDTH;
+use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
+
+/// The kinds of shapes.
+pub const KINDS: [Word; 6] = [
+    ("pieces", "The convex pieces of links"),
+    ("hulls", "The convex hulls of links"),
+    ("boxes", "The bounding boxes of hulls"),
+    ("spheres", "The bounding spheres of hulls"),
+    ("piece-boxes", "The bounding boxes of pieces"),
+    ("piece-spheres", "The bounding spheres of pieces"),
+];
+
+const SHAPES: &[Word] = &{
+    let mut all = [(
+        Shapes::SOURCE,
+        "The collision elements of the source: boxes, cylinders, capsules, spheres and meshes as it has them, and pieces for links that have none. Visual primitives stay primitives too",
+    ); 7];
+    let mut kind = 0;
+    while kind < KINDS.len() {
+        all[kind] = KINDS[kind];
+        kind += 1;
+    }
+    all
 };
-use urdd_directory::export_toml::ActuatorKind;
 
-/// What a person chose, by the names that options have in Python; the command line has `robot_file` as `--config`.
-/// The fields are documented where they go: in the options of each format.
-#[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "named and documented as in the options of each format")]
-pub struct Choices {
-    pub shapes: Shapes,
-    pub reasons: Option<Vec<SkippedReason>>,
-    pub keep_pairs: bool,
-    pub merge_fixed: bool,
-    pub root: Option<String>,
-    pub fit: Option<Fit>,
-    pub spheres: SphereBudget,
-    pub cover: bool,
-    pub samples: usize,
-    pub visuals: Option<Detail>,
-    /// By default named after [`Choices::output`], or `meshes`.
-    pub mesh_folder: Option<String>,
-    /// Where the file, or the folder of a package, will be written.
-    pub output: Option<PathBuf>,
-    /// Of MoveIt, by default named after [`Choices::output`], or [`Choices::PACKAGE`].
-    pub package: Option<String>,
-    /// Of MoveIt, by default [`Ros::Jazzy`].
-    pub ros: Option<Ros>,
-    pub robot_file: Option<String>,
-    pub floating_base: bool,
-    pub actuators: Option<ActuatorKind>,
-    pub bandwidth: Option<f64>,
-    pub sensors: bool,
-    /// Whether a scene is written beside [`Choices::output`].
-    pub scene: bool,
-    pub setup: Option<Setup>,
-}
+/// The reasons to skip a pair of shapes.
+pub const REASONS: &[Word] = &[
+    ("same-link", "Both shapes belong to the same link"),
+    ("always", "In contact in every sampled configuration"),
+    ("adjacent", "A joint connects the two links"),
+    ("default", "In contact in the default configuration: zero, clamped to the bounds"),
+    ("never", "In contact in no sampled configuration"),
+];
 
-impl Default for Choices {
-    fn default() -> Self {
-        Choices {
-            shapes: ShapeKind::Pieces.into(),
-            reasons: None,
-            keep_pairs: false,
-            merge_fixed: false,
-            root: None,
-            fit: None,
-            spheres: SphereBudget::default(),
-            cover: false,
-            samples: 10_000,
-            visuals: Some(Detail::Full),
-            mesh_folder: None,
-            output: None,
-            package: None,
-            ros: None,
-            robot_file: None,
-            floating_base: false,
-            actuators: None,
-            bandwidth: None,
-            sensors: false,
-            scene: false,
-            setup: None,
-        }
-    }
-}
-
-/// An option that does not fit the format.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{option} is for {} only", self.formats())]
-pub struct Misfit {
-    /// The option, as in [`Choices`].
-    pub option: &'static str,
-    /// The formats that it is for.
-    pub of: &'static [Format],
-}
-
-impl Misfit {
-    /// The words of the formats that the option is for.
-    pub fn formats(&self) -> String {
-        self.of.iter().map(|format| format.word()).collect::<Vec<_>>().join(" and ")
-    }
-}
-
-/// An option, whether it was chosen, and the formats that have it.
-type Only = (&'static str, fn(&Choices) -> bool, &'static [Format]);
+const ALL: &[Format] = Format::ALL;
 
 /// Formats of links with shapes. Spheres are fitted to links as the URDD has them.
-const WITH_TREE: &[Format] = &[
+const TREE: &[Format] = &[
     Format::Srdf,
     Format::Urdf,
     Format::Drake,
@@ -104,116 +60,313 @@ const WITH_TREE: &[Format] = &[
     Format::Usd,
 ];
 
-/// Options that are refused for formats that do not have them. Others are passed over there.
-const ONLY: [Only; 10] = [
-    ("fit", |of| of.fit.is_some(), WITH_TREE),
-    ("merge_fixed", |of| of.merge_fixed, WITH_TREE),
-    ("root", |of| of.root.is_some(), WITH_TREE),
-    ("actuators", |of| of.actuators.is_some(), &[Format::Mjcf, Format::Usd]),
-    ("sensors", |of| of.sensors, &[Format::Mjcf]),
-    ("scene", |of| of.scene, &[Format::Mjcf]),
-    ("floating_base", |of| of.floating_base, &[Format::Mjcf, Format::Sdf, Format::Usd]),
-    ("robot_file", |of| of.robot_file.is_some(), &[Format::Curobo]),
-    ("ros", |of| of.ros.is_some(), &[Format::Moveit]),
-    ("package", |of| of.package.is_some(), &[Format::Moveit, Format::Drake]),
-];
+/// Declares [`Choices`], and what front ends know of each.
+macro_rules! choices {
+    ($($(#[doc = $about:literal])+ $name:ident: $type:ty = $default:expr, $shown:literal $kind:expr, $of:expr;)+) => {
+        /// What a person chose, by the names that options have in Python.
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct Choices {
+            $($(#[doc = $about])+ pub $name: $type,)+
+            /// Where the file, or the folder of a package, will be written.
+            pub output: Option<PathBuf>,
+            /// What the URDD does not say.
+            pub setup: Option<Setup>,
+        }
 
-impl Choices {
-    /// The name of the package of a configuration of MoveIt that is not written to a folder.
-    pub const PACKAGE: &str = "robot_moveit_config";
-
-    /// The options of a format.
-    ///
-    /// # Errors
-    /// If something was chosen that the format does not have.
-    pub fn options(&self, format: Format) -> Result<Options, Misfit> {
-        for (option, is_chosen, of) in ONLY {
-            if is_chosen(self) && !of.contains(&format) {
-                return Err(Misfit { option, of });
+        impl Default for Choices {
+            fn default() -> Self {
+                Choices { $($name: $default,)+ output: None, setup: None }
             }
         }
-        let model = self.model(format);
-        Ok(match format {
-            Format::Srdf => Options::Srdf(model),
-            Format::Urdf => Options::Urdf(model),
-            Format::Sdf => Options::Sdf(model),
-            Format::Usd => Options::Usd(UsdOptions { model, file: self.file() }),
-            Format::Drake => {
-                let (package, file) = (self.package.clone(), self.file());
-                Options::Drake(DrakeOptions { model, package, file })
+
+        /// All options but those of files, in the order of the command line.
+        pub const CHOICES: &[Choice] = &[$(Choice {
+            name: stringify!($name),
+            shown: $shown,
+            about: concat!($($about),+),
+            kind: $kind,
+            of: $of,
+            default: || <$type as Chosen>::write(&$default),
+            is_chosen: |choices| choices.$name != $default,
+            check: |choices| choices.$name.check($kind),
+            set: |choices, value| {
+                Some(Chosen::read(value, $kind)?.map(|read| choices.$name = read))
+            },
+        },)+];
+    };
+}
+
+choices! {
+    /// Shapes that represent the links, in the collision geometry and in the disabled pairs.
+    shapes: Shapes = ShapeKind::Pieces.into(), "SHAPES" Kind::Word(SHAPES), ALL;
+    /// Reasons for which pairs of links are disabled[, separated by commas]. Default: those of the URDD. A person's edits
+    /// apply in either case.
+    reasons: Option<Vec<SkippedReason>> = None, "REASONS" Kind::Words(REASONS), ALL;
+    /// Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
+    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece, and USD then
+    /// does.
+    keep_pairs: bool = false, "" Kind::Flag, ALL;
+    /// Maximum number of spheres per link. Default: 12 on average and at most 150 in total; with `--cover`, 8.
+    spheres: Option<usize> = None, "N" Kind::Number(Range::whole("spheres", 1, 10_000)), ALL;
+    /// Maximum number of spheres for all links together; each link has at least one.
+    total_spheres: Option<usize> = None, "N" Kind::Number(Range::whole("total_spheres", 1, 65_535)), ALL;
+    /// Makes the spheres enclose each link completely. No collision is missed then, but often every configuration is in
+    /// contact; the file states how often. By default, spheres are fitted to give the same answers as the shapes.
+    cover: bool = false, "" Kind::Flag, ALL;
+    /// Number of sampled configurations in which spheres are measured; fewer where that would take long.
+    samples: usize = 10_000, "N" Kind::Number(Range::whole("samples", 100, 1_000_000)), ALL;
+    /// Visual geometry with fewer triangles: at most a part of them (`0.1`), or at most as many in total (`20000`).
+    visuals: Detail = Detail::Full, "RATIO|TRIANGLES" Kind::Detail, ALL;
+    /// The folder of the mesh files, relative to the file. Default: the name of the file without its extension, followed by
+    /// `_meshes`.
+    mesh_folder: Option<String> = None, "FOLDER" Kind::Text, ALL;
+    /// MJCF, SDF and USD: the root link moves freely. Otherwise it is fixed to the world.
+    floating_base: bool = false, "" Kind::Flag, &[Format::Mjcf, Format::Sdf, Format::Usd];
+    /// Puts a box, cylinder, capsule or sphere around each convex mesh in its place, the tightest that has at most VOLUME
+    /// times the volume of the mesh and is at most STANDOFF metres off it. [Default: 1.2,0.005. ]Pairs are judged by these
+    /// shapes. Not for formats of spheres.
+    fit: Option<Fit> = None, "VOLUME,STANDOFF" Kind::Fit, TREE;
+    /// Makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each keeps its frame: a
+    /// site, a frame, an empty `Xform`, or in URDF an empty link. Not for formats of spheres.
+    merge_fixed: bool = false, "" Kind::Flag, TREE;
+    /// Makes another link the root: joints between it and the old root are turned round. Values, limits and names of joints
+    /// stay. Not for formats of spheres.
+    root: Option<String> = None, "LINK" Kind::Text, TREE;
+    /// MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
+    actuators: Option<ActuatorKind> = None, "KIND" Kind::Word(ActuatorKind::WORDS), &[Format::Mjcf, Format::Usd];
+    /// MJCF and USD: the frequency below which a joint follows its actuator, Hz.
+    /// Default: that of `NAME.export.toml`, or 10.
+    bandwidth: Option<f64> = None, "HZ" Kind::Number(BANDWIDTH), ALL;
+    /// MJCF: a gyroscope and an accelerometer at each IMU frame of `NAME.export.toml`.
+    sensors: bool = false, "" Kind::Flag, &[Format::Mjcf];
+    /// MJCF: writes a scene with floor and light beside the file: `NAME_scene.xml`.
+    scene: bool = false, "" Kind::Flag, &[Format::Mjcf];
+    /// cuRobo: writes the whole robot file, for the URDF of this path.[ Default: the name of the source.]
+    robot_file: Option<String> = None, "URDF" Kind::Text, &[Format::Curobo];
+    /// MoveIt: the name of the package. Default: the name of the folder. Drake: writes `package.xml` and a model directive
+    /// beside the file.
+    package: Option<String> = None, "NAME" Kind::Text, &[Format::Moveit, Format::Drake];
+    /// MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose files Kilted
+    /// reads too.
+    ros: Option<Ros> = None, "DISTRIBUTION" Kind::Word(Ros::WORDS), &[Format::Moveit];
+}
+
+/// What front ends know of an option.
+pub struct Choice {
+    /// Its name in Python and JavaScript.
+    pub name: &'static str,
+    /// What stands for its value on the command line.
+    pub shown: &'static str,
+    about: &'static str,
+    /// What it takes.
+    pub kind: Kind,
+    /// The formats that it is for. Others refuse it.
+    pub of: &'static [Format],
+    /// What it is where nobody chose.
+    pub default: fn() -> Value,
+    pub(super) is_chosen: fn(&Choices) -> bool,
+    pub(super) check: fn(&Choices) -> Result<(), OutOfRange>,
+    set: fn(&mut Choices, &Value) -> Option<Result<(), ChoiceError>>,
+}
+
+/// What an option takes, as JSON.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// Whether something is done.
+    Flag,
+    /// A number.
+    Number(Range),
+    /// One of these words.
+    Word(&'static [Word]),
+    /// A list of these words.
+    Words(&'static [Word]),
+    /// A name, or a path.
+    Text,
+    /// A volume and a distance; `true` for the usual ones.
+    Fit,
+    /// Whether there is visual geometry, or how much.
+    Detail,
+}
+
+/// What is wrong with a choice.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[expect(missing_docs, reason = "each says it")]
+pub enum ChoiceError {
+    #[error(transparent)]
+    Range(#[from] OutOfRange),
+    #[error(transparent)]
+    Word(#[from] UnknownWord),
+    #[error(transparent)]
+    Shapes(#[from] UnknownShapeKind),
+    #[error(transparent)]
+    Fit(#[from] NoFit),
+    #[error("`{option}` must be {expected}")]
+    Type { option: &'static str, expected: &'static str },
+}
+
+impl Choice {
+    /// The option of a name.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn named(name: &str) -> Result<&'static Choice, UnknownWord> {
+        let all: Vec<&Choice> = CHOICES.iter().collect();
+        with_word(name, &all, |choice| choice.name, "is no option")
+    }
+
+    /// What it does, with names of options as on the command line. What is in brackets is said there alone.
+    pub fn about(&self, is_command_line: bool) -> String {
+        let parts = self.about.trim().split(['[', ']']).enumerate();
+        parts.filter_map(|(at, part)| (at % 2 == 0 || is_command_line).then_some(part)).collect()
+    }
+
+    /// The value that a word of the command line is.
+    ///
+    /// # Errors
+    /// What is expected instead.
+    pub fn parse(&self, word: &str) -> Result<Value, String> {
+        Ok(match self.kind {
+            Kind::Number(range) if range.unit.is_none() => range.parse::<u32>(word)?.into(),
+            Kind::Number(range) => range.parse::<f64>(word)?.into(),
+            Kind::Fit => word.parse::<Fit>().map_err(|error| error.to_string())?.write(),
+            Kind::Detail => {
+                let detail = word.parse().ok().and_then(|number| Detail::new(number).ok());
+                let expected = "a part between 0 and 1, such as 0.1, or a number of triangles";
+                detail.ok_or(expected)?.write()
             }
-            Format::Mjcf => {
-                let scene_of = self.file().filter(|_| self.scene);
-                Options::Mjcf(MjcfOptions { model, sensors: self.sensors, scene_of })
-            }
-            Format::Moveit => {
-                let mut model = model;
-                let package = self.package.clone().or_else(|| self.package_of_output());
-                if let (Some(package), None) = (&package, &self.mesh_folder) {
-                    model.meshes.folder = format!("package://{package}/meshes");
-                }
-                let package = package.unwrap_or_else(|| Self::PACKAGE.to_owned());
-                let ros = self.ros.unwrap_or_default();
-                Options::Moveit(MoveitOptions { model, package, ros })
-            }
-            Format::Curobo => Options::Curobo(self.spheres(format)),
-            Format::Foam => Options::Foam(self.spheres(format)),
-            Format::Spherized => Options::Spherized(self.spheres(format)),
+            Kind::Flag | Kind::Word(_) | Kind::Words(_) | Kind::Text => word.into(),
         })
     }
 
-    fn model(&self, format: Format) -> ModelOptions {
-        let has_setup = !matches!(format, Format::Srdf | Format::Urdf);
-        let has_actuators = matches!(format, Format::Mjcf | Format::Usd);
-        ModelOptions {
-            shapes: self.shapes,
-            reasons: self.reasons.clone(),
-            keep_pairs: self.keep_pairs,
-            links: LinkOptions {
-                merge_fixed: self.merge_fixed,
-                root: self.root.clone(),
-                fit: self.fit,
-            },
-            meshes: self.meshes(format != Format::Srdf),
-            floating_base: self.floating_base,
-            actuators: self.actuators,
-            bandwidth: self.bandwidth.filter(|_| has_actuators),
-            setup: self.setup.clone().filter(|_| has_setup),
+    /// Chooses a value; `null` leaves what it is.
+    ///
+    /// # Errors
+    /// If it does not take the value.
+    pub fn set(&self, choices: &mut Choices, value: &Value) -> Result<(), ChoiceError> {
+        if value.is_null() {
+            return Ok(());
+        }
+        (self.set)(choices, value).unwrap_or_else(|| {
+            let expected = match self.kind {
+                Kind::Flag => "true or false",
+                Kind::Number(_) => "a number",
+                Kind::Word(_) | Kind::Text => "a text",
+                Kind::Words(_) => "a list of words",
+                Kind::Fit => "two numbers",
+                Kind::Detail => "true, false or a number",
+            };
+            Err(ChoiceError::Type { option: self.name, expected })
+        })
+    }
+}
+
+/// What an option is in the library, from and to JSON.
+trait Chosen: Sized {
+    /// `None` for a value of another type.
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>>;
+
+    fn write(&self) -> Value {
+        Value::Null
+    }
+
+    fn check(&self, _kind: Kind) -> Result<(), OutOfRange> {
+        Ok(())
+    }
+}
+
+/// How a value of a type is read, and, where one is a default, written.
+macro_rules! chosen {
+    ($($type:ty: $read:expr $(, $write:expr)?;)*) => {$(
+        impl Chosen for $type {
+            fn read(value: &Value, _kind: Kind) -> Option<Result<Self, ChoiceError>> {
+                let read: fn(&Value) -> Option<Result<Self, ChoiceError>> = $read;
+                read(value)
+            }
+
+            $(fn write(&self) -> Value {
+                let write: fn(&Self) -> Value = $write;
+                write(self)
+            })?
+        }
+    )*};
+}
+
+chosen! {
+    bool: |value| value.as_bool().map(Ok), |of| (*of).into();
+    String: |value| value.as_str().map(|text| Ok(text.to_owned()));
+    ActuatorKind: |value| value.as_str().map(|word| Ok(word.parse()?));
+    Ros: |value| value.as_str().map(|word| Ok(word.parse()?));
+    Shapes: |value| value.as_str().map(|word| Ok(word.parse()?)), |of| of.word().into();
+    Vec<SkippedReason>: |value| {
+        let words: Option<Vec<&str>> = value.as_array()?.iter().map(Value::as_str).collect();
+        Some(words?.into_iter().map(|word| Ok(word.parse()?)).collect())
+    };
+    Fit: |value| match value.as_array().map(Vec::as_slice) {
+        None if value == &Value::Bool(true) => Some(Ok(Fit::default())),
+        Some([volume, standoff]) => {
+            // JSON has no number that is not finite.
+            let [volume, standoff] = [volume, standoff].map(|of| of.as_f64().unwrap_or(f64::NAN));
+            Some(Fit::new(volume, standoff).map_err(Into::into))
+        }
+        _ => None,
+    }, |of| vec![of.volume, of.standoff].into();
+}
+
+impl<T: Chosen> Chosen for Option<T> {
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        Some(T::read(value, kind)?.map(Some))
+    }
+
+    fn check(&self, kind: Kind) -> Result<(), OutOfRange> {
+        self.as_ref().map_or(Ok(()), |of| of.check(kind))
+    }
+}
+
+impl Chosen for f64 {
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        let number = value.as_f64()?;
+        Some(number.check(kind).map(|()| number).map_err(Into::into))
+    }
+
+    fn check(&self, kind: Kind) -> Result<(), OutOfRange> {
+        let Kind::Number(range) = kind else { return Ok(()) };
+        range.check(*self).map(|_| ())
+    }
+}
+
+impl Chosen for usize {
+    fn read(value: &Value, kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        Some(f64::read(value, kind)?.map(|number| number as usize))
+    }
+
+    fn write(&self) -> Value {
+        (*self).into()
+    }
+
+    fn check(&self, kind: Kind) -> Result<(), OutOfRange> {
+        (*self as f64).check(kind)
+    }
+}
+
+impl Chosen for Detail {
+    fn read(value: &Value, _kind: Kind) -> Option<Result<Self, ChoiceError>> {
+        match value {
+            Value::Bool(true) => Some(Ok(Detail::Full)),
+            Value::Bool(false) => Some(Ok(Detail::Nothing)),
+            number => Some(Detail::new(number.as_f64()?).map_err(Into::into)),
         }
     }
 
-    fn spheres(&self, format: Format) -> SphereOptions {
-        SphereOptions {
-            shapes: self.shapes,
-            reasons: self.reasons.clone(),
-            budget: self.spheres,
-            cover: self.cover,
-            samples: self.samples,
-            meshes: self.meshes(format == Format::Spherized),
-            robot_file: self.robot_file.clone(),
-            setup: self.setup.clone().filter(|_| format == Format::Curobo),
+    fn write(&self) -> Value {
+        match self {
+            Detail::Full => true.into(),
+            Detail::Nothing => false.into(),
+            Detail::Ratio(ratio) => (*ratio).into(),
+            Detail::Triangles(count) => (*count).into(),
         }
     }
 
-    fn meshes(&self, has_visuals: bool) -> MeshOptions {
-        let stem = self.output.as_ref().map(|file| file.file_stem().unwrap_or_default());
-        let named = || stem.map(|stem| format!("{}_meshes", stem.to_string_lossy()));
-        let folder = self.mesh_folder.clone().or_else(named);
-        MeshOptions {
-            visuals: self.visuals.filter(|_| has_visuals),
-            folder: folder.unwrap_or_else(|| "meshes".to_owned()),
-        }
-    }
-
-    /// The name of the file.
-    fn file(&self) -> Option<String> {
-        let name = self.output.as_ref()?.file_name()?;
-        Some(name.to_string_lossy().into_owned())
-    }
-
-    /// The name of a package in the folder where it is written. Whether ROS takes it, the export says.
-    fn package_of_output(&self) -> Option<String> {
-        let name = self.output.as_ref()?.file_name().unwrap_or_default().to_string_lossy();
-        Some(name.to_lowercase().replace(['-', ' ', '.'], "_"))
+    fn check(&self, _kind: Kind) -> Result<(), OutOfRange> {
+        self.is_in_range()
     }
 }

@@ -6,7 +6,7 @@ use std::fmt::Display;
 use rayon::prelude::*;
 
 use crate::pairs::{ascending, pairs};
-use crate::{Contacts, ExportError, Layout, LinkPair, ModelOptions, Shape, Solid, Structure};
+use crate::{Choices, Contacts, ExportError, Layout, LinkPair, Shape, Solid, Structure};
 use urdd_document::tree::RigidGroups;
 use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
@@ -44,10 +44,10 @@ impl Basis {
         robot: &Robot,
         layout: &Layout,
         links: &[String],
-        options: &ModelOptions,
+        choices: &Choices,
         of_pieces: bool,
     ) -> Result<Vec<LinkPair>, ExportError> {
-        let (reasons, keeps) = (options.reasons.as_deref(), options.keep_pairs && !of_pieces);
+        let (reasons, keeps) = (choices.reasons.as_deref(), choices.keep_pairs && !of_pieces);
         let mut pairs = pairs(self.skips(), layout, links, reasons, keeps)?;
         if !of_pieces {
             count(robot, layout, self, &mut pairs)?;

@@ -15,9 +15,9 @@ use crate::{Note, Shape, ShapeCounts, Solid};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
     /// Its volume, over that of the mesh.
-    volume: f64,
+    pub(super) volume: f64,
     /// How far it stands off the mesh, at most, m.
-    standoff: f64,
+    pub(super) standoff: f64,
 }
 
 impl Default for Fit {

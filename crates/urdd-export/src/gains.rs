@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
 use crate::inertia::tensor;
-use crate::{ExportError, ModelOptions, Note, Subject};
+use crate::setup::gains::USUAL_BANDWIDTH;
+use crate::{ExportError, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::{Inertial, Joint};
 use urdd_format::urdf::JointType;
@@ -29,12 +30,11 @@ pub(super) struct Gains {
 /// The gains of each joint that has an actuator, in joint order, and a sentence about them.
 pub(super) fn gains(
     subject: &Subject,
-    bandwidth: Option<f64>,
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Option<Gains>>, String), ExportError> {
     let given = || subject.given.as_ref().and_then(|setup| setup.gains.bandwidth);
-    let bandwidth = bandwidth.or_else(given).unwrap_or(ModelOptions::BANDWIDTH);
+    let bandwidth = subject.options.chosen.bandwidth.or_else(given).unwrap_or(USUAL_BANDWIDTH);
     let frequency = TAU * bandwidth;
     let several = subject.view.joints.iter().filter(|joint| joint.num_dofs() > 1);
     notes.extend(several.map(|joint| Note::joint(&joint.name, SEVERAL)));

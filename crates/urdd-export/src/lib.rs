@@ -82,29 +82,25 @@ pub mod yaml;
 use urdd_robot::Robot;
 
 pub use carried::carried_table;
-pub use choices::{Choices, Misfit};
+pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
 pub use error::{ExportError, Note};
 pub use fit::{Fit, NoFit};
 pub use format::Format;
 pub use groups::JointGroup;
-pub use options::{
-    BANDWIDTH, Detail, DrakeOptions, LinkOptions, MeshOptions, MjcfOptions, ModelOptions,
-    MoveitOptions, Options, SAMPLES, SPHERES, SphereBudget, SphereOptions, TOTAL_SPHERES,
-    UsdOptions,
-};
+pub use options::{Misfit, Options};
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;
 pub use pairs::Contacts;
 pub use ros::{Limited, Ros};
 pub use setup::{Setup, SetupError};
 pub use shapes::{ShapeCounts, Shapes};
+pub use simplify::Detail;
 pub use spheres::SphereRates;
+pub use srdf::error::SrdfError;
 pub use srdf::groups::joint_groups_of_srdf;
 pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states};
-pub use srdf::merge::{MergedSrdf, merge_srdf};
-pub use srdf::read::SrdfError;
 pub use urdd_directory::export_toml::ActuatorKind;
-pub use urdd_format::word::UnknownWord;
+pub use urdd_format::word::{UnknownWord, Word};
 
 // What most files use.
 use gains::Gains;
@@ -116,7 +112,6 @@ use pairs::LinkPair;
 use parts::{Moves, Taken};
 use setup::Members;
 use shapes::{Shape, Solid};
-use srdf::read::{LeftOut, Srdf};
 use stand::Stand;
 use structure::Structure;
 use subject::Subject;
@@ -150,17 +145,17 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
     options.check()?;
     let mut subject = Subject::new(robot, options, true)?;
     subject.lost = carried::lost(&subject);
-    let mut made = match options {
-        Options::Srdf(_) => srdf::export(&subject),
-        Options::Urdf(of) => urdf::export(&subject, of),
-        Options::Drake(of) => drake::export(&subject, of),
-        Options::Mjcf(of) => mjcf::export(&subject, of),
-        Options::Curobo(of) => spheres::curobo::export(&subject, of),
-        Options::Foam(of) => spheres::foam::export(&subject, of),
-        Options::Spherized(of) => spheres::foam::spherized(&subject, of),
-        Options::Moveit(of) => moveit::export(&subject, of),
-        Options::Sdf(of) => sdf::export(&subject, of),
-        Options::Usd(of) => usd::export(&subject, of),
+    let mut made = match options.format {
+        Format::Srdf => srdf::export(&subject),
+        Format::Urdf => urdf::export(&subject),
+        Format::Drake => drake::export(&subject),
+        Format::Mjcf => mjcf::export(&subject),
+        Format::Curobo => spheres::curobo::export(&subject),
+        Format::Foam => spheres::foam::export(&subject),
+        Format::Spherized => spheres::foam::spherized(&subject),
+        Format::Moveit => moveit::export(&subject),
+        Format::Sdf => sdf::export(&subject),
+        Format::Usd => usd::export(&subject),
     }?;
     made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());

@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 use crate::names::FileNames;
 use crate::simplify::simplify_all;
 use crate::textures::{Image, Images};
-use crate::{ExportError, Format, MeshOptions, Note, Shapes, Subject};
+use crate::{Detail, ExportError, Format, Note, Shapes, Subject};
 use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
 use urdd_geometry::Mesh;
@@ -48,9 +48,9 @@ pub(super) struct MeshFiles<'a> {
 }
 
 impl<'a> MeshFiles<'a> {
-    pub fn new(subject: &'a Subject<'a>, meshes: &'a MeshOptions) -> Self {
+    pub fn new(subject: &'a Subject<'a>) -> Self {
         let (names, by_content) = (FileNames::default(), HashMap::new());
-        MeshFiles { subject, folder: &meshes.folder, names, by_content }
+        MeshFiles { subject, folder: &subject.options.mesh_folder, names, by_content }
     }
 
     /// Adds a mesh and returns its file's path, relative to the text.
@@ -147,16 +147,13 @@ pub(super) struct Looks {
 }
 
 /// The visual geometry of all links, its meshes simplified where that is asked for.
-pub(super) fn looks(
-    subject: &Subject,
-    meshes: &MeshOptions,
-    notes: &mut Vec<Note>,
-) -> Result<Looks, ExportError> {
+pub(super) fn looks(subject: &Subject, notes: &mut Vec<Note>) -> Result<Looks, ExportError> {
     let mut looks: Vec<Vec<Look>> = subject.links.iter().map(|_| Vec::new()).collect();
     let none = || subject.links.iter().map(|_| Vec::new()).collect();
-    let Some(detail) = meshes.visuals else {
+    let detail = subject.options.chosen.visuals;
+    if detail == Detail::Nothing {
         return Ok(Looks { meshes: looks, primitives: none() });
-    };
+    }
     let (visuals, primitives) = match subject.shapes {
         Shapes::Source => source_visuals(subject)?,
         Shapes::Kind(_) => (subject.robot.visuals()?, none()),

@@ -5,7 +5,7 @@
 //! `Default` if one is in contact in the default configuration, and `Never` only if none ever was.
 //!
 //! If the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A link-level format
-//! disables it, or keeps it on request ([`ModelOptions::keep_pairs`](crate::ModelOptions::keep_pairs)). Either is wrong for some of the shapes.
+//! disables it, or keeps it on request ([`Choices::keep_pairs`](crate::Choices::keep_pairs)). Either is wrong for some of the shapes.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -1,45 +1,24 @@
 //! Distributions of ROS 2.
 
-use std::str::FromStr;
-
-use urdd_format::word::{UnknownWord, with_word};
-
-/// A distribution of ROS 2, whose MoveIt and ros2_control read a package.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
-pub enum Ros {
-    /// Humble: MoveIt 2.5, ros2_control 2.
-    Humble,
-    /// Jazzy: MoveIt 2.12, ros2_control 4. Kilted reads the same files.
-    #[default]
-    Jazzy,
+urdd_format::words! {
+    /// A distribution of ROS 2, whose MoveIt and ros2_control read a package.
+    #[derive(Default)]
+    pub enum Ros "is no distribution" {
+        /// MoveIt 2.5, ros2_control 2.
+        Humble "humble",
+        /// MoveIt 2.12, ros2_control 4; Kilted reads the same files.
+        #[default]
+        Jazzy "jazzy",
+    }
 }
 
 impl Ros {
-    /// All distributions.
-    pub const ALL: &[Ros] = &[Ros::Humble, Ros::Jazzy];
-
-    /// Its word for users.
-    pub fn word(self) -> &'static str {
-        match self {
-            Ros::Humble => "humble",
-            Ros::Jazzy => "jazzy",
-        }
-    }
-
     /// What MoveIt does with a joint without a limit of velocity or acceleration.
     pub(super) fn without_limit(self) -> &'static str {
         match self {
             Ros::Humble => "MoveIt of Humble takes 1 (rad or m, per s or s²) for each",
             Ros::Jazzy => "MoveIt of Jazzy then fails every plan that moves them",
         }
-    }
-}
-
-impl FromStr for Ros {
-    type Err = UnknownWord;
-
-    fn from_str(word: &str) -> Result<Ros, UnknownWord> {
-        with_word(word, Ros::ALL, Ros::word, "is no distribution")
     }
 }
 

@@ -23,6 +23,14 @@ pub enum Shapes {
 impl Shapes {
     /// The word for [`Shapes::Source`]; kinds have their own.
     pub const SOURCE: &str = "source";
+
+    /// Its word for users.
+    pub fn word(self) -> &'static str {
+        match self {
+            Shapes::Kind(kind) => kind.name(),
+            Shapes::Source => Shapes::SOURCE,
+        }
+    }
 }
 
 impl From<ShapeKind> for Shapes {

@@ -8,9 +8,51 @@ use meshoptimizer_rs::{
 };
 use rayon::prelude::*;
 
-use crate::{Detail, Note};
+use crate::Note;
+use urdd_directory::range::{OutOfRange, Range};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
+
+/// [`Detail`].
+const VISUALS: Range =
+    Range::above_zero("visuals", "(a part between 0 and 1, or a whole number of triangles)");
+
+/// How much visual geometry there is: fewer triangles for simulators.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Detail {
+    /// None.
+    Nothing,
+    /// All.
+    #[default]
+    Full,
+    /// At most this part of its triangles, between 0 and 1.
+    Ratio(f64),
+    /// At most as many triangles in total, where collapses allow it. All meshes get the same error.
+    Triangles(usize),
+}
+
+impl Detail {
+    /// A part of all triangles, or a number of them.
+    ///
+    /// # Errors
+    /// If it is neither.
+    pub fn new(given: f64) -> Result<Detail, OutOfRange> {
+        match VISUALS.check(given)? {
+            ratio if ratio < 1.0 => Ok(Detail::Ratio(ratio)),
+            count if count.fract() == 0.0 => Ok(Detail::Triangles(count as usize)),
+            given => Err(OutOfRange { range: VISUALS, given }),
+        }
+    }
+
+    pub(super) fn is_in_range(self) -> Result<(), OutOfRange> {
+        let (given, is_right) = match self {
+            Detail::Nothing | Detail::Full => return Ok(()),
+            Detail::Ratio(ratio) => (ratio, ratio > 0.0 && ratio < 1.0),
+            Detail::Triangles(count) => (count as f64, count > 0),
+        };
+        if is_right { Ok(()) } else { Err(OutOfRange { range: VISUALS, given }) }
+    }
+}
 
 /// Samples on a surface, besides the corners of its triangles.
 const SAMPLES: f64 = 10_000.0;
@@ -26,7 +68,7 @@ const STEPS: u32 = 64;
 pub fn simplify_all(mut parts: Vec<&mut Part>, detail: Detail) -> Option<Note> {
     let from: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
     let most = match detail {
-        Detail::Full => return None,
+        Detail::Nothing | Detail::Full => return None,
         Detail::Ratio(ratio) => (from as f64 * ratio).ceil() as usize,
         Detail::Triangles(most) => most,
     };

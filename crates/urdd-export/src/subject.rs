@@ -33,6 +33,7 @@ impl Deref for Subject<'_> {
 /// The data of a robot that every format needs.
 pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
+    pub options: &'a Options,
     pub format: Format,
     /// The shapes that approximate links.
     pub shapes: Shapes,
@@ -71,16 +72,15 @@ impl<'a> Subject<'a> {
         options: &'a Options,
         with_pairs: bool,
     ) -> Result<Self, ExportError> {
-        let model = options.model();
-        let wanted = model.filter(|_| with_pairs && !matches!(options, Options::Urdf(_)));
-        let links_asked = model.map(|model| &model.links);
-        let (format, shapes, given) = (options.format(), options.shapes(), options.setup());
+        let (format, chosen) = (options.format, &options.chosen);
+        let (shapes, given) = (chosen.shapes, chosen.setup.as_ref());
+        let has_pairs = with_pairs && !format.has_spheres() && format != Format::Urdf;
         let described = robot.description()?;
         let own = Structure::of(&described)?;
         if let Some(setup) = given {
             own.check(&setup.of)?;
         }
-        let made = Arranged::new(described.clone(), links_asked)?;
+        let made = Arranged::new(described.clone(), chosen)?;
         names::check(format, &made.structure.view, &made.structure.tree)?;
         let Arranged { urdf, structure, mut layout, notes: mut arranged } = made;
         let given = given.map(|setup| match layout.is_empty() {
@@ -96,7 +96,7 @@ impl<'a> Subject<'a> {
             }
             Shapes::Kind(_) => (None, source_shapes::notes(robot, &described, shapes, format)?),
         };
-        if let Some(costs) = links_asked.and_then(|links| links.fit) {
+        if let Some(costs) = chosen.fit {
             let mut by_link = match (own_shapes.take(), shapes) {
                 (None, Shapes::Kind(kind)) => by_link(&described, robot.shapes(kind)?),
                 (own, _) => own.unwrap_or_default(),
@@ -108,13 +108,14 @@ impl<'a> Subject<'a> {
             }
         }
         // URDF cannot express pairs; the sphere formats compute their own.
-        let basis = match (wanted, &own_shapes, shapes) {
-            (Some(_), Some(written), _) => {
+        let basis = match (&own_shapes, shapes) {
+            _ if !has_pairs => None,
+            (Some(written), _) => {
                 let samples = num_samples(robot)?;
                 let judged = Judged::new(robot, &own, written, takes_hulls(format), samples)?;
                 Some(Basis::Written(Box::new(judged)))
             }
-            (Some(_), None, Shapes::Kind(kind)) => Some(Basis::Kind(kind, robot.skips(kind)?)),
+            (None, Shapes::Kind(kind)) => Some(Basis::Kind(kind, robot.skips(kind)?)),
             _ => None,
         };
         if !layout.is_empty() {
@@ -134,16 +135,17 @@ impl<'a> Subject<'a> {
             layout.number(places);
         }
         let of_pieces = format == Format::Mjcf;
-        let pairs = match wanted.zip(basis.as_ref()) {
-            Some((of, basis)) => basis.link_pairs(robot, &layout, &links, of, of_pieces)?,
+        let pairs = match &basis {
+            Some(basis) => basis.link_pairs(robot, &layout, &links, chosen, of_pieces)?,
             None => Vec::new(),
         };
-        let is_floating = model.is_some_and(|model| model.floating_base)
-            || given.as_ref().is_some_and(|setup| setup.floating.value);
+        let is_floating =
+            chosen.floating_base || given.as_ref().is_some_and(|setup| setup.floating.value);
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();
         Ok(Subject {
             robot,
+            options,
             format,
             shapes,
             own_shapes,

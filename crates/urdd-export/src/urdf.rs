@@ -7,15 +7,13 @@ use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, element_of_joint, empty_robot, links,
     push_unknown, ros2_control, type_name,
 };
-use crate::{
-    Export, ExportError, Files, Format, MeshOptions, ModelOptions, Note, Shape, Subject, xacro,
-};
+use crate::{Export, ExportError, Files, Format, Note, Shape, Subject, xacro};
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
 
-pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
-    let (robot, files) = robot(subject, &options.meshes, subject.shapes_by_link()?, &mut notes)?;
+    let (robot, files) = robot(subject, subject.shapes_by_link()?, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.shapes);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
@@ -24,13 +22,12 @@ pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export
 /// The robot with these shapes of its links as collision geometry, and the files that it references.
 pub(super) fn robot(
     subject: &Subject,
-    meshes: &MeshOptions,
     shapes: Vec<Vec<Shape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Element, Files), ExportError> {
     let urdf = &subject.urdf;
     let mut robot = empty_robot(subject);
-    let (links, files) = links(subject, Geometry::Plain, meshes, shapes, notes)?;
+    let (links, files) = links(subject, Geometry::Plain, shapes, notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
         lost += push_unknown(&mut element, &unknown(subject, &link.unknown_elements), IN_LINK);

@@ -9,9 +9,7 @@ use crate::joints::without_quaternion;
 use crate::layout::origin;
 use crate::meshes::{Look, looks};
 use crate::shapes::thick;
-use crate::{
-    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Painted, Shape, Solid, Subject,
-};
+use crate::{ExportError, Files, MeshFiles, MeshFormat, Note, Painted, Shape, Solid, Subject};
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Geometry as Source, Inertial, Joint, JointType, Origin, Visual};
@@ -56,7 +54,6 @@ pub(super) fn empty_robot(subject: &Subject) -> Element {
 pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
-    meshes: &MeshOptions,
     shapes: Vec<Vec<Shape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
@@ -65,11 +62,11 @@ pub(super) fn links(
     }
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
     let friction = subject.friction().filter(|_| geometry == Geometry::Drake);
-    let mut files = MeshFiles::new(subject, meshes);
+    let mut files = MeshFiles::new(subject);
     let mut elements = Vec::new();
     let mut changed: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
-    let looks = looks(subject, meshes, notes)?;
+    let looks = looks(subject, notes)?;
     let each = each.zip(shapes.into_iter().zip(looks.meshes.into_iter().zip(looks.primitives)));
     for (idx, ((link, view), (shapes, (looks, primitives)))) in each.enumerate() {
         let mut element = Element::new("link").with("name", link.name.as_str());

@@ -9,6 +9,7 @@ use urdd_directory::loops_toml::{self, CouplingTable, FrameTable, LoopTable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_srdf::write;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
@@ -98,22 +99,18 @@ pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
     }
     let mut robot = Element::new("robot").with("name", &*model.name);
     if !model.configurations.is_empty() {
-        let mut group = Element::new("group").with("name", GROUP);
-        group.extend(movable(tree).map(|edge| Element::new("joint").with("name", &*edge.name)));
+        let mut group = write::group(GROUP);
+        group.extend(movable(tree).map(|edge| write::joint(&edge.name)));
         robot.push(group);
     }
     for (at, configuration) in model.configurations.iter().enumerate() {
-        let mut state =
-            Element::new("group_state").with("name", &*configuration.name).with("group", GROUP);
-        state.extend(values(model, tree, at).into_iter().map(|(joint, values)| {
-            Element::new("joint").with("name", joint).with("value", numbers(&values))
-        }));
-        robot.push(state);
+        let values = values(model, tree, at).into_iter();
+        let values = values.map(|(joint, values)| (joint, numbers(&values)));
+        robot.push(write::state(&configuration.name, GROUP, values));
     }
     for apart in &model.apart {
-        let [a, b] = apart.bodies.map(|body| &*model.bodies[body].name);
-        let pair = Element::new("disable_collisions").with("link1", a).with("link2", b);
-        robot.push(pair.with("reason", apart.reason));
+        let links = apart.bodies.map(|body| &*model.bodies[body].name);
+        robot.push(write::disabled(links, apart.reason));
     }
     Some(robot.document(&[format!("`urdd import` made this file from {original}.")]))
 }

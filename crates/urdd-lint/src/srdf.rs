@@ -12,6 +12,7 @@ use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_source::arguments::arguments;
 use urdd_source::{Files, Trail, read_source};
+use urdd_srdf::vocabulary::parts;
 
 /// Maximum number of SRDFs that xacro is run for to find those of a robot.
 const MAX_EXPANDED: usize = 10;
@@ -80,13 +81,8 @@ fn is_of(urdf: &Subject, one: &Srdf, is_near: bool) -> bool {
         return true;
     }
     let known: BTreeSet<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
-    let named = root.descendants().flat_map(|node| {
-        let attributes = ["link1", "link2", "base_link", "tip_link", "parent_link", "child_link"];
-        let is_part = matches!(node.tag_name().name(), "link" | "joint" | "passive_joint");
-        let name = node.attribute("name").filter(|_| is_part);
-        attributes.into_iter().filter_map(move |attribute| node.attribute(attribute)).chain(name)
-    });
-    let named: BTreeSet<&str> = named.map(str::trim).collect();
+    let named = root.descendants().flat_map(parts);
+    let named: BTreeSet<&str> = named.map(|(_, _, name)| name).collect();
     let fits = 2 * named.intersection(&known).count() >= named.len();
     fits && (has_name || is_near)
 }

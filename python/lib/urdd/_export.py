@@ -12,9 +12,8 @@ from typing import Literal, TypeAlias
 from . import _urdd
 from ._answers import ExportShapes
 from ._description import RobotDescription
-from ._options import ExportOptions, ranged, words
 
-__all__ = ["Actuators", "Export", "Format", "Ros", "export", "export_options", "exported_with"]
+__all__ = ["Actuators", "Export", "Format", "Ros", "export", "exported_with"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
@@ -62,6 +61,8 @@ def export(
     format: Format,  # noqa: A002
     output: str | os.PathLike[str] | None = None,
     *,
+    setup: str | os.PathLike[str] | None = None,
+    # The options of crates/urdd-export/src/choices.rs: `cargo xtask update` writes them, and what they do below.
     shapes: ExportShapes = "pieces",
     reasons: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
     keep_pairs: bool = False,
@@ -71,18 +72,18 @@ def export(
     samples: int = 10_000,
     visuals: bool | float = True,
     mesh_folder: str | None = None,
-    actuators: Actuators | None = None,
-    bandwidth: float | None = None,
     floating_base: bool = False,
+    fit: tuple[float, float] | None = None,
     merge_fixed: bool = False,
     root: str | None = None,
-    fit: tuple[float, float] | None = None,
+    actuators: Actuators | None = None,
+    bandwidth: float | None = None,
     sensors: bool = False,
     scene: bool = False,
-    setup: str | os.PathLike[str] | None = None,
+    robot_file: str | None = None,
     package: str | None = None,
     ros: Ros | None = None,
-    robot_file: str | None = None,
+    # End of the options.
     force: bool = False,
 ) -> Export:
     """Exports a robot to another format, in memory; with ``output`` to that file too.
@@ -91,41 +92,50 @@ def export(
         robot: the robot, or its path.
         format: the format.
         output: a file to write.
-        shapes: the kind of collision shapes, or ``"source"``: boxes, cylinders, capsules, spheres and meshes as the
-            collision elements of the source have them, and pieces for links without any; visual primitives stay
-            primitives too. Pairs are disabled by the skips of this kind, or judged by the shapes of the source.
-        reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
-        keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
-            links only, and in USD, piece by piece. By default such a pair is disabled, and a note names it.
-        spheres: maximum number of spheres for each link. By default 12 on average and at most 150 in all; with
-            ``cover``, 8.
-        total_spheres: maximum number of spheres for all links together, but at least one for each.
-        cover: covers each link with spheres. By default spheres are fitted to collide when the shapes do.
-        samples: number of configurations in which the spheres are measured; fewer if that is much work.
-        visuals: whether the file has visual geometry; or the largest part of its triangles to keep, such as 0.1, or
-            the most to keep in all.
-        mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
-        actuators: MJCF and USD: what the actuators of joints of one DOF are told; by default there are none. Gains are
-            computed from the inertia that each joint moves.
-        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz, from 0.01 to 1,000. By
-            default that of ``setup``, or 10.
-        floating_base: MJCF, SDF and USD: the root link moves freely, in MJCF by a free joint ``floating_base``.
+        shapes: shapes that represent the links, in the collision geometry and in the disabled pairs. ``pieces``: the
+            convex pieces of links; ``hulls``: the convex hulls of links; ``boxes``: the bounding boxes of hulls;
+            ``spheres``: the bounding spheres of hulls; ``piece-boxes``: the bounding boxes of pieces;
+            ``piece-spheres``: the bounding spheres of pieces; ``source``: the collision elements of the source: boxes,
+            cylinders, capsules, spheres and meshes as it has them, and pieces for links that have none. Visual
+            primitives stay primitives too.
+        reasons: reasons for which pairs of links are disabled. Default: those of the URDD. A person's edits apply in
+            either case.
+        keep_pairs: checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default,
+            such a pair is disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each
+            piece, and USD then does.
+        spheres: maximum number of spheres per link. Default: 12 on average and at most 150 in total; with ``cover``, 8.
+        total_spheres: maximum number of spheres for all links together; each link has at least one.
+        cover: makes the spheres enclose each link completely. No collision is missed then, but often every
+            configuration is in contact; the file states how often. By default, spheres are fitted to give the same
+            answers as the shapes.
+        samples: number of sampled configurations in which spheres are measured; fewer where that would take long.
+        visuals: visual geometry with fewer triangles: at most a part of them (``0.1``), or at most as many in total
+            (``20000``). ``False`` leaves it out.
+        mesh_folder: the folder of the mesh files, relative to the file. Default: the name of the file without its
+            extension, followed by ``_meshes``.
+        floating_base: MJCF, SDF and USD: the root link moves freely. Otherwise it is fixed to the world.
+        fit: puts a box, cylinder, capsule or sphere around each convex mesh in its place, the tightest that has at most
+            VOLUME times the volume of the mesh and is at most STANDOFF metres off it. Pairs are judged by these shapes.
+            Not for formats of spheres.
         merge_fixed: makes one body of links that are fixed to each other, with their masses, shapes and pairs. Each
             keeps its frame: a site, a frame, an empty ``Xform``, or in URDF an empty link. Not for formats of spheres.
-        root: the link that becomes the root: joints between it and the old root are turned round. Values, limits and
-            names of joints stay. Not for formats of spheres.
-        fit: puts a box, cylinder, capsule or sphere around each convex mesh in its place: the tightest that has at most
-            so many times the volume of the mesh and is at most so many metres off it, such as ``(1.2, 0.005)``. Pairs
-            are judged by these shapes. Not for formats of spheres.
-        sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
-        scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
+        root: makes another link the root: joints between it and the old root are turned round. Values, limits and names
+            of joints stay. Not for formats of spheres.
+        actuators: MJCF and USD: adds an actuator, or a drive, to each joint of one DOF. Gains are computed from
+            inertias, for ``bandwidth``. ``position``: they are told positions, rad or m; ``velocity``: they are told
+            velocities, rad/s or m/s; ``motor``: they are told torques or forces, N m or N.
+        bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz. Default: that of
+            ``NAME.export.toml``, or 10.
+        sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``NAME.export.toml``.
+        scene: MJCF: writes a scene with floor and light beside the file: ``NAME_scene.xml``.
+        robot_file: cuRobo: writes the whole robot file, for the URDF of this path.
+        package: MoveIt: the name of the package. Default: the name of the folder. Drake: writes ``package.xml`` and a
+            model directive beside the file.
+        ros: MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package. Default: jazzy, whose
+            files Kilted reads too. ``humble``: MoveIt 2.5, ros2_control 2; ``jazzy``: MoveIt 2.12, ros2_control 4;
+            Kilted reads the same files.
         setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
             URDD ``NAME``, if it is there.
-        package: MoveIt: the name of the package, by default ``output``'s. Drake: writes ``package.xml`` and a model
-            directive too.
-        ros: MoveIt: the distribution of ROS 2 whose MoveIt and ros2_control read the package, by default ``"jazzy"``,
-            whose files Kilted reads too.
-        robot_file: cuRobo: the path of the URDF; the text is then the whole robot file.
         force: overwrites existing files.
 
     Raises:
@@ -133,32 +143,12 @@ def export(
         ExportError: if the format cannot hold the robot, or ``setup`` is wrong.
         FileExistsError: if a file exists with other content.
     """
+    # Every argument, by its name.
+    options = dict(locals())
+    for other in ("robot", "format", "force"):
+        del options[other]
     if scene and output is None:
         raise ValueError("a scene includes the file that is written: give output")
-    options = export_options(
-        shapes=shapes,
-        reasons=reasons,
-        keep_pairs=keep_pairs,
-        spheres=spheres,
-        total_spheres=total_spheres,
-        cover=cover,
-        samples=samples,
-        visuals=visuals,
-        mesh_folder=mesh_folder,
-        actuators=actuators,
-        bandwidth=bandwidth,
-        floating_base=floating_base,
-        merge_fixed=merge_fixed,
-        root=root,
-        fit=fit,
-        sensors=sensors,
-        scene=scene,
-        output=output,
-        setup=setup,
-        package=package,
-        ros=ros,
-        robot_file=robot_file,
-    )
     subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
     exported = exported_with(subject, format, options)
     if output is not None:
@@ -166,63 +156,7 @@ def export(
     return exported
 
 
-def exported_with(robot: RobotDescription, format: Format, options: ExportOptions) -> Export:  # noqa: A002
+def exported_with(robot: RobotDescription, format: Format, options: dict[str, object]) -> Export:  # noqa: A002
     """As :func:`export`, in memory."""
     text, path, files, notes, report = _urdd.export(robot.core, format, options)
     return Export(text, dict(files), notes, json.loads(report), path)
-
-
-def export_options(
-    *,
-    shapes: ExportShapes = "pieces",
-    reasons: Iterable[str] | None = None,
-    keep_pairs: bool = False,
-    spheres: int | None = None,
-    total_spheres: int | None = None,
-    cover: bool = False,
-    samples: int = 10_000,
-    visuals: bool | float = True,
-    mesh_folder: str | None = None,
-    actuators: Actuators | None = None,
-    bandwidth: float | None = None,
-    floating_base: bool = False,
-    merge_fixed: bool = False,
-    root: str | None = None,
-    fit: tuple[float, float] | None = None,
-    sensors: bool = False,
-    scene: bool = False,
-    output: str | os.PathLike[str] | None = None,
-    setup: str | os.PathLike[str] | None = None,
-    package: str | None = None,
-    ros: Ros | None = None,
-    robot_file: str | None = None,
-) -> ExportOptions:
-    """The options of :func:`export`, with their types checked."""
-    for name, count in (("spheres", spheres), ("total_spheres", total_spheres)):
-        if count is not None:
-            ranged(count, f"export.{name}")
-    return ExportOptions(
-        shapes=shapes,
-        reasons=None if reasons is None else words(reasons, "reasons"),
-        keep_pairs=bool(keep_pairs),
-        spheres=spheres,
-        total_spheres=total_spheres,
-        cover=bool(cover),
-        samples=ranged(samples, "export.samples"),
-        visuals=bool(visuals),
-        detail=None if isinstance(visuals, bool) else float(visuals),
-        mesh_folder=mesh_folder,
-        actuators=actuators,
-        bandwidth=None if bandwidth is None else float(bandwidth),
-        floating_base=bool(floating_base),
-        merge_fixed=bool(merge_fixed),
-        root=root,
-        fit=None if fit is None else (float(fit[0]), float(fit[1])),
-        sensors=bool(sensors),
-        scene=bool(scene),
-        output=None if output is None else Path(output),
-        setup=None if setup is None else Path(setup),
-        package=package,
-        ros=ros,
-        robot_file=robot_file,
-    )

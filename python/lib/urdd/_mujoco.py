@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import ExportShapes
 from ._arrays import Floats, configurations, positions
-from ._export import Actuators, export_options, exported_with
+from ._export import exported_with
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
 from ._kinematics import RobotKinematics
 from ._need import need
@@ -94,27 +92,9 @@ class MujocoRobot:
         return found.reshape(*batch, len(self.dof_names))
 
 
-def to_mujoco(
-    robot: RobotKinematics,
-    shapes: ExportShapes = "pieces",
-    *,
-    visuals: bool | float = True,
-    actuators: Actuators | None = None,
-    bandwidth: float | None = None,
-    floating_base: bool = False,
-    start: str | ArrayLike | None = None,
-    setup: str | os.PathLike[str] | None = None,
-) -> MujocoRobot:
+def to_mujoco(robot: RobotKinematics, options: dict[str, object], start: str | ArrayLike | None) -> MujocoRobot:
     """As :meth:`urdd.Robot.to_mujoco`."""
     mujoco = need("mujoco", "mujoco", "to_mujoco")
-    options = export_options(
-        shapes=shapes,
-        visuals=visuals,
-        actuators=actuators,
-        bandwidth=bandwidth,
-        floating_base=floating_base,
-        setup=setup,
-    )
     q, base = start_of(robot, "mjcf", options, start)
     exported = exported_with(robot, "mjcf", options)
     model = mujoco.MjModel.from_xml_string(exported.text, exported.files)
@@ -138,7 +118,7 @@ def to_mujoco(
     if base is not None:
         qpos[:7] = base
     targets = np.zeros(model.nu)
-    if actuators == "position":
+    if options["actuators"] == "position":
         held = qpos[model.jnt_qposadr[model.actuator_trnid[:, 0]]]
         # A servo of speed stands still: one of positions alone has a bias by the position.
         targets = np.where(model.actuator_biasprm[:, 1] != 0, held, 0.0)

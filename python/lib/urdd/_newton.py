@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import ExportShapes
 from ._arrays import Floats, configurations, positions
-from ._export import Actuators, export_options, exported_with
+from ._export import exported_with
 from ._joints import Joint, joints_of, pose, quaternion_of, quaternion_of_matrix, rotation_vector_of
 from ._kinematics import RobotKinematics
 from ._need import need
@@ -103,28 +101,10 @@ def _turned(turns: Floats) -> Floats:
     return found
 
 
-def to_newton(
-    robot: RobotKinematics,
-    shapes: ExportShapes = "pieces",
-    *,
-    visuals: bool | float = True,
-    actuators: Actuators | None = None,
-    bandwidth: float | None = None,
-    floating_base: bool = False,
-    start: str | ArrayLike | None = None,
-    setup: str | os.PathLike[str] | None = None,
-) -> NewtonRobot:
+def to_newton(robot: RobotKinematics, options: dict[str, object], start: str | ArrayLike | None) -> NewtonRobot:
     """As :meth:`urdd.Robot.to_newton`."""
     newton = need("newton", "newton", "to_newton")
     pxr = need("pxr.Usd", "newton", "to_newton")
-    options = export_options(
-        shapes=shapes,
-        visuals=visuals,
-        actuators=actuators,
-        bandwidth=bandwidth,
-        floating_base=floating_base,
-        setup=setup,
-    )
     configuration, base = start_of(robot, "usd", options, start)
     exported = exported_with(robot, "usd", options)
     builder = newton.ModelBuilder()
@@ -158,6 +138,6 @@ def to_newton(
         x, y, z, *turn = base
         joint_q[free[0] : free[0] + 7] = [x, y, z, *turn[1:], turn[0]]
     builder.joint_q[:] = joint_q.tolist()
-    if actuators == "position":
+    if options["actuators"] == "position":
         builder.joint_target_q[:] = joint_q.tolist()
     return replace(found, model=builder.finalize(), start=joint_q)

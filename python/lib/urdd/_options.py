@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from . import _urdd
 
 __all__ = [
-    "ExportOptions",
     "GenerateOptions",
     "InverseOptions",
     "LintOptions",
@@ -106,35 +105,6 @@ class GenerateOptions:
     strict: bool
     drop_edits: bool
     force: bool
-
-
-@dataclass(frozen=True)
-class ExportOptions:
-    """The options of :func:`urdd.export`, for the compiled part, which decides which of them fit a format."""
-
-    shapes: str
-    reasons: list[str] | None
-    keep_pairs: bool
-    spheres: int | None
-    total_spheres: int | None
-    cover: bool
-    samples: int
-    visuals: bool
-    detail: float | None
-    mesh_folder: str | None
-    actuators: str | None
-    bandwidth: float | None
-    floating_base: bool
-    merge_fixed: bool
-    root: str | None
-    fit: tuple[float, float] | None
-    sensors: bool
-    scene: bool
-    output: Path | None
-    setup: Path | None
-    package: str | None
-    ros: str | None
-    robot_file: str | None
 
 
 @dataclass(frozen=True)

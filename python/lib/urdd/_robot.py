@@ -234,16 +234,15 @@ class Robot(RobotKinematics):
         """
         from ._mujoco import to_mujoco
 
-        return to_mujoco(
-            self,
-            shapes,
-            visuals=visuals,
-            actuators=actuators,
-            bandwidth=bandwidth,
-            floating_base=floating_base,
-            start=start,
-            setup=setup,
-        )
+        options: dict[str, object] = {
+            "shapes": shapes,
+            "visuals": visuals,
+            "actuators": actuators,
+            "bandwidth": bandwidth,
+            "floating_base": floating_base,
+            "setup": setup,
+        }
+        return to_mujoco(self, options, start)
 
     def to_newton(
         self,
@@ -263,16 +262,15 @@ class Robot(RobotKinematics):
         """
         from ._newton import to_newton
 
-        return to_newton(
-            self,
-            shapes,
-            visuals=visuals,
-            actuators=actuators,
-            bandwidth=bandwidth,
-            floating_base=floating_base,
-            start=start,
-            setup=setup,
-        )
+        options: dict[str, object] = {
+            "shapes": shapes,
+            "visuals": visuals,
+            "actuators": actuators,
+            "bandwidth": bandwidth,
+            "floating_base": floating_base,
+            "setup": setup,
+        }
+        return to_newton(self, options, start)
 
     def to_pybullet(
         self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False, keep_pairs: bool = False

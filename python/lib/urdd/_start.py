@@ -10,14 +10,13 @@ from . import _urdd
 from ._arrays import Floats, one_configuration
 from ._export import Format
 from ._kinematics import RobotKinematics
-from ._options import ExportOptions
 from .errors import UnknownNameError
 
 
 def start_of(
     robot: RobotKinematics,
     format: Format,  # noqa: A002
-    options: ExportOptions,
+    options: dict[str, object],
     start: str | ArrayLike | None,
 ) -> tuple[Floats, list[float] | None]:
     """(dofs,) and, of a free base, x, y, z and the quaternion w, x, y, z."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._answers import ShapeKind
-from ._options import ExportOptions, GenerateOptions, InverseOptions, LintOptions, Source, ValidateOptions
+from ._options import GenerateOptions, InverseOptions, LintOptions, Source, ValidateOptions
 
 __all__ = [
     "RANGES",
@@ -227,14 +227,14 @@ def explain(code: str) -> tuple[str, str, str, str]: ...
 def base_pose(
     robot: Robot,
     format: str,  # noqa: A002
-    options: ExportOptions,
+    options: dict[str, object],
     name: str | None,
     configuration: list[float],
 ) -> list[float] | None: ...
 def export(
     robot: Robot,
     format: str,  # noqa: A002
-    options: ExportOptions,
+    options: dict[str, object],
 ) -> tuple[str, str | None, list[tuple[str, bytes]], list[str], str]: ...
 def write_files(target: Path, is_folder: bool, files: list[tuple[Path, bytes]], force: bool) -> None: ...
 def num_threads() -> int: ...

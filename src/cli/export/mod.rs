@@ -4,17 +4,20 @@ mod arguments;
 
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
+
 use super::inputs;
 use super::output::{self, Failure, about, counted, shown};
 pub use arguments::ExportArguments;
-use arguments::Target;
+use arguments::name_of;
 use urdd_directory::outputs::{self, Output, Target as Place};
-use urdd_export::{Choices, Export, Format, Note, Setup, SphereBudget, export, merge_srdf};
+use urdd_export::{Choices, Export, Format, Note, Setup, export};
 use urdd_robot::Robot;
+use urdd_srdf::merge_srdf;
 
 /// Runs `urdd export`.
 pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
-    match arguments.format.format() {
+    match arguments.format.0 {
         Some(format) => write_robot(arguments, format)?,
         None => write_setup(arguments)?,
     }
@@ -22,22 +25,17 @@ pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
 }
 
 fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {
-    let target = arguments.format;
     let output = arguments.output.as_deref().ok_or("give the file to write with -o")?;
-    let is_alone = matches!(target, Target::Srdf | Target::Curobo | Target::Foam);
+    let is_alone = matches!(format, Format::Srdf | Format::Curobo | Format::Foam);
     if output.as_os_str() == "-" && !is_alone {
         Err("this format writes other files beside its own: give a file with -o")?;
     }
-    if arguments.update && !matches!(target, Target::Srdf | Target::Moveit) {
+    if arguments.update && !matches!(format, Format::Srdf | Format::Moveit) {
         Err("--update is for srdf and moveit only; --force overwrites a file")?;
     }
     let robot = inputs::open(&arguments.path)?;
     let options = choices(arguments, &robot)?.options(format).map_err(|misfit| {
-        let option = match misfit.option {
-            "robot_file" => "config".to_owned(),
-            option => option.replace('_', "-"),
-        };
-        format!("--{option} is for {} only", misfit.formats())
+        format!("--{} is for {} only", name_of(misfit.option), misfit.formats())
     })?;
     let made = export(&robot, &options).map_err(about(&arguments.path))?;
     for note in &made.notes {
@@ -52,35 +50,19 @@ fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failur
 }
 
 fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failure> {
-    let reasons = arguments.reasons.as_ref();
-    let robot_file = match &arguments.config {
-        Some(None) => Some(urdf_of(robot)?),
-        Some(given) => given.clone(),
-        None => None,
-    };
-    Ok(Choices {
-        shapes: arguments.shapes,
-        reasons: reasons.map(|skip| skip.iter().copied().map(Into::into).collect()),
-        keep_pairs: arguments.keep_pairs,
-        spheres: SphereBudget::new(arguments.spheres, arguments.total_spheres),
-        cover: arguments.cover,
-        samples: arguments.samples as usize,
-        visuals: (!arguments.no_visuals).then(|| arguments.visuals.unwrap_or_default()),
+    let mut choices = Choices {
         output: arguments.output.clone(),
-        package: arguments.package.clone(),
-        ros: arguments.ros,
-        robot_file,
-        floating_base: arguments.floating_base,
-        merge_fixed: arguments.merge_fixed,
-        root: arguments.root.clone(),
-        fit: arguments.fit.map(Option::unwrap_or_default),
-        actuators: arguments.actuators.kind(),
-        bandwidth: arguments.bandwidth,
-        sensors: arguments.sensors,
-        scene: arguments.scene,
         setup: Setup::find(arguments.setup.as_deref(), &arguments.path, robot)?,
         ..Choices::default()
-    })
+    };
+    for (choice, value) in &arguments.chosen.0 {
+        let set = match (choice.name, value) {
+            ("robot_file", Value::Bool(true)) => choice.set(&mut choices, &urdf_of(robot)?.into()),
+            _ => choice.set(&mut choices, value),
+        };
+        set.map_err(|error| error.to_string())?;
+    }
+    Ok(choices)
 }
 
 /// The name of the URDF from which a URDD was made.
@@ -142,9 +124,9 @@ fn write(arguments: &ExportArguments, output: &Path, mut made: Export) -> Result
         });
     }
     files.push(Output { path: own, bytes: made.text.as_bytes(), replaces: force || is_merged });
-    let also = match arguments.format {
-        Target::Srdf => "; --update replaces the pairs of links in it",
-        Target::Moveit => {
+    let also = match arguments.format.0 {
+        Some(Format::Srdf) => "; --update replaces the pairs of links in it",
+        Some(Format::Moveit) => {
             "; --update replaces the pairs of links in the SRDF, and leaves other files as they are"
         }
         _ => "",

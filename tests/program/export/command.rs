@@ -1,6 +1,6 @@
 use crate::program::urdd;
 use testkit::robots::{made, made_of, our_robots};
-use urdd_export::Format;
+use urdd_export::{CHOICES, Format};
 
 #[test]
 fn nothing_is_written_over_unless_asked() {
@@ -242,4 +242,15 @@ fn every_format_of_the_command_line_is_tried() {
     let count = listed.filter(|line| line.trim_start().starts_with("- ")).count();
     // `init` is no format.
     assert_eq!(count, Format::ALL.len() + 1, "{help}");
+}
+
+/// The command line has the options of the table: all but the one that follows from `-o`.
+#[test]
+fn the_options_of_the_table_are_on_the_command_line() {
+    let (_, help, _) = urdd(&["export", "--help"], std::path::Path::new("."));
+    for choice in CHOICES.iter().filter(|choice| choice.name != "mesh_folder") {
+        let name = if choice.name == "robot_file" { "config" } else { choice.name };
+        let option = format!("--{}", name.replace('_', "-"));
+        assert!(help.split([' ', '[', '\n']).any(|word| word == option), "{option}");
+    }
 }

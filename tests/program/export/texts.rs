@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use serde_json::Value;
-use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Note, Setup, SphereBudget};
+use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Note, Setup};
 use urdd_robot::Robot;
 use urdd_xml::Node;
 
@@ -185,7 +185,7 @@ fn options(format: Format, setup: Setup) -> Choices {
     let is_mjcf = format == Format::Mjcf;
     Choices {
         setup: Some(setup),
-        spheres: SphereBudget::PerLink(1),
+        spheres: Some(1),
         samples: 100,
         // With all that an option adds.
         robot_file: (format == Format::Curobo).then(|| "robot.urdf".to_owned()),

@@ -8,7 +8,7 @@ mod merge;
 mod root;
 
 use crate::error::unknown;
-use crate::{ExportError, Layout, LinkOptions, Members, Note, Setup, Structure};
+use crate::{Choices, ExportError, Layout, Members, Note, Setup, Structure};
 use urdd_format::urdf::UrdfModule;
 
 /// A robot as it is exported.
@@ -20,14 +20,11 @@ pub(super) struct Arranged {
 }
 
 impl Arranged {
-    pub fn new(urdf: UrdfModule, options: Option<&LinkOptions>) -> Result<Self, ExportError> {
+    pub fn new(urdf: UrdfModule, choices: &Choices) -> Result<Self, ExportError> {
         let structure = Structure::of(&urdf)?;
         let (layout, notes) = (Layout::default(), Vec::new());
         let mut made = Arranged { urdf, structure, layout, notes };
-        let Some(options) = options else {
-            return Ok(made);
-        };
-        if let Some(name) = &options.root {
+        if let Some(name) = &choices.root {
             let links = || made.structure.view.links.iter().map(|link| link.name.as_str());
             let root = links().position(|link| link == name);
             let root = root.ok_or_else(|| unknown("link", name, links()))?;
@@ -37,7 +34,7 @@ impl Arranged {
                 made.structure = Structure::of(&made.urdf)?;
             }
         }
-        if options.merge_fixed {
+        if choices.merge_fixed {
             merge::merge(&mut made.urdf, &made.structure, &mut made.layout, &mut made.notes)?;
             made.structure = Structure::of(&made.urdf)?;
         }

@@ -12,9 +12,7 @@ use crate::names::check_package;
 use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
 };
-use crate::{
-    DrakeOptions, Export, ExportError, Files, Format, Note, Structure, Subject, Taken, Yaml,
-};
+use crate::{Export, ExportError, Files, Format, Note, Structure, Subject, Taken, Yaml};
 pub(super) use joints::is_free;
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::other_parts::Owner;
@@ -22,13 +20,12 @@ use urdd_xml::writer::Element;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
-pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let urdf = &subject.urdf;
     let mut robot = empty_robot(subject).with("xmlns:drake", "http://drake.mit.edu");
     let mut notes = Vec::new();
     let shapes = subject.shapes_by_link()?;
-    let (links, mut files) =
-        links(subject, Geometry::Drake, &options.model.meshes, shapes, &mut notes)?;
+    let (links, mut files) = links(subject, Geometry::Drake, shapes, &mut notes)?;
     let joints = joints::joints(subject, &mut notes)?;
     let mut lost = 0;
     let bodies = links.into_iter().zip(&urdf.links).enumerate();
@@ -55,7 +52,7 @@ pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export
     }
     notes.extend(subject.notes());
     let what = format!("Collision geometry, and pairs that are filtered: {}.", subject.shapes);
-    files.extend(package_files(subject, options)?);
+    files.extend(package_files(subject)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }
@@ -113,8 +110,8 @@ pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
 }
 
 /// The files, if a package is asked for.
-fn package_files(subject: &Subject, options: &DrakeOptions) -> Result<Files, ExportError> {
-    let (Some(package), Some(file)) = (&options.package, &options.file) else {
+fn package_files(subject: &Subject) -> Result<Files, ExportError> {
+    let (Some(package), Some(file)) = (&subject.options.package, &subject.options.file) else {
         return Ok(Files::new());
     };
     check_package(package)?;

@@ -12,11 +12,10 @@ use urdd_xml::writer::Element;
 /// The actuators, and a sentence about them.
 pub(super) fn actuators(
     subject: &Subject,
-    bandwidth: Option<f64>,
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
 ) -> Result<(Element, String), ExportError> {
-    let (gains, said) = gains(subject, bandwidth, kind, notes)?;
+    let (gains, said) = gains(subject, kind, notes)?;
     let mut element = Element::new("actuator");
     let mut names = names(subject)?;
     for (index, gains) in gains.into_iter().enumerate() {

@@ -7,9 +7,7 @@ use nalgebra::Isometry3;
 use super::{inertia, surface};
 use crate::meshes::{Looks, looks};
 use crate::shapes::thick;
-use crate::{
-    ExportError, FlatShapes, MeshFiles, MeshFormat, MjcfOptions, Moves, Note, Shape, Solid, Subject,
-};
+use crate::{ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_geometry::primitives::Primitive;
@@ -24,7 +22,6 @@ const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it 
 /// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
-    options: &'a MjcfOptions,
     shapes: Vec<Vec<Shape>>,
     looks: Looks,
     flat: FlatShapes,
@@ -43,7 +40,7 @@ pub(super) struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    pub fn new(subject: &'a Subject<'a>, options: &'a MjcfOptions) -> Result<Self, ExportError> {
+    pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
         let shapes = subject.shapes_by_link()?;
         let mut notes = Vec::new();
         if shapes.iter().all(Vec::is_empty) {
@@ -52,11 +49,10 @@ impl<'a> Bodies<'a> {
         let (inertials, balanced) = inertia::inertials(subject, &mut notes);
         Ok(Bodies {
             subject,
-            options,
             shapes,
-            looks: looks(subject, &options.model.meshes, &mut notes)?,
+            looks: looks(subject, &mut notes)?,
             flat: FlatShapes::new(subject)?,
-            files: MeshFiles::new(subject, &options.model.meshes),
+            files: MeshFiles::new(subject),
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
@@ -134,7 +130,7 @@ impl<'a> Bodies<'a> {
             element.push(Element::new("freejoint").with("name", name));
         }
         element.extend(joints);
-        element.extend(site(subject, self.options.sensors, link));
+        element.extend(site(subject, self.subject.options.chosen.sensors, link));
         element.extend(std::mem::take(&mut self.sites[link]));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {

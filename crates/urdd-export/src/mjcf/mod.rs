@@ -2,7 +2,7 @@
 //!
 //! A floating joint becomes three slide joints and a ball joint, regardless of its parent, so that its position is
 //! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
-//! world, unless [`floating_base`](crate::ModelOptions::floating_base) asks for a free joint. Mimic joints become
+//! world, unless [`floating_base`](crate::Choices::floating_base) asks for a free joint. Mimic joints become
 //! equality constraints with chains resolved, which MuJoCo enforces only in simulation: a caller that sets positions must
 //! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
 //! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
@@ -19,7 +19,7 @@ pub mod surface;
 use body::{Bodies, geom_name};
 
 use crate::output::fill;
-use crate::{Export, ExportError, Files, MjcfOptions, Note, Stand, Subject};
+use crate::{Export, ExportError, Files, Note, Stand, Subject};
 use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::{Element, escaped, head};
@@ -29,9 +29,11 @@ const SEVERAL: &str =
 
 const WORLD: &str = "the root link is called `world`, which is MuJoCo's own body and never moves; the base is not free";
 
-pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export, ExportError> {
-    let stand = Stand::new(subject, options.scene_of.is_some())?;
-    let mut bodies = Bodies::new(subject, options)?;
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let options = &subject.options.chosen;
+    let scene_of = subject.options.file.as_ref().filter(|_| options.scene);
+    let stand = Stand::new(subject, scene_of.is_some())?;
+    let mut bodies = Bodies::new(subject)?;
     let closings = loops::closings(subject, &mut bodies.notes)?;
     bodies.sites = closings.sites;
     let world = bodies.world(stand.base_height)?;
@@ -47,7 +49,7 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push(compiler);
     let flag = Element::new("flag").with("filterparent", "disable");
     let mut option = Element::new("option").holding(flag);
-    if options.model.actuators.is_some() {
+    if options.actuators.is_some() {
         // The damping of actuators is integrated implicitly: it is stable for light links too.
         option = option.with("integrator", "implicitfast");
     }
@@ -60,18 +62,17 @@ pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export,
     root.push_filled(equality);
     root.push_filled(contact(subject));
     let mut what = format!("Geoms for collision: {}.", subject.shapes);
-    if let Some(kind) = options.model.actuators {
-        let (actuators, said) =
-            actuators::actuators(subject, options.model.bandwidth, kind, &mut notes)?;
+    if let Some(kind) = options.actuators {
+        let (actuators, said) = actuators::actuators(subject, kind, &mut notes)?;
         what += &said;
         root.push_filled(actuators);
     }
     if options.sensors {
         root.push_filled(body::sensors(subject));
     }
-    root.push_filled(keyframes::keyframes(subject, options.model.actuators, &stand)?);
+    root.push_filled(keyframes::keyframes(subject, options.actuators, &stand)?);
     let mut files = bodies.files.into_files();
-    if let Some(file) = &options.scene_of {
+    if let Some(file) = scene_of {
         files.extend(scene(subject, file, &stand)?);
     }
     let text = root.document(&subject.comments(what, &notes)?);

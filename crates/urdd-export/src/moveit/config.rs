@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::groups::joints_of;
 use crate::names::FileNames;
 use crate::urdf_elements::ros2_control;
-use crate::{ExportError, Members, MoveitOptions, Setup, Subject};
+use crate::{ExportError, Members, Ros, Setup, Subject};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::urdf::{JointType, Limit};
 use urdd_xml::Node;
@@ -14,7 +14,9 @@ use urdd_xml::element::children;
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {
     pub subject: &'a Subject<'a>,
-    pub options: &'a MoveitOptions,
+    /// The name of the package.
+    pub package: &'a str,
+    pub ros: Ros,
     pub setup: &'a Setup,
     /// The name of files.
     pub name: String,
@@ -29,7 +31,7 @@ pub(super) struct Config<'a> {
 impl<'a> Config<'a> {
     pub fn new(
         subject: &'a Subject<'a>,
-        options: &'a MoveitOptions,
+        package: &'a str,
         setup: &'a Setup,
     ) -> Result<Self, ExportError> {
         let groups = 0..setup.groups.len();
@@ -37,7 +39,8 @@ impl<'a> Config<'a> {
         Ok(Config {
             hardware: Hardware::new(subject, setup, &joints),
             subject,
-            options,
+            package,
+            ros: subject.options.chosen.ros.unwrap_or_default(),
             setup,
             name: FileNames::default().of(&subject.urdf.name),
             joints,

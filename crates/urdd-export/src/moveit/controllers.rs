@@ -149,7 +149,7 @@ pub(super) fn packages(controllers: &[Controller], ros: Ros) -> impl Iterator<It
 
 /// What a person has to know of controllers and limits.
 pub(super) fn notes(config: &Config, controllers: &[Controller]) -> Vec<Note> {
-    let ros = config.options.ros;
+    let ros = config.ros;
     let groups = config.controlled().into_iter().filter(|(_, joints)| {
         joints.iter().any(|joint| config.hardware.told(*joint) != Some(Command::Position))
     });
@@ -172,7 +172,7 @@ fn manager(config: &Config, controllers: &[Controller]) -> String {
     let mut names = Vec::new();
     let mut entries = Vec::new();
     for controller in controllers {
-        let Some([action, kind]) = controller.action(config.options.ros) else { continue };
+        let Some([action, kind]) = controller.action(config.ros) else { continue };
         let joints = controller.joints.iter().map(|joint| config.joint(*joint));
         let entry = Yaml::map([
             ("action_ns", Yaml::plain(action)),
@@ -197,7 +197,7 @@ fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {
     let mut entries = Vec::new();
     for controller in controllers {
         let name = quoted(&controller.name);
-        let [_, plugin] = controller.plugin(config.options.ros);
+        let [_, plugin] = controller.plugin(config.ros);
         manager.push((name.clone(), kind(plugin)));
         entries.push((name, Yaml::map([("ros__parameters", controller.parameters(config))])));
     }

@@ -11,19 +11,20 @@ mod semantic;
 use config::Config;
 
 use crate::names::check_package;
-use crate::{Export, ExportError, MoveitOptions, Note, Subject, urdf, xacro};
+use crate::{Export, ExportError, Note, Subject, urdf, xacro};
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 
 const REPLACED: &str = "the hardware of the source's `<ros2_control>` is not in the package: `mock_components/GenericSystem` is in its place, with the same command interfaces; to drive the robot, put the source's into the URDF of `config`";
 
-pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Export, ExportError> {
-    check_package(&options.package)?;
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let package = subject.options.package.as_deref().unwrap_or_default();
+    check_package(package)?;
     let mut notes = Vec::new();
     let setup = subject.setup(&mut notes)?;
-    let config = Config::new(subject, options, &setup)?;
+    let config = Config::new(subject, package, &setup)?;
     let shapes = subject.shapes_by_link()?;
-    let (mut robot, meshes) = urdf::robot(subject, &options.model.meshes, shapes, &mut notes)?;
+    let (mut robot, meshes) = urdf::robot(subject, shapes, &mut notes)?;
     robot.push(mock_hardware(&config));
     if config.hardware.is_of_source {
         notes.push(Note::Robot(REPLACED));
@@ -41,7 +42,7 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     let mut files: Vec<(String, Vec<u8>)> =
         files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
     // Meshes are named by package: the folder of the package is where the export is.
-    let prefix = format!("package://{}/", options.package);
+    let prefix = format!("package://{package}/");
     files.extend(meshes.into_iter().map(|(path, bytes)| {
         let inside = path.strip_prefix(&prefix).map(str::to_owned);
         (inside.unwrap_or(path), bytes)

@@ -44,10 +44,10 @@ pub(super) fn files(config: &Config, controllers: &[Controller]) -> Vec<(String,
     let robot = &config.subject.urdf.name;
     let root = quoted(&config.subject.links[config.subject.tree.root]);
     let group = config.setup.groups.first().map_or("", |group| group.value.name.as_str());
-    let package = &config.options.package;
+    let package = config.package;
     let started: Vec<String> = controllers::names(controllers).map(quoted).collect();
     let mut needed = NEEDED.to_vec();
-    needed.extend(controllers::packages(controllers, config.options.ros));
+    needed.extend(controllers::packages(controllers, config.ros));
     needed.sort_unstable();
     needed.dedup();
     let needed = needed.iter().map(|name| format!("  <exec_depend>{name}</exec_depend>\n"));
@@ -60,7 +60,7 @@ pub(super) fn files(config: &Config, controllers: &[Controller]) -> Vec<(String,
         ("SRDF", quoted(&format!("config/{}.srdf", config.name))),
         ("ROOT", root.clone()),
         ("CONTROLLERS", format!("[{}]", started.join(", "))),
-        ("MANAGER", manager(config.options.ros).to_owned()),
+        ("MANAGER", manager(config.ros).to_owned()),
     ];
     let rviz = [("GROUP", quoted(group)), ("ROOT", root)];
     vec![
@@ -74,9 +74,9 @@ pub(super) fn files(config: &Config, controllers: &[Controller]) -> Vec<(String,
 fn cmake(config: &Config) -> String {
     let mut text = format!(
         "cmake_minimum_required(VERSION 3.10.2)\nproject({})\nfind_package(ament_cmake REQUIRED)\n\nament_package()\n\n",
-        &config.options.package
+        config.package
     );
-    let meshes = config.options.model.meshes.folder.rsplit('/').next();
+    let meshes = config.subject.options.mesh_folder.rsplit('/').next();
     for folder in ["launch", "config"].into_iter().chain(meshes) {
         // CMake's escapes in a quoted argument.
         let folder = folder.replace('\\', "\\\\").replace('"', "\\\"").replace('$', "\\$");

@@ -34,7 +34,7 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
         ("config/kinematics.yaml".to_owned(), self::kinematics(config).document(&kinematics)),
         (
             "config/ompl_planning.yaml".to_owned(),
-            head(&planning) + pipeline(config.options.ros) + OMPL + &groups(config),
+            head(&planning) + pipeline(config.ros) + OMPL + &groups(config),
         ),
     ])
 }

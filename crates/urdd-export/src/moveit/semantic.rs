@@ -3,6 +3,7 @@
 use super::config::Config;
 use crate::names::{ANOTHER, check_names};
 use crate::{ExportError, Members, Note, Taken, srdf};
+use urdd_srdf::write;
 use urdd_xml::number::number;
 use urdd_xml::writer::Element;
 
@@ -61,7 +62,7 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
 }
 
 fn group(config: &Config, name: &str, members: &Members) -> Element {
-    let mut group = Element::new("group").with("name", name);
+    let mut group = write::group(name);
     match members {
         Members::Chain { base, tip } => {
             let [base, tip] = [base, tip].map(|link| config.subject.links[*link].as_str());
@@ -69,13 +70,13 @@ fn group(config: &Config, name: &str, members: &Members) -> Element {
         }
         Members::Joints(joints) => {
             for joint in joints {
-                group.push(Element::new("joint").with("name", config.joint(*joint)));
+                group.push(write::joint(config.joint(*joint)));
             }
         }
         Members::Groups(groups) => {
             for other in groups {
                 let name = config.setup.groups[*other].value.name.as_str();
-                group.push(Element::new("group").with("name", name));
+                group.push(write::group(name));
             }
         }
     }
@@ -93,15 +94,11 @@ fn states(config: &Config, robot: &mut Element) {
             if !joints.iter().any(|joint| is_set(&joint)) {
                 continue;
             }
-            let mut state = Element::new("group_state")
-                .with("name", named.name.as_str())
-                .with("group", group.value.name.as_str());
-            for joint in joints.iter().filter(|joint| config.subject.is_driven(**joint)) {
-                let value = config.position(&named.configuration, *joint);
-                let joint = Element::new("joint").with("name", config.joint(*joint));
-                state.push(joint.with("value", number(value)));
-            }
-            robot.push(state);
+            let driven = joints.iter().filter(|joint| config.subject.is_driven(**joint));
+            let values = driven.map(|joint| {
+                (config.joint(*joint), number(config.position(&named.configuration, *joint)))
+            });
+            robot.push(write::state(named.name.as_str(), &group.value.name, values));
         }
     }
 }

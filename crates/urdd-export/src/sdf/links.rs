@@ -8,9 +8,7 @@ use crate::inertia::{held, mean};
 use crate::meshes::looks;
 use crate::shapes::thick;
 use crate::urdf_elements::{INERTIA, sizes};
-use crate::{
-    ExportError, Files, MeshFiles, MeshFormat, MeshOptions, Note, Shape, Solid, Subject, Taken,
-};
+use crate::{ExportError, Files, MeshFiles, MeshFormat, Note, Shape, Solid, Subject, Taken};
 use urdd_document::robot::Inertial;
 use urdd_geometry::primitives::Primitive;
 use urdd_kinematics::rotation::to_rpy;
@@ -28,7 +26,6 @@ const IMPOSSIBLE: &str = "moments of inertia that no body has, which SDF refuses
 /// The links in link order, then those between the parts of joints; and the files that they reference.
 pub(super) fn links(
     subject: &Subject,
-    meshes: &MeshOptions,
     joints: &Joints,
     gazebo: &Gazebo,
     notes: &mut Vec<Note>,
@@ -37,10 +34,10 @@ pub(super) fn links(
     if shapes.iter().all(Vec::is_empty) {
         notes.push(Note::NoShapes(subject.shapes));
     }
-    let mut files = MeshFiles::new(subject, meshes);
+    let mut files = MeshFiles::new(subject);
     let mut elements = Vec::new();
     let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
-    let looks = looks(subject, meshes, notes)?;
+    let looks = looks(subject, notes)?;
     let each = shapes.into_iter().zip(looks.meshes.into_iter().zip(looks.primitives));
     for (link, (shapes, (looks, primitives))) in each.enumerate() {
         if subject.is_frame(link) {

@@ -9,14 +9,14 @@ mod gazebo;
 mod joints;
 mod links;
 
-use crate::{Export, ExportError, ModelOptions, Note, Subject, drake};
+use crate::{Export, ExportError, Note, Subject, drake};
 use gazebo::{Gazebo, Place};
 use urdd_xml::writer::Element;
 
 const GAZEBO: &str = "Gazebo knows no pairs that need no check; the links do not collide with each other there (`<self_collide>` is off). Drake reads the pairs";
 const WORLD: &str = "the root link is called `world`, which is SDF's own and has neither mass nor shapes; its own are left out";
 
-pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
     let mut model = Element::new("model").with("name", model_name(subject));
     let root = subject.tree.root;
@@ -25,7 +25,7 @@ pub(super) fn export(subject: &Subject, options: &ModelOptions) -> Result<Export
     let mut taken = subject.names.taken.clone();
     gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
     let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
-    let (links, files) = links::links(subject, &options.meshes, &joints, &gazebo, &mut notes)?;
+    let (links, files) = links::links(subject, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
             notes.push(Note::Robot(WORLD));

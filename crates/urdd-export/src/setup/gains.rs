@@ -6,6 +6,13 @@ use toml::Spanned;
 
 use super::file::{Placed, wrong};
 use urdd_directory::export_toml::{JointGains, Name};
+use urdd_directory::range::Range;
+
+/// The frequency below which a joint follows its actuator.
+pub(crate) const BANDWIDTH: Range = Range::real("bandwidth", 0.01, 1000.0, "Hz");
+
+/// It where nobody chose it, Hz.
+pub(crate) const USUAL_BANDWIDTH: f64 = 10.0;
 
 /// Whether a name is a pattern, if no joint has it.
 pub(super) fn is_pattern(name: &str) -> bool {

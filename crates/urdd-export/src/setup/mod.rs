@@ -4,7 +4,7 @@
 //! read from `NAME.export.toml` beside the URDD `NAME` (`read`). Every name in it is checked when it is read.
 
 mod file;
-mod gains;
+pub(crate) mod gains;
 mod guess;
 mod guesser;
 mod read;

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use super::file::{Placed, SetupError, wrong};
+use super::gains::BANDWIDTH;
 use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
 use super::{Curobo, EndEffector, Gains, Group, Guess, Members, Setup, contains_itself, within};
 use crate::Structure;
 use crate::error::unknown;
-use crate::options::BANDWIDTH;
 use urdd_directory::export_toml::{EndEffectorTable, File, GroupTable, JointGains, Name};
 use urdd_directory::layout::setup_beside;
 use urdd_directory::limits::MAX_TOML_BYTES;

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use super::gains::USUAL_BANDWIDTH;
 use super::{Guess, Members, Setup};
 use crate::output::fill;
 use crate::yaml::{quoted, real};
-use crate::{ExportError, ModelOptions, Structure};
+use crate::{ExportError, Structure};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_format::escape;
 use urdd_robot::Robot;
@@ -82,7 +83,7 @@ impl Setup {
         let locked: Vec<String> =
             curobo.locked.iter().map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
         let locked = (!locked.is_empty()).then(|| format!("{{ {} }}", locked.join(", ")));
-        let bandwidth = self.gains.bandwidth.unwrap_or(ModelOptions::BANDWIDTH);
+        let bandwidth = self.gains.bandwidth.unwrap_or(USUAL_BANDWIDTH);
         let mut floating =
             format!("{}floating = {}", guess(&self.floating.why), self.floating.value);
         for (name, pose) in &self.base_poses {

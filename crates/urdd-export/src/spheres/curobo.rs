@@ -1,6 +1,6 @@
 //! cuRobo: the spheres of each link, and the other entries by link of its robot file. The keys are those of
 //! `robot_cfg: kinematics:`. cuRobo also reads `collision_spheres` from a separate file. With
-//! [`SphereOptions::robot_file`], the whole robot file.
+//! [`Choices::robot_file`](crate::Choices::robot_file), the whole robot file.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -9,7 +9,7 @@ use nalgebra::Point3;
 use super::model::Sphere;
 use super::{Model, said};
 use crate::yaml::entries;
-use crate::{Export, ExportError, Note, Setup, SphereOptions, Subject, Taken, Yaml};
+use crate::{Export, ExportError, Note, Setup, Subject, Taken, Yaml};
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_xml::number::number;
 
@@ -22,17 +22,14 @@ const SEVERAL: &str =
 const ACCELERATION: f64 = 15.0;
 const JERK: f64 = 500.0;
 
-pub(in super::super) fn export(
-    subject: &Subject,
-    options: &SphereOptions,
-) -> Result<Export, ExportError> {
-    let model = Model::new(subject, options)?;
+pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
     let mut lines = subject.origin()?;
-    lines.extend(model.said(&subject.links, options.cover));
+    lines.extend(model.said(&subject.links, subject.options.chosen.cover));
     lines.push(BUFFERS.to_owned());
     let mut notes: Vec<Note> = said::note(&model, subject).into_iter().collect();
     let spheres = by_link(subject, &model);
-    let tree = match &options.robot_file {
+    let tree = match &subject.options.chosen.robot_file {
         None => Yaml::Map(spheres),
         Some(urdf) => {
             let setup = subject.setup(&mut notes)?;

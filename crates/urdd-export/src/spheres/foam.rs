@@ -5,15 +5,12 @@ use serde_json::{Map, Value, json};
 use super::said::{self, Stand};
 use super::{Model, model::Sphere};
 use crate::subject::by_link;
-use crate::{Export, ExportError, SphereOptions, Subject, urdf};
+use crate::{Export, ExportError, Subject, urdf};
 use urdd_format::escape;
 use urdd_robot::{LinkShape, Solid};
 
-pub(in super::super) fn export(
-    subject: &Subject,
-    options: &SphereOptions,
-) -> Result<Export, ExportError> {
-    let model = Model::new(subject, options)?;
+pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
     let name = |link: usize| subject.links.get(link).cloned().unwrap_or_default();
     let sphere = |sphere: &Sphere| json!({ "origin": sphere.centre, "radius": sphere.radius });
     let links = model.links.iter().zip(&model.surface).map(|((link, spheres), surface)| {
@@ -30,7 +27,7 @@ pub(in super::super) fn export(
     let links: Map<String, Value> = links.collect();
     let document = json!({
         "made_from": subject.origin()?,
-        "about": model.said(&subject.links, options.cover),
+        "about": model.said(&subject.links, subject.options.chosen.cover),
         "measured": model.measured.json(),
         "ignored_pairs": model.ignored.iter().map(|pair| pair.map(name)).collect::<Vec<_>>(),
         "links": links,
@@ -41,11 +38,8 @@ pub(in super::super) fn export(
 }
 
 /// URDF with the spheres as collision geometry.
-pub(in super::super) fn spherized(
-    subject: &Subject,
-    options: &SphereOptions,
-) -> Result<Export, ExportError> {
-    let model = Model::new(subject, options)?;
+pub(in super::super) fn spherized(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
     let mut shapes: Vec<LinkShape> = Vec::new();
     for (link, spheres) in &model.links {
         let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
@@ -57,8 +51,8 @@ pub(in super::super) fn spherized(
     }
     let shapes = by_link(&subject.described, shapes);
     let mut notes = said::note(&model, subject).into_iter().collect();
-    let (robot, files) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
-    let said = model.said(&subject.links, options.cover).join(" ");
+    let (robot, files) = urdf::robot(subject, shapes, &mut notes)?;
+    let said = model.said(&subject.links, subject.options.chosen.cover).join(" ");
     let text = robot.document(&subject.comments(said, &notes)?);
     Ok(Export::of(text, files, notes))
 }

@@ -25,7 +25,7 @@ pub mod surface;
 
 use rayon::prelude::*;
 
-use crate::{ExportError, Shapes, SphereBudget, SphereOptions, Subject};
+use crate::{Choices, ExportError, Shapes, Subject};
 use fit::Limits;
 use frame::Point;
 pub use judge::SphereRates;
@@ -68,13 +68,14 @@ struct Model {
 }
 
 impl Model {
-    fn new(subject: &Subject, options: &SphereOptions) -> Result<Self, ExportError> {
+    fn new(subject: &Subject) -> Result<Self, ExportError> {
+        let options = &subject.options.chosen;
         let kind = match options.shapes {
             Shapes::Kind(kind @ (ShapeKind::Pieces | ShapeKind::Hulls)) => kind,
             other => return Err(ExportError::SpheresOf(other)),
         };
         let pairs = Pairs::new(subject, kind, options.reasons.as_deref())?;
-        let limits = limits(options.budget, pairs.links.len());
+        let limits = limits(options, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);
         let surface: Vec<Vec<Point>> =
@@ -82,7 +83,7 @@ impl Model {
         let numbers = Numbers::new(options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
         let (spheres, near) = if options.cover {
-            (covering(options.budget, &pairs), false)
+            (covering(options, &pairs), false)
         } else {
             fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?
         };
@@ -106,24 +107,23 @@ impl Model {
     }
 }
 
-fn limits(budget: SphereBudget, links: usize) -> Limits {
-    match budget {
-        SphereBudget::Auto => {
+/// A number for all links counts before one for each.
+fn limits(options: &Choices, links: usize) -> Limits {
+    match (options.total_spheres, options.spheres) {
+        (Some(total), _) => Limits { total, per_link: usize::MAX },
+        (None, Some(count)) => Limits { total: count.saturating_mul(links), per_link: count },
+        (None, None) => {
             Limits { total: (AUTO_PER_LINK * links).min(AUTO_TOTAL), per_link: usize::MAX }
         }
-        SphereBudget::PerLink(count) => {
-            Limits { total: count.saturating_mul(links), per_link: count }
-        }
-        SphereBudget::Total(count) => Limits { total: count, per_link: usize::MAX },
     }
 }
 
-fn covering(budget: SphereBudget, pairs: &Pairs) -> Spheres {
+fn covering(options: &Choices, pairs: &Pairs) -> Spheres {
     let vertices = |pieces: &Vec<urdd_geometry::Mesh>| {
         pieces.iter().map(|mesh| mesh.vertices.clone()).collect()
     };
     let links: Vec<Vec<Vec<Point>>> = pairs.pieces.iter().map(vertices).collect();
-    cover::cover(&links, budget)
+    cover::cover(&links, options.spheres, options.total_spheres)
 }
 
 /// Fits spheres that give the same collision results as the exact shapes. Also returns whether the fit used

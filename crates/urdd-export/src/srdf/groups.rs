@@ -4,11 +4,13 @@ use std::collections::BTreeSet;
 
 use urdd_xml::Node;
 
+use super::error::SrdfError;
+use crate::Structure;
 use crate::error::unknown;
 use crate::groups::JointGroup;
 use crate::setup::{contains_itself, within};
-use crate::{Srdf, SrdfError, Structure};
 use urdd_robot::Robot;
+use urdd_srdf::{ReadError, Srdf};
 
 /// The groups of an SRDF, in the order of the file: their joints, the joints above their links, their chains, and the
 /// groups in them.
@@ -46,7 +48,7 @@ struct GroupReader<'a, 't> {
 
 impl GroupReader<'_, '_> {
     /// The joints and the groups of a group.
-    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), SrdfError> {
+    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), ReadError> {
         let (mut joints, mut groups) = (Vec::new(), Vec::new());
         let view = &self.structure.view;
         let tree = &self.structure.tree;
@@ -84,7 +86,7 @@ impl GroupReader<'_, '_> {
         what: &'static str,
         attribute: &str,
         mut names: impl Iterator<Item = &'n str> + Clone,
-    ) -> Result<usize, SrdfError> {
+    ) -> Result<usize, ReadError> {
         let name = node.attribute(attribute).unwrap_or_default();
         let all = names.clone();
         let found = names.position(|known| known == name);

@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use urdd_xml::Node;
 
-use super::read::elements;
+use super::error::SrdfError;
 use crate::error::unknown;
 use crate::pairs::{ascending, last_edits};
-use crate::{LeftOut, Srdf, SrdfError};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::{Robot, RobotError, ShapeKind};
+use urdd_srdf::{LeftOut, Srdf, elements};
 
 /// A robot's edits after an SRDF import.
 #[derive(Debug, Clone, PartialEq)]

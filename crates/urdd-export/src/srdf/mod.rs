@@ -1,10 +1,9 @@
-//! SRDF: the pairs of links that MoveIt does not check. Groups and other elements are read here; the package of MoveIt
-//! writes them.
+//! SRDF of a robot: the pairs of links that MoveIt does not check. Groups and other elements are read here; the package of
+//! MoveIt writes them.
 
+pub(super) mod error;
 pub(super) mod groups;
 pub(super) mod import;
-pub(super) mod merge;
-pub(super) mod read;
 
 use crate::{Export, ExportError, LinkPair, Subject};
 use urdd_format::link_shapes_simple_skips::SkipReason;
@@ -25,11 +24,8 @@ pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
 }
 
 fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
-    let [a, b] = pair.links.map(|link| subject.links[link].as_str());
-    Element::new("disable_collisions")
-        .with("link1", a)
-        .with("link2", b)
-        .with("reason", reason(subject, pair))
+    let links = pair.links.map(|link| subject.links[link].as_str());
+    urdd_srdf::write::disabled(links, reason(subject, pair))
 }
 
 /// The reason as MoveIt's Setup Assistant writes it: `Adjacent` for two links that a joint connects, even if they are

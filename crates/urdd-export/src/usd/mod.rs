@@ -17,7 +17,7 @@ use nalgebra::Isometry3;
 
 use crate::gains::gains;
 use crate::meshes::looks;
-use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject, UsdOptions};
+use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject};
 use joints::Joints;
 use looks::Materials;
 use names::{Filters, Paths, last};
@@ -26,8 +26,8 @@ use prim::Prim;
 const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";
 const ELSEWHERE: &str = "Bodies are in the default configuration, in which joints are not at 0; `state` of a joint has its position";
 
-pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, ExportError> {
-    if let Some(file) = &options.file
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    if let Some(file) = &subject.options.file
         && let Some(ending) = [".usdc", ".usdz"].into_iter().find(|of| file.ends_with(of))
     {
         return Err(ExportError::Binary { file: file.clone(), ending });
@@ -39,7 +39,7 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
     let stand = Stand::new(subject, false)?;
     let up = Isometry3::translation(0.0, 0.0, stand.base_height);
     let poses = subject.link_poses(&zero)?;
-    let mut files = MeshFiles::new(subject, &options.model.meshes);
+    let mut files = MeshFiles::new(subject);
     let mut materials = Materials::new(&format!("/{}", paths.root), &paths.scopes[1]);
     let mut links: Vec<Prim> = Vec::new();
     for (link, pose) in poses.iter().enumerate() {
@@ -59,20 +59,15 @@ pub(super) fn export(subject: &Subject, options: &UsdOptions) -> Result<Export, 
         links.push(prim);
     }
     mass::add(subject, &mut links, &mut notes);
-    looks::add(
-        &looks(subject, &options.model.meshes, &mut notes)?,
-        &mut links,
-        &mut materials,
-        &mut files,
-    );
+    looks::add(&looks(subject, &mut notes)?, &mut links, &mut materials, &mut files);
     let contact = subject.friction().map(|friction| materials.contact(friction));
     let names = (&filters, &paths);
     shapes::add(subject, &mut links, contact.as_ref(), names, &mut files, &mut notes)?;
 
     let mut what = format!("Collision geometry: {}.", subject.shapes);
     let mut drives = None;
-    if let Some(kind) = options.model.actuators {
-        let (gains, said) = gains(subject, options.model.bandwidth, kind, &mut notes)?;
+    if let Some(kind) = subject.options.chosen.actuators {
+        let (gains, said) = gains(subject, kind, &mut notes)?;
         what += &said;
         drives = Some(gains);
     }

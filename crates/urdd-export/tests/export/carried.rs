@@ -216,7 +216,7 @@ fn visuals_can_have_fewer_triangles() {
     let (_folder, path) = testkit::robots::made(urdf);
     let robot = Robot::open(path).expect("a robot");
     let of = |detail| {
-        let options = Choices { visuals: Some(detail), ..Choices::default() };
+        let options = Choices { visuals: detail, ..Choices::default() };
         export(&robot, Format::Urdf, &options).expect("an export")
     };
     let full = of(urdd_export::Detail::Full);

@@ -1,6 +1,6 @@
 //! What fits which format is said once, in the library.
 
-use urdd_export::{ActuatorKind, Choices, Fit, Format, Options, Ros};
+use urdd_export::{ActuatorKind, Choices, Fit, Format, Ros};
 
 /// Each option that only some formats have is refused by all others, and named.
 #[test]
@@ -20,11 +20,11 @@ fn what_a_format_does_not_have_is_refused() {
         ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
     ];
     for format in Format::ALL {
-        assert_eq!(none().options(*format).map(|options| options.format()), Ok(*format));
+        assert_eq!(none().options(*format).map(|options| options.format), Ok(*format));
         for (option, choices, formats) in &cases {
             let said = choices.options(*format).map_err(|misfit| misfit.to_string());
             match formats.split(" and ").any(|word| word == format.word()) {
-                true => assert_eq!(said.map(|options| options.format()), Ok(*format)),
+                true => assert_eq!(said.map(|options| options.format), Ok(*format)),
                 false => assert_eq!(said, Err(format!("{option} is for {formats} only"))),
             }
         }
@@ -35,20 +35,14 @@ fn what_a_format_does_not_have_is_refused() {
 #[test]
 fn names_follow_the_output() {
     let choices = Choices { output: Some("a/My-Robot v1.2".into()), ..Choices::default() };
-    let Ok(Options::Moveit(moveit)) = choices.options(Format::Moveit) else {
-        panic!("options of MoveIt");
+    let names = |choices: &Choices, format: Format| {
+        let options = choices.options(format).expect("options of the format");
+        (options.package, options.mesh_folder)
     };
-    assert_eq!(moveit.package, "my_robot_v1_2");
-    assert_eq!(moveit.model.meshes.folder, "package://my_robot_v1_2/meshes");
-    let Ok(Options::Urdf(urdf)) = choices.options(Format::Urdf) else {
-        panic!("options of URDF");
-    };
-    assert_eq!(urdf.meshes.folder, "My-Robot v1_meshes");
-    let Ok(Options::Moveit(moveit)) = Choices::default().options(Format::Moveit) else {
-        panic!("options of MoveIt");
-    };
-    assert_eq!(
-        (moveit.package.as_str(), moveit.model.meshes.folder.as_str()),
-        (Choices::PACKAGE, "meshes")
-    );
+    let (package, folder) = names(&choices, Format::Moveit);
+    assert_eq!(package.as_deref(), Some("my_robot_v1_2"));
+    assert_eq!(folder, "package://my_robot_v1_2/meshes");
+    assert_eq!(names(&choices, Format::Urdf), (None, "My-Robot v1_meshes".to_owned()));
+    let of_none = (Some(Choices::PACKAGE.to_owned()), "meshes".to_owned());
+    assert_eq!(names(&Choices::default(), Format::Moveit), of_none);
 }

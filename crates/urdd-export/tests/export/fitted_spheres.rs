@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::made::export;
 use nalgebra::Isometry3;
-use urdd_export::{Choices, Export, Format, Note, SphereBudget};
+use urdd_export::{Choices, Export, Format, Note};
 use urdd_format::rate::interval;
 use urdd_robot::{Queries, Robot, ShapeKind};
 
@@ -181,7 +181,7 @@ fn fitted_spheres_answer_as_the_pieces_do() {
 fn foams_file_says_the_same_in_its_own_form() {
     let (_folder, path) = made(&our_robots()[0].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Choices { samples: 300, spheres: SphereBudget::PerLink(4), ..Choices::default() };
+    let options = Choices { samples: 300, spheres: Some(4), ..Choices::default() };
     let text = |format| export(&robot, format, &options).expect("an export").text;
     let model = read(&text(Format::Curobo), &robot);
     let foam: serde_json::Value = serde_json::from_str(&text(Format::Foam)).expect("JSON");
@@ -233,7 +233,7 @@ fn pairs_that_spheres_cannot_tell_apart_are_named() {
     );
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Choices { spheres: SphereBudget::Total(4), samples: 400, ..Choices::default() };
+    let options = Choices { total_spheres: Some(4), samples: 400, ..Choices::default() };
     let cover = Choices { cover: true, ..options.clone() };
     let Export { text, notes, .. } = export(&robot, Format::Curobo, &cover).expect("an export");
     assert!(text.contains("`lower` and `upper` (0 missed, "), "{text}");
@@ -315,7 +315,7 @@ fn hostile_names_stay_names() {
     urdf += "</robot>";
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Choices { samples: 100, spheres: SphereBudget::PerLink(1), ..Choices::default() };
+    let options = Choices { samples: 100, spheres: Some(1), ..Choices::default() };
     let text = export(&robot, Format::Curobo, &options).expect("an export").text;
     let model = read(&text, &robot);
     assert!(model.spheres.iter().all(|spheres| spheres.len() == 1));

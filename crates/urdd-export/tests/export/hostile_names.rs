@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::made::export;
-use urdd_export::{Choices, Export, ExportError, Format, Note, SphereBudget, merge_srdf};
+use urdd_export::{Choices, Export, ExportError, Format, Note};
 use urdd_robot::Robot;
+use urdd_srdf::merge_srdf;
 
 use testkit::robots::made_of;
 use testkit::trials::sample;
@@ -290,7 +291,7 @@ fn hostile() -> Vec<String> {
 fn every_name_comes_out_of_every_format_as_it_went_in() {
     let neutral = Neutral::new();
     // Spheres are the same whatever the names are: as few as can be.
-    let options = Choices { spheres: SphereBudget::PerLink(1), samples: 100, ..Choices::default() };
+    let options = Choices { spheres: Some(1), samples: 100, ..Choices::default() };
     let (mut held, mut refused) = (0, 0);
     for name in sample(hostile(), 3) {
         let (other, joint) = (format!("{name}2"), format!("{name}j"));

@@ -1,6 +1,6 @@
 //! Options out of their ranges are refused by the library itself, whoever asks.
 
-use urdd_export::{ActuatorKind, Choices, Detail, ExportError, Format, SphereBudget};
+use urdd_export::{ActuatorKind, Choices, Detail, ExportError, Format};
 
 use crate::made::{export, robot, urdf};
 
@@ -36,12 +36,11 @@ fn a_bandwidth() {
 fn numbers_of_spheres_and_samples() {
     let few = Choices { samples: 100, ..Choices::default() };
     for format in [Format::Curobo, Format::Foam, Format::Spherized] {
-        for spheres in [SphereBudget::PerLink(0), SphereBudget::PerLink(10_001)] {
-            let said = refused(format, Choices { spheres, ..few.clone() });
-            assert!(said.is_some_and(|said| said.contains("from 1 to 10,000")), "{spheres:?}");
+        for spheres in [0, 10_001] {
+            let said = refused(format, Choices { spheres: Some(spheres), ..few.clone() });
+            assert!(said.is_some_and(|said| said.contains("from 1 to 10,000")), "{spheres}");
         }
-        let spheres = SphereBudget::Total(0);
-        let said = refused(format, Choices { spheres, ..few.clone() });
+        let said = refused(format, Choices { total_spheres: Some(0), ..few.clone() });
         assert!(said.is_some_and(|said| said.contains("`total_spheres`")));
         for samples in [0, 99, 1_000_001] {
             let said = refused(format, Choices { samples, ..few.clone() });
@@ -56,8 +55,7 @@ fn a_part_of_the_triangles() {
     let wrong = [Detail::Ratio(0.0), Detail::Ratio(-1.0), Detail::Ratio(f64::NAN)];
     for detail in wrong.into_iter().chain([Detail::Ratio(1.0), Detail::Triangles(0)]) {
         for format in [Format::Urdf, Format::Drake, Format::Mjcf, Format::Moveit, Format::Sdf] {
-            let visuals = Some(detail);
-            let said = refused(format, Choices { visuals, ..Choices::default() });
+            let said = refused(format, Choices { visuals: detail, ..Choices::default() });
             assert!(said.is_some_and(|said| said.contains("`visuals`")), "{detail:?}");
         }
     }

@@ -4,7 +4,7 @@
 use crate::made::export;
 use nalgebra::Point3;
 use serde_json::{Value, json};
-use urdd_export::{Choices, Export, Format, Note, Setup, SphereBudget};
+use urdd_export::{Choices, Export, Format, Note, Setup};
 use urdd_robot::Robot;
 
 use testkit::robots::{made, our_robots};
@@ -53,7 +53,7 @@ fn exported(robot: &Robot, setup: Option<&str>) -> (Export, Value) {
     let options = Choices {
         robot_file: Some("robot.urdf".to_owned()),
         samples: 500,
-        spheres: SphereBudget::PerLink(4),
+        spheres: Some(4),
         setup: setup.map(|text| Setup::from_toml(text, "x", robot).expect("read")),
         ..Choices::default()
     };
@@ -166,7 +166,7 @@ fn a_person_chooses_the_end_effector_locks_and_limits() {
 fn a_spherized_urdf_has_the_same_spheres() {
     let (_folder, robot) = robot_of("gripper");
     let (_, file) = exported(&robot, None);
-    let options = Choices { samples: 500, spheres: SphereBudget::PerLink(4), ..Choices::default() };
+    let options = Choices { samples: 500, spheres: Some(4), ..Choices::default() };
     let made = export(&robot, Format::Spherized, &options).expect("an export");
     let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     for (link, list) in file["collision_spheres"].as_object().expect("a map") {

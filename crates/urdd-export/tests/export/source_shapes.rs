@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use tempfile::TempDir;
-use urdd_export::{Choices, Export, ExportError, Format, Note, Shapes};
+use urdd_export::{Choices, Detail, Export, ExportError, Format, Note, Shapes};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::{Robot, ShapeKind};
 
@@ -181,7 +181,8 @@ fn visual_primitives_stay_primitives_with_their_colours() {
     let sdf = of_source(&robot, Format::Sdf).text;
     assert!(sdf.contains("primitive_0"), "{sdf}");
     // Without visuals there are none.
-    let choices = Choices { shapes: Shapes::Source, visuals: None, ..Choices::default() };
+    let choices =
+        Choices { shapes: Shapes::Source, visuals: Detail::Nothing, ..Choices::default() };
     let bare = export(&robot, Format::Mjcf, &choices).expect("an export").text;
     assert!(geoms(&bare, "visual").is_empty());
 }

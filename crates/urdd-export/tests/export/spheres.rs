@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use crate::made::export;
 use nalgebra::Vector3;
-use urdd_export::{Choices, Format, SphereBudget};
+use urdd_export::{Choices, Format};
 use urdd_robot::{Robot, ShapeKind, Solid};
 
 use testkit::robots::{made, our_robots};
@@ -10,8 +10,8 @@ use testkit::robots::{made, our_robots};
 type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 
 /// Covering spheres, measured in few configurations.
-fn covering(spheres: SphereBudget) -> Choices {
-    Choices { spheres, cover: true, samples: 100, ..Choices::default() }
+fn covering(spheres: Option<usize>, total_spheres: Option<usize>) -> Choices {
+    Choices { spheres, total_spheres, cover: true, samples: 100, ..Choices::default() }
 }
 
 fn foam(robot: &Robot, options: Choices) -> Spheres {
@@ -88,7 +88,7 @@ fn covering_spheres_of_a_link_hold_its_pieces() {
     for (name, urdf) in our_robots() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
-        let options = covering(SphereBudget::default());
+        let options = covering(None, None);
         let spheres = foam(&robot, options.clone());
         assert_eq!(spheres, curobo(&robot, &options), "{name}");
         let links = robot.link_names().expect("links");
@@ -133,7 +133,7 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
     let mut last: BTreeMap<String, (f64, f64)> = BTreeMap::new();
     let mut sums = Vec::new();
     for count in [1, 4, 16, 64] {
-        let spheres = foam(&robot, covering(SphereBudget::PerLink(count)));
+        let spheres = foam(&robot, covering(Some(count), None));
         assert!(spheres.values().all(|of_link| (1..=count).contains(&of_link.len())));
         let now: BTreeMap<String, (f64, f64)> =
             spheres.iter().map(|(link, of_link)| (link.clone(), filled(of_link))).collect();
@@ -150,7 +150,7 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
     }
     assert!(sums[3] < 0.5 * sums[0], "{sums:?}");
     // A link's only sphere is the smallest around its pieces: no larger than that around its hull, and not smaller.
-    let one = foam(&robot, covering(SphereBudget::PerLink(1)));
+    let one = foam(&robot, covering(Some(1), None));
     let links = robot.link_names().expect("links");
     for shape in robot.shapes(ShapeKind::Spheres).expect("spheres") {
         let Solid::Sphere { radius, .. } = shape.solid else {
@@ -159,9 +159,9 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
         let got = one[&links[shape.link]][0].1;
         assert!((got / radius - 1.0).abs() < 0.02, "{got} for {radius}");
     }
-    let total = foam(&robot, covering(SphereBudget::Total(40)));
+    let total = foam(&robot, covering(None, Some(40)));
     let count = total.values().map(Vec::len).sum::<usize>();
     assert!((30..=40).contains(&count), "{count}");
-    let few = foam(&robot, covering(SphereBudget::Total(1)));
+    let few = foam(&robot, covering(None, Some(1)));
     assert!(few.values().all(|of_link| of_link.len() == 1));
 }

@@ -1,6 +1,7 @@
 use crate::made::export;
-use urdd_export::{Choices, Format, merge_srdf};
+use urdd_export::{Choices, Format};
 use urdd_robot::Robot;
+use urdd_srdf::merge_srdf;
 
 use testkit::robots::{made_of, our_robots};
 

@@ -2,6 +2,7 @@
 
 use urdd_export::{SrdfError, import_srdf};
 use urdd_robot::Robot;
+use urdd_srdf::ReadError;
 
 use testkit::robots::made_of;
 use testkit::urdfs::line;
@@ -33,8 +34,11 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
     let (_folder, urdd) = made_of(&line());
     let robot = Robot::open(&urdd).expect("a robot");
     let fault = |text: &str| import_srdf(&robot, text, false).expect_err("a fault");
-    assert!(matches!(fault("<robot name=\"other\"/>"), SrdfError::OtherRobot { .. }));
-    assert!(matches!(fault("no"), SrdfError::Xml { .. }));
+    assert!(matches!(
+        fault("<robot name=\"other\"/>"),
+        SrdfError::Read(ReadError::OtherRobot { .. })
+    ));
+    assert!(matches!(fault("no"), SrdfError::Read(ReadError::Xml { .. })));
 }
 
 /// MoveIt (srdfdom) says so in its log, and goes on with the next element.
@@ -87,7 +91,7 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     assert_eq!((imported.added, imported.already), (3, 1));
     let made =
         crate::made::export(&robot, urdd_export::Format::Srdf, &urdd_export::Choices::default());
-    let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
+    let merged = urdd_srdf::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());
     // This once took minutes.
@@ -103,8 +107,8 @@ fn an_srdf_is_counted_before_it_is_parsed() {
     let entities = "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"line\"/>";
     for text in [srdf(&deep), entities.to_owned(), "\0".to_owned()] {
         let error = import_srdf(&robot, &text, false).expect_err("not read");
-        assert!(matches!(error, SrdfError::Xml { .. }), "{error}");
-        let merged = urdd_export::merge_srdf(&text, &srdf(""));
-        assert!(matches!(merged, Err(SrdfError::Xml { .. })));
+        assert!(matches!(error, SrdfError::Read(ReadError::Xml { .. })), "{error}");
+        let merged = urdd_srdf::merge_srdf(&text, &srdf(""));
+        assert!(matches!(merged, Err(ReadError::Xml { .. })));
     }
 }

@@ -31,7 +31,7 @@ fn what_is_wrong_is_named_with_its_line_and_the_rest_is_imported() {
         assert_eq!((last.name.as_str(), last.positions[0].position), ("good", 0.25));
     }
     let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
-    assert!(matches!(other, SrdfError::OtherRobot { .. }), "{other}");
+    assert!(matches!(other, SrdfError::Read(urdd_srdf::ReadError::OtherRobot { .. })), "{other}");
 }
 
 /// An SRDF of 16 MB holds a quarter of a million states.

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use crate::made::export;
-use urdd_export::{Choices, Export, Format, Note};
+use urdd_export::{Choices, Detail, Export, Format, Note};
 use urdd_format::urdf::{Joint, JointType};
 use urdd_generate::{Selection, Settings, generate};
 use urdd_robot::{Robot, ShapeKind, Solid};
@@ -136,7 +136,8 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
 fn boxes_stand_where_the_module_has_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Choices { shapes: ShapeKind::Boxes.into(), visuals: None, ..Choices::default() };
+    let options =
+        Choices { shapes: ShapeKind::Boxes.into(), visuals: Detail::Nothing, ..Choices::default() };
     let made = export(&robot, Format::Urdf, &options).expect("an export");
     let document = urdd_xml::parse(&made.text, urdd_xml::Kind::Other).expect("well-formed");
     let numbers = |node: urdd_xml::Node, key: &str| -> Vec<f64> {

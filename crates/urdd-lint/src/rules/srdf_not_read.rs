@@ -3,6 +3,7 @@ use urdd_xml::Document;
 use super::prelude::*;
 use crate::vocabulary::{Names, near};
 use urdd_directory::position::{LineIndex, Position};
+use urdd_srdf::vocabulary::{ELEMENTS, Known, ROBOT, Says, known};
 
 declare_lint! {
     /// MoveIt does not read the robot's SRDF, or a part of it.
@@ -21,33 +22,6 @@ declare_lint! {
     /// LNT045 has names of links and joints, and says where SRDFs are looked for.
     LNT063 "srdf-not-read", Warning, Format, since "1.3.0"
 }
-
-/// An element of an SRDF, where it is, the attributes it needs, and what may be in it.
-type Known = (&'static str, &'static [&'static str], &'static [&'static str]);
-
-const ROBOT: &str = "robot";
-/// Those in the robot.
-const ELEMENTS: [Known; 10] = [
-    ("disable_collisions", &["link1", "link2"], &[]),
-    ("disable_default_collisions", &["link"], &[]),
-    ("enable_collisions", &["link1", "link2"], &[]),
-    ("end_effector", &["name", "group", "parent_link"], &[]),
-    ("group", &["name"], &["chain", "group", "joint", "link"]),
-    ("group_state", &["name", "group"], &["joint"]),
-    ("joint_property", &["joint_name", "property_name", "value"], &[]),
-    ("link_sphere_approximation", &["link"], &["sphere"]),
-    ("passive_joint", &["name"], &[]),
-    ("virtual_joint", &["name", "child_link", "parent_frame", "type"], &[]),
-];
-/// Those in one that is not the robot, by what they are in.
-const INNER: [(&str, Known); 6] = [
-    ("group", ("chain", &["base_link", "tip_link"], &[])),
-    ("group", ("group", &["name"], &[])),
-    ("group", ("joint", &["name"], &[])),
-    ("group", ("link", &["name"], &[])),
-    ("group_state", ("joint", &["name", "value"], &[])),
-    ("link_sphere_approximation", ("sphere", &["center", "radius"], &[])),
-];
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for srdf in srdf::of_robot(urdf) {
@@ -81,7 +55,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             );
             reader.say(root, "name", message);
         }
-        reader.inside(root, ROBOT, &ELEMENTS.map(|(name, ..)| name));
+        let allowed = ELEMENTS.iter().filter(|known| known.inside == ROBOT).map(|known| known.name);
+        reader.inside(root, ROBOT, &allowed.collect::<Vec<_>>());
     }
     Some(())
 }
@@ -116,13 +91,10 @@ impl<'d, 'f> SrdfReader<'d, 'f> {
     /// What is in an element that MoveIt reads.
     fn inside(&mut self, node: Node<'d, 'd>, of: &str, allowed: &[&str]) {
         for (name, child) in children(node) {
-            let inner = INNER.iter().find(|(above, known)| *above == of && known.0 == name);
-            let top = ELEMENTS.iter().find(|known| known.0 == name);
-            let known = inner.map(|(_, known)| known).or(top.filter(|_| of == ROBOT));
-            if let Some(known) = known {
-                self.element(child, *known, of);
-                self.inside(child, known.0, if of == ROBOT { known.2 } else { &[] });
-            } else if top.is_some() {
+            if let Some(known) = known(name, of) {
+                self.element(child, known);
+                self.inside(child, name, known.holds);
+            } else if known(name, ROBOT).is_some() {
                 let message = format!(
                     "MoveIt ignores `<{name}>` in `<{of}>`; put it directly into `<robot>`"
                 );
@@ -133,13 +105,15 @@ impl<'d, 'f> SrdfReader<'d, 'f> {
         }
     }
 
-    fn element(&mut self, node: Node<'d, 'd>, (name, needed, _): Known, of: &str) {
-        for attribute in needed {
+    fn element(&mut self, node: Node<'d, 'd>, known: &Known) {
+        let (name, of) = (known.name, known.inside);
+        let needed: Vec<&str> = known.needed.iter().map(|(attribute, _)| *attribute).collect();
+        for attribute in &needed {
             if node.attribute(*attribute).is_none_or(|value| value.trim().is_empty()) {
                 let there: Vec<&str> = node.attributes().map(|one| one.name()).collect();
                 let other = there.into_iter().filter(|one| !needed.contains(one));
                 let other = other
-                    .filter(|one| near(one, needed).is_some_and(|(near, _)| near == *attribute));
+                    .filter(|one| near(one, &needed).is_some_and(|(near, _)| near == *attribute));
                 let other = other.map(|one| format!(", but `{one}`")).next().unwrap_or_default();
                 let message = format!(
                     "`<{name}>` has no `{attribute}`{other}, and MoveIt leaves it out; write `{attribute}`"
@@ -147,14 +121,11 @@ impl<'d, 'f> SrdfReader<'d, 'f> {
                 self.say(node, "", message);
             }
         }
-        let groups: &[&str] = match (of, name) {
-            ("robot", "group_state") => &["group"],
-            ("robot", "end_effector") => &["group", "parent_group"],
-            ("group", "group") => &["name"],
-            _ => &[],
-        };
-        for attribute in groups {
-            let group = node.attribute(*attribute).unwrap_or_default().trim();
+        let groups = known.needed.iter().filter(|(_, says)| *says == Says::Group);
+        // The only one that names something and is not needed.
+        let parent = (name == "end_effector").then_some("parent_group");
+        for attribute in groups.map(|(attribute, _)| *attribute).chain(parent) {
+            let group = node.attribute(attribute).unwrap_or_default().trim();
             if !group.is_empty() && !self.groups.has(group) {
                 let lost = if of == "group" { "the group around it" } else { "this element" };
                 let hint = self.groups.hint(group);

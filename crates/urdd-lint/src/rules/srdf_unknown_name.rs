@@ -3,6 +3,7 @@ use urdd_xml::Document;
 use super::prelude::*;
 use crate::vocabulary::Names;
 use urdd_directory::position::LineIndex;
+use urdd_srdf::vocabulary::parts;
 
 declare_lint! {
     /// The robot's SRDF names a link or joint that the URDF does not have.
@@ -40,23 +41,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
     let lines = LineIndex::new(document.input_text());
     let mut told = BTreeSet::new();
     for node in elements() {
-        let (is_link, attributes): (bool, &[&str]) = match node.tag_name().name() {
-            "disable_collisions" | "enable_collisions" => (true, &["link1", "link2"]),
-            "chain" => (true, &["base_link", "tip_link"]),
-            "link" => (true, &["name"]),
-            "joint" | "passive_joint" => (false, &["name"]),
-            "end_effector" => (true, &["parent_link"]),
-            "virtual_joint" => (true, &["child_link"]),
-            "disable_default_collisions" | "link_sphere_approximation" => (true, &["link"]),
-            "joint_property" => (false, &["joint_name"]),
-            _ => continue,
-        };
-        for attribute in attributes {
-            let Some(name) =
-                node.attribute(*attribute).map(str::trim).filter(|name| !name.is_empty())
-            else {
-                continue;
-            };
+        for (attribute, is_link, name) in parts(node) {
             let known = if is_link { &links } else { &joints };
             let is_free_base = !is_link && name == FREE_BASE;
             if known.has(name)
@@ -72,7 +57,7 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
                 "the URDF has no {kind} `{name}`{hint}; correct the name, or remove the line"
             );
             let offset =
-                node.attribute_node(*attribute).map_or(node.range().start, |one| one.range().start);
+                node.attribute_node(attribute).map_or(node.range().start, |one| one.range().start);
             Finding::in_file(file, message).position(Some(lines.position(offset))).report(findings);
         }
     }

@@ -11,7 +11,6 @@ pub mod filled;
 
 use rayon::prelude::*;
 
-use crate::SphereBudget;
 use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;
@@ -23,24 +22,21 @@ const CUTS: usize = 4;
 /// Spheres per link by default.
 const AUTO: usize = 8;
 
-/// The spheres of each link, in link order, from the vertices of its pieces; none for a link without pieces.
+/// At most so many spheres of each link, or of all, in link order, from the vertices of its pieces; none for a link without
+/// pieces.
 pub(super) fn cover(
     links: &[Vec<Vec<[f64; 3]>>],
-    budget: SphereBudget,
+    per_link: Option<usize>,
+    total: Option<usize>,
 ) -> Vec<Vec<BoundingSphere>> {
     let cells = links
         .iter()
         .map(|pieces| if pieces.is_empty() { Vec::new() } else { vec![Cell::new(pieces)] });
     let mut links: Vec<Cover> = cells.map(Cover::new).collect();
-    let per_link = match budget {
-        SphereBudget::Auto => Some(AUTO),
-        SphereBudget::PerLink(count) => Some(count),
-        SphereBudget::Total(count) => {
-            share(&mut links, count);
-            None
-        }
-    };
-    if let Some(count) = per_link {
+    if let Some(count) = total {
+        share(&mut links, count);
+    } else {
+        let count = per_link.unwrap_or(AUTO);
         links.par_iter_mut().for_each(|link| {
             for _ in 0..CUTS.saturating_mul(count) {
                 if !link.cut(count) {

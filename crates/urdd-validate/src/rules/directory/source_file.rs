@@ -67,11 +67,8 @@ fn robot_name_differs(context: &Context, findings: &mut Findings) -> Option<()> 
     let stated = &context.metadata()?.robot_name;
     let name = &context.robot()?.name;
     // If the carried URDF agrees with urdd.json, urdf_module is wrong, and URD013 reports it.
-    let carried = context.urdf().ok().and_then(|urdf| {
-        let document = urdd_xml::parse(&urdf.text, urdd_xml::Kind::Other).ok()?;
-        document.root_element().attribute("name").map(str::to_owned)
-    });
-    if stated != name && carried.as_ref() != Some(stated) {
+    let carried = context.urdf_text().and_then(|urdf| urdf.robot.as_ref());
+    if stated != name && carried.is_none_or(|carried| carried.name != *stated) {
         let message = "this is not the name in urdf_module: write that one here";
         Finding::at(ROOT_METADATA, "/robot_name", message).literals(name, stated).report(findings);
     }

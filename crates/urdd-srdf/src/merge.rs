@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use urdd_xml::Node;
 
-use crate::{Srdf, SrdfError};
+use crate::{ReadError, Srdf};
 
 /// The element that is replaced.
 const DISABLED: &str = "disable_collisions";
@@ -32,7 +32,7 @@ pub struct MergedSrdf {
 ///
 /// # Errors
 /// If `old` is not an SRDF, or that of another robot.
-pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
+pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, ReadError> {
     let source = Srdf::new(new)?;
     let srdf = Srdf::of(old, source.robot().attribute("name").unwrap_or_default())?;
     let robot = srdf.robot();

@@ -1,6 +1,9 @@
 //! An SRDF of a person's, with new pairs of links: every other byte stays.
 
-use urdd_export::{SrdfError, merge_srdf};
+// A test may stop anywhere.
+#![allow(clippy::restriction, clippy::disallowed_methods)]
+
+use urdd_srdf::{ReadError, merge_srdf};
 use urdd_xml::{Document, Node};
 
 const NEW: &str = "<robot name=\"r\">\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";
@@ -45,9 +48,9 @@ fn elements_on_one_line_are_replaced() {
 
 #[test]
 fn other_files_are_refused() {
-    assert!(matches!(merge_srdf("<robot name=\"q\"/>", NEW), Err(SrdfError::OtherRobot { .. })));
-    assert!(matches!(merge_srdf("<urdf/>", NEW), Err(SrdfError::NotSrdf(_))));
-    assert!(matches!(merge_srdf("no", NEW), Err(SrdfError::Xml { .. })));
+    assert!(matches!(merge_srdf("<robot name=\"q\"/>", NEW), Err(ReadError::OtherRobot { .. })));
+    assert!(matches!(merge_srdf("<urdf/>", NEW), Err(ReadError::NotSrdf(_))));
+    assert!(matches!(merge_srdf("no", NEW), Err(ReadError::Xml { .. })));
 }
 
 #[test]

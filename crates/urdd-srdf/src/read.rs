@@ -6,14 +6,12 @@ use std::fmt::Display;
 use thiserror::Error;
 use urdd_xml::{Document, Kind, Node};
 
-use crate::ExportError;
 use urdd_directory::position::LineIndex;
-use urdd_robot::RobotError;
 
 /// Errors of reading an SRDF.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
-pub enum SrdfError {
+pub enum ReadError {
     /// Not well-formed XML, or beyond a limit of the XML parser.
     #[error("line {line}, column {column}: not well-formed XML: {reason}")]
     Xml {
@@ -43,44 +41,32 @@ pub enum SrdfError {
         /// What is wrong.
         reason: String,
     },
-    /// What is read contradicts what a person wrote into the URDD.
-    #[error("the URDD has {0}")]
-    Edited(String),
-    /// A query on the robot failed.
-    #[error(transparent)]
-    Robot(#[from] ExportError),
-}
-
-impl From<RobotError> for SrdfError {
-    fn from(error: RobotError) -> Self {
-        SrdfError::Robot(error.into())
-    }
 }
 
 /// An SRDF.
-pub(crate) struct Srdf<'t>(Document<'t>);
+pub struct Srdf<'t>(Document<'t>);
 
 impl<'t> Srdf<'t> {
     /// An SRDF of any robot.
-    pub fn new(text: &'t str) -> Result<Self, SrdfError> {
-        let document = urdd_xml::parse(text, Kind::Other).map_err(|error| SrdfError::Xml {
+    pub fn new(text: &'t str) -> Result<Self, ReadError> {
+        let document = urdd_xml::parse(text, Kind::Other).map_err(|error| ReadError::Xml {
             line: error.pos().row,
             column: error.pos().col,
             reason: error.words(text),
         })?;
         match document.root_element().tag_name().name() {
             "robot" => Ok(Srdf(document)),
-            other => Err(SrdfError::NotSrdf(other.to_owned())),
+            other => Err(ReadError::NotSrdf(other.to_owned())),
         }
     }
 
     /// An SRDF of this robot.
-    pub fn of(text: &'t str, robot: &str) -> Result<Self, SrdfError> {
+    pub fn of(text: &'t str, robot: &str) -> Result<Self, ReadError> {
         let srdf = Srdf::new(text)?;
         match srdf.robot().attribute("name").unwrap_or_default() {
             found if found == robot => Ok(srdf),
             found => {
-                Err(SrdfError::OtherRobot { found: found.to_owned(), expected: robot.to_owned() })
+                Err(ReadError::OtherRobot { found: found.to_owned(), expected: robot.to_owned() })
             }
         }
     }
@@ -96,14 +82,14 @@ impl<'t> Srdf<'t> {
     }
 
     /// An error in an element. Each call counts lines from the beginning of the text.
-    pub fn wrong(&self, node: Node, reason: impl Display) -> SrdfError {
+    pub fn wrong(&self, node: Node, reason: impl Display) -> ReadError {
         let line = self.0.text_pos_at(node.range().start).row;
-        SrdfError::Element { line, reason: reason.to_string() }
+        ReadError::Element { line, reason: reason.to_string() }
     }
 }
 
 /// The elements of an SRDF that an import leaves out, as MoveIt does.
-pub(crate) struct LeftOut<'a> {
+pub struct LeftOut<'a> {
     lines: LineIndex<'a>,
     /// What is wrong, the first line of it, and the number of elements.
     found: Vec<(String, u32, usize)>,
@@ -111,6 +97,7 @@ pub(crate) struct LeftOut<'a> {
 }
 
 impl<'a> LeftOut<'a> {
+    /// None yet, of this SRDF.
     pub fn new(srdf: &'a Srdf<'a>) -> Self {
         let lines = LineIndex::new(srdf.0.input_text());
         LeftOut { lines, found: Vec::new(), places: HashMap::new() }
@@ -154,7 +141,7 @@ impl<'a> LeftOut<'a> {
 }
 
 /// The elements of a name directly in another one.
-pub(super) fn elements<'a, 't: 'a>(
+pub fn elements<'a, 't: 'a>(
     node: Node<'a, 't>,
     name: &'a str,
 ) -> impl Iterator<Item = Node<'a, 't>> {
