@@ -43,8 +43,8 @@ use urdd_source::{named, read_urdf};
 pub use error::{CombineError, Note, PartFault};
 pub use recipe::Recipe;
 
-/// The modules that a part has because of a person, and that are not computed.
-const OF_PEOPLE: [&str; 2] = ["composition_module", "named_configurations_module"];
+/// The modules that a part has because of a person, or because of its source, and that are not computed.
+const OF_PEOPLE: [&str; 3] = ["composition_module", "named_configurations_module", "loops_module"];
 
 /// A combined robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -289,6 +289,11 @@ fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
                 );
                 note("mesh-not-found", text);
             }
+        }
+        let has_loops = member.loaded.modules.iter().any(|module| module == "loops_module");
+        if has_loops && !["<loop", "<coupling"].iter().any(|tag| member.loaded.text.contains(tag)) {
+            let text = "its loops are not in its URDF, so they are left out: say them in a file of the combined robot, `--loops FILE`";
+            note("loops", text.to_owned());
         }
         let lacks = |name: &&str| {
             let is_name = |module: &String| module == name;

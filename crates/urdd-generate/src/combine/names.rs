@@ -51,6 +51,9 @@ const OWN: &[&str] = &[
     "ros2_control",
     "gpio",
     "sensor",
+    // Of URDF+.
+    "loop",
+    "coupling",
 ];
 
 /// The kind of thing that a name refers to.

@@ -8,15 +8,15 @@ declare_lint! {
     /// A joint or coupling closes a chain, and no program that reads URDFs keeps it closed.
     ///
     /// `<loop>` and `<coupling>` are of URDF+. ROS, Gazebo, MuJoCo, Pinocchio, Drake, PyBullet, Isaac, Newton and three.js pass
-    /// over them, and so does `urdd generate`: of the robot, they have the tree, in which each joint moves by itself. So a plan
-    /// opens the chain, and drives joints that have no motor.
+    /// over them: of the robot, they have the tree, in which each joint moves by itself. So a plan opens the chain, and drives
+    /// joints that have no motor. `urdd generate` reads them, and writes what closes the chain into `loops_module`.
     ///
     /// The message says how many degrees of freedom the tree has, how many of them the URDF calls `independent`, and how far
     /// apart the ends of a loop are in the default configuration: each joint is at 0, or at the limit nearest to it. Many robots
     /// are open there, and need another configuration to begin with. Ends within a micrometre and a microradian meet.
     ///
-    /// Close the chain for the program that solves it: `<connect>` or `<weld>` in MJCF, `<drake:ball_constraint>` for Drake,
-    /// `createConstraint` in PyBullet, a constraint model in Pinocchio. Where a joint follows another one at a constant rate, as
+    /// Close the chain for the program that solves it: `urdd export mjcf` writes `<connect>` and `<weld>`; Drake takes
+    /// `<drake:ball_constraint>`, PyBullet `createConstraint`, Pinocchio a constraint model. Where a joint follows another one at a constant rate, as
     /// in many grippers, `<mimic>` is enough.
     LNT066 "closed-chain", Warning, WrongMotion, since "1.3.0"
 }

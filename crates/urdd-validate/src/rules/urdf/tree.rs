@@ -17,9 +17,9 @@ declare_rule! {
     /// A URDF is a tree. A link with two parents would have two poses; readers take one of them, or
     /// refuse. Closed chains (parallel grippers, delta robots) cannot be written this way.
     ///
-    /// Keep one of the joints in the URDF, and close the chain for the program that solves it:
-    /// `<connect>` or `<weld>` in MJCF, `<drake:ball_constraint>` for Drake, `createConstraint` in
-    /// PyBullet, a constraint model in Pinocchio. Where a joint follows another one at a constant rate,
+    /// Keep one of the joints in the URDF, and say in NAME.loops.toml beside it what closes the chain: the
+    /// URDD has it in `loops_module` then, and `urdd export mjcf` writes `<connect>` or `<weld>`. (Drake
+    /// takes `<drake:ball_constraint>`, PyBullet `createConstraint`, Pinocchio a constraint model.) Where a joint follows another one at a constant rate,
     /// as in many grippers, `<mimic>` is enough. Then write the URDD again.
     URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
     phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)], of Robot, check two_parents,
