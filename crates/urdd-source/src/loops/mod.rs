@@ -44,7 +44,7 @@ pub fn beside(urdf: &Path, settings: &Settings) -> Result<Option<Said>, SourceEr
 
 fn read(path: &Path, settings: &Settings) -> Result<Said, SourceError> {
     let text = text(path, settings)?;
-    if !path.extension().is_some_and(|ending| ending == "toml") {
+    if path.extension().is_none_or(|ending| ending != "toml") {
         return extended::read(path, text);
     }
     let shown = path.display().to_string();
