@@ -41,7 +41,7 @@ def open_metadata(urdd: Urdd) -> bool:
     kind = urdd.tree.kind(META)
     if kind == "missing":
         versions = [
-            (urdd.tree.read(TABLE[name][0] + "/VERSION") or b"").strip()
+            urdd.tree.data(TABLE[name][0] + "/VERSION").strip()
             for name in TABLE
             if TABLE[name][0] in urdd.tree.folders
         ]
@@ -56,7 +56,7 @@ def open_metadata(urdd: Urdd) -> bool:
         urdd.report.error("DIR016", META)
         return False
     try:
-        meta = read_json(urdd.tree.read(META) or b"")
+        meta = read_json(urdd.tree.data(META))
     except TextFault as fault:
         urdd.report.error(str(fault), META)
         return False
@@ -86,7 +86,7 @@ def check_listed_file(urdd: Urdd, entry: dict[str, Any], pointer: str, needed: b
     if kind != "file":
         urdd.report.error("DIR023", path)
         return
-    data = urdd.tree.read(path) or b""
+    data = urdd.tree.data(path)
     if len(data) != entry["size"] or hashlib.sha256(data).hexdigest() != entry["sha256"]:
         urdd.report.error("DIR014", path)
 
@@ -153,7 +153,7 @@ def check_version_file(urdd: Urdd, entry: dict[str, Any]) -> None:
         urdd.report.error("DIR005", path)
     if kind != "file":
         return
-    text = (urdd.tree.read(path) or b"").decode("utf-8", "replace")
+    text = urdd.tree.data(path).decode("utf-8", "replace")
     if not VERSION.fullmatch(text.removesuffix("\n")):
         urdd.report.error("DIR006", path)
     elif text.removesuffix("\n") != entry["version"]:

@@ -72,6 +72,7 @@ def changes_of(node: ast.AST) -> Iterator[tuple[str, Change]]:
         yield "and/or", set_field(node, "op", SWAPS[type(node.op)][0]())
         for place in range(len(node.values)):
             rest = node.values[:place] + node.values[place + 1 :]
+            rest = rest if len(rest) > 1 else rest * 2  # one operand alone is not a BoolOp
             yield f"operand {place + 1} left out", set_field(node, "values", rest)
     elif isinstance(node, (ast.If, ast.IfExp)):
         for value in (True, False):
