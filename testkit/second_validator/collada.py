@@ -22,7 +22,7 @@ from .xmltree import Builder, Element, Limits, NotXml
 
 MAX_XML_NODES = 4_000_000  # 13.2
 MAX_OFFSET = 1024
-DECLARATION = re.compile(r"\s*<\?xml[ \t\r\n][^>]*\?>")
+DECLARATION = re.compile(r"\A<\?xml[ \t\r\n][^>]*\?>")
 WHOLE = re.compile(r"[+]?[0-9]+")
 POLYGONS = ("triangles", "polylist", "polygons", "tristrips", "trifans")
 
@@ -241,7 +241,7 @@ def component_places(accessor: Element, stride: int) -> list[int]:
     if stride < 3:
         raise NotMesh
     names = [param.attributes.get("name") for param in accessor.all("param")][:stride]
-    if stride > 3 and all(name in names for name in "XYZ"):
+    if all(name in names for name in "XYZ"):
         return [names.index(name) for name in "XYZ"]
     return [0, 1, 2]
 
@@ -332,7 +332,7 @@ def parse_collada(data: bytes) -> Element:
         text = data.decode("utf-16", "replace")
     else:
         text = data.decode("utf-8", "replace")
-    text = DECLARATION.sub("", text.removeprefix("\ufeff"), count=1).strip()
+    text = DECLARATION.sub(" ", text.removeprefix("\ufeff").strip())
     encoded = text.encode("utf-8", "replace")
     builder = ColladaBuilder(encoded, Limits(elements=MAX_XML_NODES))
     try:

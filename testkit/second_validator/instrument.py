@@ -251,30 +251,61 @@ def key_of_meshes(urdd: Any) -> tuple[Any, ...]:
     return tree.key
 
 
-def staged(function: Any, names: tuple[str, ...], with_meshes: bool) -> Any:
-    """A function on a URDD, remembered by the documents and meshes that it reads."""
-    memory: dict[Any, Entry] = {}
+DOCUMENTS: dict[int, Any] = {}
 
-    def stage(urdd: Any, *arguments: Any) -> Any:
-        documents = [urdd.documents.get(name) for name in ("urdf_module", *names)]
-        key: list[Any] = [id(one) for one in (*documents, *arguments)]
-        key.append(frozenset(urdd.report.codes()))
+
+def known(value: Any) -> int:
+    """An object that is kept, by its number."""
+    DOCUMENTS[id(value)] = value
+    return id(value)
+
+
+def state_of(urdd: Any) -> tuple[Any, ...]:
+    """What stages change of a URDD but its report."""
+    documents = tuple((name, known(one)) for name, one in urdd.documents.items())
+    return known(urdd.meta), documents, tuple(urdd.extensions)
+
+
+def put_state(urdd: Any, state: tuple[Any, ...]) -> None:
+    urdd.meta = DOCUMENTS[state[0]]
+    urdd.documents = {name: DOCUMENTS[number] for name, number in state[1]}
+    urdd.extensions = list(state[2])
+
+
+def staged(function: Any) -> Any:
+    """A function on a URDD, remembered by the documents and files that it reads."""
+    memory: dict[Any, Entry] = {}
+    name = function.__name__
+
+    def key_of(urdd: Any, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+        codes = frozenset(urdd.report.codes())
+        if name not in STAGES:
+            state = state_of(urdd) if urdd.meta else ()
+            return (known(urdd.tree), codes, state, *map(id, arguments))
+        names, with_meshes = STAGES[name]
+        key: list[Any] = [codes, *(id(urdd.documents.get(one)) for one in ("urdf_module", *names))]
+        key += [id(one) for one in arguments]
         key.append(tuple(entry["name"] for entry in urdd.meta["modules"]))
         if with_meshes:
             key.append(key_of_meshes(urdd))
             key += [tuple(file["path"] for file in e["files"]) for e in urdd.meta["modules"]]
+        return tuple(key)
+
+    def stage(urdd: Any, *arguments: Any) -> Any:
+        tree, state, errors = urdd.tree, state_of(urdd), list(urdd.report.errors)
 
         def compute() -> Any:
-            before = len(urdd.report.errors)
-            result = function(urdd, *arguments)
-            errors = urdd.report.errors[before:]
-            del urdd.report.errors[before:]
-            return result, errors
+            fresh = type(urdd)(tree, type(urdd.report)())
+            put_state(fresh, state)
+            fresh.report.errors = list(errors)
+            result = function(fresh, *arguments)
+            return result, fresh.report.errors[len(errors) :], state_of(fresh)
 
-        kept = (documents, arguments)
-        result, errors = remember(memory, tuple(key), compute, False, kept)
-        for error in errors:
-            urdd.report.error(*error)
+        key = key_of(urdd, arguments)
+        result, new, after = remember(memory, key, compute, True, (arguments, state))
+        urdd.report.errors += new
+        if name in ("check_directory", "read_documents"):
+            put_state(urdd, after)
         return result
 
     stage.function = function  # type: ignore[attr-defined]
@@ -385,6 +416,7 @@ def load_package() -> dict[str, Loaded]:
     for name in loaded:
         need(name)
     validator = sys.modules[f"{PACKAGE}.validator"]
-    for name, (documents, with_meshes) in STAGES.items():
-        setattr(validator, name, staged(getattr(validator, name), documents, with_meshes))
+    for name, function in list(vars(validator).items()):
+        if name.startswith("check_") or name == "read_documents":
+            setattr(validator, name, staged(function))
     return loaded

@@ -119,6 +119,8 @@ def mutants_of(loaded: Loaded) -> list[Mutant]:
         for part in ("returns", "annotation"):
             if getattr(node, part, None) is not None:
                 skipped |= {id(inner) for inner in ast.walk(getattr(node, part))}
+        for decorator in getattr(node, "decorator_list", []):
+            skipped |= {id(inner) for inner in ast.walk(decorator)}
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             skipped |= {id(inner) for inner in ast.walk(node)}
         if isinstance(node, ast.Call) and "_hits" in ast.dump(node.func):

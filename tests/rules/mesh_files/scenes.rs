@@ -166,8 +166,17 @@ fn collada() -> Vec<Case> {
         ),
         right(
             "collada-that-skews-by-long-axes",
-            of_scene(&scene("", &format!("<node><skew>45 1 0 2 0 3 0</skew>{SHOWN}</node>"))),
-            |[x, y, z]| [x, y + (x + 2.0 * z) / 5.0_f64.sqrt(), z],
+            of_scene(&scene("", &format!("<node><skew>30 1 0 2 0 3 0</skew>{SHOWN}</node>"))),
+            |[x, y, z]| [x, y + (x + 2.0 * z) / (5.0_f64.sqrt() * 3.0_f64.sqrt()), z],
+        ),
+        // x is (0, -0.8, 0.6), y is (0, 0.6, 0.8), and z is -x.
+        right(
+            "collada-that-looks-aside",
+            of_scene(&scene(
+                "",
+                &format!("<node><lookat>0.5 0.25 1 3.5 0.25 1 5 3 4</lookat>{SHOWN}</node>"),
+            )),
+            |[x, y, z]| [0.5 - z, 0.25 - 0.8 * x + 0.6 * y, 1.0 + 0.6 * x + 0.8 * y],
         ),
         // From 45 degrees above y to 0.
         right(

@@ -169,6 +169,12 @@ pub fn collada_rows() -> Vec<Row> {
             format!(r#"<?xml version="1.0"?><?xml version="1.0"?>{whole}"#),
             false,
         ),
+        row(
+            "collada-with-a-primitive-without-indices",
+            "part.dae",
+            changed("</mesh>", r#"<triangles count="0"/></mesh>"#),
+            true,
+        ),
         row("collada-cut-off", "part.dae", changed("</COLLADA>", ""), false),
         row(
             "collada-of-another-root",
