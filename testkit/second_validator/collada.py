@@ -70,7 +70,9 @@ def words(element: Element) -> list[str]:
 def floats(element: Element, count: int) -> list[float]:
     """The numbers of a transform."""
     values = [number(word) for word in words(element)]
-    if len(values) != count or not all(value is not None and math.isfinite(value) for value in values):
+    if len(values) != count or not all(
+        value is not None and math.isfinite(value) for value in values
+    ):
         raise NotMesh
     return values  # type: ignore[return-value]
 

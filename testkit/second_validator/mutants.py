@@ -56,7 +56,6 @@ class Case:
             return True
         return not all(entry.still_holds() for entry in self.asked)
 
-
     def is_as_the_suite_has_it(self) -> bool:
         if self.verdict == "unreadable":
             return self.says == "Unreadable"
@@ -218,9 +217,7 @@ def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], mos
         near = nearness(mutant, loaded)
         chosen = [case for case in cases if case.all & CHANGED.mask]
         recent = RECENT.setdefault(mutant.module, [])
-        chosen.sort(
-            key=lambda case: (case not in recent, near.get(case.code, 3), case.seconds)
-        )
+        chosen.sort(key=lambda case: (case not in recent, near.get(case.code, 3), case.seconds))
         for case in chosen:
             if time.perf_counter() - spent + case.seconds > most:
                 break
