@@ -281,6 +281,7 @@ def main() -> int:
     names = tuple(arguments.only.split(","))
     mutants = [m for one in loaded.values() if one.name.startswith(names) for m in mutants_of(one)]
     mutants = mutants[:: arguments.every]
+    mutants = mutants[::2] + mutants[1::2]  # a run that is stopped is a sample
     if arguments.again:
         with open(arguments.again, encoding="utf-8") as file:
             rows = [json.loads(line) for line in file]
