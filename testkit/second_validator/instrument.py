@@ -364,7 +364,8 @@ class Loaded:
             target.id
             for statement in self.tree.body
             if isinstance(statement, (ast.Assign, ast.AnnAssign, ast.AugAssign))
-            for target in getattr(statement, "targets", [getattr(statement, "target", None)])
+            for whole in getattr(statement, "targets", [getattr(statement, "target", None)])
+            for target in getattr(whole, "elts", [whole])
             if isinstance(target, ast.Name)
         ]
         self.blocks_of_name: dict[str, set[int]] = {}

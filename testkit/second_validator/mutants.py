@@ -236,6 +236,10 @@ def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], mos
 RECENT: dict[str, list[Case]] = {}
 
 
+def line_of(mutant: Mutant, loaded: dict[str, Loaded]) -> str:
+    return loaded[mutant.module].source.split("\n")[mutant.line - 1].strip()
+
+
 def worker(
     share: int, jobs: int, mutants: Any, cases: Any, loaded: Any, most: float, out: str
 ) -> None:
@@ -244,8 +248,7 @@ def worker(
             if number % jobs != share:
                 continue
             result = try_mutant(mutant, cases, loaded, most)
-            line = loaded[mutant.module].source.split("\n")[mutant.line - 1].strip()
-            row = [number, mutant.module, mutant.line, mutant.kind, result, line]
+            row = [number, mutant.module, mutant.line, mutant.kind, result, line_of(mutant, loaded)]
             file.write(json.dumps(row) + "\n")
             file.flush()
 
@@ -285,8 +288,8 @@ def main() -> int:
     if arguments.again:
         with open(arguments.again, encoding="utf-8") as file:
             rows = [json.loads(line) for line in file]
-        left = {tuple(row[1:4]) for row in rows if row[4].startswith("survived")}
-        mutants = [m for m in mutants if (m.module, m.line, m.kind) in left]
+        left = {(row[1], row[3], row[5]) for row in rows if row[4].startswith("survived")}
+        mutants = [m for m in mutants if (m.module, m.kind, line_of(m, loaded)) in left]
     print(f"{len(mutants)} mutants", flush=True)
     shares = [
         multiprocessing.get_context("fork").Process(

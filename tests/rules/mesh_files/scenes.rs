@@ -309,6 +309,35 @@ fn sparse() -> Vec<u8> {
     glb(&json, &chunk)
 }
 
+/// Positions in whole numbers, and indices of four bytes. A node makes up for their size.
+fn quantised(component: u32, bytes: usize, most: u64) -> Vec<u8> {
+    let mut chunk = Vec::new();
+    for corner in CORNERS {
+        for at in 0..4 {
+            let number = corner.get(at).map_or(0, |x| if *x > 0.0 { most } else { 0 });
+            chunk.extend(&number.to_le_bytes()[..bytes]);
+        }
+    }
+    let positions = chunk.len();
+    chunk.extend(FACES.as_flattened().iter().flat_map(|at| at.to_le_bytes()));
+    let json = json!({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "scale": [0.5, 0.25, 0.125]}],
+        "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": component, "normalized": true, "count": 4, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5125, "count": 12, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": positions, "byteStride": 4 * bytes},
+            {"buffer": 0, "byteOffset": positions, "byteLength": 48},
+        ],
+        "buffers": [{"byteLength": chunk.len()}],
+    });
+    glb(&json, &chunk)
+}
+
 /// The least of a signed number stands for -1, as the one above it.
 fn least() -> Vec<u8> {
     let corners: [[i8; 4]; 4] = [[0; 4], [-128, 0, 0, 0], [0, -127, 0, 0], [0, 0, 127, 0]];
@@ -408,16 +437,19 @@ fn gltf_cases() -> Vec<Case> {
         ),
         right("gltf-between-other-numbers", interleaved(), up),
         right("gltf-of-sparse-positions", sparse(), up),
+        right("gltf-of-unsigned-bytes", quantised(5121, 1, 255), up),
+        right("gltf-of-numbers-in-two-bytes", quantised(5122, 2, 32_767), up),
+        right("gltf-of-unsigned-numbers-in-two-bytes", quantised(5123, 2, 65_535), up),
         right("gltf-of-the-least-byte", least(), |[x, y, z]| up([-2.0 * x, -4.0 * y, 8.0 * z])),
         three_faces(
             "gltf-of-triangles-cut-off",
             gltf(|json| json["accessors"][1]["count"] = json!(11)),
         ),
-        // The last face has an index of 9 in place of 3.
+        // The last face has an index of 4 in place of 3.
         three_faces("gltf-of-an-index-beyond", {
             let mut bytes = gltf(|_| {});
             let last = bytes.len() - 2;
-            bytes[last] = 9;
+            bytes[last] = 4;
             bytes
         }),
     ]

@@ -341,7 +341,28 @@ pub fn gltf_rows() -> Vec<Row> {
     };
     let indices = json!({"bufferView": 1, "componentType": 5121});
     let replaced = json!({"count": 3, "indices": indices, "values": {"bufferView": 0}});
+    // Nodes in one another, the last of which has the mesh.
+    let deep = |levels: usize| {
+        let mut gltf = gltf();
+        let mut nodes: Vec<Value> = (1..levels).map(|child| json!({"children": [child]})).collect();
+        nodes.push(json!({"mesh": 0}));
+        gltf["nodes"] = json!(nodes);
+        gltf.to_string()
+    };
+    let mut without_uri = gltf();
+    without_uri["buffers"][0] = json!({"byteLength": 36});
     vec![
+        row("gltf-of-200-nodes-in-one-another", "part.gltf", deep(200), true),
+        row("gltf-of-201-nodes-in-one-another", "part.gltf", deep(201), false),
+        row("gltf-of-a-mesh-below-0", "part.gltf", with("/nodes/0/mesh", json!(-1)), false),
+        row("gltf-of-a-mesh-that-is-true", "part.gltf", with("/nodes/0/mesh", json!(false)), false),
+        row(
+            "gltf-of-a-view-beyond-its-buffer",
+            "part.gltf",
+            with("/bufferViews/0/byteLength", json!(48)),
+            false,
+        ),
+        row("gltf-of-a-buffer-without-a-uri", "part.gltf", without_uri.to_string(), false),
         row(
             "gltf-of-sparse-positions",
             "part.gltf",
