@@ -455,8 +455,40 @@ fn gltf_cases() -> Vec<Case> {
     ]
 }
 
+/// STL and OBJ, whose content decides what they are.
+fn others() -> Vec<Case> {
+    let corner = |at: u32| CORNERS[at as usize].map(|x| x.to_string()).join(" ");
+    let facet = |face: [u32; 3]| {
+        let corners = face.map(|at| format!("vertex {}\n", corner(at))).concat();
+        format!("facet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    let facets = FACES.map(facet).concat();
+    let text = format!(
+        "solid vertex 9 9 9\n{facets}facet\nvertex 9 9 9\nvertex 8 8 8\nendfacet\nendsolid vertex 9 9 9\nvertex 7 7"
+    );
+    let vertices: String = (0..4).map(|at| format!("v {} # {at}\n", corner(at))).collect();
+    let obj = format!(
+        "\n# words\n{vertices}f 1/1 3/2 2/3\nf -4 -3 -1\nfo 1 4 3\nf 2 \\\n3 4 # words\nf 1 2\nf 0 1 2\nf 1 2 5\nf -5 1 2\nf 1 2 x\n"
+    );
+    let mut stl = b"solid words".to_vec();
+    stl.resize(80, b' ');
+    stl.extend(4_u32.to_le_bytes());
+    for face in FACES {
+        // The normal counts for nothing, nor do the two bytes at the end.
+        stl.extend([1; 12]);
+        stl.extend(floats(&face.map(|at| CORNERS[at as usize])));
+        stl.extend([1; 2]);
+    }
+    vec![
+        right("stl-as-text-in-many-ways", text, as_it_is),
+        right("stl-with-other-normals", stl, as_it_is),
+        right("obj-in-many-ways", obj, as_it_is),
+    ]
+}
+
 pub fn cases() -> Vec<Case> {
     let mut cases = collada();
+    cases.extend(others());
     cases.extend(gltf_cases());
     cases
 }
