@@ -97,6 +97,12 @@ pub fn cases() -> Vec<Case> {
                 ),
             with(&DART, &[[5, 6, 7], [5, 7, 4]]),
         ),
+        case(
+            "dart-of-one-triangle-twice",
+            true,
+            plain(&DART),
+            with(&DART, &[[5, 6, 7], [5, 6, 7]]),
+        ),
         case("dart-turned-round", true, plain(&DART), with(&DART, &[[5, 7, 6], [5, 4, 7]])),
         case(
             "dart-without-a-triangle-of-no-height",

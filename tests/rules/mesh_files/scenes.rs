@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use urdd_geometry::Mesh;
 use urdd_validate::code::Code::MSH015;
 
-use super::placed_scenes::{CORNERS, FACES, Point, base, glb, show};
+use super::placed_scenes::{CORNERS, FACES, Point, base, glb, scaled, show};
 use crate::{Case, changed};
 
 fn body(placing: impl Fn(Point) -> Point) -> Mesh {
@@ -486,8 +486,26 @@ fn others() -> Vec<Case> {
     ]
 }
 
+/// An element that is mirrored along z alone, and as it would be if it was not turned round.
+fn mirrored() -> [Case; 2] {
+    [("element-mirrored-along-z", false), ("element-mirrored-along-z-not-turned-round", true)].map(
+        |(name, caught)| {
+            let file = of_primitives(TRIANGLES);
+            let mut mesh = body(|[x, y, z]| [x, y, -z]);
+            let flat = mesh.clone();
+            for triangle in &mut mesh.triangles {
+                triangle.swap(1, 2);
+            }
+            let shown = if caught { flat } else { mesh.clone() };
+            let base = || scaled(Some([1.0, 1.0, -1.0]));
+            changed(MSH015, name, caught, base, move |f| show(f, file.as_bytes(), &mesh, &shown))
+        },
+    )
+}
+
 pub fn cases() -> Vec<Case> {
     let mut cases = collada();
+    cases.extend(mirrored());
     cases.extend(others());
     cases.extend(gltf_cases());
     cases
