@@ -46,8 +46,7 @@ def sphere_body(link: int, sphere: Any) -> Body:
 def nearest_of_segment(a: Point, b: Point) -> tuple[Point, list[Point]]:
     """The point of a simplex that is nearest to zero, and the corners that hold it."""
     ab = sub(b, a)
-    square = dot(ab, ab)
-    t = -dot(a, ab) / square if square > 0 else 0.0
+    t = -dot(a, ab) / dot(ab, ab)
     if t <= 0:
         return a, [a]
     if t >= 1:
@@ -57,13 +56,11 @@ def nearest_of_segment(a: Point, b: Point) -> tuple[Point, list[Point]]:
 
 def nearest_of_triangle(a: Point, b: Point, c: Point) -> tuple[Point, list[Point]]:
     n = cross(sub(b, a), sub(c, a))
-    square = dot(n, n)
-    if square > 0:
-        u = dot(cross(b, c), n)
-        v = dot(cross(c, a), n)
-        w = dot(cross(a, b), n)
-        if u > 0 and v > 0 and w > 0:
-            return scaled(n, dot(a, n) / square), [a, b, c]
+    u = dot(cross(b, c), n)
+    v = dot(cross(c, a), n)
+    w = dot(cross(a, b), n)
+    if u > 0 and v > 0 and w > 0:
+        return scaled(n, dot(a, n) / dot(n, n)), [a, b, c]
     sides = [nearest_of_segment(a, b), nearest_of_segment(b, c), nearest_of_segment(c, a)]
     return min(sides, key=lambda side: dot(side[0], side[0]))
 
@@ -76,12 +73,11 @@ def nearest_of_simplex(points: list[Point]) -> tuple[Point, list[Point]]:
     if len(points) == 3:
         return nearest_of_triangle(points[0], points[1], points[2])
     a, b, c, d = points
-    volume = dot(cross(sub(b, a), sub(c, a)), sub(d, a))
     faces = [(a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)]
     outside = []
     for p, q, r, opposite in faces:
         n = cross(sub(q, p), sub(r, p))
-        if dot(p, n) * dot(sub(opposite, p), n) >= 0 or volume == 0:
+        if dot(p, n) * dot(sub(opposite, p), n) >= 0:
             outside.append(nearest_of_triangle(p, q, r))
     if not outside:
         return (0.0, 0.0, 0.0), points
@@ -98,7 +94,7 @@ def distance_of(a: Body, b: Body, relative: Pose) -> float:
     """The distance of two bodies, 0 in contact; `relative` is the second link in the first."""
     rotation, shift = relative
     back = transposed(rotation)
-    if len(a.points) == 1 and len(b.points) == 1:
+    if len(a.points) == 1:  # a pair is of one kind of shape
         apart = distance(a.points[0], add(turned(rotation, b.points[0]), shift))
         return max(0.0, apart - a.radius - b.radius)
     v: Point = sub(a.points[0], add(turned(rotation, b.points[0]), shift))

@@ -22,8 +22,8 @@ from .xmltree import Builder, Element, Limits, NotXml
 
 MAX_XML_NODES = 4_000_000  # 13.2
 MAX_OFFSET = 1024
-DECLARATION = re.compile(r"\s*<\?xml[ \t\r\n][^>]*\?>")
-WHOLE = re.compile(r"[+-]?[0-9]+")
+DECLARATION = re.compile(r"\A<\?xml[ \t\r\n][^>]*\?>")
+WHOLE = re.compile(r"[+]?[0-9]+")
 POLYGONS = ("triangles", "polylist", "polygons", "tristrips", "trifans")
 
 
@@ -70,7 +70,9 @@ def words(element: Element) -> list[str]:
 def floats(element: Element, count: int) -> list[float]:
     """The numbers of a transform."""
     values = [number(word) for word in words(element)]
-    if len(values) != count or None in values:
+    if len(values) != count or not all(
+        value is not None and math.isfinite(value) for value in values
+    ):
         raise NotMesh
     return values  # type: ignore[return-value]
 
@@ -118,9 +120,9 @@ class ColladaReader:
         scenes = self.in_libraries("library_visual_scenes", "visual_scene")
         scene = self.root.first("scene")
         shown = scene and scene.first("instance_visual_scene")
-        if shown:
-            chosen = self.named(shown, "url", "visual_scene")
-            scenes = [chosen] if chosen else []
+        chosen = shown and self.named(shown, "url", "visual_scene")
+        if chosen:
+            scenes = [chosen]
         elif not scenes:
             for geometry in self.in_libraries("library_geometries", "geometry"):
                 self.geometry(geometry, place)
@@ -149,12 +151,14 @@ class ColladaReader:
                 if geometry:
                     self.geometry(geometry, here)
             elif child.name == "instance_controller":
-                self.controller(self.named(child, "url", "controller"), here, 0)
+                self.controller(self.named(child, "url", "controller"), here, ())
 
-    def controller(self, controller: Element | None, place: Affine, depth: int) -> None:
+    def controller(
+        self, controller: Element | None, place: Affine, inside: tuple[int, ...]
+    ) -> None:
         """7.8: a skin is read as it stands, with its `bind_shape_matrix`."""
         inner = controller and controller.first("skin", "morph")
-        if not inner or depth >= MAX_NODES_INSIDE:
+        if not inner or id(controller) in inside:
             return
         bind = inner.first("bind_shape_matrix")
         if bind:
@@ -163,7 +167,8 @@ class ColladaReader:
         if geometry:
             self.geometry(geometry, place)
         else:
-            self.controller(self.named(inner, "source", "controller"), place, depth + 1)
+            further = self.named(inner, "source", "controller")
+            self.controller(further, place, (*inside, id(controller)))
 
     def geometry(self, geometry: Element, place: Affine) -> None:
         mesh = geometry.first("mesh", "convex_mesh")
@@ -189,7 +194,7 @@ class ColladaReader:
         stride = 1
         for entry in primitive.all("input"):
             stated = entry.attributes.get("offset", "0").strip()
-            if not WHOLE.fullmatch(stated) or not 0 <= int(stated) < MAX_OFFSET:
+            if not WHOLE.fullmatch(stated) or int(stated) >= MAX_OFFSET:
                 raise NotMesh
             stride = max(stride, int(stated) + 1)
             offsets.setdefault(entry.attributes.get("semantic"), (int(stated), entry))
@@ -211,19 +216,21 @@ class ColladaReader:
 
     def positions(self, mesh: Element, entry: Element) -> list[Vertex]:
         """The positions that an input `VERTEX` leads to."""
-        vertices = self.named(entry, "source", "vertices")
-        inputs = vertices.all("input") if vertices else []
-        wanted = [one for one in inputs if one.attributes.get("semantic") == "POSITION"]
-        source = self.named(wanted[0], "source", "source") if wanted else None
-        technique = source and source.first("technique_common")
-        accessor = technique and technique.first("accessor")
-        array = accessor and self.named(accessor, "source", "float_array")
-        if not accessor or not array:
-            raise NotMesh
-        stride = whole(accessor, "stride", 1)
-        offset = whole(accessor, "offset", 0)
-        places = component_places(accessor, stride)
-        numbers = [number(word) for word in words(array)]
+        try:
+            (wanted,) = [
+                one
+                for one in self.named(entry, "source", "vertices").all("input")  # type: ignore[union-attr]
+                if one.attributes.get("semantic") == "POSITION"
+            ]
+            source = self.named(wanted, "source", "source")
+            accessor = source.first("technique_common").first("accessor")  # type: ignore[union-attr]
+            array = words(self.named(accessor, "source", "float_array"))  # type: ignore[arg-type]
+            stride = int(accessor.attributes["stride"])  # type: ignore[union-attr]
+            offset = int(accessor.attributes.get("offset", "0"))  # type: ignore[union-attr]
+        except (AttributeError, LookupError, ValueError) as fault:
+            raise NotMesh from fault
+        places = component_places(accessor, stride)  # type: ignore[arg-type]
+        numbers = [number(word) for word in array]
         found: list[Vertex] = []
         for start in range(offset, len(numbers) - stride + 1, stride):
             parts = [numbers[start + place] for place in places]
@@ -231,28 +238,19 @@ class ColladaReader:
         return found
 
 
-def whole(element: Element, key: str, default: int) -> int:
-    stated = element.attributes.get(key, str(default)).strip()
-    if not WHOLE.fullmatch(stated) or int(stated) < 0:
-        raise NotMesh
-    return int(stated)
-
-
 def component_places(accessor: Element, stride: int) -> list[int]:
     """Which three numbers of each group are the position."""
     if stride < 3:
         raise NotMesh
-    names = [param.attributes.get("name") for param in accessor.all("param")]
-    if stride > 3 and all(name in names for name in "XYZ"):
-        places = [names.index(name) for name in "XYZ"]
-        if max(places) < stride:
-            return places
+    names = [param.attributes.get("name") for param in accessor.all("param")][:stride]
+    if all(name in names for name in "XYZ"):
+        return [names.index(name) for name in "XYZ"]
     return [0, 1, 2]
 
 
 def corner_of(word: str, positions: list[Vertex]) -> Vertex:
     """A corner, or None where its index is not one or beyond the vertices."""
-    if not WHOLE.fullmatch(word) or not 0 <= int(word) < len(positions):
+    if not WHOLE.fullmatch(word) or int(word) >= len(positions):
         return None
     return positions[int(word)]
 
@@ -263,15 +261,11 @@ def cut(primitive: Element, corners: list[Vertex]) -> list[Face]:
     if kind == "triangles":
         return [Face(corners[n : n + 3]) for n in range(0, len(corners) - 2, 3)]
     if kind == "polylist":
-        counts = primitive.first("vcount")
         faces = []
         at = 0
-        for word in words(counts) if counts else []:
-            size = int(word) if WHOLE.fullmatch(word) else -1
-            if size < 0 or at + size > len(corners):
-                return faces
-            if size >= 3:
-                faces.append(Face(corners[at : at + size]))
+        for word in [word for counts in primitive.all("vcount") for word in words(counts)]:
+            size = int(word) if WHOLE.fullmatch(word) else 0
+            faces.append(Face(corners[at : at + size]))
             at += size
         return faces
     if kind == "tristrips":
@@ -279,7 +273,7 @@ def cut(primitive: Element, corners: list[Vertex]) -> list[Face]:
         return [Face([b, a, c] if n % 2 else [a, b, c]) for n, (a, b, c) in enumerate(triples)]
     if kind == "trifans":
         return [Face([corners[0], *corners[n : n + 2]]) for n in range(1, len(corners) - 1)]
-    return [Face(corners)] if len(corners) >= 3 else []
+    return [Face(corners)]
 
 
 def matrix(m: list[float]) -> Affine:
@@ -319,7 +313,7 @@ def skew(values: list[float]) -> Affine:
     for n in range(3):
         row = [(1.0 if k == n else 0.0) + a[n] * factor * b[k] for k in range(3)]
         rows.append((row[0], row[1], row[2], 0.0))
-    return tuple(rows) if all(math.isfinite(v) for row in rows for v in row) else UNPLACED
+    return tuple(rows)
 
 
 def look_at(values: list[float]) -> Affine:
@@ -340,16 +334,14 @@ def parse_collada(data: bytes) -> Element:
         text = data.decode("utf-16", "replace")
     else:
         text = data.decode("utf-8", "replace")
-    text = DECLARATION.sub("", text.removeprefix("\ufeff"), count=1).strip()
+    text = DECLARATION.sub(" ", text.removeprefix("\ufeff").strip())
     encoded = text.encode("utf-8", "replace")
     builder = ColladaBuilder(encoded, Limits(elements=MAX_XML_NODES))
     try:
         builder.parser.Parse(encoded, True)
     except (expat.ExpatError, NotXml) as fault:
         raise NotMesh from fault
-    if builder.root is None:
-        raise NotMesh
-    return builder.root
+    return builder.root  # type: ignore[return-value]
 
 
 def read_collada(data: bytes) -> list[Face]:

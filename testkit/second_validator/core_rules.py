@@ -137,7 +137,7 @@ def check_origin(urdd: Urdd, robot: Robot, place: int, stated: Any, reach: float
         urdd.report.error("CHN010", CHAIN, pointer + "/quaternion_wxyz")
     turn = rotation_distance(from_quaternion(quaternion), rotation)
     apart = distance(stated["position"], position)
-    if apart > RELATIVE * reach or (turn > RELATIVE and norm(quaternion) > 0):
+    if apart > RELATIVE * reach or turn > RELATIVE:
         urdd.report.error("CHN008", CHAIN, pointer)
 
 
@@ -182,7 +182,5 @@ def check_bounds(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> None:
         for key in ("velocity", "effort"):
             stated = document[f"dof_{key}_limits"][dof]
             of_urdf = limit and limit[key]
-            if (stated is None) != (of_urdf is None) or (
-                stated is not None and not agree(stated, of_urdf)
-            ):
+            if (stated is None) != (of_urdf is None) or not agree(stated, of_urdf):
                 error("BND005", BOUNDS, f"/dof_{key}_limits/{dof}")  # 6.5.4

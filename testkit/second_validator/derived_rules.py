@@ -169,7 +169,7 @@ def check_configurations(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> 
         if dofs != sorted(set(dofs)):
             error("CNF002", CONFIGURATIONS, pointer + "/positions")  # 6.7.3
             continue
-        right = named(robot, "Default")
+        right = list(named(robot, "Default"))
         for dof, position in zip(dofs, one["positions"]):
             right[dof] = position["position"]
             if not is_within(robot, dof, position["position"]):

@@ -41,7 +41,7 @@ def open_metadata(urdd: Urdd) -> bool:
     kind = urdd.tree.kind(META)
     if kind == "missing":
         versions = [
-            (urdd.tree.read(TABLE[name][0] + "/VERSION") or b"").strip()
+            urdd.tree.data(TABLE[name][0] + "/VERSION").strip()
             for name in TABLE
             if TABLE[name][0] in urdd.tree.folders
         ]
@@ -56,12 +56,12 @@ def open_metadata(urdd: Urdd) -> bool:
         urdd.report.error("DIR016", META)
         return False
     try:
-        meta = read_json(urdd.tree.read(META) or b"")
+        meta = read_json(urdd.tree.data(META))
     except TextFault as fault:
         urdd.report.error(str(fault), META)
         return False
     version = meta.get("urdd_version") if isinstance(meta, dict) else None
-    known = isinstance(version, str) and VERSION.fullmatch(version)
+    known = VERSION.fullmatch(version) if isinstance(version, str) else None
     if known and version_of(str(version))[0] != KNOWN_MAJOR:
         urdd.report.error("DIR025", META, "/urdd_version")  # 4.1
         return False
@@ -86,7 +86,7 @@ def check_listed_file(urdd: Urdd, entry: dict[str, Any], pointer: str, needed: b
     if kind != "file":
         urdd.report.error("DIR023", path)
         return
-    data = urdd.tree.read(path) or b""
+    data = urdd.tree.data(path)
     if len(data) != entry["size"] or hashlib.sha256(data).hexdigest() != entry["sha256"]:
         urdd.report.error("DIR014", path)
 
@@ -97,7 +97,7 @@ def check_source(urdd: Urdd) -> None:
         return
     entry = urdd.meta["source"]["Urdf"]
     check_listed_file(urdd, entry, "/source/Urdf", False)
-    if well_formed(entry["path"]) and "/" in entry["path"]:
+    if "/" in entry["path"]:
         urdd.report.error("DIR028", META, "/source/Urdf/path")
 
 
@@ -153,7 +153,7 @@ def check_version_file(urdd: Urdd, entry: dict[str, Any]) -> None:
         urdd.report.error("DIR005", path)
     if kind != "file":
         return
-    text = (urdd.tree.read(path) or b"").decode("utf-8", "replace")
+    text = urdd.tree.data(path).decode("utf-8", "replace")
     if not VERSION.fullmatch(text.removesuffix("\n")):
         urdd.report.error("DIR006", path)
     elif text.removesuffix("\n") != entry["version"]:
@@ -168,26 +168,21 @@ def check_module_files(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:
     document = folder + "/module.json"
     if urdd.tree.kind(document) == "missing" and (known or extension):
         urdd.report.error("DIR004", document)
-    must_be = ["VERSION", "module.json"] if known or extension else []
-    needed = [f"{folder}/{name}" for name in must_be]
-    for name in ("VERSION", "module.json", "module.yaml", *(["schema.json"] if extension else [])):
-        if urdd.tree.kind(f"{folder}/{name}") == "file" and f"{folder}/{name}" not in needed:
-            needed.append(f"{folder}/{name}")
+    names = ("VERSION", "module.json", "module.yaml", *(["schema.json"] if extension else []))
     paths = [file["path"] for file in entry["files"]]
-    for path in needed:
-        if path not in paths:
+    for path in [f"{folder}/{name}" for name in names]:
+        if urdd.tree.kind(path) == "file" and path not in paths:
             urdd.report.error("DIR012", META, f"/modules/{place}/files")
     for number, file in enumerate(entry["files"]):
         pointer = f"/modules/{place}/files/{number}"
-        check_listed_file(urdd, file, pointer, file["path"] in needed)
-        if well_formed(file["path"]) and not file["path"].startswith(folder + "/"):
+        check_listed_file(urdd, file, pointer, file["path"] in (document, folder + "/VERSION"))
+        if not file["path"].startswith(folder + "/"):
             urdd.report.error("DIR012", META, pointer)
 
 
 def carried(urdd: Urdd, name: str) -> bool:
     """2.10: whether a module is in the URDD."""
-    listed = any(entry["name"] == name for entry in urdd.entries())
-    return listed or (name in TABLE and TABLE[name][0] in urdd.tree.folders)
+    return any(entry["name"] == name for entry in urdd.entries())
 
 
 def check_dependencies(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:

@@ -28,7 +28,7 @@ def read_mirror(urdd: Urdd, folder: str) -> None:
     if data is None:
         return
     try:
-        if not mirrors(data, urdd.tree.read(folder + "/module.json") or b""):
+        if not mirrors(data, urdd.tree.data(folder + "/module.json")):
             urdd.report.error("YML007", path)
     except TextFault as fault:
         urdd.report.error(str(fault), path)
@@ -77,7 +77,7 @@ def read_known(urdd: Urdd, name: str, entry: dict[str, Any]) -> None:
     if follows_draft(name, document, entry["depends_on"]):
         urdd.report.error("DIR030", file_of(name))
         return
-    data = urdd.tree.read(file_of(name)) or b""
+    data = urdd.tree.data(file_of(name))
     if not file_fits(name, data, version > KNOWN_VERSION):
         urdd.report.error("SCH001", file_of(name))
         return

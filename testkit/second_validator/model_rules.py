@@ -142,7 +142,7 @@ def digest(urdd: Urdd) -> str:
     paths = [file_of(name) for name in names]
     pieces = urdd.documents["convex_decomposition_meshes_module"]["link_pieces"]
     paths += [piece["glb"] for of_link in pieces for piece in of_link]
-    lines = [hashlib.sha256(urdd.tree.read(path) or b"").hexdigest() + "\n" for path in paths]
+    lines = [hashlib.sha256(urdd.tree.data(path)).hexdigest() + "\n" for path in paths]
     return hashlib.sha256("".join(lines).encode()).hexdigest()
 
 

@@ -25,9 +25,10 @@ from typing import Any
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from instrument import CHANGED, FRESH, HITS, Loaded, load_package  # noqa: E402
+from instrument import CHANGED, HITS, Entry, Loaded, by_identity, load_package  # noqa: E402
 from mutation import Mutant, mutants_of  # noqa: E402
 
+SKIPPED = ("LRN010", "LRN011")  # this validator leaves them open
 LEAST_SECONDS = 3.0
 TIMES_SLOWER = 10
 
@@ -39,33 +40,59 @@ class TooSlow(BaseException):
 class Case:
     """A case of the suite in memory, and what the validator says of it."""
 
-    def __init__(self, entry: dict[str, Any], tree: Any) -> None:
+    def __init__(self, entry: dict[str, Any], place: str) -> None:
         self.name = entry["id"]
         self.code = entry["code"]
-        self.tree = tree
+        self.verdict = entry["verdict"]
+        self.place = place
         self.says: Any = None
-        self.blocks: frozenset[int] = frozenset()
+        self.own = self.all = 0
+        self.asked: tuple[Entry, ...] = ()
         self.seconds = 0.0
 
+    def may_differ(self) -> bool:
+        """Whether the mutant changes what judging the case executes, or what that asks."""
+        if self.own & CHANGED.mask:
+            return True
+        return not all(entry.still_holds() for entry in self.asked)
 
-def load_cases(suite: str, loaded: dict[str, Loaded], names: tuple[str, ...]) -> list[Case]:
-    """All cases but legacy ones; equal files are the same object."""
-    with open(os.path.join(suite, "suite.json"), encoding="utf-8") as file:
+    def is_as_the_suite_has_it(self) -> bool:
+        if self.verdict == "unreadable":
+            return self.says == "Unreadable"
+        rejects = self.verdict == "reject" and self.code not in SKIPPED
+        return self.code in SKIPPED or self.says == (rejects, rejects)
+
+
+def load_cases(suite: str, names: tuple[str, ...]) -> list[Case]:
+    """All cases but legacy ones."""
+    with open(os.path.join(suite, "suite-1.1.json"), encoding="utf-8") as file:
         entries = json.load(file)["cases"]
-    open_tree = loaded["validator"].module.open_tree
+    return [
+        Case(entry, os.path.join(suite, entry["folder"]))
+        for entry in entries
+        if entry["profile"] != "legacy" and entry["id"].startswith(names)
+    ]
+
+
+def remember_trees(loaded: dict[str, Loaded]) -> None:
+    """Cases are read once, where the mutant does not change how; equal files are one object."""
+    validator = loaded["validator"].module
+    open_tree = validator.open_tree
     known: dict[bytes, bytes] = {}
-    cases = []
-    for entry in entries:
-        if entry["profile"] == "legacy" or not entry["id"].startswith(names):
-            continue
-        tree = open_tree(os.path.join(suite, entry["folder"]))
+
+    def open_case(place: str) -> Any:
+        tree = open_tree(place)
         tree.files = {path: known.setdefault(data, data) for path, data in tree.files.items()}
-        cases.append(Case(entry, tree))
-    return cases
+        return tree
+
+    validator.open_tree = by_identity(open_case)
 
 
 def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
-    """What the validator says: whether it rejects, and whether with the case's code."""
+    """What the validator says: whether it rejects, and whether with the case's code.
+
+    Of a mutant, only where that may differ from what the validator says as it is.
+    """
 
     def stop(*_: object) -> None:
         raise TooSlow
@@ -73,7 +100,9 @@ def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
     signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
-        codes = loaded["validator"].module.judge_tree(case.tree).codes()
+        if CHANGED.mask and not case.may_differ():
+            return case.says
+        codes = loaded["validator"].module.validate(case.place).codes()
         return bool(codes), case.code in codes
     except TooSlow:
         return "too slow"
@@ -86,11 +115,16 @@ def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
 def run_baseline(cases: list[Case], loaded: dict[str, Loaded]) -> None:
     """Judges all cases with the validator as it is."""
     for case in cases:
-        HITS.blocks = set()
+        HITS.start()
         start = time.perf_counter()
         case.says = says_of(case, loaded, 600)
         case.seconds = time.perf_counter() - start
-        case.blocks = frozenset(HITS.blocks)
+        case.asked = tuple(HITS.asked.values())
+        case.own = case.all = HITS.mask()
+        for entry in case.asked:
+            case.all |= entry.all
+        # Where all of it runs again, however much other cases had asked before.
+        case.seconds = max(case.seconds, sum(entry.seconds for entry in case.asked))
 
 
 def functions_of(loaded: Loaded) -> dict[str, Any]:
@@ -171,73 +205,96 @@ def nearness(mutant: Mutant, loaded: dict[str, Loaded]) -> dict[str, int]:
     return near | loaded[mutant.module].codes_near(mutant.line)
 
 
-def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], most: int) -> str:
+def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], most: float) -> str:
     """The case that kills a mutant, or how many cases it survives."""
     try:
         patch = Patch(mutant, loaded)
     except Exception as fault:
         return f"killed: {type(fault).__name__} where the module is read"
-    ran = 0
+    ran, spent = 0, time.perf_counter()
+    CHANGED.begin(patch.blocks)
     try:
         near = nearness(mutant, loaded)
-        chosen = [case for case in cases if not patch.blocks.isdisjoint(case.blocks)]
-        chosen.sort(key=lambda case: (near.get(case.code, 3), case.seconds))
-        CHANGED.update(patch.blocks)
-        for case in chosen[:most]:
+        chosen = [case for case in cases if case.all & CHANGED.mask]
+        recent = RECENT.setdefault(mutant.module, [])
+        chosen.sort(key=lambda case: (case not in recent, near.get(case.code, 3), case.seconds))
+        for case in chosen:
+            if time.perf_counter() - spent + case.seconds > most:
+                break
             ran += 1
             seconds = max(LEAST_SECONDS, TIMES_SLOWER * case.seconds)
-            if says_of(case, loaded, seconds) != case.says:
+            says = says_of(case, loaded, seconds)
+            if says != case.says:
+                RECENT[mutant.module] = [case, *recent[:7]] if case not in recent else recent
                 return f"killed: {case.name}"
         return f"survived: {ran} of {len(chosen)} cases"
     finally:
         patch.revert()
-        CHANGED.clear()
-        FRESH.clear()
+        CHANGED.end()
+
+
+RECENT: dict[str, list[Case]] = {}
+
+
+def line_of(mutant: Mutant, loaded: dict[str, Loaded]) -> str:
+    return loaded[mutant.module].source.split("\n")[mutant.line - 1].strip()
 
 
 def worker(
-    share: int, jobs: int, mutants: Any, cases: Any, loaded: Any, most: int, out: str
+    share: int, jobs: int, mutants: Any, cases: Any, loaded: Any, most: float, out: str
 ) -> None:
     with open(f"{out}.{share}", "w", encoding="utf-8") as file:
         for number, mutant in enumerate(mutants):
             if number % jobs != share:
                 continue
             result = try_mutant(mutant, cases, loaded, most)
-            line = loaded[mutant.module].source.split("\n")[mutant.line - 1].strip()
-            row = [number, mutant.module, mutant.line, mutant.kind, result, line]
+            row = [number, mutant.module, mutant.line, mutant.kind, result, line_of(mutant, loaded)]
             file.write(json.dumps(row) + "\n")
             file.flush()
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    parser.add_argument("suite")
+    parser.add_argument("suite", nargs="?")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="modules whose names begin so, by commas")
     parser.add_argument("--cases", default="", help="cases whose names begin so, by commas")
-    parser.add_argument("--most", type=int, default=10_000, help="cases for each mutant")
+    parser.add_argument("--without", default="", help="no cases whose names begin so, by commas")
+    parser.add_argument("--seconds", type=float, default=60, help="for each mutant")
     parser.add_argument("--again", default="", help="results of which the survivors alone run")
     parser.add_argument("--every", type=int, default=1, help="each n-th mutant alone")
     parser.add_argument("--out", default="mutants.jsonl")
+    parser.add_argument("--count", default="", help="counts these results again, and runs nothing")
     arguments = parser.parse_args()
+    if arguments.count:
+        with open(arguments.count, encoding="utf-8") as file:
+            count([json.loads(line) for line in file])
+        return 0
     loaded = load_package()
-    cases = load_cases(arguments.suite, loaded, tuple(arguments.cases.split(",")))
+    remember_trees(loaded)
+    cases = load_cases(arguments.suite, tuple(arguments.cases.split(",")))
+    without = tuple(name for name in arguments.without.split(",") if name)
+    cases = [case for case in cases if not case.name.startswith(without)]
     print(f"{len(cases)} cases", flush=True)
     run_baseline(cases, loaded)
+    for case in [case for case in cases if not case.is_as_the_suite_has_it()]:
+        print(f"{case.name}: left out, as this validator says {case.says}")
+        cases.remove(case)
     print(f"judged in {sum(case.seconds for case in cases):.0f} s", flush=True)
     names = tuple(arguments.only.split(","))
     mutants = [m for one in loaded.values() if one.name.startswith(names) for m in mutants_of(one)]
     mutants = mutants[:: arguments.every]
+    mutants = mutants[::2] + mutants[1::2]  # a run that is stopped is a sample
     if arguments.again:
         with open(arguments.again, encoding="utf-8") as file:
             rows = [json.loads(line) for line in file]
-        left = {tuple(row[1:4]) for row in rows if row[4].startswith("survived")}
-        mutants = [m for m in mutants if (m.module, m.line, m.kind) in left]
+        left = {(row[1], row[3], row[5]) for row in rows if row[4].startswith("survived")}
+        mutants = [m for m in mutants if (m.module, m.kind, line_of(m, loaded)) in left]
     print(f"{len(mutants)} mutants", flush=True)
     shares = [
         multiprocessing.get_context("fork").Process(
             target=worker,
-            args=(n, arguments.jobs, mutants, cases, loaded, arguments.most, arguments.out),
+            args=(n, arguments.jobs, mutants, cases, loaded, arguments.seconds, arguments.out),
         )
         for n in range(arguments.jobs)
     ]
@@ -249,8 +306,19 @@ def main() -> int:
     return 0
 
 
+def said_to_be_same() -> set[tuple[str, str, str]]:
+    """The mutants that `equivalent.txt` names: module, kind and line."""
+    found = set()
+    with open(os.path.join(HERE, "equivalent.txt"), encoding="utf-8") as file:
+        for line in file:
+            if line.strip() and not line.startswith("#"):
+                module, kinds, text = (part.strip() for part in line.split("|", 2))
+                found |= {(module, kind.strip(), text) for kind in kinds.split(",")}
+    return found
+
+
 def report(out: str, jobs: int) -> None:
-    """Puts the shares together, and names the survivors."""
+    """Puts the shares together, names the survivors, and counts by module."""
     rows = []
     for share in range(jobs):
         with open(f"{out}.{share}", encoding="utf-8") as file:
@@ -259,10 +327,29 @@ def report(out: str, jobs: int) -> None:
     rows.sort()
     with open(out, "w", encoding="utf-8") as file:
         file.writelines(json.dumps(row) + "\n" for row in rows)
-    survivors = [row for row in rows if row[4].startswith("survived")]
-    for _, module, line, kind, result, text in survivors:
-        print(f"{module}.py:{line}: {kind}: {text} ({result})")
-    print(f"{len(rows)} mutants, {len(rows) - len(survivors)} killed, {len(survivors)} survived")
+    count(rows)
+
+
+def count(rows: list[Any]) -> None:
+    same = said_to_be_same()
+    counts: dict[str, list[int]] = {}
+    survivors = set()
+    for _, module, line, kind, result, text in rows:
+        one = counts.setdefault(module, [0, 0, 0])
+        if result.startswith("killed"):
+            one[0] += 1
+            continue
+        survivors.add((module, kind, text))
+        is_same = (module, kind, text) in same
+        one[1 if is_same else 2] += 1
+        if not is_same:
+            print(f"{module}.py:{line}: {kind}: {text} ({result})")
+    for module, kind, text in sorted(same - survivors):
+        if module in counts:
+            print(f"{module}: {kind}: {text}: said to be the same, and killed, or not there")
+    counts["all"] = [sum(one[n] for one in counts.values()) for n in range(3)]
+    for module, (killed, equal, left) in counts.items():
+        print(f"{module}: {killed} killed, {equal} the same, {left} survived")
 
 
 if __name__ == "__main__":

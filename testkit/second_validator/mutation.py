@@ -72,6 +72,7 @@ def changes_of(node: ast.AST) -> Iterator[tuple[str, Change]]:
         yield "and/or", set_field(node, "op", SWAPS[type(node.op)][0]())
         for place in range(len(node.values)):
             rest = node.values[:place] + node.values[place + 1 :]
+            rest = rest if len(rest) > 1 else rest * 2  # one operand alone is not a BoolOp
             yield f"operand {place + 1} left out", set_field(node, "values", rest)
     elif isinstance(node, (ast.If, ast.IfExp)):
         for value in (True, False):
@@ -118,6 +119,8 @@ def mutants_of(loaded: Loaded) -> list[Mutant]:
         for part in ("returns", "annotation"):
             if getattr(node, part, None) is not None:
                 skipped |= {id(inner) for inner in ast.walk(getattr(node, part))}
+        for decorator in getattr(node, "decorator_list", []):
+            skipped |= {id(inner) for inner in ast.walk(decorator)}
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             skipped |= {id(inner) for inner in ast.walk(node)}
         if isinstance(node, ast.Call) and "_hits" in ast.dump(node.func):

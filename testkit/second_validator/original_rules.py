@@ -6,7 +6,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from .faces import Face, NotMesh
-from .mesh import is_usable, read_mesh
+from .mesh import format_of, is_usable, read_alone, read_mesh
 from .modules import Urdd, file_of
 from .sidefiles import normal, side_files
 
@@ -16,13 +16,16 @@ FOLDER = "mesh_modules/original_meshes_module/meshes/"
 
 def read_original(urdd: Urdd, path: str) -> list[Face]:
     """What a carried mesh shows. Raises NotMesh."""
+    data = urdd.tree.data(path)
+    if format_of(data, path) not in ("gltf", "glb"):
+        return read_alone(data, path)
     folder = path.rpartition("/")[0]
 
     def fetch(name: str) -> bytes | None:
         found = normal(folder, unquote(name))
         return urdd.tree.read(found) if found else None
 
-    return read_mesh(urdd.tree.read(path) or b"", path, fetch)
+    return read_mesh(data, path, fetch)
 
 
 def expected_references(robot: Any) -> list[tuple[int, str, int, str]]:

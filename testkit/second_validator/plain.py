@@ -38,7 +38,7 @@ def newell(corners: list[Point]) -> Point:
 
 def is_convex(corners: list[Point]) -> bool:
     """7.8: at no corner it turns back, and it goes round once."""
-    if len(corners) == 3:
+    if len(corners) <= 3:
         return True
     n = newell(corners)
     length = norm(n)

@@ -19,8 +19,8 @@ from typing import Any
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from instrument import CHANGED, FRESH, HITS, load_package  # noqa: E402
-from mutants import Case, load_cases, run_baseline, says_of  # noqa: E402
+from instrument import CHANGED, HITS, load_package  # noqa: E402
+from mutants import Case, load_cases, remember_trees, run_baseline, says_of  # noqa: E402
 
 REMOVED = ("type", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems")
 REMOVED += ("additionalProperties", "patternProperties", "$ref", "anyOf", "oneOf", "allOf")
@@ -83,7 +83,10 @@ def documents_of(name: str, cases: list[Case], loaded: Any) -> list[Document]:
     path = "urdd.json" if name == "root_metadata" else modules.file_of(name)
     found: dict[bytes, Document] = {}
     for case in cases:
-        data = case.tree.files.get(path)
+        try:
+            data = loaded["validator"].module.open_tree(case.place).files.get(path)
+        except loaded["report"].module.Unreadable:
+            continue
         if data is None:
             continue
         if data not in found:
@@ -120,28 +123,31 @@ def main() -> int:
     schemas = loaded["schema"].module
     published = schemas.published
 
+    names = ["root_metadata", *loaded["modules"].module.TABLE]
+    first = max(one.next for one in loaded.values())
+    block_of = {name: first + place for place, name in enumerate(names)}
+
     def noted(name: str, version: str) -> Any:
-        HITS.blocks.add(f"schema of {name}")  # type: ignore[arg-type]
+        HITS.blocks.add(block_of[name])
         return published(name, version)
 
     schemas.published = noted
-    cases = load_cases(arguments.suite, loaded, tuple(arguments.cases.split(",")))
+    remember_trees(loaded)
+    cases = load_cases(arguments.suite, tuple(arguments.cases.split(",")))
     run_baseline(cases, loaded)
     fits = schemas.fits
     rows = []
-    for name in ["root_metadata", *loaded["modules"].module.TABLE]:
-        block = f"schema of {name}"
+    for name in names:
         documents = documents_of(name, cases, loaded)
         for document in documents:
             document.valid = fits(name, document.value)
         every = list(mutations(published(name, "1.0.0"), ""))
         for place, kind, change, restore in every[:: arguments.every]:
             change()
-            CHANGED.add(block)  # type: ignore[arg-type]
+            CHANGED.begin({block_of[name]})
             killer = killer_of(documents, name, place, fits, loaded)
             restore()
-            CHANGED.clear()
-            FRESH.clear()
+            CHANGED.end()
             rows.append([name, place, kind, killer.name if killer else "survived"])
             with open(arguments.out, "a", encoding="utf-8") as file:
                 file.write(json.dumps(rows[-1]) + "\n")

@@ -58,11 +58,11 @@ def libraries_of(tree: Tree, folder: str, data: bytes) -> list[str]:
 
 def maps_of(tree: Tree, mesh_folder: str, library: str) -> list[str]:
     """The paths of the textures that an MTL names."""
-    data = tree.read(library)
+    data = tree.data(library)
     folder = library.rpartition("/")[0]
     found = []
     in_material = False
-    for line in lines_of(data or b""):
+    for line in lines_of(data):
         word = (line.split() or [""])[0].lower()
         in_material = in_material or word == "newmtl"
         rest = rest_of(line)
@@ -94,7 +94,7 @@ def uris_of(document: Any) -> list[str]:
 
 def side_files(tree: Tree, path: str) -> list[str]:
     """7.5: the files that a mesh names and that are there, the mesh left out. Raises NotMesh."""
-    data = tree.read(path) or b""
+    data = tree.data(path)
     folder = path.rpartition("/")[0]
     kind = format_of(data, path)
     names: list[str] = []

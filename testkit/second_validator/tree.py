@@ -84,6 +84,10 @@ class Tree:
         kind, real = self.resolve(path)
         return self.files[real] if kind == "file" else None
 
+    def data(self, path: str) -> bytes:
+        """The bytes of a file that is known to be there."""
+        return self.read(path) or b""
+
 
 def read_folder(folder: str) -> Tree:
     """Reads all of a folder, without following links."""

@@ -91,8 +91,7 @@ class Cursor:
         self.at += 2
         if sign == "\n":
             self.at -= 1
-            self.fold(floor)
-            return ""
+            return self.fold(floor).removeprefix(" ")
         if sign in ESCAPES and sign:
             return ESCAPES[sign]
         digits = self.text[self.at : self.at + WIDTHS.get(sign, 0)]
@@ -149,13 +148,18 @@ class Cursor:
             line = match[0] if match else ""
             inner = len(line) - len(line.lstrip(" "))
             if line.strip(" ") and not indent:
+                if any(inner < len(blank) for blank in lines if inner > floor):
+                    self.fail()  # an empty line that is farther in than the first other one
                 indent = max(inner, floor + 1)
+                lines = [""] * len(lines)
             if line.strip(" ") and inner < indent:
                 break
             if "\t" in line:
                 self.fail()
-            lines.append(line[indent:] if indent else "")
+            lines.append(line[indent:] if indent else line)
             self.at += len(line) + 1
+        if not indent:
+            lines = [""] * len(lines)
         if self.at > len(self.text):
             self.at = len(self.text)
             if chomp != "-":
@@ -163,15 +167,27 @@ class Cursor:
         return chomped(lines, folded, chomp)
 
 
+def fold_lines(lines: list[str]) -> str:
+    """Lines joined by spaces, but for empty lines, and lines that are farther in."""
+    text = ""
+    before = "-"
+    breaks = 0
+    for line in lines:
+        if line:
+            folds = text and not before.startswith(" ") and not line.startswith(" ")
+            text += (" " if breaks == 1 else "\n" * (breaks - 1)) if folds else "\n" * breaks
+            text += line
+            before, breaks = line, 0
+        breaks += 1
+    return text
+
+
 def chomped(lines: list[str], folded: bool, chomp: str) -> str:
     """The text of a block scalar's lines."""
     kept = list(lines)
     while kept and not kept[-1]:
         kept.pop()
-    text = "\n".join(kept)
-    if folded:
-        text = re.sub(r"(?<=[^\n ])\n(?=[^\n ])", " ", text)
-        text = re.sub(r"(?<=[^\n ])\n(\n+)(?=[^\n ])", r"\1", text)
+    text = fold_lines(kept) if folded else "\n".join(kept)
     if chomp == "-":
         return text
     if chomp == "+":

@@ -114,21 +114,24 @@ class Parser(Cursor):
         self.enter()
         found: dict[str, Any] = {}
         while not self.marked() and self.column() == column:
-            if self.dashed("?"):
+            explicit = self.dashed("?")
+            if explicit:
                 self.at += 1
                 self.skip()
-                key = self.key(column)
+            key = self.key(column)
+            if key in found:
+                raise TextFault("YML005")
+            found[key] = None
+            if explicit:
                 self.next_entry(column)
-            else:
-                key = self.key(column)
+                if self.column() != column or not self.dashed(":"):
+                    continue
             while self.here() == " ":
                 self.at += 1
             if not self.dashed(":"):
                 self.fail()
             self.at += 1
-            if key in found:
-                raise TextFault("YML005")
-            ended = self.skip()
+            ended = self.skip() or explicit
             same_column = ended and self.column() == column and self.dashed("-")
             found[key] = self.block(column - 1 if same_column else column, ended)
             self.next_entry(column)
@@ -137,7 +140,7 @@ class Parser(Cursor):
 
     def key(self, floor: int) -> str:
         """A key, which is a string to all readers (3.2.2)."""
-        if self.here() in ("[", "{", "|", ">") or self.dashed(":"):
+        if self.here() in ("[", "{") or self.dashed(":"):
             self.fail()
         value, plain = self.flow_or_scalar(floor, False)
         return self.as_key(value, plain)
@@ -190,6 +193,8 @@ class Parser(Cursor):
                 self.at = before
                 break
             self.at = match.end()
+            if "?" in match[0]:
+                raise TextFault("YML006")
             breaks = self.text.count("\n", before, match.start())
             value += (" " if breaks == 1 else "\n" * (breaks - 1)) + match[0]
         return value, plain
@@ -200,13 +205,14 @@ class Parser(Cursor):
         found: list[Any] = []
         self.skip(floor)
         while self.here() != "]":
+            explicit = self.explicit_key(floor)
+            start = self.at
             value, plain = self.flow_value(floor)
             self.skip(floor)
-            if self.here() == ":":
-                self.at += 1
-                self.skip(floor)
+            start = self.at if explicit else start
+            if self.here() == ":" or explicit:
                 key = self.as_key(value, plain)
-                found.append({key: self.pair_value(floor)})
+                found.append({key: self.pair_value(start, floor)})
             else:
                 found.append(plain_value(value) if plain else value)
             self.comma("]", floor)
@@ -214,8 +220,22 @@ class Parser(Cursor):
         self.depth -= 1
         return found
 
-    def pair_value(self, floor: int) -> Any:
-        """The value behind a colon between brackets; null where there is none."""
+    def explicit_key(self, floor: int) -> bool:
+        """Passes over the `?` of a key between brackets, if there is one."""
+        found = self.dashed("?")
+        if found:
+            self.at += 1
+            self.skip(floor)
+        return found
+
+    def pair_value(self, start: int, floor: int) -> Any:
+        """The value of a key between brackets; null where there is none."""
+        if self.here() != ":":
+            return None
+        if "\n" in self.text[start : self.at]:
+            self.fail()  # PyYAML refuses a key and its colon on two lines
+        self.at += 1
+        self.skip(floor)
         if self.here() in (",", "]", "}"):
             return None
         value, plain = self.flow_value(floor)
@@ -227,17 +247,16 @@ class Parser(Cursor):
         found: dict[str, Any] = {}
         self.skip(floor)
         while self.here() != "}":
+            explicit = self.explicit_key(floor)
+            start = self.at
             if self.here() in ("[", "{"):
                 self.fail()
             key = self.as_key(*self.flow_value(floor))
             self.skip(floor)
+            start = self.at if explicit else start
             if key in found:
                 raise TextFault("YML005")
-            found[key] = None
-            if self.here() == ":":
-                self.at += 1
-                self.skip(floor)
-                found[key] = self.pair_value(floor)
+            found[key] = self.pair_value(start, floor)
             self.comma("}", floor)
         self.at += 1
         self.depth -= 1

@@ -6,6 +6,7 @@ mod originals;
 pub mod placed_scenes;
 mod polygons;
 mod prism;
+mod scenes;
 
 use serde_json::{Value, json};
 use urdd_geometry::Mesh;
@@ -157,6 +158,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(prism::cases());
     cases.extend(placed_scenes::cases());
     cases.extend(polygons::cases());
+    cases.extend(scenes::cases());
     cases.extend(bodies::cases());
     cases
 }

@@ -151,6 +151,21 @@ fn links() -> Vec<Case> {
             move || unseen(cylinder(0.1, -0.1)),
             |_| {},
         ),
+        changed(MSH011, "box-of-one-side", false, move || unseen(cuboid([0.1, 0.0, 0.0])), |_| {}),
+        changed(
+            MSH011,
+            "box-of-a-negative-side",
+            false,
+            move || unseen(cuboid([0.1, 0.1, -0.1])),
+            |_| {},
+        ),
+        changed(
+            MSH011,
+            "flat-box-without-mesh",
+            true,
+            move || unseen(cuboid([0.1, 0.0, 0.1])),
+            |_| {},
+        ),
         changed(MSH011, "cylinder-of-no-radius", false, move || unseen(cylinder(0.0, 0.1)), |_| {}),
         changed(MSH011, "carried-file-without-a-surface", false, crate::mesh_files::bare, |_| {}),
         changed(

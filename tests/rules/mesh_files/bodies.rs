@@ -152,6 +152,13 @@ fn hulls_and_pieces() -> Vec<Case> {
                 }
             });
         }),
+        invalid(MSH021, "larger-on-one-side", |f| {
+            rewrite(f, PIECES, ALL, |mesh| {
+                for vertex in &mut mesh.vertices {
+                    vertex[0] = f64::from((vertex[0].max(1.1 * vertex[0])) as f32);
+                }
+            });
+        }),
         changed(MSH023, "barely-larger-than-the-link", true, lone_box, |f| {
             grow_piece(f, 1.01);
         }),

@@ -61,9 +61,14 @@ pub fn show(f: &mut Fixture, file: &[u8], right: &Mesh, shown: &Mesh) {
 
 /// A link that shows the body, after one that shows a box. Class Geometry.
 pub fn base() -> Fixture {
+    scaled(None)
+}
+
+/// The same, with this scale in the URDF.
+pub fn scaled(scale: Option<[f64; 3]>) -> Fixture {
     let mut robot = robot_of(vec![boxy("a"), link("b")]);
     robot.meshes.insert("part.dae".to_owned(), [0.5, 0.25, 0.125]);
-    robot.link_mut("b").visual.push(visual(None, mesh("part.dae", None)));
+    robot.link_mut("b").visual.push(visual(None, mesh("part.dae", scale)));
     let mut f = Fixture::full(&robot);
     geometry_alone(&mut f);
     let whole = placed(as_it_is, &FACES);

@@ -85,6 +85,24 @@ pub fn cases() -> Vec<Case> {
         |triangles: &[[u32; 3]]| Mesh { vertices: CORNERS.to_vec(), triangles: triangles.to_vec() };
     vec![
         case("dart", false, plain(&DART), with(&DART, &[[5, 6, 7], [5, 7, 4]])),
+        case(
+            "dart-in-a-list-of-its-own",
+            false,
+            plain(&DART)
+                .replace("polylist", "polygons")
+                .replace("<vcount>3 3 3 3 4</vcount>", "")
+                .replace(
+                    "<p>0 2 1 0 1 3 0 3 2 1 2 3 ",
+                    "<p>0 2 1</p><p>0 1 3</p><p>0 3 2</p><p>1 2 3</p><p>",
+                ),
+            with(&DART, &[[5, 6, 7], [5, 7, 4]]),
+        ),
+        case(
+            "dart-of-one-triangle-twice",
+            true,
+            plain(&DART),
+            with(&DART, &[[5, 6, 7], [5, 6, 7]]),
+        ),
         case("dart-turned-round", true, plain(&DART), with(&DART, &[[5, 7, 6], [5, 4, 7]])),
         case(
             "dart-without-a-triangle-of-no-height",

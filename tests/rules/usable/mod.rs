@@ -167,6 +167,7 @@ fn stl_rows() -> Vec<Row> {
             false,
         ),
         row("binary-stl-with-more-behind", "part.stl", longer, true),
+        row("binary-stl-of-a-point-before-more", "part.stl", stl(1, &[POINT, TRIANGLE]), false),
         row("binary-stl-of-count-0", "part.stl", stl(0, &[TRIANGLE]), true),
         row("binary-stl-of-a-point", "part.stl", stl(1, &[POINT]), false),
         row("binary-stl-of-no-number", "part.stl", stl(1, &[NO_NUMBER]), false),

@@ -81,8 +81,108 @@ pub fn collada_rows() -> Vec<Row> {
     let utf16 = |mark: &str| -> Vec<u8> {
         format!("{mark}{whole}").encode_utf16().flat_map(u16::to_le_bytes).collect()
     };
+    let far = |offset: usize| {
+        let corner = |index: u8| format!("{}{index} ", "0 ".repeat(offset));
+        let indices = format!("<p>{}</p>", [0, 1, 2].map(corner).concat());
+        changed(r#"offset="0""#, &format!(r#"offset="{offset}""#)).replace("<p>0 1 2</p>", &indices)
+    };
+    // The node that is shown, 271 times one, and in it 368 times another: 100,000 visits.
+    let visits = |more: &str| {
+        let of = |id: &str, times: usize, inside: &str| {
+            format!(
+                r##"<node id="{id}">{}</node>"##,
+                format!(r##"<instance_node url="#{inside}"/>"##).repeat(times)
+            )
+        };
+        let library =
+            format!("<library_nodes><node id=\"b\"/>{}</library_nodes>", of("a", 368, "b"));
+        let inside =
+            of("r", 271, "a").replace("</node>", r##"<instance_geometry url="#g"/></node>"##);
+        collada(&format!("{library}{}{scene}", nodes(&format!("{inside}{more}"))))
+    };
     vec![
         row("collada", "part.dae", whole.clone(), true),
+        row("collada-of-an-offset-of-1023", "part.dae", far(1023), true),
+        row("collada-of-an-offset-of-1024-with-all-indices", "part.dae", far(1024), false),
+        row("collada-of-100000-visits", "part.dae", visits(""), true),
+        row("collada-of-100001-visits", "part.dae", visits("<node/>"), false),
+        row(
+            "collada-of-a-controller-of-itself",
+            "part.dae",
+            collada(&format!(
+                r##"<library_controllers><controller id="c"><skin source="#c"/></controller></library_controllers>{}{scene}"##,
+                nodes(r##"<node><instance_controller url="#c"/></node>"##)
+            )),
+            false,
+        ),
+        row(
+            "collada-without-vertices",
+            "part.dae",
+            changed(r##"source="#v""##, r##"source="#w""##),
+            false,
+        ),
+        row(
+            "collada-of-vertices-without-positions",
+            "part.dae",
+            changed(r#"semantic="POSITION""#, r#"semantic="NORMAL""#),
+            false,
+        ),
+        row(
+            "collada-of-a-position-that-is-no-number",
+            "part.dae",
+            changed("0 0 0 1 0 0", "0 0 0 1 x 0"),
+            false,
+        ),
+        row(
+            "collada-of-two-numbers-each-with-an-area",
+            "part.dae",
+            changed(r#"stride="3""#, r#"stride="2""#)
+                .replace("0 0 0 1 0 0 0 1 0", "0 0 1 0 0 1 1 1 0"),
+            false,
+        ),
+        row(
+            "collada-of-an-index-that-is-no-number",
+            "part.dae",
+            changed("<p>0 1 2</p>", "<p>0 1 x</p>"),
+            false,
+        ),
+        row(
+            "collada-skewed-in-no-direction",
+            "part.dae",
+            placed("<skew>45 0 0 0 0 1 0</skew>"),
+            true,
+        ),
+        row(
+            "collada-of-a-lookat-along-up-beside-another-node",
+            "part.dae",
+            collada(&format!(
+                "{}{scene}",
+                nodes(
+                    r##"<node><instance_geometry url="#g"/></node><node><lookat>0 0 0 0 0 1 0 0 2</lookat></node>"##
+                )
+            )),
+            false,
+        ),
+        row(
+            "collada-with-two-declarations",
+            "part.dae",
+            format!(r#"<?xml version="1.0"?><?xml version="1.0"?>{whole}"#),
+            false,
+        ),
+        row(
+            "collada-with-a-primitive-without-indices",
+            "part.dae",
+            changed("</mesh>", r#"<triangles count="0"/></mesh>"#),
+            true,
+        ),
+        row("collada-cut-off", "part.dae", changed("</COLLADA>", ""), false),
+        row(
+            "collada-of-another-root",
+            "part.dae",
+            whole.replace("COLLADA ", "Collada ").replace("/COLLADA", "/Collada"),
+            false,
+        ),
+        row("collada-moved-by-a-word", "part.dae", placed("<translate>1 2 x</translate>"), false),
         row(
             "collada-with-a-prefix",
             "part.dae",
@@ -241,7 +341,28 @@ pub fn gltf_rows() -> Vec<Row> {
     };
     let indices = json!({"bufferView": 1, "componentType": 5121});
     let replaced = json!({"count": 3, "indices": indices, "values": {"bufferView": 0}});
+    // Nodes in one another, the last of which has the mesh.
+    let deep = |levels: usize| {
+        let mut gltf = gltf();
+        let mut nodes: Vec<Value> = (1..levels).map(|child| json!({"children": [child]})).collect();
+        nodes.push(json!({"mesh": 0}));
+        gltf["nodes"] = json!(nodes);
+        gltf.to_string()
+    };
+    let mut without_uri = gltf();
+    without_uri["buffers"][0] = json!({"byteLength": 36});
     vec![
+        row("gltf-of-200-nodes-in-one-another", "part.gltf", deep(200), true),
+        row("gltf-of-201-nodes-in-one-another", "part.gltf", deep(201), false),
+        row("gltf-of-a-mesh-below-0", "part.gltf", with("/nodes/0/mesh", json!(-1)), false),
+        row("gltf-of-a-mesh-that-is-true", "part.gltf", with("/nodes/0/mesh", json!(false)), false),
+        row(
+            "gltf-of-a-view-beyond-its-buffer",
+            "part.gltf",
+            with("/bufferViews/0/byteLength", json!(48)),
+            false,
+        ),
+        row("gltf-of-a-buffer-without-a-uri", "part.gltf", without_uri.to_string(), false),
         row(
             "gltf-of-sparse-positions",
             "part.gltf",

@@ -10,7 +10,7 @@ use super::super::json_scan::push_segment;
 use super::super::limits::DEPTH_LIMIT;
 use super::super::position::Position;
 use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
-use super::disputes::{DISPUTED, End, Keys, TORN, Tabs};
+use super::disputes::{DISPUTED, End, Keys, OUTDENTED, Outdents, TORN, Tabs};
 use super::message;
 use super::open::{
     Forced, Mapping, Member, Node, Open, Shape, Target, apply_tag, pointer, tag_fault,
@@ -25,6 +25,7 @@ pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
         documents: 0,
         tabs: Tabs::find(text),
         keys: Keys::new(text),
+        outdents: Outdents::new(text),
         end: End::new(text),
         faults,
     };
@@ -47,6 +48,7 @@ struct Comparison<'j, 'y, 'f> {
     documents: usize,
     tabs: Tabs,
     keys: Keys<'y>,
+    outdents: Outdents<'y>,
     end: End<'y>,
     faults: &'f mut TextFaults,
 }
@@ -104,7 +106,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             Event::MappingStart(anchor, tag) => {
                 return self.begin(Node::Mapping, anchor, tag.as_deref(), span);
             }
-            Event::SequenceEnd | Event::MappingEnd => self.end(),
+            Event::SequenceEnd | Event::MappingEnd => self.end(span),
             Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {}
         }
         ControlFlow::Continue(())
@@ -267,10 +269,19 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         ControlFlow::Continue(())
     }
 
-    fn end(&mut self) {
+    fn end(&mut self, span: Span) {
         let Some(open) = self.open.pop() else {
             return;
         };
+        if open.flow
+            && let Some(around) = self.open.last().filter(|around| !around.flow)
+            && let Some(at) = {
+                let lines = open.start.line as usize + 1..=span.start.line();
+                self.outdents.find(lines, around.start.column as usize)
+            }
+        {
+            self.report(at, TextFaultKind::YamlSyntax, OUTDENTED);
+        }
         let with_variant = |mut pointer: String| {
             if let Some(variant) = &open.variant {
                 push_segment(&mut pointer, variant);

@@ -1,6 +1,8 @@
 //! Where YAML readers disagree: the end of a file without a final line break, keys in braces whose colon is on another
 //! line, and tabs outside quotes and comments.
 
+use std::ops::RangeInclusive;
+
 use saphyr_parser::{ScalarStyle, Span};
 
 use super::super::position::{Offsets, Position, position};
@@ -79,6 +81,39 @@ impl<'y> Keys<'y> {
                 return broken && rest.starts_with(':');
             }
         }
+    }
+}
+
+/// Message for a line of a flow collection that is no farther in than the value around it.
+pub const OUTDENTED: &str = "a line in brackets or braces is not indented more than the value around it: write spaces before it";
+
+/// The lines of a text, found when they are first needed.
+pub struct Outdents<'y> {
+    text: &'y str,
+    lines: Vec<&'y str>,
+}
+
+impl<'y> Outdents<'y> {
+    /// Starts without the lines.
+    pub fn new(text: &'y str) -> Self {
+        Self { text, lines: Vec::new() }
+    }
+
+    /// The first of these lines, from 1, that begins before or at a column, from 1. Empty lines and comments may.
+    pub fn find(&mut self, lines: RangeInclusive<usize>, column: usize) -> Option<Position> {
+        if lines.is_empty() {
+            return None;
+        }
+        if self.lines.is_empty() {
+            self.lines = self.text.lines().collect();
+        }
+        lines.into_iter().find_map(|number| {
+            let line = self.lines.get(number - 1)?;
+            let begins = line.trim_start_matches(' ');
+            let before = line.len() - begins.len();
+            let counts = !begins.is_empty() && !begins.starts_with('#');
+            (counts && before < column).then(|| Position::of(number, before + 1))
+        })
     }
 }
 
