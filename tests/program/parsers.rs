@@ -54,6 +54,7 @@ const OTHERS: &[&str] = &[
 
 /// Files that read JSON by `serde_json`, and what bounds the text. All else is read by `urdd_directory::json`.
 const JSON: &[(&str, &str)] = &[
+    ("crates/urdd-conformance/src/catalogue.rs", "the suite's own"),
     ("crates/urdd-conformance/src/data.rs", "the suite's own"),
     ("crates/urdd-conformance/src/refused.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-conformance/src/suite.rs", "the suite's own"),
@@ -207,6 +208,10 @@ const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-source/src/inspect.rs", "meshes and their side files, for the gate alone"),
     ("crates/urdd-source/src/installs.rs", "`CMakeLists.txt` and `setup.py`; 1 MiB"),
     ("crates/urdd-source/src/load.rs", "the description itself; 64 MiB"),
+    (
+        "crates/urdd-source/src/loops/mod.rs",
+        "what says of loops, which a person names, or beside the URDF; 1 MiB",
+    ),
     ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
     ("wasm/src/files.rs", "what was given to the page, for the page"),

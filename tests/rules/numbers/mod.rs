@@ -7,6 +7,7 @@ mod documents;
 pub mod geometry;
 mod learned;
 mod limits_of_files;
+mod loops;
 mod not_limits;
 mod primitives;
 mod shapes;
@@ -114,6 +115,7 @@ pub fn list() -> Vec<Number> {
     let mut list = agreement::numbers();
     list.extend(documents::numbers());
     list.extend(limits_of_files::numbers());
+    list.extend(loops::numbers());
     list.extend(geometry::numbers());
     list.extend(primitives::numbers());
     list.extend(shapes::numbers());

@@ -3,6 +3,10 @@
 /// Clause, and words of it.
 pub const NOT_LIMITS: &[(&str, &str)] = &[
     // Standards and versions.
+    ("2.6", "Modules of 1.0 MUST"),
+    ("4.1", "a program that knows 1.0 reads"),
+    ("4.3", "after those of 1.0, by"),
+    ("6.8.9", "programs that know 1.0 alone"),
     ("4.3", "patch, 1.0.1"),
     ("4.3", "minor, 1.1.0"),
     ("4.3", "`dof_module` 1.1.0 with"),
@@ -36,6 +40,9 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("3.4.2", "JavaScript writes 1e16 to 1e21 and 1e-6 to 1e-4"),
     ("3.4.2", "write 0.00001"),
     // Examples and explanations.
+    ("6.8.4", "states 0 where 1e-9 is enough"),
+    ("6.8.7", "3 c3 q^2 and 4 c4 q^3"),
+    ("6.8.7", "off by more than some 1e-5 rad"),
     (
         "5.10",
         "With `index` following `thumb` by multiplier 2 and offset 0.25, and `tip` following `index` by 0.5 and -0.5, `tip` is at 0.5 (2 q + 0.25) - 0.5 = q - 0.375: multiplier 1 and offset -0.375 over the DOF of `thumb`. At q = 0.5 `index` is at 1.25, and `tip` at 0.125.",

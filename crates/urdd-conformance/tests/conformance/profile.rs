@@ -20,7 +20,8 @@ fn the_profile_is_neither_empty_nor_everything() {
     let families = |items: &[Item]| -> BTreeSet<String> {
         items.iter().filter_map(|item| Some(item.code.as_deref()?[..3].to_owned())).collect()
     };
-    let core = ["BND", "CHN", "CMP", "CNF", "CON", "DIR", "DOF", "JSN", "KIN", "SCH", "SRC", "URD"];
+    let core =
+        ["BND", "CHN", "CMP", "CNF", "CON", "DIR", "DOF", "JSN", "KIN", "LOP", "SCH", "SRC", "URD"];
     assert_eq!(families(&inside), core.map(str::to_owned).into());
     for others in ["YML", "EXT", "MSH", "SHP", "LRN", "LEG"] {
         assert!(families(&outside).contains(others), "{others}");
