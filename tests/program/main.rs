@@ -22,6 +22,7 @@ mod info;
 mod large_inputs;
 mod links;
 mod lint;
+mod loops;
 mod lsp;
 mod new_extension;
 mod outputs;
