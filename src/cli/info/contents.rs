@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::loops::LoopsInfo;
 use super::parts::{self, PartInfo};
 use super::skipped::{self, SkippedContact};
 use super::statics::Statics;
@@ -46,6 +47,9 @@ pub struct Info {
     /// Pairs of links that are skipped because they touch in the default configuration, or in the reference; null if the
     /// modules of shapes are missing or cannot be read.
     pub skipped_contacts: Option<Vec<SkippedContact>>,
+    /// What closes the loops of a robot that is no tree.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loops: Option<LoopsInfo>,
     pub modules: Vec<ModuleInfo>,
     /// The joints in the order of each program, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -216,6 +220,7 @@ impl Info {
             // A URDD without skips is not opened again.
             skipped_contacts: (urdd.document(ModuleKind::LinkShapesSkips))
                 .and_then(|_| SkippedContact::all(path)),
+            loops: LoopsInfo::of(&urdd),
             modules: urdd
                 .modules()
                 .map(|module| {
@@ -287,6 +292,9 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
         let bounds = dof.bounds.map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"));
         let bounds = bounds.unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
+    }
+    if let Some(loops) = &info.loops {
+        loops.write(out)?;
     }
     if let Some(geometry) = &info.geometry {
         geometry.write(out)?;

@@ -1,6 +1,7 @@
 //! `urdd info`.
 
 mod contents;
+mod loops;
 mod parts;
 mod robots;
 mod skipped;
