@@ -171,9 +171,11 @@ impl Made<'_> {
             // Where nobody says it, joints that are nearest to the root move the others.
             let depths = self.depths();
             let depth = |dof: usize| depths[self.dof.dofs[dof].joint_idx.get()];
-            let least = loops.dofs().map(|dof| depth(dof.get())).min();
-            for dof in loops.dofs() {
-                preferred[dof.get()] = Some(depth(dof.get())) == least;
+            for group in loops.groups() {
+                let least = group.iter().map(|dof| depth(*dof)).min();
+                for dof in group {
+                    preferred[*dof] = Some(depth(*dof)) == least;
+                }
             }
             return Ok(preferred);
         };

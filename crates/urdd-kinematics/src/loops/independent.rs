@@ -72,9 +72,12 @@ impl Loops {
     }
 }
 
+/// Columns that differ by less are as good, so that the last of them follows, whatever the rounding.
+const AS_GOOD: f64 = 1e-6;
+
 fn better(best: Option<(usize, f64)>, next: (usize, f64)) -> Option<(usize, f64)> {
     match best {
-        Some(best) if best.1 >= next.1 => Some(best),
+        Some(best) if best.1 * (1.0 - AS_GOOD) > next.1 => Some(best),
         _ => Some(next),
     }
 }

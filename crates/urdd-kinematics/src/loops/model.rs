@@ -175,6 +175,11 @@ impl Loops {
         self.loops.len()
     }
 
+    /// The DOFs that loops and couplings tie to each other, directly or through others: for each such set, ascending.
+    pub fn groups(&self) -> impl Iterator<Item = &[usize]> {
+        self.groups.iter().map(|group| &*group.dofs)
+    }
+
     /// The DOFs that a loop or coupling depends on, ascending.
     pub fn dofs(&self) -> impl Iterator<Item = DofIdx> + '_ {
         let moved = self.moves.iter().enumerate().filter(|(_, moves)| **moves);
