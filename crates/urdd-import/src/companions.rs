@@ -3,12 +3,13 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 use urdd_directory::export_toml::{ActuatorKind, File, JointGains, unplaced};
-use urdd_directory::loops_toml::{self, CouplingTable, FrameTable, LoopTable};
+use urdd_directory::loops_toml::{self, CouplingTable, LoopTable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_source::loops::table;
 use urdd_srdf::write;
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
@@ -129,10 +130,6 @@ pub fn loops(model: &Model) -> Option<String> {
     };
     for (place, closing) in model.closings.iter().enumerate() {
         let [a, b] = &closing.ends;
-        let table = |frame: &Isometry3<f64>| FrameTable {
-            xyz: frame.translation.vector.into(),
-            rpy: urdd_kinematics::rotation::to_rpy(frame.rotation.to_rotation_matrix().matrix()),
-        };
         file.loops.push(unplaced(LoopTable {
             name: named(&closing.name, "loop_", place),
             kind: closing.kind,

@@ -17,6 +17,12 @@ pub fn unit_axis(axis: [f64; 3]) -> Option<Unit<Vector3<f64>>> {
     Some(Unit::new_unchecked(unit.map(|x| x + 0.0)))
 }
 
+/// The rotation by the shortest arc that takes z to an axis, of any length but 0; half a turn about x where that is -z.
+pub fn from_z(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let half = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+    UnitQuaternion::rotation_between(&Vector3::z(), axis).unwrap_or_else(half)
+}
+
 /// The rotation of fixed-axis roll, pitch, yaw, as in URDF: `Rz(yaw) * Ry(pitch) * Rx(roll)`.
 pub fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)

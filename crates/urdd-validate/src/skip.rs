@@ -39,6 +39,10 @@ pub const NO_SHAPES: SkipReason = left_out("there is no list of shapes");
 pub const TOO_MANY_LOOPS: SkipReason =
     left_out("the loops depend on too many joints at once for this program to count what is free");
 
+/// There are more closed samples than can be looked at.
+pub const TOO_MANY_SAMPLES: SkipReason =
+    left_out("there are more closed samples than this program looks at; the first were right");
+
 /// None of the modules that a rule is about can be used.
 pub fn none_usable(kinds: &[ModuleKind]) -> SkipReason {
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::made::Made;
 use crate::error::Result;
-use urdd_kinematics::loops::{Gap, Loops, NotClosed, Scratch};
+use urdd_kinematics::loops::{Closing, Gap, Loops, NotClosed, Scratch};
 use urdd_kinematics::rotation::{from_rotation_vector, to_rotation_vector};
 use urdd_kinematics::unit;
 
@@ -17,10 +17,35 @@ const AROUND: u64 = 8;
 const ASIDE: f64 = 0.3;
 /// In how many parts the way to a sample is gone.
 const PARTS: u32 = 8;
+/// Most multiplications of all closings of a robot: some seconds.
+const MOST_SPENT: usize = 20_000_000_000;
+/// What one that fails is taken to cost, in steps.
+const FAILED_STEPS: usize = 200;
+/// Multiplications for the pose of a link.
+const POSE: usize = 100;
 /// A loop whose smallest gap is larger does not close, m by the reach, and rad.
 const OPEN: f64 = 1e-4;
 
 impl Made<'_> {
+    /// As [`Loops::close`], until the work of all closings is spent: then nothing more is found.
+    fn close(
+        &self,
+        loops: &Loops,
+        configuration: &mut [f64],
+        limits: &[[f64; 2]],
+        held: impl Fn(usize) -> bool,
+        scratch: &mut Scratch,
+    ) -> Result<Closing, NotClosed> {
+        if self.spent.get() > MOST_SPENT {
+            return Err(NotClosed::Apart);
+        }
+        let closed = loops.close(self.kinematics, configuration, limits, held, scratch);
+        let steps = closed.as_ref().map_or(FAILED_STEPS, |closing| closing.steps + 1);
+        let of_step = loops.work() + POSE * self.kinematics.num_links();
+        self.spent.set(self.spent.get().saturating_add(of_step.saturating_mul(steps)));
+        closed
+    }
+
     /// The bounds of limited DOFs; others have none.
     pub(super) fn limits(&self) -> Vec<[f64; 2]> {
         let bounds = self.bounds.bounds.iter().zip(&self.bounds.dof_limited);
@@ -42,8 +67,7 @@ impl Made<'_> {
         let beginnings = beginnings.chain((0..BEGINNINGS).map(|k| self.space.sampled(k)));
         for mut configuration in beginnings {
             self.cancellation.check()?;
-            let closed =
-                loops.close(self.kinematics, &mut configuration, limits, |_| false, scratch);
+            let closed = self.close(loops, &mut configuration, limits, |_| false, scratch);
             let none = || vec![Gap::default(); loops.num_loops()];
             let is_closed = closed.is_ok() && self.is_short(&mut configuration, |_| false);
             match closed {
@@ -91,7 +115,7 @@ impl Made<'_> {
             for dof in loops.dofs().map(|dof| dof.get()) {
                 near[dof] += ASIDE * (2.0 * unit(k, dof as u64) - 1.0);
             }
-            let closed = loops.close(self.kinematics, &mut near, limits, |_| false, scratch);
+            let closed = self.close(loops, &mut near, limits, |_| false, scratch);
             if closed.is_ok() && self.is_short(&mut near, |_| false) {
                 let rank = rank(&near);
                 if rank > best.0 {
@@ -122,7 +146,7 @@ impl Made<'_> {
                     let [from, to] = [from[dof], goal[dof]];
                     at[dof] = if part == parts { to } else { from + share * (to - from) };
                 }
-                loops.close(self.kinematics, &mut at, limits, is_held, scratch).ok()?;
+                self.close(loops, &mut at, limits, is_held, scratch).ok()?;
             }
             self.is_short(&mut at, is_held).then_some(at)
         };

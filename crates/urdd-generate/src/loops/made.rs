@@ -1,5 +1,6 @@
 //! What loops are made from.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use crate::error::GenerateError;
@@ -21,6 +22,8 @@ pub struct Made<'a> {
     pub space: &'a ConfigurationSpace,
     pub kinematics: &'a ForwardKinematics,
     pub cancellation: &'a Cancellation,
+    /// The work of closings so far.
+    pub spent: Cell<usize>,
 }
 
 impl Made<'_> {

@@ -261,3 +261,53 @@ fn huge_frames_and_thousands_of_loops_end_soon() {
     assert_eq!(module(folder.path()).loops.len(), 2000);
     assert_eq!(module(folder.path()).independent_dof_idxs.len(), 1);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_file_beside_that_leads_out_of_the_folder_is_not_opened() {
+    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    for name in ["p.loops.toml", "p.yaml"] {
+        let secret = elsewhere.path().join("secret");
+        fs::write(&secret, "closed_loop: [[secret, words]]\n").unwrap();
+        std::os::unix::fs::symlink(&secret, folder.path().join(name)).unwrap();
+        let error = made(folder.path(), &parallelogram("")).expect_err("refused").to_string();
+        assert!(error.contains("outside of the robot's folders"), "{error}");
+        assert!(!error.contains("words"), "{error}");
+        // Whoever names it may read it.
+        let mut named = settings();
+        named.source.loops = Some(secret);
+        let error = generate(&folder.path().join("p.urdf"), &folder.path().join("u"), &named, &());
+        assert!(error.expect_err("no TOML").to_string().contains("secret"));
+        fs::remove_file(folder.path().join(name)).unwrap();
+    }
+}
+
+#[test]
+fn a_loop_without_an_axis_has_that_of_a_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let about_x = URDF_PLUS.replace("<axis xyz=\"0 0 1\"/>", "").replace("revolute", "spherical");
+    made(folder.path(), &parallelogram(&about_x)).expect("a URDD");
+    let [w, x, y, z] = module(folder.path()).loops[0].frame_a.quaternion_wxyz;
+    // z to x: a quarter turn about y.
+    let half = 0.5_f64.sqrt();
+    assert!((w - half).abs() < 1e-15 && (y - half).abs() < 1e-15 && x.abs() + z.abs() < 1e-15);
+}
+
+#[test]
+fn many_loops_on_a_long_chain_are_refused_and_not_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut urdf = "<robot name=\"p\"><link name=\"l0\"/>".to_owned();
+    for k in 1..1900 {
+        urdf += &format!(
+            "<link name=\"l{k}\"/><joint name=\"j{k}\" type=\"continuous\"><parent link=\"l{}\"/><child link=\"l{k}\"/></joint>",
+            k - 1
+        );
+    }
+    for k in 0..11_000 {
+        urdf += &format!(
+            "<loop name=\"o{k}\" type=\"spherical\"><predecessor link=\"l0\"/><successor link=\"l1899\"/></loop>"
+        );
+    }
+    let error = made(folder.path(), &(urdf + "</robot>")).expect_err("refused").to_string();
+    assert!(error.contains("too many joints are in all loops"), "{error}");
+}

@@ -1,6 +1,6 @@
 //! Joints that close a chain.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
 use super::super::features::{self, Tally};
 use super::super::model::{Closing, End};
@@ -11,6 +11,7 @@ use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
 use super::spanning::Outside;
 use urdd_format::loops::LoopKind;
+use urdd_kinematics::rotation::from_z;
 
 /// The axes of a universal joint are at a right angle within this.
 const RIGHT: f64 = 1e-9;
@@ -71,16 +72,9 @@ pub fn closing(
             Some(link) => frames.relative(joint.node, link.node),
             None => frames.poses[joint.node],
         };
-        let frame = axis.map_or(frame, |axis| frame * to_axis(axis));
+        let frame = axis.map_or(frame, |axis| frame * from_z(axis));
         End { body, frame }
     };
     let ends = [end(parent, a, axes.first()), end(child, b, axes.last())];
     Ok(Some(Closing { name: Some(node.name.clone()), kind, ends, place: node.place }))
-}
-
-/// The rotation by the shortest arc that takes z to an axis.
-fn to_axis(axis: &Vector3<f64>) -> Isometry3<f64> {
-    let half = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
-    let turn = UnitQuaternion::rotation_between(&Vector3::z(), axis).unwrap_or_else(half);
-    Isometry3::from_parts(Translation3::identity(), turn)
 }

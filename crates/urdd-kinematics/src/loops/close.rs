@@ -80,7 +80,7 @@ impl Loops {
         scratch: &mut Scratch,
     ) -> Result<Closing, NotClosed> {
         let at = scratch;
-        kinematics.link_poses_into(configuration, &mut at.poses)?;
+        kinematics.check(configuration)?;
         let mut steps = 0;
         for group in &self.groups {
             steps += self.close_group(group, kinematics, configuration, bounds, &held, at)?;

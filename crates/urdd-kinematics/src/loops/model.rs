@@ -13,6 +13,9 @@ use urdd_format::loops::{LoopKind, LoopsModule};
 use urdd_format::pose::Pose;
 use urdd_format::registry::ModuleKind;
 
+/// Most joints in all loops together: 160 MB.
+const MOST_HELD: usize = 20_000_000;
+
 /// The least length by which equations are scaled, m.
 const LEAST_REACH: f64 = 1e-3;
 
@@ -87,6 +90,7 @@ impl Loops {
             groups: Vec::new(),
             units,
         };
+        let mut held = 0;
         let mut together = Together((0..all.units.len()).collect());
         for (place, one) in module.loops.iter().enumerate() {
             let at = |key: &str| format!("/loops/{place}/{key}");
@@ -103,6 +107,10 @@ impl Loops {
             }
             let links = [one.link_a_idx.get(), one.link_b_idx.get()];
             let steps = kinematics.steps_between(links);
+            held += steps.iter().map(Vec::len).sum::<usize>();
+            if held > MOST_HELD {
+                return Err(fault(at("link_a_idx"), "too many joints are in all loops".to_owned()));
+            }
             let moved =
                 steps.iter().flatten().flat_map(|step| kinematics.steps[*step].motion.dofs());
             together.join(moved.copied(), &mut all.moves);

@@ -11,9 +11,10 @@ pub use extended::retyped;
 pub use said::{Retyped, Said};
 use urdd_directory::limits::MAX_TOML_BYTES;
 pub use urdd_directory::loops_toml::File;
-pub use urdf_plus::urdf_plus;
+pub use urdf_plus::{table, urdf_plus};
 
 use super::error::SourceError;
+use super::gate::Gate;
 use super::settings::Settings;
 
 /// The ending of the file beside a URDF.
@@ -27,23 +28,22 @@ const EXTENDED: &str = "yaml";
 /// If it cannot be read, or is not what its name says.
 pub fn beside(urdf: &Path, settings: &Settings) -> Result<Option<Said>, SourceError> {
     if let Some(path) = &settings.loops {
-        return read(path, settings).map(Some);
+        return read(path, text(path, settings)?).map(Some);
     }
     let there = |path: &PathBuf| settings.files.is_file(path);
     if let Some(path) = Some(urdf.with_extension(ENDING)).filter(there) {
-        return read(&path, settings).map(Some);
+        return read(&path, beside_text(&path, settings)?).map(Some);
     }
     // A YAML of this name may be about anything.
     let Some(path) = Some(urdf.with_extension(EXTENDED)).filter(there) else { return Ok(None) };
-    let text = text(&path, settings)?;
+    let text = beside_text(&path, settings)?;
     match text.lines().any(|line| line.starts_with(extended::KEY)) {
         true => extended::read(&path, text).map(Some),
         false => Ok(None),
     }
 }
 
-fn read(path: &Path, settings: &Settings) -> Result<Said, SourceError> {
-    let text = text(path, settings)?;
+fn read(path: &Path, text: String) -> Result<Said, SourceError> {
     if path.extension().is_none_or(|ending| ending != "toml") {
         return extended::read(path, text);
     }
@@ -57,10 +57,35 @@ fn read(path: &Path, settings: &Settings) -> Result<Said, SourceError> {
     }
 }
 
+/// The text of the file that a person names.
 fn text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
-    let file = path.display().to_string();
-    let unreadable = |reason: String| SourceError::Read { file: file.clone(), reason };
     let bytes = settings.files.read(path, MAX_TOML_BYTES);
-    let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
-    String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))
+    decoded(path, bytes.map_err(|error| error.to_string()))
+}
+
+/// The text of one that is found by its name: no link leads out of the robot's folders.
+fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = settings.files.canonicalize(folder.unwrap_or(Path::new(".")));
+    let folder = folder.map_err(|error| SourceError::Read {
+        file: path.display().to_string(),
+        reason: error.to_string(),
+    })?;
+    let gate = Gate::of_project(&folder, settings);
+    let bytes = match gate.at(path) {
+        Ok(found) => gate.bytes(&found, MAX_TOML_BYTES).map_err(|error| error.to_string()),
+        Err(missing) => Err(match missing.outside {
+            Some(outside) => {
+                format!("it is {}, outside of the robot's folders", outside.display())
+            }
+            None => "it cannot be opened".to_owned(),
+        }),
+    };
+    decoded(path, bytes)
+}
+
+fn decoded(path: &Path, bytes: Result<Vec<u8>, String>) -> Result<String, SourceError> {
+    let text =
+        bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned()));
+    text.map_err(|reason| SourceError::Read { file: path.display().to_string(), reason })
 }

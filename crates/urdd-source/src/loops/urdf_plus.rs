@@ -5,12 +5,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use toml::Spanned;
 use urdd_directory::export_toml::unplaced;
 use urdd_directory::loops_toml::{CouplingTable, File, FrameTable, LoopTable};
 use urdd_format::loops::LoopKind;
-use urdd_kinematics::rotation::{from_rpy, to_rpy, unit_axis};
+use urdd_kinematics::rotation::{from_rpy, from_z, to_rpy, unit_axis};
 use urdd_xml::element::{attribute, children};
 use urdd_xml::{Document, Node};
 
@@ -113,16 +113,16 @@ fn of_loop(element: Node<'_, '_>) -> Result<LoopTable, LoopFault> {
         let known = format!("`{}` is no kind of loop; there are {known}", word.escape_debug());
         fault(element.range().start, known)
     })?;
-    let axis = match only(element, "axis") {
-        Some(axis) => {
-            let xyz = numbers(axis, "xyz")?.unwrap_or([0.0, 0.0, 1.0]);
-            let none = || fault(axis.range().start, "this axis has no direction");
-            unit_axis(xyz).ok_or_else(none)?.into_inner()
-        }
-        None => Vector3::z(),
-    };
+    // Where none is said, it is that of a joint (SPEC 5.7).
+    let mut xyz = [1.0, 0.0, 0.0];
+    let said = only(element, "axis");
+    if let Some(axis) = said {
+        xyz = numbers(axis, "xyz")?.unwrap_or(xyz);
+    }
+    let at = said.unwrap_or(element).range().start;
+    let axis = unit_axis(xyz).ok_or_else(|| fault(at, "this axis has no direction"))?.into_inner();
     let (a, b) = (child(element, "predecessor")?, child(element, "successor")?);
-    let turn = to_axis(&axis);
+    let turn = from_z(&axis);
     Ok(LoopTable {
         name: text(element, "name")?,
         kind,
@@ -131,12 +131,6 @@ fn of_loop(element: Node<'_, '_>) -> Result<LoopTable, LoopFault> {
         link_b: Spanned::new(b.range(), text(b, "link")?),
         frame_b: frame(b, &turn)?,
     })
-}
-
-/// The rotation by the shortest arc that takes z to an axis.
-fn to_axis(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
-    let half = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
-    UnitQuaternion::rotation_between(&Vector3::z(), axis).unwrap_or_else(half)
 }
 
 fn frame(end: Node<'_, '_>, turn: &UnitQuaternion<f64>) -> Result<FrameTable, LoopFault> {
@@ -150,8 +144,8 @@ fn frame(end: Node<'_, '_>, turn: &UnitQuaternion<f64>) -> Result<FrameTable, Lo
     Ok(table(&pose))
 }
 
-/// A frame as a table.
-pub(super) fn table(pose: &Isometry3<f64>) -> FrameTable {
+/// A frame as a table of `NAME.loops.toml`.
+pub fn table(pose: &Isometry3<f64>) -> FrameTable {
     let matrix = pose.rotation.to_rotation_matrix();
     FrameTable { xyz: pose.translation.vector.into(), rpy: to_rpy(matrix.matrix()) }
 }

@@ -94,7 +94,7 @@ fn closed_sample_wrong(context: &Context, findings: &mut Findings) -> Option<()>
             };
             whole && rotation_distance(&matrix(a), &matrix(b)) <= ROTATION
         };
-        let same: Vec<usize> =
+        let same: HashSet<usize> =
             space.rotation_vectors().iter().filter(turned).flatten().copied().collect();
         for idx in independent.iter().copied().filter(|idx| !same.contains(idx)) {
             let (expected, found) = (*sampled.get(idx)?, *found.get(idx)?);
