@@ -18,7 +18,7 @@ const ASIDE: f64 = 0.3;
 /// In how many parts the way to a sample is gone.
 const PARTS: u32 = 8;
 /// Most multiplications of all closings of a robot: some seconds.
-const MOST_SPENT: usize = 20_000_000_000;
+const MOST_SPENT: u64 = 20_000_000_000;
 /// What one that fails is taken to cost, in steps.
 const FAILED_STEPS: usize = 200;
 /// Multiplications for the pose of a link.
@@ -42,7 +42,8 @@ impl Made<'_> {
         let closed = loops.close(self.kinematics, configuration, limits, held, scratch);
         let steps = closed.as_ref().map_or(FAILED_STEPS, |closing| closing.steps + 1);
         let of_step = loops.work() + POSE * self.kinematics.num_links();
-        self.spent.set(self.spent.get().saturating_add(of_step.saturating_mul(steps)));
+        let cost = (of_step as u64).saturating_mul(steps as u64);
+        self.spent.set(self.spent.get().saturating_add(cost));
         closed
     }
 

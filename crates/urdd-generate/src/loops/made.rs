@@ -23,7 +23,7 @@ pub struct Made<'a> {
     pub kinematics: &'a ForwardKinematics,
     pub cancellation: &'a Cancellation,
     /// The work of closings so far.
-    pub spent: Cell<usize>,
+    pub spent: Cell<u64>,
 }
 
 impl Made<'_> {
