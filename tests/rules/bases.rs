@@ -21,12 +21,12 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("extension_core", base(|| extended(Fixture::core(&toy_robot())))),
         ("learned", base(testkit::model::fixture)),
         ("lone_box", base(fits::lone_box)),
-        ("loops_free", base(loops::free)),
         ("named_configurations", base(configured)),
         ("no_shapes", base(meshes::without_shapes)),
         ("placed_scenes", base(mesh_files::placed_scenes::base)),
         ("two_boxes", base(two_boxes)),
     ];
+    bases.extend(loops::shared().into_iter().map(|(name, make)| (name, base(make))));
     bases.extend(schemas::shared().into_iter().filter(|(name, _)| *name != "learned"));
     bases
 }

@@ -1,42 +1,18 @@
-//! Robots with kinematic loops. Their closed configurations follow from closed forms: a parallelogram's coupler turns back by
-//! the angle of its crank, a gear turns by its ratio, and a floating joint is where its numbers say.
+//! A parallelogram's coupler turns back by the angle of its crank, a gear turns by its ratio, and a floating joint is where
+//! its numbers say.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use testkit::core::{Core, sampled_configuration};
 use testkit::fixture::Fixture;
 use testkit::robot::{Robot, joint, limit, link, origin};
 use urdd_format::registry::ModuleKind;
-use urdd_format::urdf::{Axis, JointType};
+use urdd_format::urdf::JointType;
 
-const Z: [f64; 3] = [0.0, 0.0, 1.0];
+use super::made::{Z, hinge, moved, pose};
+
 /// The lengths of crank and rocker, and of coupler and ground, m.
 const CRANK: f64 = 0.1;
 const COUPLER: f64 = 0.3;
-
-fn pose(position: [f64; 3]) -> Value {
-    json!({ "position": position, "quaternion_wxyz": [1.0, 0.0, 0.0, 0.0] })
-}
-
-fn turned(robot: &mut Robot, name: &str, parent: &str, at: [f64; 3], limits: Option<[f64; 2]>) {
-    let kind = if limits.is_some() { JointType::Revolute } else { JointType::Continuous };
-    moved(robot, name, kind, parent, at, limits);
-}
-
-fn moved(
-    robot: &mut Robot,
-    name: &str,
-    kind: JointType,
-    parent: &str,
-    at: [f64; 3],
-    limits: Option<[f64; 2]>,
-) {
-    robot.urdf.links.push(link(name));
-    let mut joint = joint(&format!("{name}_joint"), kind, parent, name);
-    joint.origin = origin(at, [0.0; 3]);
-    joint.axis = Some(Axis { xyz: Some(Z) });
-    joint.limit = limits.and_then(|[lower, upper]| limit(lower, upper));
-    robot.urdf.joints.push(joint);
-}
 
 /// A parallelogram on a plate that is turned, and two gears that lift a cam.
 fn linkage_robot() -> Robot {
@@ -45,12 +21,17 @@ fn linkage_robot() -> Robot {
     let mut plate = joint("plate_joint", JointType::Fixed, "base", "plate");
     plate.origin = origin([0.1, -0.2, 0.3], [0.1, 0.2, 0.3]);
     robot.urdf.joints.push(plate);
-    turned(&mut robot, "crank", "plate", [0.0; 3], Some([-1.0, 1.2]));
-    turned(&mut robot, "coupler", "crank", [CRANK, 0.0, 0.0], None);
-    turned(&mut robot, "rocker", "plate", [COUPLER, 0.0, 0.0], Some([-2.0, 2.0]));
-    turned(&mut robot, "wheel_a", "base", [0.0, 0.5, 0.0], Some([-1.5, 1.5]));
-    turned(&mut robot, "wheel_b", "base", [0.0, 0.6, 0.0], None);
-    moved(&mut robot, "lift", JointType::Prismatic, "base", [0.0, 0.7, 0.0], Some([-1.0, 1.0]));
+    let mut turned = |name: &str, parent: &str, at: [f64; 3], limits: Option<[f64; 2]>| {
+        hinge(&mut robot, name, parent, (at, [0.0; 3]), Z, limits);
+    };
+    turned("crank", "plate", [0.0; 3], Some([-1.0, 1.2]));
+    turned("coupler", "crank", [CRANK, 0.0, 0.0], None);
+    turned("rocker", "plate", [COUPLER, 0.0, 0.0], Some([-2.0, 2.0]));
+    turned("wheel_a", "base", [0.0, 0.5, 0.0], Some([-1.5, 1.5]));
+    turned("wheel_b", "base", [0.0, 0.6, 0.0], None);
+    let at = ([0.0, 0.7, 0.0], [0.0; 3]);
+    moved(&mut robot, "lift", JointType::Prismatic, "base", at, Some(Z));
+    robot.joint_mut("lift_joint").limit = limit(-1.0, 1.0);
     robot
 }
 
@@ -101,7 +82,8 @@ pub fn linkage() -> Fixture {
 pub fn free() -> Fixture {
     let mut robot = Robot::new("free");
     robot.urdf.links.push(link("base"));
-    moved(&mut robot, "body", JointType::Floating, "base", [0.0, 0.0, 0.5], None);
+    let at = ([0.0, 0.0, 0.5], [0.0; 3]);
+    moved(&mut robot, "body", JointType::Floating, "base", at, Some(Z));
     let document = json!({
         "loops": [{
             "name": "held", "kind": "Fixed",
