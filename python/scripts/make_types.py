@@ -282,6 +282,12 @@ def names_of(types: Types, more: list[str]) -> str:
     return "\n".join(f'    "{name}",' for name in sorted(names))
 
 
+def newest(name: str) -> str:
+    """The newest version of a schema."""
+    versions = [path.stem for path in (SCHEMAS / name).glob("*.json")]
+    return max(versions, key=lambda version: [int(part) for part in version.split(".")])
+
+
 def read_schema(name: str, version: str = VERSION) -> dict[str, Any]:
     found: dict[str, Any] = json.loads((SCHEMAS / name / f"{version}.json").read_text(encoding="utf-8"))
     return found
@@ -325,8 +331,8 @@ def report_file() -> str:
     types = Types()
     readers = ""
     names = []
-    for schema, version, command in [("report", "1.1.0", "validate"), ("diff_report", "1.2.0", "diff")]:
-        root = types.add(read_schema(schema, version))
+    for schema, command in [("report", "validate"), ("diff_report", "diff")]:
+        root = types.add(read_schema(schema, newest(schema)))
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")
     types.later = {(kind, "programs") for kind in ("Urdd", "Finding", "Place")}

@@ -98,8 +98,7 @@ fn table() -> String {
             Subject::FirstReport
             | Subject::Report
             | Subject::DiffReport
-            | Subject::FirstDiffReport
-            | Subject::SecondDiffReport
+            | Subject::EarlierDiffReport(_)
             | Subject::ProducerResult
             | Subject::FirstValidatorResult
             | Subject::ValidatorResult => (Profile::V1, None, "-"),

@@ -14,6 +14,7 @@ mod findings;
 mod geometry;
 mod joints;
 mod links;
+mod loops;
 mod modules;
 mod open;
 mod other_elements;
@@ -67,10 +68,13 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         same: false,
         robot: robot(before, after),
         links: links::differences(before, after, tolerance),
+        loops: loops::differences(before, after, tolerance, &joints),
         joints,
         materials: parts(&|side| geometry::materials(&side.robot.materials)),
         other_elements: parts(&|side| {
-            other_elements::parts(&side.robot.unknown_elements, &side.account)
+            let mut parts = other_elements::parts(&side.robot.unknown_elements, &side.account);
+            parts.retain(|(label, _)| ![before, after].iter().any(|of| loops::is_said(label, of)));
+            parts
         }),
         poses: poses::difference(before, after, tolerance),
         dofs: dofs::differences(before, after, tolerance),

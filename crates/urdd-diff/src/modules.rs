@@ -61,6 +61,7 @@ fn is_in_detail(kind: Option<ModuleKind>, report: &DiffReport) -> bool {
         Some(ModuleKind::Dof | ModuleKind::Bounds) => {
             !report.dofs.is_empty() || !report.joints.is_empty()
         }
+        Some(ModuleKind::Loops) => !report.loops.is_empty(),
         Some(ModuleKind::LinkShapesSkips) => report.pairs.iter().flatten().next().is_some(),
         Some(ModuleKind::NamedConfigurations) => {
             report.configurations.iter().flatten().next().is_some()

@@ -107,6 +107,7 @@ fn open_urdf(path: &Path, is_urdf: bool, options: &Options) -> Result<Side, Diff
         shapes: shapes(&view, files.collect(), |file| source.read(file)),
         view,
         beside: source.beside(path),
+        loops: source.loops.map(|said| said.file),
         robot: source.robot,
         urdd: None,
         validation: validation(options, |settings| match examined {

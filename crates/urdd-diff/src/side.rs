@@ -7,6 +7,7 @@ use crate::shapes::Shapes;
 use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
+use urdd_directory::loops_toml::File;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Robot;
 use urdd_document::urdd::Urdd;
@@ -88,6 +89,8 @@ pub struct Side {
     /// Its validation, if findings are compared.
     pub(super) validation: Option<report::Urdd>,
     pub(super) beside: Beside,
+    /// What its source says of loops; `None` of a URDD, which has a module.
+    pub(super) loops: Option<File>,
     pub(super) notes: Vec<String>,
     /// What may be made of its elements.
     pub(super) account: Account,

@@ -61,6 +61,7 @@ pub(super) fn open(
         urdd: Some(urdd),
         validation: None,
         beside: Beside { setup: setup(path), ..Beside::default() },
+        loops: None,
         notes,
         account: Account::default(),
     })

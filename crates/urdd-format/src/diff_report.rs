@@ -6,7 +6,7 @@ use super::report::{Kind, Severity, Tool, Verdict};
 use super::types::module;
 
 /// Version of the format.
-pub const DIFF_REPORT_VERSION: &str = "1.2.0";
+pub const DIFF_REPORT_VERSION: &str = "1.3.0";
 
 module! {
     /// How two robots differ in meaning. Values are texts, as a URDF would have them; numbers are in
@@ -30,6 +30,8 @@ module! {
         pub materials: Vec<PartDifference>,
         /// Other elements at the top of the URDF that differ (transmission, gazebo, ros2_control, …).
         pub other_elements: Vec<PartDifference>,
+        /// What closes kinematic loops, couplings between DOFs, and which DOFs move freely. Since 1.3.0.
+        pub loops: Vec<PartDifference>,
         /// Where the links are with all joints at zero; null if no link that both have is elsewhere, or
         /// where the joints of one robot form no tree.
         pub poses: Option<PoseDifference>,

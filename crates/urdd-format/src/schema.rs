@@ -18,6 +18,10 @@ use super::registry::{ModuleSpec, Profile, modules};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
 
+/// The earlier versions of the report of differences, each with the lists that the one after it has more.
+pub const EARLIER_DIFF_REPORTS: [(&str, &[&str]); 3] =
+    [("1.0.0", &["configurations"]), ("1.1.0", &["srdf", "setup", "lost"]), ("1.2.0", &["loops"])];
+
 /// A document that has a published schema.
 #[derive(Clone, Copy)]
 pub enum Subject {
@@ -31,10 +35,8 @@ pub enum Subject {
     FirstReport,
     /// Output of `urdd diff --format json`.
     DiffReport,
-    /// The same in its first version, without named configurations.
-    FirstDiffReport,
-    /// The same in its second version, without what stands beside the robots.
-    SecondDiffReport,
+    /// The same in an earlier version, by its place in [`EARLIER_DIFF_REPORTS`].
+    EarlierDiffReport(usize),
     /// Output of `urdd conformance producer --format json`.
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
@@ -113,11 +115,10 @@ impl Subject {
     /// Every document with a published schema: the root metadata, the registry in its order, the
     /// reports, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
-        std::iter::once(Subject::RootMetadata).chain(modules().iter().map(Subject::Module)).chain([
-            Subject::FirstReport,
-            Subject::Report,
-            Subject::FirstDiffReport,
-            Subject::SecondDiffReport,
+        let modules = modules().iter().map(Subject::Module);
+        let earlier = (0..EARLIER_DIFF_REPORTS.len()).map(Subject::EarlierDiffReport);
+        let reports = [Subject::FirstReport, Subject::Report].into_iter().chain(earlier);
+        std::iter::once(Subject::RootMetadata).chain(modules).chain(reports).chain([
             Subject::DiffReport,
             Subject::ProducerResult,
             Subject::FirstValidatorResult,
@@ -145,9 +146,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => "root_metadata",
             Subject::Report | Subject::FirstReport => "report",
-            Subject::DiffReport | Subject::FirstDiffReport | Subject::SecondDiffReport => {
-                "diff_report"
-            }
+            Subject::DiffReport | Subject::EarlierDiffReport(_) => "diff_report",
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult | Subject::FirstValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
@@ -157,11 +156,8 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata
-            | Subject::FirstReport
-            | Subject::FirstDiffReport
-            | Subject::FirstValidatorResult => "1.0.0",
-            Subject::SecondDiffReport => "1.1.0",
+            Subject::RootMetadata | Subject::FirstReport | Subject::FirstValidatorResult => "1.0.0",
+            Subject::EarlierDiffReport(place) => EARLIER_DIFF_REPORTS[place].0,
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
             Subject::ProducerResult => PRODUCER_RESULT_VERSION,
@@ -187,12 +183,10 @@ impl Subject {
                 &["programs", "imported", "xacro_arguments"],
                 &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
             ),
-            Subject::FirstDiffReport => {
-                let beside = ["configurations", "srdf", "setup", "lost"];
-                without(schemars::schema_for!(DiffReport), &beside, &[])
-            }
-            Subject::SecondDiffReport => {
-                without(schemars::schema_for!(DiffReport), &["srdf", "setup", "lost"], &[])
+            Subject::EarlierDiffReport(place) => {
+                let later = EARLIER_DIFF_REPORTS[place..].iter().flat_map(|(_, lists)| *lists);
+                let later: Vec<&str> = later.copied().collect();
+                without(schemars::schema_for!(DiffReport), &later, &[])
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),

@@ -81,7 +81,7 @@ impl Imported {
             files,
             packages,
             allowed_folders: Vec::new(),
-            loops: None,
+            loops: self.at(LOOPS).map(|name| Path::new("/").join(name)),
             ..settings.clone()
         })
     }
@@ -132,8 +132,13 @@ impl Imported {
     }
 
     fn beside(&self, ending: &str) -> Option<&[u8]> {
+        self.files.get(&self.at(ending)?).map(|bytes| &**bytes)
+    }
+
+    /// The file of this ending, if it is there.
+    fn at(&self, ending: &str) -> Option<String> {
         let name = self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf);
-        self.files.get(&(name.to_owned() + ending)).map(|bytes| &**bytes)
+        Some(name.to_owned() + ending).filter(|name| self.files.contains_key(name))
     }
 
     /// The text of the URDF.

@@ -21,6 +21,7 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
+use urdd_source::loops::beside;
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
@@ -118,8 +119,14 @@ pub fn examined(
 impl<'a> Job<'a> {
     /// The robot with its mesh files, or why there is none. `checks` are those of the validator.
     fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
-        let source = SourceMeshes::of_xml(self.xml, self.name, self.folder, &self.settings.source);
-        source.map_err(|error| refusal(&error, checks))
+        let settings = &self.settings.source;
+        let source = SourceMeshes::of_xml(self.xml, self.name, self.folder, settings);
+        let mut source = source.map_err(|error| refusal(&error, checks))?;
+        // `urdd generate` refuses a file of loops that is at fault.
+        if let Ok(Some(said)) = beside(&self.folder.join(self.name), settings) {
+            source.loops = Some(said);
+        }
+        Ok(source)
     }
 
     fn subject<'d>(

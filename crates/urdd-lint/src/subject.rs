@@ -28,6 +28,7 @@ use urdd_format::index::Count;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::short;
 use urdd_format::urdf::JointType;
+use urdd_source::loops::File;
 use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::name;
 
@@ -113,6 +114,11 @@ impl<'a> Subject<'a> {
     /// The robot with its mesh files. Skips the rule if the URDF describes none.
     pub fn source(&self, findings: &mut Findings) -> Option<&'a SourceMeshes> {
         findings.or_skip(self.source.clone())
+    }
+
+    /// What is said of the robot's loops, in the URDF or beside it, if it can be read.
+    pub fn loops(&self) -> Option<&'a File> {
+        Some(&self.source.as_ref().ok()?.loops.as_ref()?.file)
     }
 
     /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).

@@ -9,6 +9,7 @@ use super::beside::Beside;
 use super::error::SourceError;
 use super::gate::Gate;
 use super::load::{Source, load, load_xml};
+use super::loops::Said;
 use super::resolve::{FoundMesh, NotFound, OtherCase};
 use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
@@ -26,6 +27,8 @@ pub struct SourceMeshes {
     pub meshes: Vec<SourceMesh>,
     /// The text that a URDD carries: the file's, or what xacro made of it, repaired.
     pub text: String,
+    /// What is said of the robot's loops.
+    pub loops: Option<Said>,
     gate: Gate,
     found: BTreeMap<PathBuf, FoundMesh>,
     /// What an import writes beside its URDF.
@@ -122,6 +125,7 @@ impl SourceMeshes {
         SourceMeshes {
             text: String::from_utf8_lossy(&source.carried).into_owned(),
             robot: source.reading.robot,
+            loops: source.loops,
             meshes,
             gate,
             found,

@@ -851,6 +851,9 @@ class DiffReport:
     other_elements: list[PartDifference]
     """Other elements at the top of the URDF that differ (transmission, gazebo, ros2_control, …)."""
 
+    loops: list[PartDifference]
+    """What closes kinematic loops, couplings between DOFs, and which DOFs move freely. Since 1.3.0."""
+
     poses: PoseDifference | None
     """Where the links are with all joints at zero; null if no link that both have is elsewhere, or where the joints
     of one robot form no tree."""
@@ -1231,6 +1234,7 @@ def _diff_report(v: Any) -> DiffReport:
         joints=[_part_difference(x) for x in v["joints"]],
         materials=[_part_difference(x) for x in v["materials"]],
         other_elements=[_part_difference(x) for x in v["other_elements"]],
+        loops=[_part_difference(x) for x in v["loops"]],
         poses=None if v["poses"] is None else _pose_difference(v["poses"]),
         dofs=[_dof_difference(x) for x in v["dofs"]],
         pairs=None if v["pairs"] is None else [_pair_difference(x) for x in v["pairs"]],

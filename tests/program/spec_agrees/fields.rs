@@ -17,8 +17,7 @@ pub fn tables() -> String {
             Subject::Module(spec) if spec.profile != Profile::V1 => continue,
             Subject::Report
             | Subject::DiffReport
-            | Subject::FirstDiffReport
-            | Subject::SecondDiffReport
+            | Subject::EarlierDiffReport(_)
             | Subject::ProducerResult
             | Subject::ValidatorResult
             | Subject::FirstValidatorResult => continue,

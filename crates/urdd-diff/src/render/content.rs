@@ -48,6 +48,7 @@ pub(crate) fn count(report: &DiffReport) -> usize {
         report.joints.len(),
         report.materials.len(),
         report.other_elements.len(),
+        report.loops.len(),
         usize::from(report.poses.is_some()),
         report.dofs.len(),
         report.pairs.as_ref().map_or(0, Vec::len),
@@ -112,6 +113,7 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
     add("Joints", parts(&report.joints));
     add("Materials", parts(&report.materials));
     add("Other elements", parts(&report.other_elements));
+    add("Loops", parts(&report.loops));
     add("Poses with all joints at zero", report.poses.iter().map(poses).collect());
     add("DOFs", dofs(&report.dofs));
     add("Pairs of links in collision checks", pairs(report.pairs.as_deref().unwrap_or_default()));

@@ -7,6 +7,7 @@ mod bad_input;
 mod beside;
 mod by_rules;
 mod findings;
+mod loops;
 mod parses;
 mod same;
 mod single_changes;
@@ -70,6 +71,7 @@ fn places(report: &DiffReport) -> Vec<String> {
         ("joints", &report.joints),
         ("materials", &report.materials),
         ("other", &report.other_elements),
+        ("loops", &report.loops),
     ] {
         for part in parts {
             let name = format!("{list}/{}", part.name);

@@ -47,20 +47,10 @@ fn held(kind: LoopKind) -> ([bool; 3], Turn) {
     }
 }
 
-impl Ends {
-    /// The pose of frame B in frame A.
-    fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
-        let [a, b] = self.world(poses);
-        a.inv_mul(&b)
-    }
-
-    fn world(&self, poses: &[Isometry3<f64>]) -> [Isometry3<f64>; 2] {
-        [0, 1].map(|end| poses[self.links[end]] * self.frames[end])
-    }
-
-    fn gap(&self, poses: &[Isometry3<f64>]) -> Gap {
-        let between = self.between(poses);
-        let (axes, turn) = held(self.kind);
+impl Gap {
+    /// That of a loop, for the pose of its frame B in its frame A.
+    pub fn of(kind: LoopKind, between: &Isometry3<f64>) -> Self {
+        let (axes, turn) = held(kind);
         let mut position = between.translation.vector;
         for (value, held) in position.iter_mut().zip(axes) {
             *value = if held { *value } else { 0.0 };
@@ -74,6 +64,27 @@ impl Ends {
             Turn::Nothing => 0.0,
         };
         Gap { position: position.norm(), rotation }
+    }
+
+    /// The angle of the rotation gap, rad: that of a turn, or of two directions.
+    pub fn angle(&self) -> f64 {
+        2.0 * (0.5 * self.rotation).clamp(0.0, 1.0).asin()
+    }
+}
+
+impl Ends {
+    /// The pose of frame B in frame A.
+    fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
+        let [a, b] = self.world(poses);
+        a.inv_mul(&b)
+    }
+
+    fn world(&self, poses: &[Isometry3<f64>]) -> [Isometry3<f64>; 2] {
+        [0, 1].map(|end| poses[self.links[end]] * self.frames[end])
+    }
+
+    fn gap(&self, poses: &[Isometry3<f64>]) -> Gap {
+        Gap::of(self.kind, &self.between(poses))
     }
 
     /// What is not 0 that should be: rows of the position divided by the reach, rows of the rotation in rad.

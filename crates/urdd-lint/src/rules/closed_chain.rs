@@ -1,8 +1,12 @@
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Translation3};
 
 use super::prelude::*;
 use crate::pose::at_default;
+use urdd_directory::loops_toml::{File, FrameTable};
+use urdd_document::robot::Robot;
 use urdd_format::readable;
+use urdd_kinematics::loops::Gap;
+use urdd_kinematics::rotation::from_rpy;
 
 declare_lint! {
     /// A joint or coupling closes a chain, and no program that reads URDFs keeps it closed.
@@ -15,6 +19,9 @@ declare_lint! {
     /// apart the ends of a loop are in the default configuration: each joint is at 0, or at the limit nearest to it. Many robots
     /// are open there, and need another configuration to begin with. Ends within a micrometre and a microradian meet.
     ///
+    /// Of loops that a file beside the URDF says (`NAME.loops.toml`, the YAML of Extended URDF), or an MJCF or SDF, only those are
+    /// told that are open in the default configuration.
+    ///
     /// Close the chain for the program that solves it: `urdd export mjcf` writes `<connect>` and `<weld>`; Drake takes
     /// `<drake:ball_constraint>`, PyBullet `createConstraint`, Pinocchio a constraint model. Where a joint follows another one at a constant rate, as
     /// in many grippers, `<mimic>` is enough.
@@ -26,13 +33,27 @@ const MEET: f64 = 1e-6;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let closing = children(urdf.root).filter(|(name, _)| ["loop", "coupling"].contains(name));
-    let closing = closing.filter_map(|(name, node)| Some((name, node, ends(node)?)));
-    let closing: Vec<(&str, Node, [Node; 2])> = closing.collect();
-    let Some((_, first, _)) = closing.first() else { return Some(()) };
+    let closing = closing.filter(|(_, node)| {
+        ["predecessor", "successor"].iter().all(|end| child(*node, end).is_some())
+    });
+    let closing: Vec<(&str, Node)> = closing.collect();
+    let said = urdf.loops();
+    if closing.is_empty() && said.is_none_or(|file| file.loops.is_empty()) {
+        return Some(());
+    }
     let (robot, bodies) = urdf.bodies(findings)?;
-    let poses = at_default(robot, &bodies.tree);
-    let links: BTreeMap<&str, usize> =
-        robot.links.iter().enumerate().map(|(index, link)| (link.name.as_str(), index)).collect();
+    let open = said.and_then(|file| widest(file, robot, &at_default(robot, &bodies.tree)));
+    let open = open.map(|(name, gaps)| {
+        format!(
+            "in the default configuration, the ends of `{}` are {gaps} apart",
+            urdd_format::escape::line(name),
+        )
+    });
+    let Some((_, first)) = closing.first() else {
+        let message = format!("{}; begin in a closed one, which `urdd generate` looks for", open?);
+        urdf.at(urdf.root, message).report(findings);
+        return Some(());
+    };
     let freely = urdf.joints_of(&ONE_DOF).filter(|joint| child(*joint, "mimic").is_none());
     let freely: Vec<Node> = freely.collect();
     // A joint is independent unless it says otherwise.
@@ -45,52 +66,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             format!("{all} joints move by themselves, of which {some} are `independent`")
         }
     };
-    let loops = closing.iter().filter(|(name, ..)| *name == "loop");
-    let gaps = loops.clone().filter_map(|(_, node, ends)| {
-        let [a, b] = ends.map(|end| {
-            let link = links.get(end.attribute("link")?.trim())?;
-            Some(poses[*link] * origin(end))
-        });
-        let (a, b) = (a?, b?);
-        let mut apart = a.translation.vector - b.translation.vector;
-        let axis = child(*node, "axis").and_then(|axis| numbers::<3>(axis, "xyz"));
-        let axis = axis.map_or(Vector3::x(), Vector3::from);
-        let angle = match node.attribute("type") {
-            Some("fixed") => a.rotation.angle_to(&b.rotation),
-            Some("revolute" | "continuous" | "prismatic") => {
-                (a.rotation * axis).angle(&(b.rotation * axis))
-            }
-            _ => 0.0,
-        };
-        // An axis without a direction leaves nothing free.
-        let along = (a.rotation * axis).try_normalize(0.0);
-        if let (Some("prismatic"), Some(along)) = (node.attribute("type"), along) {
-            apart -= along * apart.dot(&along);
-        }
-        Some((*node, apart.norm(), angle))
-    });
-    let worst = gaps.max_by(|(_, a, by_a), (_, b, by_b)| (a + by_a).total_cmp(&(b + by_b)));
-    let is_open = |(_, distance, angle): &(Node, f64, f64)| *distance > MEET || *angle > MEET;
-    let open = match worst.filter(is_open) {
-        None => String::new(),
-        Some((node, distance, angle)) => {
-            let name = node.attribute("name").unwrap_or_default();
-            let distance = (distance > MEET).then(|| metres(distance));
-            let angle = (angle > MEET).then(|| format!("{} rad", readable::number(angle, 3)));
-            let gaps: Vec<String> = distance.into_iter().chain(angle).collect();
-            format!(
-                "; in the default configuration, the ends of `{}` are {} apart",
-                urdd_format::escape::line(name),
-                gaps.join(" and ")
-            )
-        }
-    };
+    let open = open.map_or_else(String::new, |open| format!("; {open}"));
     let count = |count: usize, one: &str| match count {
         0 => None,
         1 => Some(format!("1 {one}")),
         _ => Some(format!("{count} {one}s")),
     };
-    let loops = loops.count();
+    let loops = closing.iter().filter(|(name, _)| *name == "loop").count();
     let counts = [count(loops, "loop"), count(closing.len() - loops, "coupling")];
     let counts: Vec<String> = counts.into_iter().flatten().collect();
     let message = format!(
@@ -101,18 +83,35 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// The two ends of a `<loop>` or `<coupling>` of URDF+.
-fn ends<'a>(node: Node<'a, 'a>) -> Option<[Node<'a, 'a>; 2]> {
-    Some([child(node, "predecessor")?, child(node, "successor")?])
-}
-
-/// The frame of an end in its link.
-fn origin(end: Node) -> Isometry3<f64> {
-    let of = |name: &str| {
-        let origin = child(end, "origin")?;
-        numbers::<3>(origin, name)
-    };
-    let [roll, pitch, yaw] = of("rpy").unwrap_or_default();
-    let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    Isometry3::from_parts(Translation3::from(of("xyz").unwrap_or_default()), turn)
+/// The loop whose ends are farthest apart, and how far; `None` if all are closed.
+fn widest<'f>(
+    file: &'f File,
+    robot: &Robot,
+    poses: &[Isometry3<f64>],
+) -> Option<(&'f str, String)> {
+    let links = robot.links.iter().enumerate().map(|(index, link)| (link.name.as_str(), index));
+    let mut bodies: BTreeMap<&str, usize> = links.collect();
+    // Extended URDF also names joints, and means their children.
+    for joint in &robot.joints {
+        if let Some(child) = bodies.get(joint.child.as_str()).copied() {
+            bodies.entry(&joint.name).or_insert(child);
+        }
+    }
+    let gaps = file.loops.iter().filter_map(|one| {
+        let one = one.get_ref();
+        let end = |link: &str, frame: &FrameTable| {
+            let turn = from_rpy(frame.rpy);
+            let frame = Isometry3::from_parts(Translation3::from(frame.xyz), turn);
+            Some(poses[*bodies.get(link)?] * frame)
+        };
+        let a = end(one.link_a.get_ref(), &one.frame_a)?;
+        let b = end(one.link_b.get_ref(), &one.frame_b)?;
+        Some((&*one.name, Gap::of(one.kind, &a.inv_mul(&b))))
+    });
+    let size = |gap: &Gap| gap.position + gap.rotation;
+    let (name, gap) = gaps.max_by(|(_, a), (_, b)| size(a).total_cmp(&size(b)))?;
+    let distance = (gap.position > MEET).then(|| metres(gap.position));
+    let angle = (gap.rotation > MEET).then(|| format!("{} rad", readable::number(gap.angle(), 3)));
+    let gaps: Vec<String> = distance.into_iter().chain(angle).collect();
+    (!gaps.is_empty()).then(|| (name, gaps.join(" and ")))
 }

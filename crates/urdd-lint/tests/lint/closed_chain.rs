@@ -42,11 +42,50 @@ fn gaps_are_those_of_the_geometry() {
     // The rod lies along x, the rocker along y: a quarter of a turn between their frames.
     assert_eq!(said(&about_axis, "\"pin\" type=\"fixed\""), expected("2.07 rad"));
     assert_eq!(said(&tilted, "\"pin\" type=\"spherical\""), expected(""));
-    // A slide along z leaves what is across.
-    let raised = end("<origin xyz=\"0.17 0 0.3\"/>");
+    // A slide along z leaves what is across, and does not turn.
+    let raised = end("<origin xyz=\"0.17 0 0.3\" rpy=\"0 0 -1.5707963267948966\"/>");
     assert_eq!(said(&raised, "\"pin\" type=\"prismatic\""), expected("0.03 m"));
     assert_eq!(said(&raised, "\"pin\" type=\"spherical\""), expected("0.301 m"));
-    // An axis without a direction allows none.
+    // A loop with a fault has no gap: `urdd generate` says what is wrong with it.
     let no_axis = format!("{SHORT}<axis xyz=\"0 0 0\"/>");
-    assert_eq!(said(&no_axis, "\"pin\" type=\"prismatic\""), expected("0.01 m"));
+    assert_eq!(said(&no_axis, "\"pin\" type=\"prismatic\""), expected(""));
+}
+
+/// What LNT066 says of a file of this name; others are beside it.
+fn said_of(name: &str, files: &[(&str, &str)]) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).expect("written");
+    }
+    let file = folder.path().join(name);
+    let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+    let of_loop = findings.into_iter().filter(|finding| finding.code == "LNT066");
+    of_loop.map(|finding| finding.message).collect()
+}
+
+#[test]
+fn loops_beside_a_urdf_are_told_where_they_are_open() {
+    let (head, tail) = OPEN.split_once("<loop").expect("a loop");
+    let (_, tail) = tail.split_once("</loop>").expect("its end");
+    let tree = &*format!("{head}{tail}");
+    let toml = |end: f64| {
+        format!(
+            "[[loop]]\nname = \"pin\"\nkind = \"Spherical\"\nlink_a = \"rod\"\nframe_a = {{ xyz = [0.2, 0.0, 0.0] }}\nlink_b = \"rocker\"\nframe_b = {{ xyz = [{end:?}, 0.0, 0.0] }}\n"
+        )
+    };
+    let open = "in the default configuration, the ends of `pin` are 0.01 m apart; begin in a closed one, which `urdd generate` looks for";
+    let four_bar = |end| said_of("a.urdf", &[("a.urdf", tree), ("a.loops.toml", &toml(end))]);
+    assert_eq!(four_bar(0.19), [open]);
+    assert_eq!(four_bar(0.2), [""; 0]);
+    // MuJoCo keeps a chain closed, where it is closed to begin with.
+    let mjcf = |end: f64| {
+        format!(
+            r#"<mujoco model="m"><compiler angle="radian"/><worldbody><body name="base"><geom size="0.02" mass="1"/>
+<body name="crank"><joint axis="0 0 1"/><geom size="0.01" mass="1"/><body name="rod" pos="0 0.2 0"><joint axis="0 0 1"/><geom size="0.01" mass="1"/>
+<site name="a" pos="0.2 0 0"/></body></body><body name="rocker" pos="0.2 0 0"><joint axis="0 0 1"/><geom size="0.01" mass="1"/><site name="b" pos="0 {end} 0"/></body>
+</body></worldbody><equality><connect name="pin" site1="a" site2="b"/></equality></mujoco>"#
+        )
+    };
+    assert_eq!(said_of("m.xml", &[("m.xml", &mjcf(0.19))]), [open]);
+    assert_eq!(said_of("m.xml", &[("m.xml", &mjcf(0.2))]), [""; 0]);
 }

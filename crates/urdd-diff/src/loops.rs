@@ -1,0 +1,166 @@
+//! Differences of what closes kinematic loops, of couplings between DOFs, and of which DOFs move freely: of the source of a
+//! URDF, or of `loops_module`. Links and DOFs are by name.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Isometry3, Translation3};
+
+use crate::fields::Fields;
+use crate::parts;
+use crate::side::Side;
+use urdd_directory::loops_toml::{File, FrameTable};
+use urdd_format::diff_report::{PartDifference, Presence};
+use urdd_format::loops::LoopsModule;
+use urdd_format::pose::Pose;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_kinematics::pose::from_isometry;
+use urdd_kinematics::rotation::from_rpy;
+
+/// The part that lists the DOFs that move freely.
+const INDEPENDENT: &str = "DOFs that move freely";
+/// What a joint of URDF+ says of that.
+const OF_JOINT: &str = "independent";
+
+type Parts = Vec<(String, Fields)>;
+
+/// The loops and couplings that differ. `joints` are the differences of joints, which are not said again.
+pub(super) fn differences(
+    before: &Side,
+    after: &Side,
+    tolerance: f64,
+    joints: &[PartDifference],
+) -> Vec<PartDifference> {
+    let mut both = [of(before), of(after)];
+    // A URDF may leave open which DOFs move freely.
+    let say = both.iter().all(|parts| parts.is_empty() || parts.iter().any(is_independent));
+    let mut changes = joints.iter().flat_map(|joint| &joint.changes);
+    if !say || changes.any(|change| change.field == OF_JOINT) {
+        for parts in &mut both {
+            parts.retain(|part| !is_independent(part));
+        }
+    }
+    let [a, b] = &both;
+    let mut found = parts::differences(a, b, tolerance);
+    // Which DOFs move freely is new with the first loop, and gone with the last one.
+    found.retain(|part| part.name != INDEPENDENT || part.presence == Presence::Changed);
+    found
+}
+
+fn is_independent((name, _): &(String, Fields)) -> bool {
+    name == INDEPENDENT
+}
+
+/// Whether an element at the top of a URDF, by its label such as `loop "pin"`, is among the loops and couplings.
+pub(super) fn is_said(label: &str, side: &Side) -> bool {
+    let Some((tag, name)) = label.split_once(' ') else { return false };
+    ["loop", "coupling"].contains(&tag)
+        && of(side).iter().any(|(of, _)| {
+            of.split_once(' ')
+                .is_some_and(|(word, own)| word == tag && format!("\"{own}\"") == name)
+        })
+}
+
+fn of(side: &Side) -> Parts {
+    match &side.urdd {
+        None => side.loops.as_ref().map_or_else(Vec::new, |file| of_file(file, side)),
+        Some(urdd) => match urdd.document(ModuleKind::Loops) {
+            Some(ModuleDocument::Loops(module)) => of_module(module, side),
+            _ => Vec::new(),
+        },
+    }
+}
+
+fn of_module(module: &LoopsModule, side: &Side) -> Parts {
+    let links = side.link_names();
+    let link = |idx: usize| links.get(idx).copied();
+    let dof =
+        |idx: usize| side.dofs.get(idx).map_or_else(|| idx.to_string(), |dof| dof.name.clone());
+    let mut parts: Parts = module
+        .loops
+        .iter()
+        .map(|one| {
+            let mut fields = Fields::default();
+            fields.text("kind", Some(one.kind.as_str()));
+            fields.text("link_a", link(one.link_a_idx.get()));
+            frame("frame_a.", &one.frame_a, &mut fields);
+            fields.text("link_b", link(one.link_b_idx.get()));
+            frame("frame_b.", &one.frame_b, &mut fields);
+            (format!("loop {}", one.name), fields)
+        })
+        .collect();
+    parts.extend(module.couplings.iter().map(|one| {
+        let terms = one.terms.iter().map(|term| (dof(term.dof_idx.get()), &term.coefficients[..]));
+        (format!("coupling {}", one.name), coupling(one.constant, terms.collect()))
+    }));
+    let independent = module.independent_dof_idxs.iter().map(|idx| dof(idx.get()));
+    parts.push((INDEPENDENT.to_owned(), named(independent)));
+    parts
+}
+
+fn of_file(file: &File, side: &Side) -> Parts {
+    // Extended URDF also names joints, and means their children.
+    let link = |name: &str| {
+        let joints = || side.robot.joints.iter().find(|joint| joint.name == name);
+        let is_link = side.robot.links.iter().any(|link| link.name == name);
+        match is_link {
+            true => name.to_owned(),
+            false => joints().map_or(name, |joint| joint.child.link.as_str()).to_owned(),
+        }
+    };
+    let mut parts: Parts = file
+        .loops
+        .iter()
+        .map(|one| {
+            let one = one.get_ref();
+            let mut fields = Fields::default();
+            fields.text("kind", Some(one.kind.as_str()));
+            fields.text("link_a", Some(&link(one.link_a.get_ref())));
+            frame("frame_a.", &pose(&one.frame_a), &mut fields);
+            fields.text("link_b", Some(&link(one.link_b.get_ref())));
+            frame("frame_b.", &pose(&one.frame_b), &mut fields);
+            (format!("loop {}", one.name), fields)
+        })
+        .collect();
+    parts.extend(file.couplings.iter().map(|one| {
+        let one = one.get_ref();
+        let terms = one.terms.iter().map(|(name, terms)| (name.get_ref().clone(), &terms[..]));
+        (format!("coupling {}", one.name), coupling(one.constant, terms.collect()))
+    }));
+    let independent = file.independent.iter();
+    parts.extend(independent.map(|names| {
+        let names = names.iter().map(|name| name.get_ref().clone());
+        (INDEPENDENT.to_owned(), named(names))
+    }));
+    parts
+}
+
+fn named(names: impl Iterator<Item = String>) -> Fields {
+    let mut fields = Fields::default();
+    for name in names {
+        fields.text(name, Some("yes"));
+    }
+    fields.sorted()
+}
+
+/// As `loops_module` has it: the same numbers, whoever said them.
+fn pose(frame: &FrameTable) -> Pose {
+    from_isometry(&Isometry3::from_parts(Translation3::from(frame.xyz), from_rpy(frame.rpy)))
+}
+
+fn frame(prefix: &str, pose: &Pose, fields: &mut Fields) {
+    fields.numbers(format!("{prefix}position"), "m", Some(pose.position));
+    fields.numbers(format!("{prefix}quaternion_wxyz"), "", Some(pose.quaternion_wxyz));
+}
+
+fn coupling(constant: f64, terms: BTreeMap<String, &[f64]>) -> Fields {
+    let mut fields = Fields::default();
+    fields.number("constant", "", Some(constant));
+    for (name, coefficients) in terms {
+        let mut four = [0.0; 4];
+        for (to, from) in four.iter_mut().zip(coefficients) {
+            *to = *from;
+        }
+        fields.numbers(name, "", Some(four));
+    }
+    fields
+}
