@@ -15,6 +15,7 @@ mod joint;
 pub mod loops;
 pub mod pose;
 pub mod pose_matrix;
+mod reach;
 pub mod rotation;
 mod travel;
 
@@ -23,4 +24,5 @@ pub use error::{ConfigurationError, KinematicsError};
 pub use forward::ForwardKinematics;
 pub use jacobian::{Branch, Load, Place, gather};
 pub use joint::{has_axis, joint_motion, num_dofs};
+pub use reach::reach;
 pub use travel::Travel;

@@ -5,8 +5,11 @@ mod close;
 mod equations;
 mod independent;
 mod model;
+mod rows;
+mod velocities;
 
 pub use close::{Closing, NotClosed, Scratch};
 pub use equations::Gap;
 pub use independent::Mobility;
 pub use model::Loops;
+pub use velocities::VelocityScratch;

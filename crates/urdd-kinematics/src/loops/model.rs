@@ -178,6 +178,11 @@ impl Loops {
         self.loops.is_empty() && self.couplings.is_empty()
     }
 
+    /// Number of couplings.
+    pub fn num_couplings(&self) -> usize {
+        self.couplings.len()
+    }
+
     /// Number of loops.
     pub fn num_loops(&self) -> usize {
         self.loops.len()
