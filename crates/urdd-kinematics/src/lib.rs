@@ -5,6 +5,7 @@
 //! [`ForwardKinematics`] computes the pose of every link from a configuration. [`ConfigurationSpace`] provides the
 //! configurations that the specification defines. [`inverse`] computes a configuration from a pose.
 
+mod cholesky;
 #[doc(hidden)]
 pub mod configurations;
 mod error;

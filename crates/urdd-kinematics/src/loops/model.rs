@@ -193,6 +193,11 @@ impl Loops {
         self.groups.iter().map(|group| &*group.dofs)
     }
 
+    /// The DOFs of couplings, some more than once.
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = usize> {
+        self.couplings.iter().flat_map(|one| one.terms.iter().map(|(dof, _)| *dof))
+    }
+
     /// The DOFs that a loop or coupling depends on, ascending.
     pub fn dofs(&self) -> impl Iterator<Item = DofIdx> + '_ {
         let moved = self.moves.iter().enumerate().filter(|(_, moves)| **moves);
