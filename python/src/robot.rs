@@ -46,6 +46,7 @@ struct InverseOptions<'py> {
     posture: Option<Vec<f64>>,
     free_of: Vec<FreeOf>,
     margin: f64,
+    open_loops: bool,
 }
 
 /// What solutions of inverse kinematics must not touch.
@@ -285,6 +286,7 @@ impl Robot {
             locked: options.locked,
             posture: options.posture,
             explain: true,
+            open_loops: options.open_loops,
         };
         let (robot, point, weights) = (&self.robot, options.point, options.weights);
         let margin = check_margin(options.margin).map_err(|error| of_robot(py, &error))?;
@@ -312,6 +314,7 @@ impl Robot {
                     Verdict::Limits => 2.0,
                     Verdict::OutOfReach => 3.0,
                     Verdict::Unknown => 4.0,
+                    Verdict::Loops => 5.0,
                 },
                 nearest.position_error,
                 nearest.rotation_error,

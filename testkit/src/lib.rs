@@ -36,6 +36,7 @@ pub mod emit;
 pub mod files;
 pub mod fixture;
 pub mod folder;
+pub mod looped;
 pub mod meshes;
 pub mod model;
 pub mod page;

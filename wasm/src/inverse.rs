@@ -98,6 +98,7 @@ impl InverseQuestion {
                 Verdict::Refused => "refused",
                 Verdict::Limits => "limits",
                 Verdict::OutOfReach => "out of reach",
+                Verdict::Loops => "loops",
                 Verdict::Unknown => "unknown",
             },
         }))

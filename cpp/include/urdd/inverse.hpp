@@ -52,6 +52,8 @@ struct InverseSettings {
     double margin = defaults().margin;
     /// Whether to find out why a target is not reached, which takes as long as the search.
     bool explain = defaults().explain;
+    /// Whether the kinematic loops of the robot may be open in a solution; otherwise it is closed.
+    bool open_loops = defaults().open_loops;
 
     /// For C: alive as long as this.
     urdd_inverse_settings raw() const & {
@@ -71,6 +73,7 @@ struct InverseSettings {
         found.free_of_world = free_of_world ? free_of_world->handle() : nullptr;
         found.margin = margin;
         found.explain = explain;
+        found.open_loops = open_loops;
         return found;
     }
     urdd_inverse_settings raw() const && = delete;

@@ -68,6 +68,9 @@ pub struct Settings {
     pub margin: f64,
     /// Whether to find out why a target is not reached, which takes as long as the search.
     pub explain: bool,
+    /// Whether the kinematic loops of the robot may be open in a solution. False in the settings of
+    /// `urdd_inverse_settings_default`; without meaning for a tree.
+    pub open_loops: bool,
 }
 
 /// Whether a target is reached; if not, why.
@@ -85,6 +88,8 @@ pub enum Verdict {
     Limits = 3,
     /// None was found, within the bounds or beyond them.
     OutOfReach = 4,
+    /// None was found that is closed, but one within the bounds with open loops.
+    Loops = 5,
 }
 
 /// How near a configuration comes to its target.
@@ -113,6 +118,7 @@ impl From<urdd_robot::Verdict> for Verdict {
             Of::Refused => Verdict::Refused,
             Of::Limits => Verdict::Limits,
             Of::OutOfReach => Verdict::OutOfReach,
+            Of::Loops => Verdict::Loops,
             Of::Unknown => Verdict::Unknown,
         }
     }
@@ -211,6 +217,7 @@ unsafe fn settings<'a>(
             locked: locked.to_vec(),
             posture: posture.map(<[f64]>::to_vec),
             explain: settings.explain,
+            open_loops: settings.open_loops,
         };
         Ok((settings, free_of))
     }

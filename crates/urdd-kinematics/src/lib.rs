@@ -5,6 +5,7 @@
 //! [`ForwardKinematics`] computes the pose of every link from a configuration. [`ConfigurationSpace`] provides the
 //! configurations that the specification defines. [`inverse`] computes a configuration from a pose.
 
+mod cholesky;
 #[doc(hidden)]
 pub mod configurations;
 mod error;
@@ -15,6 +16,7 @@ mod joint;
 pub mod loops;
 pub mod pose;
 pub mod pose_matrix;
+mod reach;
 pub mod rotation;
 mod travel;
 
@@ -23,4 +25,5 @@ pub use error::{ConfigurationError, KinematicsError};
 pub use forward::ForwardKinematics;
 pub use jacobian::{Branch, Load, Place, gather};
 pub use joint::{has_axis, joint_motion, num_dofs};
+pub use reach::reach;
 pub use travel::Travel;

@@ -16,7 +16,6 @@ use urdd_directory::root::ReadError;
 use urdd_directory::{canonical, file_entry, json};
 use urdd_document::kept::keep;
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
-use urdd_format::loops::LoopsModule;
 use urdd_format::named_configurations::{
     ConfigurationEdit, DofPosition, NamedConfiguration, NamedConfigurationsModule, NamedDofs,
     PositionFault,
@@ -100,26 +99,6 @@ impl Robot {
             }
         })
         .map(Vec::as_slice)
-    }
-
-    /// What closes the loops of the robot. `None` without `loops_module`: the robot is a tree.
-    ///
-    /// # Errors
-    /// If the module is unusable.
-    pub fn loops(&self) -> Result<Option<&LoopsModule>, RobotError> {
-        const LOOPS: ModuleKind = ModuleKind::Loops;
-        keep(&self.loops, || {
-            let part = self.part_as_it_is(&[LOOPS])?;
-            if part.module(LOOPS).is_none() {
-                return Ok(None);
-            }
-            usable(&part, LOOPS)?;
-            match part.document(LOOPS) {
-                Some(ModuleDocument::Loops(module)) => Ok(Some((**module).clone())),
-                _ => Err(RobotError::Missing(LOOPS)),
-            }
-        })
-        .map(Option::as_ref)
     }
 
     /// The values of a named configuration.

@@ -110,6 +110,12 @@ impl Robot {
     /// its bounds are from 0, unless the settings have bounds: an angle half a turn either way, a length one metre. So a
     /// continuous joint that follows a path does not jump by a turn, and its value may leave [-pi, pi].
     ///
+    /// Where the robot has kinematic loops, the solution is closed: every step of the search is, from the closed configuration
+    /// that [`Robot::close`] finds near its beginning. DOFs that loops tie to those that move the link move too, within their
+    /// bounds. Set [`InverseSettings::open_loops`] for a solution of the spanning tree. If no closed one reaches the target, but one
+    /// with open loops does, the verdict is [`Verdict::Loops`](crate::Verdict::Loops); if the loops cannot be closed at all,
+    /// the configuration is that with the smallest gaps.
+    ///
     /// Does not check for collisions: [`Robot::inverse_kinematics_where`] does. Returns the first solution within the
     /// tolerances, or the one that is nearest to a [posture](InverseSettings::posture); it depends only on the target,
     /// `start` and the settings. If there is none, the [verdict](crate::Verdict) says why.
@@ -143,7 +149,7 @@ impl Robot {
     /// that are not finite, tolerances or weights below 0, weights that leave nothing to reach, 0 iterations, crossed
     /// bounds, or not one pair of bounds for each DOF; [`RobotError::Configuration`] if `start` or the posture has the
     /// wrong length or a value that is not finite; and if `chain_module`, `dof_module` or `bounds_module` is missing or
-    /// unusable.
+    /// unusable, or, unless loops may be open, `loops_module` is unusable.
     pub fn inverse_kinematics(
         &self,
         target: &Target,
@@ -211,7 +217,9 @@ impl Robot {
         let bounds = settings.bounds.clone().unwrap_or_else(own);
         let space = known.space().with_bounds(&bounds);
         let space = space.ok_or(RobotError::Target("a bound is not finite"))?;
-        let conditions = Conditions { accepts, stops: &|| cancellation.is_cancelled() };
+        let closure = if settings.open_loops { None } else { self.closure()? };
+        let loops = closure.map(|closure| &closure.loops);
+        let conditions = Conditions { accepts, stops: &|| cancellation.is_cancelled(), loops };
         let found = kinematics.reach(&target.0, start, &space, settings, &conditions)?;
         cancellation.check()?;
         Ok(found)

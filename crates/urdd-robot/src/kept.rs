@@ -7,10 +7,12 @@ use super::error::RobotError;
 use urdd_document::consumer;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
+use urdd_format::loops::LoopsModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 use urdd_geometry::Mesh;
-use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
+use urdd_kinematics::loops::Loops;
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics, reach};
 
 /// The data that kinematics needs.
 #[derive(Debug)]
@@ -73,6 +75,8 @@ pub struct Configurations {
     space: ConfigurationSpace,
     bounds: Vec<[f64; 2]>,
     is_limited: Vec<bool>,
+    /// The bounds; infinite for what is not limited.
+    limits: Vec<[f64; 2]>,
 }
 
 impl Configurations {
@@ -93,12 +97,22 @@ impl Configurations {
         };
         // A producer may write the two bounds in either order.
         let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
-        let bounds = bounds.bounds.iter().copied().map(sorted).collect();
-        Ok(Self { space, bounds, is_limited })
+        let bounds: Vec<[f64; 2]> = bounds.bounds.iter().copied().map(sorted).collect();
+        let limit = |(bounds, limited): (&[f64; 2], &bool)| match limited {
+            true => *bounds,
+            false => [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        let limits = bounds.iter().zip(&is_limited).map(limit).collect();
+        Ok(Self { space, bounds, is_limited, limits })
     }
 
     pub(super) fn space(&self) -> &ConfigurationSpace {
         &self.space
+    }
+
+    /// The bounds of each DOF; infinite for one that is not limited.
+    pub(super) fn limits(&self) -> &[[f64; 2]] {
+        &self.limits
     }
 
     /// Number of DOFs.
@@ -162,6 +176,32 @@ impl Configurations {
         let mut clamped = configuration.to_vec();
         self.clamp(&mut clamped);
         clamped == configuration
+    }
+}
+
+/// What closes the loops of a robot, with what it takes to close them.
+#[derive(Debug)]
+pub(super) struct Closure {
+    pub loops: Loops,
+    /// The DOFs that move freely, ascending.
+    pub independent: Vec<usize>,
+}
+
+impl Closure {
+    pub(super) fn new(
+        module: &LoopsModule,
+        part: &Urdd,
+        kinematics: &ForwardKinematics,
+    ) -> Result<Self, RobotError> {
+        let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
+        let described = part.description().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
+        let reach = reach(described, &modules.chain);
+        let loops = Loops::new(module, kinematics, &modules.dof, reach)?;
+        let independent = module.independent_dof_idxs.iter().map(|dof| dof.get());
+        Ok(Self {
+            loops,
+            independent: independent.filter(|dof| *dof < kinematics.num_dofs()).collect(),
+        })
     }
 }
 

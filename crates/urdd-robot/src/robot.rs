@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::error::RobotError;
-use super::kept::{Configurations, LinkMass, LinkShape, Motion};
+use super::kept::{Closure, Configurations, LinkMass, LinkShape, Motion};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
 use urdd_document::kept::{Kept, keep};
@@ -32,6 +32,7 @@ pub struct Robot {
     configurations: OnceLock<Configurations>,
     pub(super) named: OnceLock<Vec<NamedConfiguration>>,
     pub(super) loops: OnceLock<Option<LoopsModule>>,
+    pub(super) closure: OnceLock<Option<Arc<Closure>>>,
     /// The largest speeds, and the largest efforts.
     pub(super) limits: OnceLock<[Vec<f64>; 2]>,
     pub(super) masses: OnceLock<Vec<LinkMass>>,
@@ -77,6 +78,7 @@ impl Robot {
             configurations: OnceLock::new(),
             named: OnceLock::new(),
             loops: OnceLock::new(),
+            closure: OnceLock::new(),
             limits: OnceLock::new(),
             masses: OnceLock::new(),
             shapes: Default::default(),

@@ -3,11 +3,13 @@
 use std::cell::RefCell;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::thread::LocalKey;
 
 use arrayvec::ArrayVec;
 use nalgebra::Isometry3;
 use urdd_geometry::convex::across::AT_ONCE;
 use urdd_kinematics::Load;
+use urdd_kinematics::loops::{Scratch, VelocityScratch};
 
 /// Memory for queries on one configuration. It fits every robot and world.
 #[derive(Debug, Default)]
@@ -19,16 +21,35 @@ pub(crate) struct Workspace {
     pub loads: Vec<Load>,
 }
 
+/// Memory for closing loops.
+#[derive(Debug, Default)]
+pub(crate) struct ClosingSpace {
+    pub scratch: Scratch,
+    /// Whether each DOF stays.
+    pub held: Vec<bool>,
+    pub velocities: VelocityScratch,
+}
+
 thread_local! {
     static WORKSPACE: RefCell<Workspace> = RefCell::default();
+    static CLOSING: RefCell<ClosingSpace> = RefCell::default();
 }
 
 /// Runs with this thread's memory. A query within a query gets memory of its own, and so does one of a thread that is
 /// ending, which keeps nothing any more.
 pub(crate) fn with_workspace<T>(act: impl FnOnce(&mut Workspace) -> T) -> T {
-    let mut memory = WORKSPACE.try_with(RefCell::take).unwrap_or_default();
+    with(&WORKSPACE, act)
+}
+
+/// As [`with_workspace`], to close loops.
+pub(crate) fn with_closing_space<T>(act: impl FnOnce(&mut ClosingSpace) -> T) -> T {
+    with(&CLOSING, act)
+}
+
+fn with<M: Default, T>(kept: &'static LocalKey<RefCell<M>>, act: impl FnOnce(&mut M) -> T) -> T {
+    let mut memory = kept.try_with(RefCell::take).unwrap_or_default();
     let found = act(&mut memory);
-    let _ = WORKSPACE.try_with(|kept| kept.replace(memory));
+    let _ = kept.try_with(|kept| kept.replace(memory));
     found
 }
 

@@ -163,7 +163,8 @@ class InverseSolution:
     verdict: NDArray[np.str_]
     """(...): why. ``reached``; ``refused``: every configuration that was found to reach the target is in collision, and
     this is one; ``limits``: only a configuration beyond the bounds was found to reach it; ``out of reach``: none was
-    found, within the bounds or beyond them. This is a search, not a proof."""
+    found, within the bounds or beyond them; ``loops``: none with closed loops, but one with open ones. This is a search,
+    not a proof."""
     position_error: Floats
     """(...): the distance of the point from its target, metres."""
     rotation_error: Floats

@@ -37,7 +37,7 @@ _CONFIGURATIONS = 2**32
 _SEED_STRIDE = 0x9E3779B9
 
 #: As the compiled part numbers them.
-_VERDICTS = np.array(["reached", "refused", "limits", "out of reach", "unknown"])
+_VERDICTS = np.array(["reached", "refused", "limits", "out of reach", "unknown", "loops"])
 
 Shapes: TypeAlias = Proximity | WorldProximity
 
@@ -251,6 +251,7 @@ class RobotKinematics(RobotDescription):
         posture: ArrayLike | None = None,
         free_of: Shapes | Iterable[Shapes] = (),
         margin: float = 0.0,
+        open_loops: bool = False,
     ) -> InverseSolution:
         """Inverse kinematics: a configuration within the bounds in which a link reaches a target.
 
@@ -287,6 +288,7 @@ class RobotKinematics(RobotDescription):
                 not collide: the search goes on until a solution is free.
             margin: the distance that a solution keeps from the obstacles of ``free_of``, metres. Links may be nearer to
                 one another.
+            open_loops: whether the kinematic loops of the robot may be open in the solution; otherwise it is closed.
 
         Raises:
             ConfigurationError: for a wrong shape, a number that is not finite, or one that makes no sense: tolerances,
@@ -327,6 +329,7 @@ class RobotKinematics(RobotDescription):
             posture=None if posture is None else one_configuration(posture, self.dof_names)[0].tolist(),
             free_of=[one.core for one in shapes],
             margin=float(margin),
+            open_loops=bool(open_loops),
         )
         rows = targets.reshape(-1, *((4, 4) if is_pose else (1, 3)))
         found = self._core.inverse_kinematics(self.link(link), rows, starts, options)

@@ -123,6 +123,7 @@ class InverseOptions:
     posture: list[float] | None
     free_of: list[_urdd.Proximity | _urdd.WorldProximity]
     margin: float
+    open_loops: bool
 
 
 @dataclass(frozen=True)

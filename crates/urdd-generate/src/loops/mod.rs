@@ -7,12 +7,10 @@ mod resolved;
 use super::error::Result;
 use closed::widen;
 pub(super) use made::Made;
-use urdd_format::chain::ChainModule;
 use urdd_format::index::{DofIdx, SampleIdx};
 use urdd_format::loops::{ClosedSample, LoopsModule};
 use urdd_format::named_configurations::{ConfigurationName, NamedConfiguration};
 use urdd_format::short::Short;
-use urdd_format::urdf::{JointType, UrdfModule};
 use urdd_kinematics::loops::{Loops, Scratch};
 use urdd_source::note::{Note, NoteKind};
 
@@ -33,7 +31,7 @@ impl Made<'_> {
             return Ok((None, Vec::new()));
         };
         let mut module = self.resolved(said)?;
-        let reach = reach(&self.source.reading.robot, self.chain);
+        let reach = urdd_kinematics::reach(&self.source.reading.robot, self.chain);
         let made = |module: &LoopsModule| {
             let loops = Loops::new(module, self.kinematics, self.dof, reach);
             loops.map_err(|error| self.refused(said, None, error.to_string()))
@@ -151,32 +149,4 @@ fn stated(gap: f64, unit: f64) -> f64 {
     let power = (gap * MARGIN).log10().floor();
     let step = 10.0_f64.powf(power);
     (gap * MARGIN / step).ceil() * step
-}
-
-/// The robot's reach: SPEC 5.6, m.
-fn reach(robot: &UrdfModule, chain: &ChainModule) -> f64 {
-    let mut reach = vec![0.0_f64; robot.links.len()];
-    for link in chain.kinematic_hierarchy.iter().flatten() {
-        let of_link = &chain.links_in_chain[link.get()];
-        let (Some(joint), Some(parent)) = (of_link.parent_joint_idx, of_link.parent_link_idx)
-        else {
-            continue;
-        };
-        let joint = &robot.joints[joint.get()];
-        let limit = joint.limit.as_ref();
-        let ends = limit.and_then(|limit| match (limit.lower, limit.upper) {
-            (None, None) => None,
-            (lower, upper) => Some([lower.unwrap_or_default(), upper.unwrap_or_default()]),
-        });
-        let travel = match (joint.joint_type, ends) {
-            (JointType::Prismatic, Some([lower, upper])) => lower.abs().max(upper.abs()),
-            (JointType::Prismatic | JointType::Planar | JointType::Floating, _) => 1.0,
-            _ => 0.0,
-        };
-        let origin =
-            &chain.joints_in_chain[of_link.parent_joint_idx.map_or(0, |of| of.get())].origin;
-        let offset = origin.position.iter().map(|x| x * x).sum::<f64>().sqrt();
-        reach[link.get()] = reach[parent.get()] + offset + travel;
-    }
-    reach.into_iter().fold(1e-3, f64::max)
 }

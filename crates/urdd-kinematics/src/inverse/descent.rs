@@ -7,17 +7,17 @@ use crate::jacobian::Place;
 use crate::rotation::to_rotation_vector;
 
 /// Maximum change of a DOF per iteration, rad or m. The linearisation is poor beyond it.
-const STEP: f64 = 0.8;
+pub(super) const STEP: f64 = 0.8;
 
 /// A descent is stuck when this many consecutive steps each reduced the cost by less than the fraction [`LITTLE`].
-const PATIENCE: usize = 3;
-const LITTLE: f64 = 1e-2;
+pub(super) const PATIENCE: usize = 3;
+pub(super) const LITTLE: f64 = 1e-2;
 
 /// Damping relative to the cost: initial and minimum value.
-const DAMPING: [f64; 2] = [0.1, 1e-3];
+pub(super) const DAMPING: [f64; 2] = [0.1, 1e-3];
 
 /// Consecutive rejected steps before a descent gives up.
-const REFUSED: usize = 8;
+pub(super) const REFUSED: usize = 8;
 
 /// A solution is as near to a posture as it gets when this part of the way there does not bring it nearer by this
 /// fraction.
@@ -34,27 +34,69 @@ pub(super) struct Found {
     pub reached: bool,
 }
 
+/// A descent to a goal.
+pub(super) trait Descend {
+    /// Descends from a configuration within bounds.
+    fn from(&mut self, start: Vec<f64>) -> Found;
+    /// The part of the way to a posture that is free at a solution, for each DOF of the path; `None` if there is none that can
+    /// be computed.
+    fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>>;
+    /// Iterations so far.
+    fn iterations(&self) -> usize;
+}
+
+/// Moves a solution toward a posture, along the motions that the goal leaves free.
+pub(super) fn toward(
+    descent: &mut dyn Descend,
+    path: &Path,
+    posture: &[f64],
+    mut found: Found,
+) -> Found {
+    let away = |q: &[f64]| path.distance(q, posture);
+    let mut part = 1.0;
+    while part > SMALLEST_PART {
+        let q = &found.configuration;
+        let Some(free) = descent.freed(q, posture) else { return found };
+        let before = away(q);
+        if free.iter().map(|change| change * change).sum::<f64>() <= LEAST_GAIN * before * before {
+            return found;
+        }
+        let mut next = q.clone();
+        for (dof, change) in path.dofs.iter().zip(&free) {
+            next[*dof] += part * change;
+        }
+        path.confine(&mut next);
+        let next = descent.from(next);
+        if next.reached && away(&next.configuration) < before * (1.0 - LEAST_GAIN) {
+            found = next;
+        } else {
+            part *= 0.5;
+        }
+    }
+    found
+}
+
 /// State shared by all descents to a goal.
 pub(super) struct Descent<'a> {
     path: &'a Path<'a>,
     goal: &'a Goal,
-    settings: &'a InverseSettings,
+    pub settings: &'a InverseSettings,
     /// The configuration that decides between values whole turns apart.
     near: &'a [f64],
     /// The length, in metres, that weighs as much as a radian.
-    length: f64,
+    pub length: f64,
     /// Iterations so far.
     pub iterations: usize,
     place: Place,
-    jacobian: Vec<Vector6<f64>>,
+    pub jacobian: Vec<Vector6<f64>>,
     /// Which columns a step may still change.
     free: Vec<bool>,
 }
 
 /// The remaining error: metres, then radians times the length.
-struct Left {
-    vector: Vector6<f64>,
-    cost: f64,
+pub(super) struct Left {
+    pub vector: Vector6<f64>,
+    pub cost: f64,
     position: f64,
     rotation: f64,
 }
@@ -80,54 +122,25 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Descends from a configuration within bounds.
-    pub fn from(&mut self, start: Vec<f64>) -> Found {
-        let mut q = start;
-        let mut left = self.left(&q);
-        let mut next = q.clone();
-        let [mut damping, least_damping] = DAMPING;
-        let (mut slow, mut refused) = (0, 0);
-        let mut fresh = false;
-        for _ in 0..self.settings.iterations {
-            if self.is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
-                break;
-            }
-            self.iterations += 1;
-            if !fresh {
-                self.linearise(&q);
-                fresh = true;
-            }
-            self.step(&q, &left.vector, damping * left.cost, &mut next);
-            let after = self.left(&next);
-            if after.cost.is_nan() || after.cost >= left.cost {
-                damping = (damping * 10.0).max(1e-2);
-                refused += 1;
-                continue;
-            }
-            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
-            refused = 0;
-            damping = (damping * 0.3).max(least_damping);
-            fresh = false;
-            left = after;
-            q.copy_from_slice(&next);
-        }
-        self.path.settle(&mut q, self.near);
+    /// What a descent ends with.
+    pub fn found(&self, mut configuration: Vec<f64>, left: &Left) -> Found {
+        self.path.settle(&mut configuration, self.near);
         Found {
-            reached: self.is_reached(&left),
-            configuration: q,
+            reached: self.is_reached(left),
+            configuration,
             cost: left.cost,
             position_error: left.position,
             rotation_error: left.rotation,
         }
     }
 
-    fn is_reached(&self, left: &Left) -> bool {
+    pub fn is_reached(&self, left: &Left) -> bool {
         left.position <= self.settings.position_tolerance
             && left.rotation <= self.settings.rotation_tolerance
     }
 
     /// Computes the Jacobian of the error, in the units of its vector, at a configuration whose error is known.
-    fn linearise(&mut self, q: &[f64]) {
+    pub fn linearise(&mut self, q: &[f64]) {
         self.path.jacobian(q, &self.place, &mut self.jacobian);
         let linear = f64::from(u8::from(self.goal.position.is_some()));
         let angular = if self.goal.rotation.is_some() { self.length } else { 0.0 };
@@ -139,7 +152,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    fn left(&mut self, q: &[f64]) -> Left {
+    pub fn left(&mut self, q: &[f64]) -> Left {
         let point = self.path.place(q, &mut self.place);
         let shift = self.goal.position.map_or(Vector3::zeros(), |position| position - point);
         let turn = self.goal.rotation.map_or(Vector3::zeros(), |rotation| {
@@ -156,52 +169,6 @@ impl<'a> Descent<'a> {
             }
         };
         Left { vector, cost: vector.norm_squared(), position, rotation }
-    }
-
-    /// Moves a solution toward a posture, along the motions that the goal leaves free.
-    pub fn toward(&mut self, posture: &[f64], mut found: Found) -> Found {
-        let path = self.path;
-        let away = |q: &[f64]| path.distance(q, posture);
-        let mut part = 1.0;
-        while part > SMALLEST_PART {
-            let q = &found.configuration;
-            self.left(q);
-            self.linearise(q);
-            let mut free: Vec<f64> = path.dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
-            let mut matrix = Matrix6::from_diagonal_element(f64::MIN_POSITIVE);
-            let mut moved = Vector6::zeros();
-            for (column, change) in self.jacobian.iter().zip(&free) {
-                matrix.ger(1.0, column, column, 1.0);
-                moved += column * *change;
-            }
-            // A pseudo-inverse: free motions of the goal, and singular ones, have no part in it.
-            let scale = matrix.norm();
-            let Ok(inverse) = matrix.pseudo_inverse(1e-9 * scale.max(f64::MIN_POSITIVE)) else {
-                return found;
-            };
-            let needed = inverse * moved;
-            for (change, column) in free.iter_mut().zip(&self.jacobian) {
-                *change -= column.dot(&needed);
-            }
-            let before = away(q);
-            if free.iter().map(|change| change * change).sum::<f64>()
-                <= LEAST_GAIN * before * before
-            {
-                return found;
-            }
-            let mut next = q.clone();
-            for (dof, change) in path.dofs.iter().zip(&free) {
-                next[*dof] += part * change;
-            }
-            path.confine(&mut next);
-            let next = self.from(next);
-            if next.reached && away(&next.configuration) < before * (1.0 - LEAST_GAIN) {
-                found = next;
-            } else {
-                part *= 0.5;
-            }
-        }
-        found
     }
 
     /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
@@ -253,5 +220,65 @@ impl<'a> Descent<'a> {
             }
         }
         path.wrap(next);
+    }
+}
+
+impl Descend for Descent<'_> {
+    fn from(&mut self, start: Vec<f64>) -> Found {
+        let mut q = start;
+        let mut left = self.left(&q);
+        let mut next = q.clone();
+        let [mut damping, least_damping] = DAMPING;
+        let (mut slow, mut refused) = (0, 0);
+        let mut fresh = false;
+        for _ in 0..self.settings.iterations {
+            if self.is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
+                break;
+            }
+            self.iterations += 1;
+            if !fresh {
+                self.linearise(&q);
+                fresh = true;
+            }
+            self.step(&q, &left.vector, damping * left.cost, &mut next);
+            let after = self.left(&next);
+            if after.cost.is_nan() || after.cost >= left.cost {
+                damping = (damping * 10.0).max(1e-2);
+                refused += 1;
+                continue;
+            }
+            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
+            refused = 0;
+            damping = (damping * 0.3).max(least_damping);
+            fresh = false;
+            left = after;
+            q.copy_from_slice(&next);
+        }
+        self.found(q, &left)
+    }
+
+    fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>> {
+        self.left(q);
+        self.linearise(q);
+        let dofs = self.path.dofs.iter();
+        let mut free: Vec<f64> = dofs.map(|dof| posture[*dof] - q[*dof]).collect();
+        let mut matrix = Matrix6::from_diagonal_element(f64::MIN_POSITIVE);
+        let mut moved = Vector6::zeros();
+        for (column, change) in self.jacobian.iter().zip(&free) {
+            matrix.ger(1.0, column, column, 1.0);
+            moved += column * *change;
+        }
+        // A pseudo-inverse: free motions of the goal, and singular ones, have no part in it.
+        let scale = matrix.norm();
+        let inverse = matrix.pseudo_inverse(1e-9 * scale.max(f64::MIN_POSITIVE)).ok()?;
+        let needed = inverse * moved;
+        for (change, column) in free.iter_mut().zip(&self.jacobian) {
+            *change -= column.dot(&needed);
+        }
+        Some(free)
+    }
+
+    fn iterations(&self) -> usize {
+        self.iterations
     }
 }

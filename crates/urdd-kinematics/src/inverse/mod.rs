@@ -4,16 +4,19 @@
 //! damping is proportional to the remaining squared error, after T. Sugihara, "Solvability-Unconcerned Inverse
 //! Kinematics by the Levenberg-Marquardt Method", IEEE Transactions on Robotics 27 (2011).
 
+mod closed;
 mod descent;
 mod path;
 
 pub use path::{Goal, InverseSettings};
 
-use self::descent::{Descent, Found, LEAST_GAIN};
+use self::closed::ClosedDescent;
+use self::descent::{Descend, Descent, Found, LEAST_GAIN, toward};
 use self::path::Path;
 use super::configurations::ConfigurationSpace;
 use super::error::ConfigurationError;
 use super::forward::ForwardKinematics;
+use super::loops::Loops;
 
 /// With a posture, restarts begin these parts of the way from it to a random configuration, in turn: most solutions
 /// near it are found from near it.
@@ -34,7 +37,8 @@ pub enum Inverse {
 /// A configuration and its errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSolution {
-    /// One value per DOF, rad or m, within bounds. DOFs that do not move the link keep their start values. Of values a
+    /// One value per DOF, rad or m, within bounds; closed, unless loops may be open or none was found that is. DOFs that do
+    /// not move the link keep their start values, but for those that loops tie to DOFs that do. Of values a
     /// whole turn apart that are within the bounds, it has the nearest to the posture, or to the start without a
     /// posture; rotation vectors too, which may then be longer than a half turn.
     pub configuration: Vec<f64>,
@@ -62,6 +66,8 @@ pub enum Verdict {
     /// None was found, within the bounds or beyond them: as a rule, the goal is farther than the robot reaches, or
     /// turned in a way that its joints cannot turn. This is a search, not a proof.
     OutOfReach,
+    /// None was found that is closed, within the bounds or beyond them, but one within the bounds with open loops.
+    Loops,
     /// None within the bounds was found; why was not searched for, as [`InverseSettings::explain`] is false, or the
     /// search was stopped.
     Unknown,
@@ -95,6 +101,8 @@ pub struct Conditions<'a> {
     pub accepts: &'a (dyn Fn(&[f64]) -> bool + 'a),
     /// If it returns true, the search ends before the next restart.
     pub stops: &'a (dyn Fn() -> bool + 'a),
+    /// What a solution closes; `None` for a tree.
+    pub loops: Option<&'a Loops>,
 }
 
 impl ForwardKinematics {
@@ -127,41 +135,48 @@ impl ForwardKinematics {
                 *bounds = [start[*dof]; 2];
             }
         }
-        let path = Path::new(self, goal, &bounds);
+        let loops = conditions.loops;
+        let path = Path::new(self, goal, &bounds, loops);
+        let mut first = start.to_vec();
+        path.confine(&mut first);
+        let asked = Asked { kinematics: self, goal, settings, near };
         let mut search = Search {
             path: &path,
             space,
             settings,
             conditions,
-            descent: Descent::new(&path, goal, settings, near),
+            descent: asked.descent(&path, loops),
             restarts: 0,
             refused: None,
         };
-        let mut first = start.to_vec();
-        path.confine(&mut first);
-        let (best, mut iterations) = (search.best(&first), search.descent.iterations);
+        let (best, mut iterations) = (search.best(&first), search.descent.iterations());
+        // Whether any is reached within other bounds, from the best, then from random ones.
+        let mut reaches = |bounds: &[[f64; 2]], loops: Option<&Loops>| {
+            let path = Path::new(self, goal, bounds, loops);
+            let mut descent = asked.descent(&path, loops);
+            let others = space.with_bounds(bounds).into_iter().flat_map(|space| {
+                let seeds = (1..=settings.restarts as u64).map(|k| settings.seed.wrapping_add(k));
+                let (path, first) = (&path, &first);
+                seeds.map(move |seed| path.restarted(first, &space.sampled(seed)))
+            });
+            let mut begins = std::iter::once(best.configuration.clone()).chain(others);
+            let reaches = begins.any(|begin| !(conditions.stops)() && descent.from(begin).reached);
+            iterations += descent.iterations();
+            reaches
+        };
         let verdict = match (best.reached, search.refused.is_some()) {
             (true, _) => Verdict::Reached,
             (false, true) => Verdict::Refused,
             _ if !settings.explain || (conditions.stops)() => Verdict::Unknown,
             _ => {
                 let wide = path.unlimited(&bounds, path.reach() + best.position_error);
-                let path = Path::new(self, goal, &wide);
-                let mut descent = Descent::new(&path, goal, settings, near);
-                let others = space.with_bounds(&wide).into_iter().flat_map(|space| {
-                    let seeds =
-                        (1..=settings.restarts as u64).map(|k| settings.seed.wrapping_add(k));
-                    let (path, first) = (&path, &first);
-                    seeds.map(move |seed| path.restarted(first, &space.sampled(seed)))
-                });
-                let mut begins = std::iter::once(best.configuration.clone()).chain(others);
-                let reaches =
-                    begins.any(|begin| !(conditions.stops)() && descent.from(begin).reached);
-                iterations += descent.iterations;
-                match (reaches, (conditions.stops)()) {
-                    (true, _) => Verdict::Limits,
-                    (false, true) => Verdict::Unknown,
-                    (false, false) => Verdict::OutOfReach,
+                let limits = reaches(&wide, loops);
+                let open = !limits && loops.is_some() && reaches(&bounds, None);
+                match (limits, open, (conditions.stops)()) {
+                    (true, _, _) => Verdict::Limits,
+                    (false, true, _) => Verdict::Loops,
+                    (false, false, true) => Verdict::Unknown,
+                    (false, false, false) => Verdict::OutOfReach,
                 }
             }
         };
@@ -182,13 +197,36 @@ impl ForwardKinematics {
     }
 }
 
+/// What all descents to a goal share.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    kinematics: &'a ForwardKinematics,
+    goal: &'a Goal,
+    settings: &'a InverseSettings,
+    near: &'a [f64],
+}
+
+impl<'a> Asked<'a> {
+    /// A descent among all configurations, or among those in which loops are closed.
+    fn descent<'b>(self, path: &'b Path<'b>, loops: Option<&'b Loops>) -> Box<dyn Descend + 'b>
+    where
+        'a: 'b,
+    {
+        let tree = Descent::new(path, self.goal, self.settings, self.near);
+        match loops {
+            None => Box::new(tree),
+            Some(loops) => Box::new(ClosedDescent::new(self.kinematics, loops, path, tree)),
+        }
+    }
+}
+
 /// A search within bounds.
 struct Search<'a> {
     path: &'a Path<'a>,
     space: &'a ConfigurationSpace,
     settings: &'a InverseSettings,
     conditions: &'a Conditions<'a>,
-    descent: Descent<'a>,
+    descent: Box<dyn Descend + 'a>,
     restarts: usize,
     /// The first configuration that reaches the goal and was refused.
     refused: Option<Found>,
@@ -246,7 +284,7 @@ impl Search<'_> {
             return found;
         }
         if let Some(posture) = &self.settings.posture {
-            let nearer = self.descent.toward(posture, found.clone());
+            let nearer = toward(&mut *self.descent, self.path, posture, found.clone());
             // What is nearest may be refused, and what it began with not.
             if (self.conditions.accepts)(&nearer.configuration) {
                 return nearer;

@@ -4,9 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point3, UnitQuaternion, Vector3, Vector6};
 
-use crate::forward::ForwardKinematics;
+use crate::forward::{ForwardKinematics, Step};
 use crate::jacobian::{Branch, Place, add_to, columns};
 use crate::joint::Motion;
+use crate::loops::Loops;
 
 /// The desired position of a point of a link, the desired rotation of the link, or both.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +63,9 @@ pub struct InverseSettings {
     pub posture: Option<Vec<f64>>,
     /// Whether to find out why a goal is not reached, which takes as long as the search; default true.
     pub explain: bool,
+    /// Whether the kinematic loops of the robot may be open in the solution: the search is then that of its spanning tree.
+    /// Default false; without meaning for a tree.
+    pub open_loops: bool,
 }
 
 impl Default for InverseSettings {
@@ -76,6 +80,7 @@ impl Default for InverseSettings {
             locked: Vec::new(),
             posture: None,
             explain: true,
+            open_loops: false,
         }
     }
 }
@@ -85,10 +90,10 @@ pub(super) struct Path<'a> {
     branch: Branch<'a>,
     /// A point of the link, in its frame.
     point: Point3<f64>,
-    /// The DOFs that move the link and are not fixed by their bounds, ascending.
+    /// The DOFs that move the link, or follow what does, and are not fixed by their bounds, ascending.
     pub dofs: Vec<usize>,
     /// For each DOF of the robot, its index in `dofs`.
-    place: Vec<Option<usize>>,
+    pub place: Vec<Option<usize>>,
     /// The bounds of all DOFs, lower bound first.
     bounds: Vec<[f64; 2]>,
     /// The range of values of each of `dofs`.
@@ -109,13 +114,29 @@ pub(super) enum RangeKind {
 }
 
 impl<'a> Path<'a> {
-    pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
+    pub fn new(
+        kinematics: &'a ForwardKinematics,
+        goal: &Goal,
+        bounds: &[[f64; 2]],
+        loops: Option<&Loops>,
+    ) -> Self {
         use RangeKind::{Bounded, Free, Turning};
         let branch = kinematics.branch(goal.link);
+        // With the link move all DOFs that loops tie to those that move it.
+        let moving = |step: &Step, with: &[usize]| {
+            step.motion.dofs().iter().any(|dof| with.binary_search(dof).is_ok())
+        };
+        let moves_link = |with: &[usize]| branch.steps.iter().any(|step| moving(step, with));
+        let groups = loops.into_iter().flat_map(Loops::groups);
+        let groups: Vec<&[usize]> = groups.filter(|group| moves_link(group)).collect();
+        let tied = kinematics.steps.iter().filter(|step| {
+            let is_tied = groups.iter().any(|group| moving(step, group));
+            is_tied && !branch.steps.iter().any(|other| other.child == step.child)
+        });
         let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
         let mut uses: Vec<Option<RangeKind>> = vec![None; kinematics.num_dofs()];
         let mut vectors = Vec::new();
-        for step in &branch.steps {
+        for step in branch.steps.iter().copied().chain(tied) {
             let kinds: &[RangeKind] = match &step.motion {
                 Motion::Fixed => &[],
                 Motion::Turn { position, .. } if position.multiplier == 1.0 => &[Turning],
@@ -134,6 +155,11 @@ impl<'a> Path<'a> {
                 // A DOF that drives several joints does not repeat with whole turns.
                 uses[*dof] = Some(uses[*dof].map_or(*kind, |_| Bounded));
             }
+        }
+        // A coupling does not repeat with whole turns.
+        for dof in loops.into_iter().flat_map(Loops::coupled) {
+            uses[dof] = uses[dof].map(|kind| if kind == Turning { Bounded } else { kind });
+            vectors.retain(|dofs: &[usize; 3]| !dofs.contains(&dof));
         }
         let mut path = Self {
             branch,
@@ -188,6 +214,11 @@ impl<'a> Path<'a> {
             };
         }
         wide
+    }
+
+    /// The bounds of all DOFs, lower bound first.
+    pub fn all_bounds(&self) -> &[[f64; 2]] {
+        &self.bounds
     }
 
     /// Bounds of one of `dofs`.

@@ -4,6 +4,7 @@ use nalgebra::Isometry3;
 
 use super::equations::CLOSED;
 use super::model::{Group, Loops};
+use crate::cholesky;
 use crate::error::ConfigurationError;
 use crate::forward::ForwardKinematics;
 
@@ -121,6 +122,9 @@ impl Loops {
                 gather(group, configuration, bounds, held, at);
                 is_new = false;
             }
+            if at.free.is_empty() {
+                break;
+            }
             if !solve(at, damping) {
                 damping = (damping * 10.0).max(LEAST_DAMPING);
                 continue;
@@ -197,41 +201,12 @@ fn gather(
 fn solve(at: &mut Scratch, damping: f64) -> bool {
     let n = at.free.len();
     at.step.clear();
-    if n == 0 {
-        return false;
-    }
     let trace: f64 = (0..n).map(|i| at.normal[i * n + i]).sum();
     let added = damping * trace / n as f64;
     at.factor.clear();
     at.factor.extend_from_slice(&at.normal);
-    // Cholesky's factor, row by row.
-    for i in 0..n {
-        for j in 0..=i {
-            let (head, row) = at.factor.split_at(i * n);
-            let of_j = if i == j { &row[..j] } else { &head[j * n..j * n + j] };
-            let dot: f64 = row[..j].iter().zip(of_j).map(|(a, b)| a * b).sum();
-            let value = row[j] - dot;
-            if i == j {
-                let value = value + added;
-                if value.is_nan() || value <= 0.0 {
-                    return false;
-                }
-                at.factor[i * n + i] = value.sqrt();
-            } else {
-                at.factor[i * n + j] = value / at.factor[j * n + j];
-            }
-        }
-    }
     at.step.extend(at.gradient.iter().map(|slope| -slope));
-    for i in 0..n {
-        let dot: f64 = (0..i).map(|j| at.factor[i * n + j] * at.step[j]).sum();
-        at.step[i] = (at.step[i] - dot) / at.factor[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let dot: f64 = (i + 1..n).map(|j| at.factor[j * n + i] * at.step[j]).sum();
-        at.step[i] = (at.step[i] - dot) / at.factor[i * n + i];
-    }
-    true
+    cholesky::solve(&mut at.factor, added, &mut at.step)
 }
 
 fn within(q: f64, [a, b]: [f64; 2]) -> f64 {

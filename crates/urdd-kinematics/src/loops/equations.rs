@@ -47,6 +47,18 @@ fn held(kind: LoopKind) -> ([bool; 3], Turn) {
     }
 }
 
+/// Which of the rows of a loop are equations: the others are 0 wherever it is closed.
+pub(super) fn is_equation(kind: LoopKind) -> [bool; ROWS] {
+    let ([x, y, z], turn) = held(kind);
+    let [a, b, c] = match turn {
+        Turn::All => [true; 3],
+        Turn::Direction => [true, true, false],
+        Turn::RightAngle => [true, false, false],
+        Turn::Nothing => [false; 3],
+    };
+    [x, y, z, a, b, c]
+}
+
 impl Gap {
     /// That of a loop, for the pose of its frame B in its frame A.
     pub fn of(kind: LoopKind, between: &Isometry3<f64>) -> Self {
@@ -88,7 +100,7 @@ impl Ends {
     }
 
     /// What is not 0 that should be: rows of the position divided by the reach, rows of the rotation in rad.
-    fn residual(&self, poses: &[Isometry3<f64>], reach: f64, rows: &mut [f64]) {
+    pub(super) fn residual(&self, poses: &[Isometry3<f64>], reach: f64, rows: &mut [f64]) {
         let between = self.between(poses);
         let (axes, turn) = held(self.kind);
         for ((row, value), held) in rows.iter_mut().zip(between.translation.vector.iter()).zip(axes)
@@ -106,12 +118,12 @@ impl Ends {
     }
 
     /// Adds to `column(dof)`, of `ROWS` rows each, how the rows change with the DOF in its unit.
-    fn jacobian(
+    pub(super) fn jacobian(
         &self,
         kinematics: &ForwardKinematics,
         poses: &[Isometry3<f64>],
         configuration: &[f64],
-        (reach, units): (f64, &[f64]),
+        (reach, unit): (f64, impl Fn(usize) -> f64),
         mut add: impl FnMut(usize, [f64; ROWS]),
     ) {
         let [a, b] = self.world(poses);
@@ -125,7 +137,7 @@ impl Ends {
                 let frame = poses[step.parent].rotation * step.origin.rotation;
                 let child = &poses[step.child].translation.vector;
                 columns(step, &frame, child, &point, configuration, |dof, linear, angular| {
-                    let factor = sign * units[dof];
+                    let factor = sign * unit(dof);
                     let linear = to_a * linear * (factor / reach);
                     let angular = to_a * angular * factor;
                     let turned = match turn {
@@ -149,8 +161,6 @@ impl Ends {
 impl Loops {
     /// Writes how far each loop is from closed, for the link poses of a configuration.
     ///
-    /// # Panics
-    /// If `out` has fewer entries than there are loops.
     pub fn gaps_into(&self, poses: &[Isometry3<f64>], out: &mut [Gap]) {
         for (one, out) in self.loops.iter().zip(out) {
             *out = one.gap(poses);
@@ -159,12 +169,23 @@ impl Loops {
 
     /// How far each loop is from closed, in the order of the module.
     pub fn gaps(&self, poses: &[Isometry3<f64>]) -> Vec<Gap> {
-        self.loops.iter().map(|one| one.gap(poses)).collect()
+        let mut gaps = vec![Gap::default(); self.loops.len()];
+        self.gaps_into(poses, &mut gaps);
+        gaps
     }
 
     /// The sum of each coupling, which should be 0, in the order of the module.
     pub fn sums(&self, configuration: &[f64]) -> Vec<f64> {
-        self.couplings.iter().map(|one| one.at(configuration).value).collect()
+        let mut sums = vec![0.0; self.couplings.len()];
+        self.sums_into(configuration, &mut sums);
+        sums
+    }
+
+    /// Writes the sum of each coupling.
+    pub fn sums_into(&self, configuration: &[f64], out: &mut [f64]) {
+        for (one, out) in self.couplings.iter().zip(out) {
+            *out = one.at(configuration).value;
+        }
     }
 
     /// Whether all loops are closed and all couplings hold (SPEC 6.8.6), for a configuration and its link poses.
@@ -207,7 +228,7 @@ impl Loops {
         out.fill(0.0);
         let rows = group.num_rows();
         for (place, one) in group.loops.iter().enumerate() {
-            let scale = (self.reach, &*self.units);
+            let scale = (self.reach, |dof: usize| self.units[dof]);
             self.loops[*one].jacobian(kinematics, poses, configuration, scale, |dof, column| {
                 let Ok(at) = group.dofs.binary_search(&dof) else { return };
                 let begin = at * rows + place * ROWS;
@@ -221,8 +242,7 @@ impl Loops {
             let largest = one.largest(configuration, &self.units);
             for (dof, coefficients) in &one.terms {
                 let Ok(at) = group.dofs.binary_search(dof) else { continue };
-                let slope: f64 = slopes(coefficients, configuration[*dof]).iter().sum();
-                let slope = slope * self.units[*dof];
+                let slope = slope(coefficients, configuration[*dof]) * self.units[*dof];
                 out[at * rows + ROWS * group.loops.len() + place] += slope / largest;
             }
         }
@@ -230,8 +250,8 @@ impl Loops {
 }
 
 /// The sum of a coupling, and the sum of the absolute values of its summands.
-struct Summed {
-    value: f64,
+pub(super) struct Summed {
+    pub(super) value: f64,
     size: f64,
 }
 
@@ -242,7 +262,7 @@ impl Summed {
 }
 
 impl Sum {
-    fn at(&self, configuration: &[f64]) -> Summed {
+    pub(super) fn at(&self, configuration: &[f64]) -> Summed {
         let mut sum = Summed { value: self.constant, size: self.constant.abs() };
         for (dof, coefficients) in &self.terms {
             let mut power = 1.0;
@@ -263,6 +283,11 @@ impl Sum {
         let largest = slopes.fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }
+}
+
+/// The derivative of a term.
+pub(super) fn slope(coefficients: &[f64; 4], q: f64) -> f64 {
+    slopes(coefficients, q).iter().sum()
 }
 
 /// The derivatives of the summands of a term.

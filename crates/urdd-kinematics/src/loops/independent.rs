@@ -6,7 +6,7 @@ use super::model::Loops;
 use crate::forward::ForwardKinematics;
 
 /// A column counts while what is left of it exceeds this fraction of the largest column (SPEC 6.8.7).
-const RANK: f64 = 1e-5;
+pub(super) const RANK: f64 = 1e-5;
 
 /// A DOF that is rather to be independent follows others only if those that may follow leave less than this.
 const WELL: f64 = 1e-3;
@@ -82,7 +82,7 @@ fn better(best: Option<(usize, f64)>, next: (usize, f64)) -> Option<(usize, f64)
     }
 }
 
-fn norm(column: &[f64]) -> f64 {
+pub(super) fn norm(column: &[f64]) -> f64 {
     column.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 

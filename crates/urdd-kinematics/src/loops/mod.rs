@@ -5,8 +5,13 @@ mod close;
 mod equations;
 mod independent;
 mod model;
+mod rows;
+mod stacked;
+mod velocities;
 
 pub use close::{Closing, NotClosed, Scratch};
 pub use equations::Gap;
 pub use independent::Mobility;
 pub use model::Loops;
+pub(crate) use stacked::Linearised;
+pub use velocities::VelocityScratch;

@@ -178,6 +178,11 @@ impl Loops {
         self.loops.is_empty() && self.couplings.is_empty()
     }
 
+    /// Number of couplings.
+    pub fn num_couplings(&self) -> usize {
+        self.couplings.len()
+    }
+
     /// Number of loops.
     pub fn num_loops(&self) -> usize {
         self.loops.len()
@@ -186,6 +191,11 @@ impl Loops {
     /// The DOFs that loops and couplings tie to each other, directly or through others: for each such set, ascending.
     pub fn groups(&self) -> impl Iterator<Item = &[usize]> {
         self.groups.iter().map(|group| &*group.dofs)
+    }
+
+    /// The DOFs of couplings, some more than once.
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = usize> {
+        self.couplings.iter().flat_map(|one| one.terms.iter().map(|(dof, _)| *dof))
     }
 
     /// The DOFs that a loop or coupling depends on, ascending.

@@ -8,6 +8,7 @@ mod carrying;
 mod changing;
 mod gravity;
 mod inverse;
+mod loops;
 mod motion;
 mod nearness;
 mod opening;
