@@ -4,7 +4,8 @@ import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
 import { Trapped } from "./engine/link";
 import type { Engine } from "./engine/client";
-import type { Dof, Report, RobotSource, ShapeKind } from "./engine/protocol";
+import type { Dof, InverseQuestion, InverseSolution, Report, ShapeKind } from "./engine/protocol";
+import type { RobotSource } from "./engine/calls";
 import type { Drafting } from "./here/draft";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
@@ -29,6 +30,7 @@ const REST = 300;
 export class App {
   readonly store = new StateStore();
   private readonly poses: Latest<number[]>;
+  private readonly reaching: Latest<number[]>;
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
   /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
@@ -50,8 +52,17 @@ export class App {
   ) {
     this.poses = new Latest(async (q) => {
       const robot = this.store.now.robot;
+      const closing = robot?.about.loops ? engine.ask("loopErrors", { q }) : null;
       const poses = await engine.ask("linkPoses", { q });
-      if (this.store.now.robot === robot) this.store.set({ poses });
+      const loops = await closing;
+      if (this.store.now.robot === robot) this.store.set({ poses, loops });
+    });
+    this.reaching = new Latest(async (to) => {
+      const { robot, q: from } = this.store.now;
+      const found = await engine.ask("followLoops", { from, to });
+      if (this.store.now.robot !== robot) return;
+      this.move(found.configuration);
+      if (!found.is_closed) this.note("The loops do not close from here.");
     });
     this.proximity = new Latest(async ({ q, shapes }) => {
       const { robot, tab } = this.store.now;
@@ -103,13 +114,14 @@ export class App {
       const robot = new RobotModel(entry, source, about, files, parts, named);
       if (robot.links.length === 0) throw new Error(why(robot));
       const view = old ? carried(old, robot, before) : null;
-      const q = view?.q ?? about.zero ?? robot.dofs.map(() => 0);
+      const q = view?.q ?? about.loops?.reference ?? about.zero ?? robot.dofs.map(() => 0);
       const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;
+      const loops = about.loops ? await this.engine.ask("loopErrors", { q }) : null;
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];
       const { making, failure, stopped } = entry;
-      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure, stopped } });
+      this.store.set({ ...view, robot, q, poses, loops, loading: null, making: { making, failure, stopped } });
       void this.findAbsent(robot);
       return robot;
     } catch (error) {
@@ -161,6 +173,7 @@ export class App {
       making: NOT_MADE,
       q: [],
       poses: null,
+      loops: null,
       pair: null,
       contacts: null,
       absent: [],
@@ -205,10 +218,25 @@ export class App {
     this.measure();
   }
 
-  setDof(dof: number, value: number): void {
+  /** Moves the robot toward a configuration: with closed loops, as far as they go, unless they may open. */
+  async reach(q: number[]): Promise<void> {
+    const { robot, keepClosed } = this.store.now;
+    if (!robot?.about.loops || !keepClosed) {
+      this.move(q);
+      return;
+    }
+    if (q.every(Number.isFinite)) await this.reaching.done(q);
+  }
+
+  /** Searches for a configuration in which a link is at a place, with closed loops unless they may open. */
+  solve(question: InverseQuestion): Promise<InverseSolution> {
+    return this.engine.ask("inverseKinematics", { ...question, open_loops: !this.store.now.keepClosed });
+  }
+
+  setDof(dof: number, value: number): Promise<void> {
     const q = this.store.now.q.slice();
     q[dof] = value;
-    this.move(q);
+    return this.reach(q);
   }
 
   /** Requests distances and collisions. The first picture has priority. */

@@ -1,7 +1,8 @@
 /** Two robots compared link by link, by name, for a picture; `urdd diff` compares more. */
 
 import type { Engine } from "./engine/client";
-import type { Dof, Joint, Link, LinkMesh, Vector } from "./engine/protocol";
+import type { Dof, Joint, Link, Vector } from "./engine/protocol";
+import type { LinkMesh } from "./engine/calls";
 import type { RobotModel } from "./model";
 import { dofValue, length, lengths, name, number } from "./ui/format";
 

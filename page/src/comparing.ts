@@ -5,7 +5,7 @@ import { message } from "./app";
 import { changesOf, sameValues } from "./compared";
 import type { Compared, Shapes } from "./compared";
 import type { Engine } from "./engine/client";
-import type { LinkMesh } from "./engine/protocol";
+import type { LinkMesh } from "./engine/calls";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import type { Entry } from "./model";

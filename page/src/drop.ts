@@ -1,6 +1,6 @@
 /** Folders and files that are dropped or selected: a URDD, descriptions with the files that they may name, or such files. */
 
-import type { RobotSource } from "./engine/protocol";
+import type { RobotSource } from "./engine/calls";
 import { check, MAX_BYTES, urddFolder } from "./given";
 import { lost, sizeOf } from "./here/protocol";
 import type { Given } from "./here/protocol";

@@ -24,7 +24,8 @@ export class Hand {
     const { canvas } = stage.view;
     this.follow = new Latest(async ({ x, y, drag }) => {
       const q = await drag.to(stage.view.ray(x, y).ray, app.store.now.q);
-      if (q) app.move(q);
+      if (q && drag.isSolved) app.move(q);
+      else if (q) await app.reach(q);
     });
     this.under = new Latest(({ x, y }) => {
       this.hover(x, y);
@@ -51,10 +52,9 @@ export class Hand {
     if (picked && poses && robot.moves) {
       const { link } = picked.of;
       const eye = view.camera.position;
-      const solve: Solve = (question) => this.app.engine.ask("inverseKinematics", question);
+      const solve: Solve = (question) => this.app.solve(question);
       const joint = robot.moving(link);
-      const above = [...new Set(robot.path(link).flatMap((joint) => robot.dofsOf(joint)))];
-      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, solve);
+      if (event.shiftKey) this.drag = pull(poses, link, robot.pulledBy(link), picked.point, eye, solve);
       else if (joint !== null) {
         this.drag =
           dragJoint(robot, poses, joint, picked.point, eye) ??

@@ -1,6 +1,7 @@
 /** An open robot: the engine's data, and what the page derives from it. */
 
-import type { About, Dof, FileEntry, Joint, Link, RobotSource } from "./engine/protocol";
+import type { About, Dof, FileEntry, Joint, Link } from "./engine/protocol";
+import type { RobotSource } from "./engine/calls";
 import type { NamedConfiguration } from "./configurations";
 import type { RobotPart } from "./parts";
 
@@ -128,9 +129,26 @@ export class RobotModel {
     return found.dofs ?? [];
   }
 
+  /** The DOFs above a link, and those that loops tie to others: what may move where it is pulled. */
+  pulledBy(link: number): number[] {
+    const loops = this.about.loops;
+    const dofs = (link: number): number[] => this.path(link).flatMap((joint) => this.dofsOf(joint));
+    const tied = loops?.loops.flatMap(({ links: [a, b] }) => {
+      const [ofA, ofB] = [new Set(dofs(a)), new Set(dofs(b))];
+      return [...[...ofA].filter((dof) => !ofB.has(dof)), ...[...ofB].filter((dof) => !ofA.has(dof))];
+    });
+    return [...new Set([...dofs(link), ...(tied ?? []), ...(loops?.couplings.flatMap(({ dofs }) => dofs) ?? [])])];
+  }
+
   /** The first movable joint above a link. */
   moving(link: number): number | null {
     return this.path(link).find((joint) => this.dofsOf(joint).length > 0) ?? null;
+  }
+
+  /** Whether the DOF follows others, by loops. */
+  follows(dof: number): boolean {
+    const { loops } = this.about;
+    return loops !== null && !loops.independent.includes(dof);
   }
 
   /** The position of a joint with one DOF; null for others. */

@@ -1,6 +1,7 @@
 /** The source of the page's robots: `urdd view`, a static site, or a file with a robot inside. */
 
-import type { Explanation, FileEntry, Report, RobotSource } from "./engine/protocol";
+import type { Explanation, FileEntry, Report } from "./engine/protocol";
+import type { RobotSource } from "./engine/calls";
 import type { Keeper } from "./here/keeper";
 import * as inline from "./inline";
 import { unknown } from "./model";

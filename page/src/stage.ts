@@ -8,6 +8,7 @@ import type { RobotModel } from "./model";
 import { pairOf, same as samePair } from "./panels/proximity";
 import { looks } from "./scene/dress";
 import { Beside } from "./beside";
+import { Closings } from "./scene/closings";
 import { Ghosts } from "./scene/ghosts";
 import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
@@ -60,6 +61,7 @@ export class Stage {
   private readonly ground = new Ground();
   private readonly overlays = new Overlays();
   private readonly names: Names;
+  private readonly closings: Closings;
   private readonly witness: Segment;
   readonly measure: Measure;
   private readonly beside: Beside;
@@ -90,6 +92,7 @@ export class Stage {
     }
     this.view = new View(canvas);
     this.names = new Names(this.view);
+    this.closings = new Closings(this.view);
     const howto = h(
       "p",
       { class: "howto" },
@@ -103,6 +106,7 @@ export class Stage {
       { class: "stage" },
       canvas,
       this.names.element,
+      this.closings.labels,
       this.witness.label,
       this.measure.segment.label,
       h("div", { class: "over" }, views, absent(app), comparison(app)),
@@ -146,7 +150,7 @@ export class Stage {
       howto.classList.toggle("still", !robot?.moves);
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
-    this.view.scene.add(this.ground.group, this.overlays.group, this.ghosts.group);
+    this.view.scene.add(this.ground.group, this.overlays.group, this.closings.group, this.ghosts.group);
     this.view.scene.add(this.witness.group, this.measure.segment.group);
     this.listen();
   }
@@ -171,11 +175,12 @@ export class Stage {
     addEventListener("urdd-theme", theme);
     theme();
     store.on(["robot"], ({ robot }) => this.take(robot));
-    store.on(["poses"], ({ poses, robot }) => {
+    store.on(["poses"], ({ poses, robot, loops }) => {
       if (!poses || !robot) return;
       this.scene?.pose(poses);
       this.overlays.pose(poses);
       this.names.pose(poses);
+      this.closings.pose(poses, loops, this.size);
       this.view.castShadows();
       this.view.invalidate();
     });
@@ -246,6 +251,7 @@ export class Stage {
       // The camera stays while the same robot is reloaded.
       if (!this.app.store.now.loading) this.showing = this.lookedAt = null;
       this.names.show([]);
+      this.closings.make(null, false);
       return;
     }
     this.scene = new RobotScene(robot.links.length);
@@ -322,7 +328,7 @@ export class Stage {
     });
   }
 
-  private over({ robot, overlays, frameSize, selected, poses }: State): void {
+  private over({ robot, overlays, frameSize, selected, poses, loops }: State): void {
     this.ground.group.visible = overlays.grid;
     this.scale.textContent = overlays.grid ? `A square of the ground: ${length(this.ground.step)}` : "";
     if (robot && this.scene) {
@@ -330,10 +336,12 @@ export class Stage {
       this.overlays.make(robot, overlays, this.size, frameSize ?? this.frameSize, link);
       const named = overlays.frames && overlays.names ? robot.links.map(({ name }, index) => ({ name, index })) : [];
       // The selected link is always named.
+      this.closings.make(robot, overlays.loops);
       this.names.show(named.sort((a, b) => Number(b.index === link) - Number(a.index === link)));
       if (poses) {
         this.overlays.pose(poses);
         this.names.pose(poses);
+        this.closings.pose(poses, loops, this.size);
       }
     }
     this.view.invalidate();

@@ -1,7 +1,7 @@
 /** The state of the page, and listeners for its changes. */
 
 import { SHAPE_KINDS } from "./engine/protocol";
-import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+import type { LoopErrors, ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
@@ -38,7 +38,7 @@ export const LAYER_HINTS: Partial<Record<LayerKind, string>> = {
   plain: "The meshes that all other shapes are computed from",
 };
 
-export const OVERLAYS = ["wireframe", "frames", "names", "axes", "com", "inertia", "path", "grid"] as const;
+export const OVERLAYS = ["wireframe", "frames", "names", "axes", "com", "inertia", "path", "loops", "grid"] as const;
 export type OverlayKind = (typeof OVERLAYS)[number];
 
 export const OVERLAY_NAMES: Record<OverlayKind, string> = {
@@ -49,6 +49,7 @@ export const OVERLAY_NAMES: Record<OverlayKind, string> = {
   com: "Centres of mass",
   inertia: "Inertia boxes",
   path: "Path to the root",
+  loops: "Ends of loops",
   grid: "Ground",
 };
 
@@ -82,6 +83,10 @@ export interface State {
   q: number[];
   /** x, y, z and the quaternion w, x, y, z of each link. */
   poses: Float64Array | null;
+  /** How far the loops of the robot are from closed; null for a tree. */
+  loops: LoopErrors | null;
+  /** Whether DOFs that follow do so where a person moves others. */
+  keepClosed: boolean;
   selected: Part | null;
   hovered: Part | null;
   layers: Record<LayerKind, Layer>;
@@ -169,6 +174,8 @@ export function initial(): State {
     faults: new Map(),
     q: [],
     poses: null,
+    loops: null,
+    keepClosed: true,
     selected: null,
     hovered: null,
     layers: Object.fromEntries(LAYERS.map((layer) => [layer, { on: layer === "original", opacity: 1 }])) as Record<
@@ -183,6 +190,7 @@ export function initial(): State {
       com: false,
       inertia: false,
       path: false,
+      loops: true,
       grid: true,
     },
     frameSize: null,

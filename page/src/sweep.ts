@@ -33,19 +33,20 @@ export class Sweep {
     const speed = Math.min(SPEED[found?.unit ?? "rad"], own > 0 ? own : Infinity);
     const time = 1000 * Math.max(SHORTEST, (2 * Math.PI * half) / speed);
     let last = q;
-    const step = (now: number): void => {
+    const step = async (now: number): Promise<void> => {
       if (turn !== this.turn) return;
       const share = Math.min(1, Math.max(0, now - start) / time);
       if (this.app.store.now.q === last) {
-        this.app.setDof(dof, share < 1 ? middle + half * Math.sin(phase + 2 * Math.PI * share) : first);
+        await this.app.setDof(dof, share < 1 ? middle + half * Math.sin(phase + 2 * Math.PI * share) : first);
+        if (turn !== this.turn) return;
         last = this.app.store.now.q;
         if (share < 1) {
-          requestAnimationFrame(step);
+          requestAnimationFrame((now) => void step(now));
           return;
         }
       }
       this.moving = null;
     };
-    requestAnimationFrame(step);
+    requestAnimationFrame((now) => void step(now));
   }
 }

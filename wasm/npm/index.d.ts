@@ -1,11 +1,13 @@
 import type {
   About,
   Clearances,
+  ClosedLoops,
   CollisionModel,
   Description,
   Explanation,
   InverseQuestion,
   InverseSolution,
+  LoopErrors,
   PairDistance,
   Pose,
   Quaternion,
@@ -392,6 +394,30 @@ export class Robot {
       explain?: boolean;
     },
   ): InverseSolution;
+  /**
+   * How far a configuration is from closed: the gap of each kinematic loop (metres, rad), and the sum of each coupling. A
+   * robot without `loops_module` has neither, and is closed.
+   */
+  loopErrors(q: Iterable<number>): LoopErrors;
+  /**
+   * The closed configuration that is near, within the bounds. The DOFs of `held` keep their values. Where none is found,
+   * `is_closed` is false, and the configuration is the one with the smallest gaps. Start from the last closed one of a motion.
+   */
+  closeLoops(q: Iterable<number>, held?: number[]): ClosedLoops;
+  /** The DOFs that move freely at a closed configuration, and those that follow from them. */
+  freeDofs(q: Iterable<number>): { independent: number[]; dependent: number[] };
+  /** The left-hand side of each equation of the loops and couplings, 0 where it holds: metres, rad. */
+  loopResiduals(q: Iterable<number>): number[];
+  /** The derivatives of the equations: for each, one number for each DOF. Rows that say the same as others are normal. */
+  loopJacobian(q: Iterable<number>): number[][];
+  /**
+   * The velocities of all DOFs, rad/s or m/s, that keep the loops closed, for those of the independent ones
+   * (`about.loops.independent`; all for a tree); null where the others do not follow from these.
+   */
+  loopVelocities(
+    q: Iterable<number>,
+    independent: Iterable<number>,
+  ): number[] | null;
   /** The distance and the closest points of each pair of shapes that is not skipped. */
   closestPoints(q: Iterable<number>, kind?: ShapeKind): Distance[];
   /** The nearest pairs, among obstacles where they are given. */

@@ -189,6 +189,32 @@ export class Robot {
     return this.#ask({ ask: "inverse_kinematics", ...question });
   }
 
+  loopErrors(q) {
+    return this.#loops({ errors: { q: [...q] } });
+  }
+
+  closeLoops(q, held = []) {
+    return this.#loops({ close: { q: [...q], held } });
+  }
+
+  freeDofs(q) {
+    return this.#loops({ free_dofs: { q: [...q] } });
+  }
+
+  loopResiduals(q) {
+    return this.#loops({ residuals: { q: [...q] } });
+  }
+
+  loopJacobian(q) {
+    return this.#loops({ jacobian: { q: [...q] } });
+  }
+
+  loopVelocities(q, independent) {
+    return this.#loops({
+      velocities: { q: [...q], independent: [...independent] },
+    });
+  }
+
   closestPoints(q, kind = "pieces") {
     return this.#ask({ ask: "closest_points", q: [...q], kind });
   }
@@ -274,6 +300,10 @@ export class Robot {
   #open() {
     if (this.#handle === 0) throw new Error("this robot is closed");
     return this.#handle;
+  }
+
+  #loops(about) {
+    return this.#ask({ ask: "loops", about });
   }
 
   /** The kind of shapes alone, or all of what is asked about. */

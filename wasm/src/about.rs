@@ -1,5 +1,6 @@
 //! The description of a robot: names, joints, bounds, mass, and the paths of its meshes.
 
+use crate::loops;
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 use urdd_document::consumer::{self, ConsumerModules};
@@ -32,6 +33,7 @@ const READ: &[ModuleKind] = &[
 ///   `dofs`, `mimic` (`dof`, `multiplier`, `offset`), `limit` as in the URDF.
 /// - `dofs`: `name`, `joint`, `unit`, `bounds`, `is_limited` (without, bounds are a range to sample from). `zero` and
 ///   `middle` are configurations.
+/// - `loops`: [`loops::about`].
 /// - `meshes`: by kind, the meshes of each link, each with `glb` for display and `read` for the file that is cheapest
 ///   to read.
 pub fn about(robot: &Robot) -> Result<Value, String> {
@@ -54,6 +56,10 @@ pub fn about(robot: &Robot) -> Result<Value, String> {
         faults.push(json!({ "module": Value::Null, "reason": error.to_string() }));
     }
     let configurations = configurations.ok();
+    let closing = loops::about(robot).unwrap_or_else(|error| {
+        faults.push(json!({ "module": ModuleKind::Loops.name(), "reason": error.to_string() }));
+        Value::Null
+    });
     Ok(json!({
         "name": part.robot().map(|robot| &robot.name),
         "folder": robot.folder_name(),
@@ -62,6 +68,7 @@ pub fn about(robot: &Robot) -> Result<Value, String> {
         "links": links(&part, modules.as_ref()),
         "joints": joints(&part, modules.as_ref()),
         "dofs": modules.as_ref().map(|modules| dofs(modules, configurations)),
+        "loops": closing,
         "zero": configurations.map(Configurations::zero),
         "middle": configurations.map(Configurations::middle),
         "meshes": {

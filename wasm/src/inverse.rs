@@ -35,6 +35,9 @@ pub struct InverseQuestion {
     /// The distance that the solution keeps from obstacles, metres.
     #[serde(default)]
     margin: f64,
+    /// Whether the kinematic loops of the robot may be open in the solution.
+    #[serde(default)]
+    open_loops: bool,
     /// Whether to find out why a target is not reached.
     #[serde(default)]
     explain: bool,
@@ -71,6 +74,7 @@ impl InverseQuestion {
             locked: self.locked(),
             posture: self.posture.clone(),
             explain: self.explain,
+            open_loops: self.open_loops,
             ..InverseSettings::default()
         };
         let target = match self.weights {

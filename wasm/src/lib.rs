@@ -28,6 +28,8 @@ mod import;
 mod inverse;
 #[cfg(feature = "lint")]
 mod lint;
+#[cfg(feature = "robot")]
+mod loops;
 mod memory;
 #[cfg(feature = "robot")]
 mod mesh;

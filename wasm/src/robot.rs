@@ -16,6 +16,7 @@ use crate::bodies::{Obstacles, carrying};
 use crate::collisions::{About, Among, Kind, pair, to_obstacle};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;
+use crate::loops::LoopQuestion;
 use crate::pairs::Pairs;
 use crate::sources::sources;
 use crate::{answer, memory, model};
@@ -106,6 +107,8 @@ enum Question {
     Clamp { q: Vec<f64> },
     /// [`crate::inverse`].
     InverseKinematics(InverseQuestion),
+    /// [`crate::loops`].
+    Loops { about: LoopQuestion },
     /// The visual and collision elements of the URDF, with the files of meshes.
     Sources,
     /// `link`, `piece`, and a box or a sphere as `solid`, for each shape.
@@ -231,6 +234,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
                 None => question.solve(robot, Some(&carried), &World::default()),
             }
         }
+        Question::Loops { about } => about.answer(&handle.robot).map_err(said),
         Question::Sources => sources(&handle.robot),
         Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
         Question::ClosestPoints { q, kind } => {

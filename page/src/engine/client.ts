@@ -2,7 +2,7 @@
 
 import { Link } from "./link";
 import type { Progress } from "./link";
-import type { CallName, Calls, RobotSource } from "./protocol";
+import type { CallName, Calls, RobotSource } from "./calls";
 
 export class Engine {
   private readonly link: Link<Calls>;

@@ -1,6 +1,6 @@
 /** Messages between the page and the worker that owns the WebAssembly module. */
 
-import type { GeometryKind, JointType, SkipEdit } from "../../../wasm/npm/modules";
+import type { GeometryKind, JointType, LoopKind, SkipEdit } from "../../../wasm/npm/modules";
 
 export type { JointType, SkipEdit };
 
@@ -75,6 +75,43 @@ export interface Fault {
 }
 
 /** The description of a robot: see `wasm/src/about.rs`. */
+/** A kinematic loop: the frames in two links that it holds together. */
+export interface Loop {
+  name: string;
+  kind: LoopKind;
+  links: [number, number];
+  /** In the frames of the links. */
+  frames: [Pose, Pose];
+  /** How far its ends may stay apart, m and rad. */
+  tolerances: [number, number];
+}
+
+/** What closes the loops of a robot. */
+export interface Loops {
+  loops: Loop[];
+  /** Equations between DOFs. */
+  couplings: { name: string; dofs: number[] }[];
+  /** The DOFs that move freely; the others follow. */
+  independent: number[];
+  /** A closed configuration. */
+  reference: number[];
+}
+
+/** How far a configuration is from closed. */
+export interface LoopErrors {
+  /** Of each loop: metres and rad. */
+  gaps: { position: number; rotation: number }[];
+  /** Of each coupling; 0 where it holds. */
+  sums: number[];
+  is_closed: boolean;
+}
+
+/** A closed configuration near another one; where none was found, the one with the smallest gaps. */
+export interface ClosedLoops {
+  configuration: number[];
+  is_closed: boolean;
+}
+
 export interface About {
   name: string | null;
   folder: string;
@@ -85,6 +122,8 @@ export interface About {
   dofs: Dof[] | null;
   zero: number[] | null;
   middle: number[] | null;
+  /** Null for a tree. */
+  loops: Loops | null;
   meshes: {
     original: OriginalMesh[] | null;
     plain: MeshPaths[][] | null;
@@ -231,6 +270,8 @@ export interface InverseQuestion {
   quaternion_wxyz?: Quaternion;
   /** The DOFs that may change; all by default. */
   dofs?: number[];
+  /** Whether kinematic loops may be open in the solution. */
+  open_loops?: boolean;
 }
 
 export interface InverseSolution {
@@ -239,16 +280,7 @@ export interface InverseSolution {
   rotation_error: number;
   reached: boolean;
   /** `unknown` unless it was asked why a target is not reached. */
-  verdict: "reached" | "refused" | "limits" | "out of reach" | "unknown";
-}
-
-/** The triangles of a mesh, or an error. */
-export interface LinkMesh {
-  link: number;
-  piece: number;
-  positions?: Float32Array;
-  indices?: Uint32Array;
-  error?: string;
+  verdict: "reached" | "refused" | "limits" | "out of reach" | "loops" | "unknown";
 }
 
 export type Severity = "error" | "warning" | "info";
@@ -359,38 +391,3 @@ export interface FileEntry {
   /** Its path on a site. */
   at?: string;
 }
-
-/** The source of a robot's files. */
-export type RobotSource =
-  | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[]; revision: string | null }
-  | { kind: "local"; name: string; files: { path: string; file: Blob }[] }
-  | { kind: "zip"; name: string; bytes: ArrayBuffer };
-
-/** The worker's queries and answers, by name. */
-export interface Calls {
-  /** The module: its address, or its bytes, compressed by brotli. */
-  init: [{ wasm: string | ArrayBuffer }, null];
-  open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
-  linkPoses: [{ q: number[] }, Float64Array];
-  random: [{ k: number }, number[]];
-  file: [{ path: string }, ArrayBuffer];
-  meshes: [{ kind: "plain" | "hulls" | "pieces" }, LinkMesh[]];
-  /** The triangles of files: `link` is the index of the file in the query. */
-  triangles: [{ paths: string[] }, LinkMesh[]];
-  sources: [Record<string, never>, SourceShape[]];
-  inverseKinematics: [InverseQuestion, InverseSolution];
-  shapes: [{ kind: ShapeKind }, Shape[]];
-  /** The `k` nearest pairs, or all contacts if there are more. */
-  proximity: [{ q: number[]; kind: ShapeKind; k: number }, ProximityAnswer];
-  skips: [{ kind: ShapeKind }, SkipsAnswer];
-  editSkips: [{ kind: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
-  samples: [Record<string, never>, { samples: Sample[] }];
-  explain: [{ code: string }, Explanation];
-  validate: [{ name: string }, Report];
-  /** The files of any .zip; null if it is one of a URDD, which stays as it is. */
-  unzip: [{ zip: Blob }, { path: string; file: Blob }[] | null];
-  /** The module's memory, bytes. */
-  memory: [Record<string, never>, number];
-}
-
-export type CallName = keyof Calls;

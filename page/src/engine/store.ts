@@ -1,7 +1,8 @@
 /** The files of one robot, and those that the module already has. */
 
 import type { Urdd } from "./module";
-import type { FileEntry, RobotSource } from "./protocol";
+import type { FileEntry } from "./protocol";
+import type { RobotSource } from "./calls";
 
 /** Number of files fetched at once. */
 const AT_ONCE = 8;
@@ -13,6 +14,7 @@ const ABOUT = [
   "chain",
   "dof",
   "bounds",
+  "loops",
   "original_meshes",
   "plain_meshes",
   "convex_hull_meshes",

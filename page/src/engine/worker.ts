@@ -2,12 +2,14 @@
 
 import { decompress } from "brotli/decompress";
 import { check, isUrddArchive } from "../given";
+import { follow } from "./follow";
 import { compiled, contents, started } from "./module";
 import type { Urdd } from "./module";
 import { serve } from "./serve";
 import type { Handlers, OnProgress } from "./serve";
 import { Store } from "./store";
-import type { About, Calls, Clearances, CollisionModel, LinkMesh, MeshPaths, ShapeKind } from "./protocol";
+import type { About, Clearances, ClosedLoops, CollisionModel, MeshPaths, ShapeKind } from "./protocol";
+import type { Calls, LinkMesh } from "./calls";
 
 const NO_VALIDATOR = "This page has no validator: drop the robot on the page of `urdd view`.";
 
@@ -30,6 +32,10 @@ function validator(): Urdd {
 function opened(): { store: Store; about: About } {
   if (!store || !about) throw new Error("no robot is open");
   return { store, about };
+}
+
+function loops(about: object): unknown {
+  return engine().ask(open(), { ask: "loops", about });
 }
 
 /** The robot's handle. */
@@ -89,6 +95,16 @@ const handlers: Handlers<Calls> = {
 
   inverseKinematics(question) {
     return engine().ask(open(), { ask: "inverse_kinematics", ...question }) as Calls["inverseKinematics"][1];
+  },
+
+  loopErrors({ q }) {
+    return loops({ errors: { q } }) as Calls["loopErrors"][1];
+  },
+
+  followLoops({ from, to }) {
+    const known = opened().about.loops;
+    if (!known) return { configuration: to, is_closed: true };
+    return follow(known, from, to, (q, held) => loops({ close: { q, held } }) as ClosedLoops);
   },
 
   async shapes({ kind }) {

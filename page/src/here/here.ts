@@ -2,7 +2,8 @@
 
 import type { App } from "../app";
 import { message } from "../app";
-import type { Report, RobotSource } from "../engine/protocol";
+import type { Report } from "../engine/protocol";
+import type { RobotSource } from "../engine/calls";
 import { Latest } from "../latest";
 import type { Entry } from "../model";
 import type { Draft, Drafting } from "./draft";

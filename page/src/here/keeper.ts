@@ -1,6 +1,7 @@
 /** Who has the robots that this page makes: the site asks it as it asks a server. */
 
-import type { Report, RobotSource } from "../engine/protocol";
+import type { Report } from "../engine/protocol";
+import type { RobotSource } from "../engine/calls";
 import type { Entry } from "../model";
 
 export interface Keeper {

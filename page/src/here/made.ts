@@ -1,7 +1,8 @@
 /** A robot that this page makes of a description: at first what the picture needs, then its pieces, then all. */
 
 import { message } from "../app";
-import type { Report, RobotSource } from "../engine/protocol";
+import type { Report } from "../engine/protocol";
+import type { RobotSource } from "../engine/calls";
 import type { Progress } from "../engine/link";
 import { unknown } from "../model";
 import type { Entry } from "../model";

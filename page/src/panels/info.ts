@@ -1,7 +1,7 @@
 /** The robot's size, mass, modules and files, and all data of the selected link or joint. */
 
 import type { App } from "../app";
-import type { Inertial } from "../engine/protocol";
+import type { Inertial, Loops } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
@@ -112,6 +112,14 @@ function ofJoint(app: App, robot: RobotModel, index: number, q: readonly number[
   ];
 }
 
+function ofLoops({ loops, couplings, independent }: Loops): string {
+  const kinds = new Map<string, number>();
+  for (const { kind } of loops) kinds.set(kind, (kinds.get(kind) ?? 0) + 1);
+  const all = [...kinds].map(([kind, many]) => `${many} ${kind.toLowerCase()}`);
+  if (couplings.length > 0) all.push(count(couplings.length, "coupling"));
+  return `${all.join(", ")}; ${count(independent.length, "DOF")} ${independent.length === 1 ? "moves" : "move"} freely`;
+}
+
 function ofRobot(robot: RobotModel): Node[] {
   const { about } = robot;
   const total = robot.links.reduce((sum, link) => sum + (link.inertial?.mass ?? 0), 0);
@@ -132,6 +140,7 @@ function ofRobot(robot: RobotModel): Node[] {
       line("Links", String(robot.links.length)),
       line("Joints", `${robot.joints.length}, ${robot.joints.filter((joint) => joint.mimic).length} of them mimic`),
       line("DOFs", about.dofs ? String(robot.dofs.length) : "not known"),
+      about.loops && line("Loops", ofLoops(about.loops)),
       line("Mass", total > 0 ? `${number(total, 4)} kg` : "not given"),
       pieces > 0 && line("Convex pieces", String(pieces)),
       line("Files", `${count(robot.files.length, "file")}, ${bytes(size)}`),

@@ -18,6 +18,7 @@ import type { RobotModel } from "../model";
 import type { NamedConfiguration } from "../configurations";
 import { Sweep } from "../sweep";
 import { refine } from "../ui/slider";
+import { loops } from "./loops";
 import { naming } from "./naming";
 
 interface Control {
@@ -76,7 +77,7 @@ export function joints(app: App): HTMLElement {
     "aria-label": "Named configurations",
   });
   const empty = h("p", { class: "empty" });
-  const panel = h("div", { class: "panel" }, actions, named, naming(app), sample, list, empty);
+  const panel = h("div", { class: "panel" }, actions, named, naming(app), loops(app), sample, list, empty);
 
   const group = (robot: RobotModel, joint: number): HTMLElement => {
     const found = robot.joints[joint];
@@ -85,6 +86,7 @@ export function joints(app: App): HTMLElement {
       other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : [],
     );
     const [first] = dofs;
+    const follows = (dof: number): boolean => robot.follows(dof);
     const sweep =
       dofs.length === 1
         ? button(
@@ -103,7 +105,11 @@ export function joints(app: App): HTMLElement {
       "div",
       { class: "heading" },
       h("span", { class: "name cut", title: name(found?.name ?? "") }, ...cut(name(found?.name ?? ""))),
-      h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
+      h(
+        "span",
+        { class: "kind" },
+        (found?.type ?? "").toLowerCase() + (dofs.every(follows) && first !== undefined ? " · follows" : ""),
+      ),
       sweep,
     );
     heading.addEventListener("click", () => app.select({ kind: "joint", index: joint }));
@@ -157,12 +163,12 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "limit high" }, dofValue(upper, unit)),
     );
     slider.addEventListener("input", () => {
-      app.setDof(dof, Number(slider.value));
+      void app.setDof(dof, Number(slider.value));
     });
-    slider.addEventListener("dblclick", () => app.setDof(dof, robot.about.zero?.[dof] ?? 0));
+    slider.addEventListener("dblclick", () => void app.setDof(dof, robot.about.zero?.[dof] ?? 0));
     entry.addEventListener("change", () => {
       const value = fromShown(Number(entry.value), unit);
-      if (entry.value !== "" && Number.isFinite(value)) app.setDof(dof, value);
+      if (entry.value !== "" && Number.isFinite(value)) void app.setDof(dof, value);
     });
     controls.push({ dof, slider, entry, row });
     return row;
@@ -222,7 +228,7 @@ export function joints(app: App): HTMLElement {
 async function random(app: App, k: number): Promise<void> {
   if (!app.store.now.robot?.moves) return;
   try {
-    app.move(await app.engine.ask("random", { k }));
+    await app.reach(await app.engine.ask("random", { k }));
   } catch (error) {
     app.note(message(error));
   }

@@ -43,6 +43,9 @@ export function shapes(app: App): HTMLElement {
     );
     return { kind, box, row: h("div", { class: "check" }, box, h("label", { for: box.id }, OVERLAY_NAMES[kind])) };
   });
+  app.store.on(["robot"], ({ robot }) => {
+    for (const { kind, row } of overlays) row.hidden = kind === "loops" && !robot?.about.loops;
+  });
   // A tenth of a millimetre to ten metres.
   const size = h("input", { type: "range", id: "frame-size", min: -4, max: 1, step: 0.01 });
   const sizeText = h("span", { class: "kind" });

@@ -29,6 +29,8 @@ export function jointFrame(model: RobotModel, poses: Float64Array, joint: number
 }
 
 export interface Drag {
+  /** Whether loops are closed in its configurations already. */
+  isSolved: boolean;
   /** The configuration for a position of the pointer; null if there is none. */
   to(ray: Ray, q: number[]): Promise<number[] | null>;
 }
@@ -79,6 +81,7 @@ export function dragJoint(
     return turned;
   };
   return {
+    isSolved: false,
     to(ray, q) {
       first ??= q[dof] ?? 0;
       const way = moved(ray);
@@ -106,6 +109,7 @@ export function pull(
   const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
   const facing = new Plane().setFromNormalAndCoplanarPoint(at.clone().sub(eye).normalize(), at);
   return {
+    isSolved: true,
     async to(ray, q) {
       const target = ray.intersectPlane(facing, new Vector3());
       if (!target) return null;

@@ -37,7 +37,7 @@ export class Gizmo {
       const { link } = this;
       if (link === null) return;
       const { x, y, z, w } = quaternion;
-      const found = await app.engine.ask("inverseKinematics", {
+      const found = await app.solve({
         q: app.store.now.q,
         link,
         position: position.toArray(),

@@ -40,13 +40,25 @@ export class Segment {
     this.group.add(this.line, ...this.balls);
     this.group.traverse((object) => (object.renderOrder = 10));
     this.show(null, 1);
-    view.before.push(() => this.follow());
+    view.before.push(this.place);
+  }
+
+  /** Removes what it drew and its label. */
+  remove(): void {
+    this.label.remove();
+    this.line.geometry.dispose();
+    this.line.material.dispose();
+    for (const ball of this.balls) {
+      ball.geometry.dispose();
+      ball.material.dispose();
+    }
+    this.view.before.splice(this.view.before.indexOf(this.place), 1);
   }
 
   /** Shows two points of a robot of this size, metres; or nothing. */
   show(shown: Shown | null, size: number): void {
     this.group.visible = shown !== null;
-    this.label.hidden = shown === null;
+    this.label.hidden = !shown?.text;
     this.middle = null;
     if (shown) {
       const { points, text, alarming = false } = shown;
@@ -58,17 +70,18 @@ export class Segment {
         ball.position.copy(points[k] ?? points[0]);
         ball.scale.setScalar(size * 0.006);
       });
-      this.middle = points[0].clone().add(points[1]).divideScalar(2);
+      // Without a text there is no label.
+      this.middle = text === "" ? null : points[0].clone().add(points[1]).divideScalar(2);
       this.label.textContent = text;
       this.label.classList.toggle("alarming", alarming);
     }
     this.view.invalidate();
   }
 
-  private follow(): void {
+  private readonly place = (): void => {
     const at = this.middle ? this.view.place(this.middle) : null;
     this.label.hidden = at === null;
     if (at)
       this.label.style.transform = `translate(${Math.round(at.x)}px, ${Math.round(at.y)}px) translate(-50%, -180%)`;
-  }
+  };
 }
