@@ -38,6 +38,7 @@ const folder = mkdtempSync(join(tmpdir(), "urdd-wasm-"));
 let compared = 0;
 try {
   const urdd = await Urdd.of(bytes);
+  closes(urdd, folder);
   for (const name of ["welding_arm", "toy_all_joints", "gripper", "planar_base_arm"]) {
     const target = join(folder, name);
     run("generate", join("conformance/robots", `${name}.urdf`), "-o", target);
@@ -124,6 +125,14 @@ function read(target, name) {
   return JSON.parse(readFileSync(join(target, name, "module.json"), "utf8"));
 }
 
+/** The files of a folder by their paths. */
+function contents(folder) {
+  const paths = readdirSync(folder, { recursive: true, withFileTypes: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => relative(folder, join(entry.parentPath ?? entry.path, entry.name)));
+  return Object.fromEntries(paths.map((path) => [path, readFileSync(join(folder, path))]));
+}
+
 function signOf(a, b) {
   return Math.sign(a.reduce((sum, x, k) => sum + x * b[k], 0));
 }
@@ -134,10 +143,8 @@ function near(found, expected, tolerance) {
 
 /** Files that are given one by one, those of meshes late: the same as on disk, and the same report. */
 function compareFiles(urdd, target, name) {
-  const paths = readdirSync(target, { recursive: true, withFileTypes: true })
-    .filter((entry) => entry.isFile())
-    .map((entry) => relative(target, join(entry.parentPath ?? entry.path, entry.name)));
-  const content = Object.fromEntries(paths.map((path) => [path, readFileSync(join(target, path))]));
+  const content = contents(target);
+  const paths = Object.keys(content);
   const late = paths.filter((path) => path.includes("/meshes/"));
   const first = paths.map((path) => [path, late.includes(path) ? content[path].length : content[path]]);
   const files = urdd.files(name, Object.fromEntries(first));
@@ -168,6 +175,59 @@ function compareAbout(about, target) {
   about.dofs.forEach((dof, k) => assert.deepEqual(dof.bounds, bounds[k]));
   const plain = read(join(target, "mesh_modules"), "plain_meshes_module").link_meshes;
   plain.forEach((mesh, link) => assert.equal(about.meshes.plain[link][0]?.glb, mesh?.files.glb));
+}
+
+/** A gripper of two four-bars: what follows the driver, how fast, and where nothing follows. */
+function closes(urdd, folder) {
+  const target = join(folder, "pinch_gripper");
+  run("generate", "examples/robots/pinch_gripper.urdf", "-o", target);
+  const files = urdd.files("pinch_gripper", contents(target));
+  const handle = urdd.open(files);
+  const loops = (about) => urdd.ask(handle, { ask: "loops", about });
+  const { loops: known, dofs } = urdd.ask(handle, { ask: "about" });
+  const module = read(target, "loops_module");
+  assert.deepEqual(known.reference, module.reference_configuration);
+  assert.deepEqual(known.independent, module.independent_dof_idxs);
+  assert.deepEqual(known.loops.map(({ name, links }) => [name, ...links]), module.loops.map((one) => [one.name, one.link_a_idx, one.link_b_idx]));
+  const [free] = known.independent;
+  const size = ({ gaps, sums }) => Math.max(...gaps.flatMap(({ position, rotation }) => [position, rotation]), ...sums.map(Math.abs));
+  assert.ok(loops({ errors: { q: known.reference } }).is_closed);
+  let q = known.reference;
+  for (let k = 0; k < 20; k++) {
+    const moved = q.map((value, dof) => (dof === free ? value + 0.01 : value));
+    assert.equal(loops({ errors: { q: moved } }).is_closed, false);
+    const found = loops({ close: { q: moved, held: [free] } });
+    assert.ok(found.is_closed && found.configuration[free] === moved[free]);
+    assert.ok(size(loops({ errors: { q: found.configuration } })) < 1e-9);
+    q = found.configuration;
+  }
+  // The right side is the mirror image of the left one.
+  const of = (name) => q[dofs.findIndex((dof) => dof.name === name)];
+  for (const part of ["driver", "finger", "follower"]) near(of(`right_${part}_joint`), -of(`left_${part}_joint`), 1e-8);
+  assert.deepEqual(loops({ free_dofs: { q } }).independent, known.independent);
+  // Velocities are the differences of two closed configurations near.
+  const step = 1e-5;
+  const beside = (by) => loops({ close: { q: q.map((value, dof) => (dof === free ? value + by : value)), held: [free] } }).configuration;
+  const [after, before] = [beside(step), beside(-step)];
+  const velocities = loops({ velocities: { q, independent: [1] } });
+  velocities.forEach((velocity, dof) => near(velocity, (after[dof] - before[dof]) / (2 * step), 1e-6));
+  loops({ jacobian: { q } }).forEach((row) => near(row.reduce((sum, value, dof) => sum + value * velocities[dof], 0), 0, 1e-9));
+  assert.equal(loops({ residuals: { q } }).length, 2 * 5 + 1);
+  // Nothing that is held can move.
+  const all = dofs.map((_, dof) => dof);
+  const apart = loops({ close: { q: q.map((value) => value + 0.1), held: all } });
+  assert.equal(apart.is_closed, false);
+  assert.throws(() => loops({ close: { q, held: [99] } }), /99/);
+  // A link is reached with closed loops, and by the tree with open ones.
+  const link = urdd.ask(handle, { ask: "about" }).links.findIndex(({ name }) => name === "left_finger");
+  const there = urdd.ask(handle, { ask: "link_poses", q })[link];
+  const wish = { ask: "inverse_kinematics", q: known.reference, link, position: there.position };
+  const reached = urdd.ask(handle, wish);
+  assert.ok(reached.reached && loops({ errors: { q: reached.configuration } }).is_closed, JSON.stringify(reached));
+  const open = urdd.ask(handle, { ...wish, open_loops: true, position: there.position.map((x) => x + 0.01) });
+  assert.equal(loops({ errors: { q: open.configuration } }).is_closed, false);
+  urdd.close(handle);
+  urdd.closeFiles(files);
 }
 
 /** A link is put where it was in another configuration; DOFs that may not change stay. */

@@ -8,6 +8,7 @@ use lsp_types::{CompletionItem, CompletionItemKind, CompletionTextEdit, Position
 use crate::document::Snapshot;
 use crate::markup::{Place, escaped};
 use crate::reference::{Names, names};
+use urdd_format::loops::LoopKind;
 use urdd_format::urdf::JointType;
 use urdd_lint::vocabulary::of;
 
@@ -111,6 +112,10 @@ fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
         let types = JointType::ALL.iter().map(|kind| kind.as_str().to_lowercase());
         return types.map(|word| (word, CompletionItemKind::ENUM_MEMBER, None)).collect();
     }
+    if (name, attribute) == ("loop", "type") {
+        let kinds = LoopKind::ALL.iter().map(|kind| kind.as_str().to_lowercase());
+        return kinds.map(|word| (word, CompletionItemKind::ENUM_MEMBER, None)).collect();
+    }
     // What gives a name does not take one that is there.
     let is_definition = match name {
         "link" => true,
@@ -179,6 +184,13 @@ const WORDS: &[Word] = &[
     ("transmission", "actuator", &["name"], &["hardwareInterface", "mechanicalReduction"]),
     ("robot", "ros2_control", &["name", "type"], &["hardware", "joint", "sensor", "gpio"]),
     ("ros2_control", "joint", &["name"], &["command_interface", "state_interface", "param"]),
+    ("robot", "loop", &["name", "type"], &["predecessor", "successor", "axis"]),
+    ("loop", "predecessor", &["link"], &["origin"]),
+    ("loop", "successor", &["link"], &["origin"]),
+    ("robot", "coupling", &["name"], &["predecessor", "successor", "ratio"]),
+    ("coupling", "predecessor", &["link"], &[]),
+    ("coupling", "successor", &["link"], &[]),
+    ("coupling", "ratio", &["value"], &[]),
 ];
 
 /// The attributes of an element in another one.

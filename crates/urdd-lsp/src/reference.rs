@@ -32,6 +32,8 @@ pub fn names(text: &str, markup: &Markup, element: usize, attribute: &str) -> Op
     let parent = markup.parent_name(text, element).unwrap_or_default();
     match (parent, markup.name(text, element), attribute) {
         (_, "parent" | "child", "link") | (_, "link", "name") => Some(Names::Links),
+        // URDF+.
+        ("loop" | "coupling", "predecessor" | "successor", "link") => Some(Names::Links),
         (_, "mimic", "joint") | (_, "joint", "name") => Some(Names::Joints),
         (_, "gazebo", "reference") => Some(Names::Both),
         (_, "material", "name") => Some(Names::Materials),

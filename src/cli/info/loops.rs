@@ -47,8 +47,10 @@ impl LoopsInfo {
     pub fn write(&self, out: &mut impl Write) -> fmt::Result {
         let mut parts: Vec<String> =
             self.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        if self.couplings > 0 {
-            parts.push(format!("{} couplings", self.couplings));
+        match self.couplings {
+            0 => {}
+            1 => parts.push("1 coupling".to_owned()),
+            count => parts.push(format!("{count} couplings")),
         }
         let parts = if parts.is_empty() { "none".to_owned() } else { parts.join(", ") };
         let free = self.independent.len();
@@ -56,6 +58,7 @@ impl LoopsInfo {
             self.independent.iter().take(MOST_NAMED).map(|name| safe(name).to_string()).collect();
         let more = if free > MOST_NAMED { " and others" } else { "" };
         let named = if free == 0 { String::new() } else { format!(": {}{more}", named.join(", ")) };
-        writeln!(out, "  loops     {parts}; {free} DOFs move freely{named}")
+        let freely = if free == 1 { "1 DOF moves" } else { &*format!("{free} DOFs move") };
+        writeln!(out, "  loops     {parts}; {freely} freely{named}")
     }
 }

@@ -42,6 +42,25 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
             joints.to_vec(),
             "s",
         ),
+        // URDF+.
+        (
+            arm("</robot>", "<loop name='l'><successor link=\"|\"/></loop></robot>"),
+            links.to_vec(),
+            "",
+        ),
+        (
+            arm("</robot>", "<loop name='l' type=\"|\"/></robot>"),
+            vec![
+                "fixed",
+                "revolute",
+                "prismatic",
+                "cylindrical",
+                "universal",
+                "spherical",
+                "planar",
+            ],
+            "",
+        ),
         (arm("      <material name=\"grey\"", "      <material name=\"gr|\""), vec!["grey"], "gr"),
         (
             arm("type=\"prismatic\"", "type=\"pris|matic\""),

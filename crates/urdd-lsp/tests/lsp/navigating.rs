@@ -20,6 +20,13 @@ fn names_lead_to_their_elements() {
     let place = client.at("textDocument/definition", address, ARM, "mimic joint=\"shoulder", 14);
     assert_eq!(covered(ARM, &place["range"]), "shoulder");
     assert_eq!(client.at("textDocument/definition", address, ARM, "rgba", 1), Value::Null);
+    // An end of a loop of URDF+.
+    let looped = ARM.replace("</robot>", "<loop><predecessor link=\"lower\"/></loop></robot>");
+    let mut client = Client::new();
+    client.open(address, &looped);
+    let place =
+        client.at("textDocument/definition", address, &looped, "predecessor link=\"low", 18);
+    assert_eq!(place["range"]["start"]["line"], 21, "{place:#?}");
 }
 
 #[test]
