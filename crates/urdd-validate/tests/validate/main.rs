@@ -12,6 +12,7 @@ mod distances_plan;
 mod extension_schema;
 mod kinematics_figures;
 mod learned_counts;
+mod many_samples;
 mod no_crash;
 mod reference;
 mod reference_motion;
