@@ -267,7 +267,7 @@ export class Address {
       hidden: new Set((shared.hidden ?? []).filter(known)),
       pair: CHOOSES_PAIRS.has(tab) && shared.pair?.every(([link]) => known(link)) ? shared.pair : null,
     });
-    const q = shared.q?.length === robot.dofs.length ? shared.q : robot.about.zero;
+    const q = shared.q?.length === robot.dofs.length ? shared.q : robot.start;
     if (shared.q && q !== shared.q) app.note("The link is for another version of this robot, with other joints.");
     if (q) app.move(q);
     if (shared.camera?.length === 6) stage?.place(shared.camera);
@@ -282,14 +282,14 @@ export class Address {
     if (!robot || robot.entry.id === "" || robot.entry.here) return "";
     const link = selected?.kind === "link" ? robot.links[selected.index] : undefined;
     const joint = selected?.kind === "joint" ? robot.joints[selected.index] : undefined;
-    const zero = robot.about.zero?.every((value, dof) => value === q[dof]) ?? true;
+    const isStart = robot.start?.every((value, dof) => value === q[dof]) ?? true;
     const onlyOriginal = LAYERS.every((layer) => layers[layer].on === (layer === "original"));
     const begin = initial();
     const over = OVERLAYS.filter((kind) => overlays[kind]);
     const camera = this.stage?.view.camera.position.toArray();
     return fragment.write({
       robot: robot.entry.id,
-      q: zero ? null : q,
+      q: isStart ? null : q,
       tab: tab === begin.tab ? null : tab,
       selected: link?.name ?? null,
       joint: joint?.name ?? null,

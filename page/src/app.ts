@@ -114,7 +114,7 @@ export class App {
       const robot = new RobotModel(entry, source, about, files, parts, named);
       if (robot.links.length === 0) throw new Error(why(robot));
       const view = old ? carried(old, robot, before) : null;
-      const q = view?.q ?? about.loops?.reference ?? about.zero ?? robot.dofs.map(() => 0);
+      const q = view?.q ?? robot.start ?? robot.dofs.map(() => 0);
       const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;
       const loops = about.loops ? await this.engine.ask("loopErrors", { q }) : null;
       if (turn !== this.opening) return null;

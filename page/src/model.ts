@@ -103,6 +103,11 @@ export class RobotModel {
     return this.about.dofs !== null && this.about.zero !== null;
   }
 
+  /** The configuration that it is first shown in: a closed one, or zero; null if it cannot be moved. */
+  get start(): number[] | null {
+    return this.about.loops?.reference ?? this.about.zero;
+  }
+
   link(name: string): number {
     return this.links.findIndex((link) => link.name === name);
   }

@@ -37,7 +37,8 @@ inPage(set, "a robot with loops opens closed, and what follows does", async (pag
   for (const part of ["driver", "finger", "follower"]) near(after[`right_${part}`], -after[`left_${part}`]);
   assert.ok(Math.abs(after.left_follower - before.left_follower) > 0.05);
   await isSaid(page, /closed/);
-  // One that follows moves the others.
+  // One that follows moves the others. After a pause, it is another step for undo.
+  await page.waitForTimeout(400);
   await slide(page, "right_driver", 0.25);
   await soon(async () => near((await shown(page)).right_driver, 0.25));
   near((await shown(page)).left_driver, -0.25);

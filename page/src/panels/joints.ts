@@ -165,7 +165,7 @@ export function joints(app: App): HTMLElement {
     slider.addEventListener("input", () => {
       void app.setDof(dof, Number(slider.value));
     });
-    slider.addEventListener("dblclick", () => void app.setDof(dof, robot.about.zero?.[dof] ?? 0));
+    slider.addEventListener("dblclick", () => void app.setDof(dof, robot.start?.[dof] ?? 0));
     entry.addEventListener("change", () => {
       const value = fromShown(Number(entry.value), unit);
       if (entry.value !== "" && Number.isFinite(value)) void app.setDof(dof, value);
