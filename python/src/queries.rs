@@ -117,7 +117,7 @@ macro_rules! queries {
                 resolution: Option<f64>,
             ) -> PyResult<Bound<'py, PyArray1<f64>>> {
                 let (count, from) = (ends.shape()[0], Batch::new(&starts)?);
-                let settings = EdgeSettings { margin, resolution };
+                let settings = EdgeSettings { margin, resolution, ..Default::default() };
                 self.each(py, &ends, count, |of, all, on, out| {
                     of.blocked_edge_batch_into([&from.values, all], &settings, on, out)
                 })
@@ -134,7 +134,7 @@ macro_rules! queries {
                 resolution: Option<f64>,
             ) -> PyResult<Bound<'py, PyArray2<f64>>> {
                 let (shape, from) = ([ends.shape()[0], 2], Batch::new(&starts)?);
-                let settings = EdgeSettings { margin, resolution };
+                let settings = EdgeSettings { margin, resolution, ..Default::default() };
                 self.each(py, &ends, shape, |of, all, on, out| {
                     of.first_contact_batch_into([&from.values, all], &settings, on, out)
                 })

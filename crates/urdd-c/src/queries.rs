@@ -140,7 +140,7 @@ pub(crate) trait Asked: Handle + 'static {
         ask: impl Fn(&Self::Of, [&[f64]; 2], &EdgeSettings) -> Result<[f64; N], RobotError> + Sync,
     ) -> Status {
         let resolution = (resolution != 0.0).then_some(resolution);
-        let settings = EdgeSettings { margin, resolution };
+        let settings = EdgeSettings { margin, resolution, ..Default::default() };
         run(|| unsafe {
             let (of, from) = Self::rows(handle, "starts", (starts, count, dofs))?;
             let (_, to) = Self::rows(handle, "ends", (ends, count, dofs))?;

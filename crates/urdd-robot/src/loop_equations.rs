@@ -33,7 +33,7 @@ impl Robot {
             let independent = (0..kinematics.num_dofs()).collect();
             return Ok(Mobility { independent, dependent: Vec::new() });
         };
-        let is_preferred = |dof: usize| closure.independent.binary_search(&dof).is_ok();
+        let is_preferred = |dof: usize| closure.is_independent[dof];
         Ok(closure.loops.mobility(kinematics, configuration, &poses, is_preferred))
     }
 
@@ -157,7 +157,7 @@ impl Robot {
             let poses = &mut workspace.placed.poses;
             kinematics.link_poses_into(configuration, poses)?;
             with_closing_space(|ClosingSpace { velocities, .. }| {
-                let given = |dof: usize| closure.independent.binary_search(&dof).is_ok();
+                let given = |dof: usize| closure.is_independent[dof];
                 let loops = &closure.loops;
                 Ok(loops.velocities(kinematics, configuration, poses, given, out, velocities))
             })

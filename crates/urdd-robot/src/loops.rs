@@ -143,7 +143,8 @@ impl Robot {
                 |module: &&LoopsModule| !module.loops.is_empty() || !module.couplings.is_empty();
             let Some(module) = self.loops()?.filter(said) else { return Ok(None) };
             let part = self.moving_part(&[ModuleKind::Urdf])?;
-            let closure = Closure::new(module, &part, &self.motion()?.kinematics)?;
+            let closure =
+                Closure::new(module, &part, &self.motion()?.kinematics, self.configurations()?)?;
             Ok(Some(Arc::new(closure)))
         })
         .map(Option::as_ref)
