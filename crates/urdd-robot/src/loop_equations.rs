@@ -24,6 +24,12 @@ impl Robot {
         self.closure()?.map_or_else(all, |closure| Ok(closure.independent.clone()))
     }
 
+    /// The number of [`Robot::independent_dofs`].
+    pub fn num_independent_dofs(&self) -> Result<usize, RobotError> {
+        let dofs = self.motion()?.kinematics.num_dofs();
+        Ok(self.closure()?.map_or(dofs, |closure| closure.independent.len()))
+    }
+
     /// Which DOFs move freely at a closed configuration, and which follow: as [`Robot::independent_dofs`], as far as the
     /// others follow from these there (SPEC 6.8.7). Where several links are in a line, more may move freely.
     pub fn free_dofs(&self, configuration: &[f64]) -> Result<Mobility, RobotError> {
@@ -141,7 +147,7 @@ impl Robot {
         let kinematics = &self.motion()?.kinematics;
         let dofs = kinematics.num_dofs();
         let closure = self.closure()?;
-        check_room(independent.len(), 1, closure.map_or(dofs, |one| one.independent.len()))?;
+        check_room(independent.len(), 1, self.num_independent_dofs()?)?;
         check_room(out.len(), 1, dofs)?;
         ConfigurationError::check(configuration, dofs)?;
         if !independent.iter().all(|velocity| velocity.is_finite()) {

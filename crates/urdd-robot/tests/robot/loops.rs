@@ -173,6 +173,8 @@ fn a_leg_of_six_rods_follows_its_lengths() {
     let rods: Vec<usize> = (0..6).map(|k| robot.dof(&format!("rod_{k}")).unwrap()).collect();
     let mut q = robot.loops().unwrap().expect("loops").reference_configuration.clone();
     assert_eq!((q.len(), robot.num_loop_equations()), (21, Ok(15)));
+    assert_eq!(robot.independent_dofs(), Ok(rods.clone()));
+    assert_eq!(robot.num_independent_dofs(), Ok(6));
     assert_eq!(robot.free_dofs(&q).unwrap().independent.len(), 6);
     // The points of hip and foot that a rod connects are as far apart as it is long.
     for rod in &rods {
