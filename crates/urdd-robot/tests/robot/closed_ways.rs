@@ -204,3 +204,32 @@ fn a_coupling_that_does_not_hold_is_named() {
     let far = [10.5, 21.25];
     assert_eq!(proximity.blocked_edge(&q, &far, &EdgeSettings::default()), Ok(None));
 }
+
+/// Gears beside the four-bar, which no loop ties to it.
+const GEARS: &str = r#"<link name="a_link"/><link name="b_link"/>
+<joint name="a" type="continuous"><parent link="ground"/><child link="a_link"/><axis xyz="0 0 1"/></joint>
+<joint name="b" type="continuous"><parent link="ground"/><child link="b_link"/><axis xyz="0 0 1"/></joint>
+<coupling name="gear"><predecessor link="a_link"/><successor link="b_link"/><ratio value="2"/></coupling>"#;
+
+#[test]
+fn a_solution_closes_what_does_not_move_the_link_too() {
+    let (_folder, robot) = robot_of(&four_bar(FOUR_BAR, GEARS));
+    let (a, b) = (robot.dof("a").unwrap(), robot.dof("b").unwrap());
+    let mut start = robot.reference_configuration().unwrap();
+    start[..3].copy_from_slice(&four_bar_at(FOUR_BAR, 0.5, -1.0));
+    (start[a], start[b]) = (0.3, 0.1);
+    assert!(!robot.loop_errors(&start).unwrap().is_closed);
+    let rocker = robot.link("rocker_link").unwrap();
+    let turn = four_bar_at(FOUR_BAR, 1.0, -1.0)[2];
+    let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, turn);
+    let target = Target::rotation(rocker, turn);
+    let settings = InverseSettings { locked: vec![a], ..Default::default() };
+    let found = robot.inverse_kinematics(&target, &start, &settings).unwrap();
+    let q = found.reached().expect("within reach").configuration;
+    assert!(robot.loop_errors(&q).unwrap().is_closed && q[a] == 0.3, "{q:?}");
+    assert!((q[b] - 0.6).abs() < 1e-9, "{q:?}");
+    // Which cannot close with both of them locked.
+    let settings = InverseSettings { locked: vec![a, b], restarts: 1, ..Default::default() };
+    let found = robot.inverse_kinematics(&target, &start, &settings).unwrap();
+    assert_eq!(found.nearest().verdict, Verdict::Loops);
+}
