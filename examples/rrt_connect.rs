@@ -23,7 +23,7 @@ pub fn is_free(
     b: &[f64],
     resolution: Option<f64>,
 ) -> Result<bool, RobotError> {
-    let settings = EdgeSettings { margin: 0.0, resolution };
+    let settings = EdgeSettings { margin: 0.0, resolution, ..Default::default() };
     Ok(world.blocked_edge(a, b, &settings)?.is_none()
         && own.blocked_edge(a, b, &settings)?.is_none())
 }

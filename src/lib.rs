@@ -12,3 +12,8 @@ pub mod suite;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rust.md")]
 pub struct RustPage;
+
+/// That in docs/loops.md is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/loops.md")]
+pub struct LoopsPage;

@@ -11,6 +11,7 @@ mod errors;
 mod export;
 mod generate;
 mod lint;
+mod loops;
 mod obstacle;
 mod outputs;
 mod page;

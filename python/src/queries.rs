@@ -115,9 +115,10 @@ macro_rules! queries {
                 ends: PyReadonlyArray2<'py, f64>,
                 margin: f64,
                 resolution: Option<f64>,
+                open_loops: bool,
             ) -> PyResult<Bound<'py, PyArray1<f64>>> {
                 let (count, from) = (ends.shape()[0], Batch::new(&starts)?);
-                let settings = EdgeSettings { margin, resolution };
+                let settings = EdgeSettings { margin, resolution, open_loops };
                 self.each(py, &ends, count, |of, all, on, out| {
                     of.blocked_edge_batch_into([&from.values, all], &settings, on, out)
                 })
@@ -132,9 +133,10 @@ macro_rules! queries {
                 ends: PyReadonlyArray2<'py, f64>,
                 margin: f64,
                 resolution: Option<f64>,
+                open_loops: bool,
             ) -> PyResult<Bound<'py, PyArray2<f64>>> {
                 let (shape, from) = ([ends.shape()[0], 2], Batch::new(&starts)?);
-                let settings = EdgeSettings { margin, resolution };
+                let settings = EdgeSettings { margin, resolution, open_loops };
                 self.each(py, &ends, shape, |of, all, on, out| {
                     of.first_contact_batch_into([&from.values, all], &settings, on, out)
                 })

@@ -27,7 +27,7 @@ use crate::work;
 use crate::world::WorldProximity;
 
 /// Number of configurations up to which this thread works alone: waking others takes longer.
-const FEW: usize = 16;
+pub const FEW: usize = 16;
 /// Configurations in one block of work.
 const BLOCK: usize = 64;
 
@@ -419,7 +419,7 @@ fn rows<'py>(
 }
 
 /// Runs a query for each configuration of a batch, until Ctrl-C.
-fn each<S: Default>(
+pub fn each<S: Default>(
     on: &Cancellation,
     out: &mut [f64],
     width: usize,

@@ -27,6 +27,7 @@ PYTHON = REPOSITORY / "python"
 #: What a program may import from `urdd` until 2.0.0.
 PUBLIC = [
     "Box",
+    "Closed",
     "CollisionModel",
     "CombineError",
     "CombineNote",
@@ -36,12 +37,14 @@ PUBLIC = [
     "Export",
     "ExportError",
     "Frame",
+    "FreeDofs",
     "GenerateError",
     "Generated",
     "Imported",
     "InverseSolution",
     "Job",
     "LearnedPair",
+    "LoopErrors",
     "MeshError",
     "MeshKind",
     "ModuleMissingError",

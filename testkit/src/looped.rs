@@ -112,7 +112,13 @@ pub fn leg() -> String {
         });
     }
     all.push("</robot>".to_owned());
-    all.concat()
+    let follows = |kind: &str| format!("type=\"{kind}\" independent=\"false\"");
+    let all = all.concat().replace("type=\"revolute\"", &follows("revolute"));
+    all.replacen(
+        "name=\"ball\" type=\"spherical\"",
+        &format!("name=\"ball\" {}", follows("spherical")),
+        1,
+    )
 }
 
 /// As [`made_of`](crate::robots::made_of), with a `.loops.toml` beside the URDF.

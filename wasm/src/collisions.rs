@@ -81,7 +81,7 @@ pub struct Edge {
 
 impl Edge {
     fn settings(&self) -> EdgeSettings {
-        EdgeSettings { margin: self.margin, resolution: self.resolution }
+        EdgeSettings { margin: self.margin, resolution: self.resolution, ..Default::default() }
     }
 }
 

@@ -36,6 +36,7 @@ struct OfRobot {
     static constexpr auto is_within = urdd_proximity_is_within;
     static constexpr auto blocked_edge = urdd_proximity_blocked_edge;
     static constexpr auto first_contact = urdd_proximity_first_contact;
+    static constexpr auto motions = urdd_proximity_motions;
     static constexpr auto gradients = urdd_proximity_gradients;
     static constexpr auto penetrations = urdd_proximity_penetrations;
     static urdd_status num_pairs(const urdd_proximity *handle, std::size_t *out) {
@@ -55,6 +56,7 @@ struct OfWorld {
     static constexpr auto is_within = urdd_world_proximity_is_within;
     static constexpr auto blocked_edge = urdd_world_proximity_blocked_edge;
     static constexpr auto first_contact = urdd_world_proximity_first_contact;
+    static constexpr auto motions = urdd_world_proximity_motions;
     static constexpr auto gradients = urdd_world_proximity_gradients;
     static constexpr auto penetrations = urdd_world_proximity_penetrations;
     static urdd_status num_pairs(const urdd_world_proximity *handle, std::size_t *out) {
@@ -165,6 +167,23 @@ public:
         double *values = out.size() == 0 ? nullptr : &out.data()->free;
         detail::check(Of::first_contact(handle(), starts.data, ends.data, starts.rows, starts.columns, margin,
                                         resolution, values, 2 * out.size()));
+    }
+    /// As `first_contact`, with why the motion cannot go on. Where the robot has kinematic loops, they stay closed,
+    /// unless `open_loops` asks for the straight motion of the spanning tree.
+    urdd_motion motion(Argument<const double> start, Argument<const double> end, double margin = 0.0,
+                       double resolution = 0.01, bool open_loops = false) const {
+        urdd_motion found{};
+        motions({start.data(), 1, start.size()}, {end.data(), 1, end.size()}, margin, resolution, open_loops,
+                {&found, 1});
+        return found;
+    }
+    /// The same for many motions, into `out`.
+    void motions(Rows starts, Rows ends, double margin, double resolution, bool open_loops,
+                 Argument<urdd_motion> out) const {
+        detail::same_shape(starts, ends);
+        detail::same_size("out", out.size(), starts.rows);
+        detail::check(Of::motions(handle(), starts.data, ends.data, starts.rows, starts.columns, margin, resolution,
+                                  open_loops, out.data()));
     }
     /// The pairs that touch or overlap, with the least translation that separates them.
     std::vector<typename Of::Overlap> penetrations(Argument<const double> q) const {

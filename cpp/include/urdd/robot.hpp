@@ -16,6 +16,36 @@ struct Payload {
     Point point = {0, 0, 0};
 };
 
+/// How far a loop is from closed.
+struct Gap {
+    double position; ///< m
+    double rotation; ///< rad, while small
+};
+static_assert(sizeof(Gap) == 2 * sizeof(double), "an array of gaps is one of numbers");
+
+/// How far a configuration is from closed.
+struct LoopErrors {
+    /// For each loop.
+    std::vector<Gap> gaps;
+    /// For each coupling between DOFs: 0 where it holds.
+    std::vector<double> sums;
+    /// Whether all loops are closed and all couplings hold, within their tolerances.
+    bool is_closed = false;
+};
+
+/// The closed configuration near another one.
+struct Closed {
+    /// Closed, or with the smallest gaps that were found.
+    std::vector<double> configuration;
+    bool is_closed = false;
+};
+
+/// Those near many: rows x dofs.
+struct ClosedBatch {
+    std::vector<double> configurations;
+    std::vector<bool> is_closed;
+};
+
 /// A robot, as its URDD describes it.
 class Robot {
 public:
@@ -215,6 +245,91 @@ public:
                                                     solutions.data()));
     }
 
+    /// The names of the loops, in the order of `loop_errors`. A robot without loops is a tree: it has no equations,
+    /// every configuration is closed, and all DOFs move freely.
+    std::vector<std::string> loop_names() const { return names(loop_sizes()[0], urdd_robot_loop_name); }
+    /// The names of the couplings between DOFs.
+    std::vector<std::string> coupling_names() const { return names(loop_sizes()[1], urdd_robot_coupling_name); }
+    std::size_t num_loop_equations() const { return loop_sizes()[2]; }
+    /// A configuration in which all loops are closed, to begin with; for a tree, the default one.
+    std::vector<double> reference_configuration() const { return configuration(urdd_robot_reference_configuration); }
+    /// How far a configuration is from closed.
+    LoopErrors loop_errors(Argument<const double> q) const {
+        const std::array<std::size_t, 4> sizes = loop_sizes();
+        LoopErrors found{std::vector<Gap>(sizes[0]), std::vector<double>(sizes[1]), false};
+        double *gaps = found.gaps.empty() ? nullptr : &found.gaps.data()->position;
+        detail::check(urdd_robot_loop_errors(handle_.get(), q.data(), 1, q.size(), gaps, 2 * found.gaps.size(),
+                                             found.sums.data(), found.sums.size(), &found.is_closed));
+        return found;
+    }
+    /// The closed configuration near another one, within the bounds: start near what is wanted, such as from the last
+    /// configuration of a motion. `held` DOFs keep their value. `bounds` are a lower and an upper one for each DOF in
+    /// place of the robot's, which may be infinite; or empty.
+    Closed close(Argument<const double> q, const std::vector<std::size_t> &held = {},
+                 const std::vector<std::array<double, 2>> &bounds = {}) const {
+        Closed found{std::vector<double>(q.size()), false};
+        close({q.data(), 1, q.size()}, held, bounds, found.configuration, {&found.is_closed, 1});
+        return found;
+    }
+    /// Those near many, on all processors.
+    ClosedBatch close_batch(Rows q, const std::vector<std::size_t> &held = {},
+                            const std::vector<std::array<double, 2>> &bounds = {}) const {
+        ClosedBatch found{std::vector<double>(q.rows * q.columns), {}};
+        auto closed = std::make_unique<bool[]>(q.rows);
+        close(q, held, bounds, found.configurations, {closed.get(), q.rows});
+        found.is_closed = detail::answers(closed, q.rows);
+        return found;
+    }
+    /// As above, into `found`, rows x dofs, and `closed`, one for each row. One row needs no allocation.
+    void close(Rows q, const std::vector<std::size_t> &held, const std::vector<std::array<double, 2>> &bounds,
+               Argument<double> found, Argument<bool> closed) const {
+        detail::same_size("found", found.size(), q.rows * q.columns);
+        detail::same_size("closed", closed.size(), q.rows);
+        const double *values = bounds.empty() ? nullptr : bounds.data()->data();
+        detail::check(urdd_robot_close(handle_.get(), q.data, q.rows, q.columns, held.data(), held.size(), values,
+                                       2 * bounds.size(), found.data(), closed.data()));
+    }
+    /// The DOFs that move freely, ascending, as the URDD states them; the others follow from them near the reference
+    /// configuration.
+    std::vector<std::size_t> independent_dofs() const {
+        std::vector<std::size_t> found(loop_sizes()[3]);
+        detail::check(urdd_robot_independent_dofs(handle_.get(), found.data(), found.size()));
+        return found;
+    }
+    /// Whether each DOF moves freely in a closed configuration.
+    std::vector<bool> free_dofs(Argument<const double> q) const {
+        auto found = std::make_unique<bool[]>(q.size());
+        detail::check(urdd_robot_free_dofs(handle_.get(), q.data(), q.size(), found.get()));
+        return detail::answers(found, q.size());
+    }
+    /// The left-hand sides of the equations, which are 0 where they hold: for each loop those of its kind, m, then rad,
+    /// then the sum of each coupling.
+    std::vector<double> loop_residuals(Argument<const double> q) const {
+        std::vector<double> found(num_loop_equations());
+        detail::check(urdd_robot_loop_residuals(handle_.get(), q.data(), 1, q.size(), found.data(), found.size()));
+        return found;
+    }
+    /// Their derivatives by each DOF: equations x dofs, column-major.
+    std::vector<double> loop_jacobian(Argument<const double> q) const {
+        std::vector<double> found(num_loop_equations() * q.size());
+        detail::check(urdd_robot_loop_jacobians(handle_.get(), q.data(), 1, q.size(), found.data(), found.size()));
+        return found;
+    }
+    /// The velocities of all DOFs, rad/s or m/s, that keep the loops closed, for those of the independent DOFs, in
+    /// their order; nothing where the others do not follow from these.
+    std::optional<std::vector<double>> loop_velocities(Argument<const double> q,
+                                                       Argument<const double> independent) const {
+        std::vector<double> found(q.size());
+        detail::check(urdd_robot_loop_velocities(handle_.get(), q.data(), 1, q.size(), independent.data(),
+                                                 independent.size(), found.data()));
+        for (const double velocity : found) {
+            if (velocity != velocity) {
+                return std::nullopt;
+            }
+        }
+        return found;
+    }
+
     /// Prepares the shapes of a kind for distances.
     Proximity proximity(ShapeKind kind = ShapeKind::pieces) const {
         return Proximity(detail::made<urdd_proximity>(
@@ -239,6 +354,11 @@ private:
     std::array<std::size_t, 3> sizes() const {
         std::array<std::size_t, 3> found{};
         detail::check(urdd_robot_sizes(handle_.get(), &found[0], &found[1], &found[2]));
+        return found;
+    }
+    std::array<std::size_t, 4> loop_sizes() const {
+        std::array<std::size_t, 4> found{};
+        detail::check(urdd_robot_loop_sizes(handle_.get(), &found[0], &found[1], &found[2], &found[3]));
         return found;
     }
     std::vector<std::string> names(std::size_t count,

@@ -95,7 +95,22 @@ typedef enum urdd_verdict {
     URDD_VERDICT_LIMITS = 3,
     // None was found, within the bounds or beyond them.
     URDD_VERDICT_OUT_OF_REACH = 4,
+    // None was found that is closed, but one within the bounds with open loops.
+    URDD_VERDICT_LOOPS = 5,
 } urdd_verdict;
+
+// Why a motion cannot go on.
+typedef enum urdd_obstruction {
+    // It can.
+    URDD_OBSTRUCTION_NONE = 0,
+    // A pair is at most the margin apart, or is not proved farther apart.
+    URDD_OBSTRUCTION_CONTACT = 1,
+    // No configuration was found there in which the loops of the robot are closed, within its bounds.
+    URDD_OBSTRUCTION_OPEN = 2,
+    // The DOFs that follow would have to jump, or arrive elsewhere than at the end: it is on another branch of the closed
+    // configurations.
+    URDD_OBSTRUCTION_BRANCH = 3,
+} urdd_obstruction;
 
 // The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
 typedef struct urdd_collision_model urdd_collision_model;
@@ -167,6 +182,9 @@ typedef struct urdd_inverse_settings {
     double margin;
     // Whether to find out why a target is not reached, which takes as long as the search.
     bool explain;
+    // Whether the kinematic loops of the robot may be open in a solution. False in the settings of
+    // `urdd_inverse_settings_default`; without meaning for a tree.
+    bool open_loops;
 } urdd_inverse_settings;
 
 // A target of inverse kinematics, in the root link's frame.
@@ -200,6 +218,16 @@ typedef struct urdd_inverse_solution {
     // Whether it is, or why not.
     enum urdd_verdict verdict;
 } urdd_inverse_solution;
+
+// Where a motion is blocked first, as parts of it from 0 to 1.
+typedef struct urdd_motion {
+    // The last part that is known to be free; 0 if the start is not, NaN if the motion is free.
+    double free;
+    // The first part that is not; NaN if the motion is free.
+    double blocked;
+    // Why it is not.
+    enum urdd_obstruction obstruction;
+} urdd_motion;
 
 // Two shapes that are checked against each other.
 typedef struct urdd_pair {
@@ -492,6 +520,125 @@ enum urdd_status urdd_robot_gravity_torques(const struct urdd_robot *handle,
                                             double *torques,
                                             size_t length);
 
+// Writes the number of loops, of couplings between DOFs, of equations of both together, and of DOFs that move freely. Each
+// of the four can be null. A robot without loops_module is a tree: it has no equations, every configuration is closed, and
+// all DOFs move freely.
+//
+// Errors, as of all functions on loops: `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module, loops_module; for a robot
+// with loops also bounds_module and urdf_module.
+enum urdd_status urdd_robot_loop_sizes(const struct urdd_robot *handle,
+                                       size_t *loops,
+                                       size_t *couplings,
+                                       size_t *equations,
+                                       size_t *independent);
+
+// Writes the name of a loop. It lives as long as the robot.
+//
+// Errors: also `OUT_OF_RANGE`.
+enum urdd_status urdd_robot_loop_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
+
+// As `urdd_robot_loop_name`, for a coupling.
+enum urdd_status urdd_robot_coupling_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
+
+// Writes a configuration in which all loops are closed, to begin with: that of loops_module; for a tree, the default one.
+// `dofs` values, rad or m.
+enum urdd_status urdd_robot_reference_configuration(const struct urdd_robot *handle,
+                                                    double *configuration,
+                                                    size_t dofs);
+
+// Writes how far each configuration is from closed.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `gaps` has room for `gaps_length` values, rows x loops x 2:
+// the position gap of each loop in metres, then its rotation gap in radians. `sums` has room for `sums_length` values, rows
+// x couplings: the sum of each coupling, which is 0 where it holds. `closed` has room for `rows` values: whether all loops
+// are closed and all couplings hold, within their tolerances.
+enum urdd_status urdd_robot_loop_errors(const struct urdd_robot *handle,
+                                        const double *configurations,
+                                        size_t rows,
+                                        size_t dofs,
+                                        double *gaps,
+                                        size_t gaps_length,
+                                        double *sums,
+                                        size_t sums_length,
+                                        bool *closed);
+
+// Writes the closed configuration near each of some configurations, within the bounds.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `found` has room for rows x dofs values, `closed` for `rows`.
+// Start near what is wanted, such as from the last configuration of a motion: the result is on the branch of closed
+// configurations that is near. Where none is found, `closed` is false, and `found` has the smallest gaps: as a rule, the
+// loops cannot close with what is held and bounded. `held` has the indices of `held_length` DOFs that keep their value; or
+// null. `bounds` has `bounds_length` values, dofs x 2, a lower and an upper one for each DOF, which may be infinite; or
+// null, with 0, for those of bounds_module: a DOF that is not limited has none. Values out of bounds are first moved to the
+// nearest bound. One row is computed on this thread, without an allocation.
+//
+// Errors: also `OUT_OF_RANGE` for a held DOF; `VALUE` for crossed bounds.
+enum urdd_status urdd_robot_close(const struct urdd_robot *handle,
+                                  const double *configurations,
+                                  size_t rows,
+                                  size_t dofs,
+                                  const size_t *held,
+                                  size_t held_length,
+                                  const double *bounds,
+                                  size_t bounds_length,
+                                  double *found,
+                                  bool *closed);
+
+// Writes the indices of the DOFs that move freely, ascending, as loops_module states them; the others follow from them near
+// its reference configuration. `out` has room for `length` indices: as many as `urdd_robot_loop_sizes` says.
+enum urdd_status urdd_robot_independent_dofs(const struct urdd_robot *handle,
+                                             size_t *out,
+                                             size_t length);
+
+// Writes for each DOF whether it moves freely in a closed configuration: as `urdd_robot_independent_dofs`, as far as the
+// others follow from these there. `configuration` has `dofs` values, rad or m; `free` has room for as many.
+enum urdd_status urdd_robot_free_dofs(const struct urdd_robot *handle,
+                                      const double *configuration,
+                                      size_t dofs,
+                                      bool *free);
+
+// Writes the left-hand side of each equation, which is 0 where it holds: for each loop those of its kind, then the sum of
+// each coupling. With the pose of frame B in frame A, of position p and rotation R, a loop has the components of p that it
+// holds, m; then the rotation vector of R if it holds the rotation, the x and y components of R ez if it holds the direction
+// of z, or the z component of R ez if it holds the right angle.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `residuals` has room for `length` values: rows x equations.
+// One row is computed on this thread, without an allocation.
+enum urdd_status urdd_robot_loop_residuals(const struct urdd_robot *handle,
+                                           const double *configurations,
+                                           size_t rows,
+                                           size_t dofs,
+                                           double *residuals,
+                                           size_t length);
+
+// Writes the derivatives of the equations of `urdd_robot_loop_residuals` by each DOF. Velocities keep the loops closed where
+// this matrix times them is 0. The rows of a rotation that a loop holds are the angular velocity of frame B relative to frame
+// A, in the axes of frame A. Rows that say the same as others are normal.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `jacobians` has room for `length` values: rows x dofs x
+// equations, the values of each column together (column-major). One row is computed on this thread, without an allocation.
+enum urdd_status urdd_robot_loop_jacobians(const struct urdd_robot *handle,
+                                           const double *configurations,
+                                           size_t rows,
+                                           size_t dofs,
+                                           double *jacobians,
+                                           size_t length);
+
+// Writes the velocities of all DOFs that keep the loops closed, rad/s or m/s, for those of the independent DOFs.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `independent` has `length` values, rows x independent, in the
+// order of `urdd_robot_independent_dofs`; `velocities` has room for rows x dofs values. NaN where the others do not follow
+// from these: at a dead point, or where parts are in a line. One row is computed on this thread, without an allocation.
+//
+// Errors: also `VALUE` for a velocity that is not finite.
+enum urdd_status urdd_robot_loop_velocities(const struct urdd_robot *handle,
+                                            const double *configurations,
+                                            size_t rows,
+                                            size_t dofs,
+                                            const double *independent,
+                                            size_t length,
+                                            double *velocities);
+
 // Writes the number of configurations that a person named; 0 without named_configurations_module.
 //
 // Errors: `UNUSABLE`: named_configurations_module.
@@ -662,8 +809,10 @@ enum urdd_status urdd_world_proximity_is_within(const struct urdd_world_proximit
 // not be the first, which `urdd_proximity_first_contact` has. With 0, the motion is proved free by conservative
 // advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
 //
+// Where the robot has kinematic loops, they stay closed in the motion: see `urdd_proximity_motions`.
+//
 // Errors: `VALUE` for a margin or a resolution below 0, or a motion that needs more than a
-// million configurations, or 100,000 steps of a proof.
+// million configurations, or 100,000 steps of a proof; for a robot with loops as `urdd_proximity_motions`.
 enum urdd_status urdd_proximity_blocked_edge(const struct urdd_proximity *handle,
                                              const double *starts,
                                              const double *ends,
@@ -710,6 +859,36 @@ enum urdd_status urdd_world_proximity_first_contact(const struct urdd_world_prox
                                                     double resolution,
                                                     double *contacts,
                                                     size_t length);
+
+// Writes where each motion is blocked by the robot itself first, and why.
+//
+// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the one
+// in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the last
+// one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others arrive on
+// another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the spanning tree.
+//
+// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a motion
+// that needs more than 100,000 configurations.
+enum urdd_status urdd_proximity_motions(const struct urdd_proximity *handle,
+                                        const double *starts,
+                                        const double *ends,
+                                        size_t rows,
+                                        size_t dofs,
+                                        double margin,
+                                        double resolution,
+                                        bool open_loops,
+                                        struct urdd_motion *motions);
+
+// As `urdd_proximity_motions`, for motions that obstacles block.
+enum urdd_status urdd_world_proximity_motions(const struct urdd_world_proximity *handle,
+                                              const double *starts,
+                                              const double *ends,
+                                              size_t rows,
+                                              size_t dofs,
+                                              double margin,
+                                              double resolution,
+                                              bool open_loops,
+                                              struct urdd_motion *motions);
 
 // Writes the `k` nearest pairs of one configuration, nearest first, and the gradients of their distances.
 //

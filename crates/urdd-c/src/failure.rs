@@ -76,6 +76,8 @@ impl From<RobotError> for Failure {
             RobotError::OutOfBounds { .. }
             | RobotError::Target(_)
             | RobotError::Setting(_)
+            | RobotError::NotClosed { .. }
+            | RobotError::NotCoupled { .. }
             | RobotError::Steps { .. }
             | RobotError::Obstacle { .. } => Status::Value,
             _ => Status::Internal,

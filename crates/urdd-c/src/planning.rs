@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use urdd_robot::FirstContact;
+
 use crate::failure::Status;
 use crate::memory::plain;
 use crate::proximity::{PairDistance, Proximity};
@@ -103,8 +105,10 @@ pub unsafe extern "C" fn urdd_world_proximity_is_within(
 /// not be the first, which `urdd_proximity_first_contact` has. With 0, the motion is proved free by conservative
 /// advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
 ///
+/// Where the robot has kinematic loops, they stay closed in the motion: see `urdd_proximity_motions`.
+///
 /// Errors: `VALUE` for a margin or a resolution below 0, or a motion that needs more than a
-/// million configurations, or 100,000 steps of a proof.
+/// million configurations, or 100,000 steps of a proof; for a robot with loops as `urdd_proximity_motions`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_blocked_edge(
     handle: *const Proximity,
@@ -174,6 +178,94 @@ pub unsafe extern "C" fn urdd_world_proximity_first_contact(
 ) -> Status {
     let (ends, settings) = ([starts, ends], (margin, resolution));
     unsafe { Asked::first_contact(handle, ends, (rows, dofs), settings, (contacts, length)) }
+}
+
+/// Why a motion cannot go on.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Obstruction {
+    /// It can.
+    #[default]
+    None = 0,
+    /// A pair is at most the margin apart, or is not proved farther apart.
+    Contact = 1,
+    /// No configuration was found there in which the loops of the robot are closed, within its bounds.
+    Open = 2,
+    /// The DOFs that follow would have to jump, or arrive elsewhere than at the end: it is on another branch of the closed
+    /// configurations.
+    Branch = 3,
+}
+
+/// Where a motion is blocked first, as parts of it from 0 to 1.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Motion {
+    /// The last part that is known to be free; 0 if the start is not, NaN if the motion is free.
+    pub free: f64,
+    /// The first part that is not; NaN if the motion is free.
+    pub blocked: f64,
+    /// Why it is not.
+    pub obstruction: Obstruction,
+}
+
+plain!(Motion);
+
+impl From<Option<FirstContact>> for Motion {
+    fn from(contact: Option<FirstContact>) -> Self {
+        use urdd_robot::Obstruction as Of;
+        let Some(FirstContact { free, blocked, obstruction }) = contact else {
+            let none = Obstruction::None;
+            return Motion { free: f64::NAN, blocked: f64::NAN, obstruction: none };
+        };
+        let obstruction = match obstruction {
+            Of::Open => Obstruction::Open,
+            Of::Branch => Obstruction::Branch,
+            _ => Obstruction::Contact,
+        };
+        Motion { free, blocked, obstruction }
+    }
+}
+
+/// Writes where each motion is blocked by the robot itself first, and why.
+///
+/// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the one
+/// in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the last
+/// one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others arrive on
+/// another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the spanning tree.
+///
+/// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a motion
+/// that needs more than 100,000 configurations.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_proximity_motions(
+    handle: *const Proximity,
+    starts: *const f64,
+    ends: *const f64,
+    rows: usize,
+    dofs: usize,
+    margin: f64,
+    resolution: f64,
+    open_loops: bool,
+    motions: *mut Motion,
+) -> Status {
+    let (ends, settings) = ([starts, ends], (margin, resolution, open_loops));
+    unsafe { Asked::motions(handle, ends, (rows, dofs), settings, motions) }
+}
+
+/// As `urdd_proximity_motions`, for motions that obstacles block.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_world_proximity_motions(
+    handle: *const WorldProximity,
+    starts: *const f64,
+    ends: *const f64,
+    rows: usize,
+    dofs: usize,
+    margin: f64,
+    resolution: f64,
+    open_loops: bool,
+    motions: *mut Motion,
+) -> Status {
+    let (ends, settings) = ([starts, ends], (margin, resolution, open_loops));
+    unsafe { Asked::motions(handle, ends, (rows, dofs), settings, motions) }
 }
 
 /// Writes the `k` nearest pairs of one configuration, nearest first, and the gradients of their distances.

@@ -1,6 +1,6 @@
 //! What is asked of a robot's own pairs and of those with obstacles, once for both handles.
 
-use urdd_robot::{EdgeSettings, Queries, RobotError, fill};
+use urdd_robot::{EdgeSettings, FirstContact, Queries, RobotError, fill};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at};
@@ -131,6 +131,27 @@ pub(crate) trait Asked: Handle + 'static {
         unsafe { Self::edges(handle, ends, shape, settings, out, ask) }
     }
 
+    /// As [`Asked::first_contact`], with why a motion cannot go on.
+    unsafe fn motions<T: Plain + Send + From<Option<FirstContact>>>(
+        handle: *const Self,
+        [starts, ends]: [*const f64; 2],
+        (count, dofs): (usize, usize),
+        (margin, resolution, open_loops): (f64, f64, bool),
+        motions: *mut T,
+    ) -> Status {
+        let resolution = (resolution != 0.0).then_some(resolution);
+        let settings = EdgeSettings { margin, resolution, open_loops };
+        run(|| unsafe {
+            let (of, from) = Self::rows(handle, "starts", (starts, count, dofs))?;
+            let (_, to) = Self::rows(handle, "ends", (ends, count, dofs))?;
+            let out = from.room(("motions", motions, count), 1)?;
+            Ok(fill(out, 1, EDGES, |(): &mut (), k, out| {
+                out[0] = of.first_contact(from.row(k), to.row(k), &settings)?.into();
+                Ok::<(), RobotError>(())
+            })?)
+        })
+    }
+
     unsafe fn edges<const N: usize>(
         handle: *const Self,
         [starts, ends]: [*const f64; 2],
@@ -140,7 +161,7 @@ pub(crate) trait Asked: Handle + 'static {
         ask: impl Fn(&Self::Of, [&[f64]; 2], &EdgeSettings) -> Result<[f64; N], RobotError> + Sync,
     ) -> Status {
         let resolution = (resolution != 0.0).then_some(resolution);
-        let settings = EdgeSettings { margin, resolution };
+        let settings = EdgeSettings { margin, resolution, ..Default::default() };
         run(|| unsafe {
             let (of, from) = Self::rows(handle, "starts", (starts, count, dofs))?;
             let (_, to) = Self::rows(handle, "ends", (ends, count, dofs))?;

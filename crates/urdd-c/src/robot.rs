@@ -17,6 +17,7 @@ pub struct Robot {
     pub(crate) robot: urdd_robot::Robot,
     names: OnceLock<Names>,
     configurations: OnceLock<Vec<Owned>>,
+    loops: OnceLock<[Vec<Owned>; 2]>,
 }
 
 /// The names of a robot's parts, for C.
@@ -30,7 +31,12 @@ handle!(Robot, "urdd_robot");
 
 impl Robot {
     fn new(robot: urdd_robot::Robot) -> Self {
-        Robot { robot, names: OnceLock::new(), configurations: OnceLock::new() }
+        Robot {
+            robot,
+            names: OnceLock::new(),
+            configurations: OnceLock::new(),
+            loops: OnceLock::new(),
+        }
     }
 
     pub(crate) fn names(&self) -> Result<&Names, RobotError> {
@@ -51,6 +57,19 @@ impl Robot {
         let name = |named: &NamedConfiguration| Owned::new(&named.name.to_string());
         let names = || named.iter().map(name).collect();
         Ok(self.configurations.get_or_init(names))
+    }
+
+    /// The names of the loops, and of the couplings.
+    pub(crate) fn loop_names(&self) -> Result<&[Vec<Owned>; 2], RobotError> {
+        let module = self.robot.loops()?;
+        let names = || match module {
+            None => [Vec::new(), Vec::new()],
+            Some(module) => [
+                module.loops.iter().map(|one| Owned::new(&one.name)).collect(),
+                module.couplings.iter().map(|one| Owned::new(&one.name)).collect(),
+            ],
+        };
+        Ok(self.loops.get_or_init(names))
     }
 
     pub(crate) fn num_dofs(&self) -> Result<usize, RobotError> {

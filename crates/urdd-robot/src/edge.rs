@@ -14,7 +14,7 @@ const MAX_SAMPLES: u64 = 1_000_000;
 const MAX_STEPS: u64 = 100_000;
 
 /// Halvings of the part in which a first contact is.
-const HALVINGS: u32 = 10;
+pub(super) const HALVINGS: u32 = 10;
 
 /// How a motion is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,11 +24,14 @@ pub struct EdgeSettings {
     /// Between two checked configurations no point of the robot travels farther than this, m. `None` proves that the
     /// motion is free, which needs 0.1 mm more than the margin.
     pub resolution: Option<f64>,
+    /// Whether the kinematic loops of the robot may be open on the way: the motion is then that of its spanning tree, straight
+    /// in all DOFs. Without meaning for a tree.
+    pub open_loops: bool,
 }
 
 impl Default for EdgeSettings {
     fn default() -> Self {
-        EdgeSettings { margin: 0.0, resolution: Some(0.01) }
+        EdgeSettings { margin: 0.0, resolution: Some(0.01), open_loops: false }
     }
 }
 
@@ -39,6 +42,27 @@ pub struct FirstContact {
     pub free: f64,
     /// The first part that is not.
     pub blocked: f64,
+    /// Why it is not.
+    pub obstruction: Obstruction,
+}
+
+/// Why a motion cannot go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Obstruction {
+    /// A pair is at most the margin apart, or is not proved farther apart.
+    Contact,
+    /// No configuration was found there in which the robot's loops are closed, within its bounds.
+    Open,
+    /// The DOFs that follow would have to jump, or arrive elsewhere than at the end: it is on another branch of the closed
+    /// configurations.
+    Branch,
+}
+
+impl FirstContact {
+    pub(super) fn new(free: f64, blocked: f64) -> Self {
+        FirstContact { free, blocked, obstruction: Obstruction::Contact }
+    }
 }
 
 /// A motion, and the memory to check it.
@@ -69,7 +93,7 @@ impl<C: Checked> Motion<'_, C> {
         for k in std::iter::once(steps).chain(halving(steps)) {
             let blocked = k as f64 / steps as f64;
             if self.is_blocked(blocked)? {
-                return Ok(Some(FirstContact { free: 0.0, blocked }));
+                return Ok(Some(FirstContact::new(0.0, blocked)));
             }
         }
         Ok(None)
@@ -82,7 +106,7 @@ impl<C: Checked> Motion<'_, C> {
             if !self.is_blocked(at(k))? {
                 continue;
             }
-            let mut contact = FirstContact { free: at(k.saturating_sub(1)), blocked: at(k) };
+            let mut contact = FirstContact::new(at(k.saturating_sub(1)), at(k));
             for _ in 0..if k == 0 { 0 } else { HALVINGS } {
                 let middle = 0.5 * (contact.free + contact.blocked);
                 match self.is_blocked(middle)? {
@@ -99,7 +123,7 @@ impl<C: Checked> Motion<'_, C> {
     fn unproved(&mut self, rates: &[f64]) -> Result<Option<FirstContact>, RobotError> {
         // In a motion without end, a step is no part of it.
         if rates.iter().all(|rate| rate.is_finite()) {
-            let mut contact = FirstContact { free: 0.0, blocked: 0.0 };
+            let mut contact = FirstContact::new(0.0, 0.0);
             for _ in 0..MAX_STEPS {
                 self.place(contact.blocked)?;
                 let safe = least_safe_part(self.checked, self.placed, rates, self.margin);
@@ -113,7 +137,7 @@ impl<C: Checked> Motion<'_, C> {
                 if next <= contact.blocked {
                     break;
                 }
-                contact = FirstContact { free: contact.blocked + 0.999 * safe, blocked: next };
+                contact = FirstContact::new(contact.blocked + 0.999 * safe, next);
             }
         }
         Err(RobotError::Steps { most: MAX_STEPS })
@@ -134,16 +158,25 @@ pub(super) fn contact(
     let Some(resolution) = settings.resolution else {
         return motion.unproved(&checked.rates(&travel));
     };
+    let steps = steps(checked.farthest(&travel), resolution)?;
+    match is_first {
+        true => motion.first_blocked(steps),
+        false => motion.any_blocked(steps),
+    }
+}
+
+/// In how many parts a motion of this length is checked, m.
+///
+/// # Errors
+/// If the resolution makes no sense, or there are too many.
+pub(super) fn steps(length: f64, resolution: f64) -> Result<u64, RobotError> {
     if !(resolution.is_finite() && resolution > 0.0) {
         return Err(RobotError::Setting("a resolution is finite, and above 0 m"));
     }
-    let steps = (checked.farthest(&travel) / resolution).ceil().max(1.0);
-    if steps > MAX_SAMPLES as f64 {
-        return Err(RobotError::Steps { most: MAX_SAMPLES });
-    }
-    match is_first {
-        true => motion.first_blocked(steps as u64),
-        false => motion.any_blocked(steps as u64),
+    let steps = (length / resolution).ceil().max(1.0);
+    match steps > MAX_SAMPLES as f64 {
+        true => Err(RobotError::Steps { most: MAX_SAMPLES }),
+        false => Ok(steps as u64),
     }
 }
 
@@ -169,7 +202,7 @@ fn least_safe_part(checked: &impl Checked, placed: &Placed, rates: &[f64], margi
 }
 
 /// The numbers from 0 to below `count`, the halves first: what is far from the ends of a motion is blocked most often.
-fn halving(count: u64) -> impl Iterator<Item = u64> {
+pub(super) fn halving(count: u64) -> impl Iterator<Item = u64> {
     let bits = 64 - (count.max(1) - 1).leading_zeros();
     let reversed = move |k: u64| match bits {
         0 => 0,

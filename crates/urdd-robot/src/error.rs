@@ -6,6 +6,7 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_directory::root::ReadError;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::UnknownShapeKind;
+use urdd_kinematics::loops::Gap;
 use urdd_kinematics::{ConfigurationError, KinematicsError};
 
 /// Errors of queries on a robot.
@@ -122,6 +123,32 @@ pub enum RobotError {
     Steps {
         /// The most steps.
         most: u64,
+    },
+    /// An end of a motion in which a loop is open.
+    #[error(
+        "the {end} of the motion is not closed: the loop `{}` is {} m and {} rad apart: call `close` first, or ask for open loops",
+        .name.escape_debug(), .gap.position, .gap.rotation
+    )]
+    NotClosed {
+        /// `start` or `end`.
+        end: &'static str,
+        /// The loop.
+        name: String,
+        /// How far it is apart.
+        gap: Gap,
+    },
+    /// An end of a motion in which a coupling does not hold.
+    #[error(
+        "the {end} of the motion is not closed: the sum of the coupling `{}` is {sum}, not 0: call `close` first, or ask for open loops",
+        .name.escape_debug()
+    )]
+    NotCoupled {
+        /// `start` or `end`.
+        end: &'static str,
+        /// The coupling.
+        name: String,
+        /// Its sum.
+        sum: f64,
     },
     /// A margin or a resolution that makes no sense.
     #[error("{0}")]

@@ -183,8 +183,14 @@ impl Configurations {
 #[derive(Debug)]
 pub(super) struct Closure {
     pub loops: Loops,
+    /// The names of the loops, and of the couplings.
+    pub names: [Vec<String>; 2],
+    /// The bounds of each DOF; infinite for one that is not limited.
+    pub limits: Vec<[f64; 2]>,
     /// The DOFs that move freely, ascending.
     pub independent: Vec<usize>,
+    /// Whether each DOF does.
+    pub is_independent: Vec<bool>,
 }
 
 impl Closure {
@@ -192,15 +198,27 @@ impl Closure {
         module: &LoopsModule,
         part: &Urdd,
         kinematics: &ForwardKinematics,
+        configurations: &Configurations,
     ) -> Result<Self, RobotError> {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
         let described = part.description().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
         let reach = reach(described, &modules.chain);
         let loops = Loops::new(module, kinematics, &modules.dof, reach)?;
-        let independent = module.independent_dof_idxs.iter().map(|dof| dof.get());
+        let mut is_independent = vec![false; kinematics.num_dofs()];
+        for dof in &module.independent_dof_idxs {
+            if let Some(is_independent) = is_independent.get_mut(dof.get()) {
+                *is_independent = true;
+            }
+        }
         Ok(Self {
             loops,
-            independent: independent.filter(|dof| *dof < kinematics.num_dofs()).collect(),
+            names: [
+                module.loops.iter().map(|one| one.name.clone()).collect(),
+                module.couplings.iter().map(|one| one.name.clone()).collect(),
+            ],
+            limits: configurations.limits().to_vec(),
+            independent: (0..is_independent.len()).filter(|dof| is_independent[*dof]).collect(),
+            is_independent,
         })
     }
 }

@@ -24,6 +24,12 @@ impl Robot {
         self.closure()?.map_or_else(all, |closure| Ok(closure.independent.clone()))
     }
 
+    /// The number of [`Robot::independent_dofs`].
+    pub fn num_independent_dofs(&self) -> Result<usize, RobotError> {
+        let dofs = self.motion()?.kinematics.num_dofs();
+        Ok(self.closure()?.map_or(dofs, |closure| closure.independent.len()))
+    }
+
     /// Which DOFs move freely at a closed configuration, and which follow: as [`Robot::independent_dofs`], as far as the
     /// others follow from these there (SPEC 6.8.7). Where several links are in a line, more may move freely.
     pub fn free_dofs(&self, configuration: &[f64]) -> Result<Mobility, RobotError> {
@@ -33,7 +39,7 @@ impl Robot {
             let independent = (0..kinematics.num_dofs()).collect();
             return Ok(Mobility { independent, dependent: Vec::new() });
         };
-        let is_preferred = |dof: usize| closure.independent.binary_search(&dof).is_ok();
+        let is_preferred = |dof: usize| closure.is_independent[dof];
         Ok(closure.loops.mobility(kinematics, configuration, &poses, is_preferred))
     }
 
@@ -141,7 +147,7 @@ impl Robot {
         let kinematics = &self.motion()?.kinematics;
         let dofs = kinematics.num_dofs();
         let closure = self.closure()?;
-        check_room(independent.len(), 1, closure.map_or(dofs, |one| one.independent.len()))?;
+        check_room(independent.len(), 1, self.num_independent_dofs()?)?;
         check_room(out.len(), 1, dofs)?;
         ConfigurationError::check(configuration, dofs)?;
         if !independent.iter().all(|velocity| velocity.is_finite()) {
@@ -157,7 +163,7 @@ impl Robot {
             let poses = &mut workspace.placed.poses;
             kinematics.link_poses_into(configuration, poses)?;
             with_closing_space(|ClosingSpace { velocities, .. }| {
-                let given = |dof: usize| closure.independent.binary_search(&dof).is_ok();
+                let given = |dof: usize| closure.is_independent[dof];
                 let loops = &closure.loops;
                 Ok(loops.velocities(kinematics, configuration, poses, given, out, velocities))
             })

@@ -106,7 +106,7 @@ pub struct ClosedBatch {
 /// let crank = robot.dof("crank")?;
 ///
 /// // From a closed configuration, the crank turns by 0.1 rad, and the others follow.
-/// let mut q = robot.loops()?.expect("a four-bar").reference_configuration.clone();
+/// let mut q = robot.reference_configuration()?;
 /// q[crank] += 0.1;
 /// match robot.close(&q, &CloseSettings { held: &[crank], ..Default::default() })? {
 ///     Closed::Closed(closed) => assert_eq!(closed[crank], q[crank]),
@@ -143,10 +143,20 @@ impl Robot {
                 |module: &&LoopsModule| !module.loops.is_empty() || !module.couplings.is_empty();
             let Some(module) = self.loops()?.filter(said) else { return Ok(None) };
             let part = self.moving_part(&[ModuleKind::Urdf])?;
-            let closure = Closure::new(module, &part, &self.motion()?.kinematics)?;
+            let closure =
+                Closure::new(module, &part, &self.motion()?.kinematics, self.configurations()?)?;
             Ok(Some(Arc::new(closure)))
         })
         .map(Option::as_ref)
+    }
+
+    /// A configuration in which all loops are closed: that of `loops_module`, to begin with. For a tree, the default one,
+    /// [`Configurations::zero`](crate::Configurations::zero).
+    pub fn reference_configuration(&self) -> Result<Vec<f64>, RobotError> {
+        match self.loops()? {
+            Some(module) => Ok(module.reference_configuration.clone()),
+            None => Ok(self.configurations()?.zero()),
+        }
     }
 
     /// How far a configuration is from closed.

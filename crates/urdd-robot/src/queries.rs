@@ -2,8 +2,9 @@
 
 use super::batch::{answer, answer_edges, check_room, room};
 use super::checked::{Checked, any_within, at_most, check_margin, closest, least};
-use super::edge::{self, EdgeSettings, FirstContact};
+use super::edge::{EdgeSettings, FirstContact};
 use super::error::RobotError;
+use super::follow;
 use super::proximity::{Gradient, Overlap, in_root, penetration_of, toward};
 use super::workspace::{Workspace, with_workspace};
 use arrayvec::ArrayVec;
@@ -220,9 +221,18 @@ pub trait Queries: Checked + Sized {
     /// every distance is divided by a bound on how fast it can shrink. It then needs 0.1 mm more than the margin of pairs
     /// that move against each other, and the answer is the first part where they have less.
     ///
+    /// Where the robot has kinematic loops, the motion is the one in which they stay closed: the
+    /// [independent DOFs](crate::Robot::independent_dofs) go straight, the others follow, each configuration closed from the
+    /// last one, within the bounds. Between two checked configurations no point travels farther than the resolution. Where no
+    /// closed configuration is found, the motion is blocked, and so it is at the end if the others arrive on another branch
+    /// of the closed configurations than `end` is on; [`FirstContact::obstruction`] says which. There is no proof of such a
+    /// motion. [`EdgeSettings::open_loops`] asks for the straight motion of the spanning tree.
+    ///
     /// # Errors
-    /// As [`Queries::first_contact`]: [`RobotError::Setting`] if a setting makes no sense; [`RobotError::Steps`] if the
-    /// motion needs more than a million configurations, or its proof more than 100,000 steps.
+    /// As [`Queries::first_contact`]: [`RobotError::Setting`] if a setting makes no sense, such as no resolution for a robot
+    /// with loops; [`RobotError::NotClosed`] and [`RobotError::NotCoupled`] if `start` or `end` is not closed;
+    /// [`RobotError::Steps`] if the motion needs more than a million configurations, with loops more than 100,000, or its
+    /// proof more than 100,000 steps.
     fn blocked_edge(
         &self,
         start: &[f64],
@@ -230,7 +240,7 @@ pub trait Queries: Checked + Sized {
         settings: &EdgeSettings,
     ) -> Result<Option<f64>, RobotError> {
         let found = with_workspace(|Workspace { placed, .. }| {
-            edge::contact(self, [start, end], settings, false, placed)
+            follow::contact(self, [start, end], settings, false, placed)
         })?;
         Ok(found.map(|contact| contact.blocked))
     }
@@ -249,7 +259,7 @@ pub trait Queries: Checked + Sized {
         settings: &EdgeSettings,
     ) -> Result<Option<FirstContact>, RobotError> {
         with_workspace(|Workspace { placed, .. }| {
-            edge::contact(self, [start, end], settings, true, placed)
+            follow::contact(self, [start, end], settings, true, placed)
         })
     }
 

@@ -163,8 +163,8 @@ class InverseSolution:
     verdict: NDArray[np.str_]
     """(...): why. ``reached``; ``refused``: every configuration that was found to reach the target is in collision, and
     this is one; ``limits``: only a configuration beyond the bounds was found to reach it; ``out of reach``: none was
-    found, within the bounds or beyond them; ``loops``: none with closed loops, but one with open ones. This is a search,
-    not a proof."""
+    found, within the bounds or beyond them; ``loops``: none with closed loops, but one with open ones. This is a
+    search, not a proof."""
     position_error: Floats
     """(...): the distance of the point from its target, metres."""
     rotation_error: Floats
@@ -173,6 +173,42 @@ class InverseSolution:
     """(...): number of descents from random configurations."""
     iterations: Indices
     """(...): number of steps of all descents."""
+
+
+@dataclass(frozen=True)
+class LoopErrors:
+    """How far configurations are from closed (SPEC 6.8). One gives scalars and arrays, many arrays that begin with
+    their axes."""
+
+    position: Floats
+    """(..., loops): the position gap of each loop, metres."""
+    rotation: Floats
+    """(..., loops): the rotation gap of each loop, radians while small."""
+    sums: Floats
+    """(..., couplings): the sum of each coupling, which is 0 where it holds."""
+    is_closed: Bools
+    """(...): whether all loops are closed and all couplings hold, within their tolerances."""
+
+
+@dataclass(frozen=True)
+class Closed:
+    """The closed configurations near others."""
+
+    configuration: Floats
+    """(..., dofs), rad or m: closed, or with the smallest gaps that were found from there."""
+    is_closed: Bools
+    """(...): whether it is closed. If false, the loops cannot close, as a rule, with what is held and bounded. This is
+    a search, not a proof."""
+
+
+@dataclass(frozen=True)
+class FreeDofs:
+    """The mobility in a configuration."""
+
+    independent: Indices
+    """The DOFs that move freely, ascending."""
+    dependent: Indices
+    """The DOFs that follow from these, ascending."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from ._arrays import (
     six,
     three,
 )
-from ._description import RobotDescription
+from ._loops import RobotLoops
 from ._options import InverseOptions, whole, words
 from ._proximity import Proximity
 from ._world_proximity import WorldProximity
@@ -42,7 +42,7 @@ _VERDICTS = np.array(["reached", "refused", "limits", "out of reach", "unknown",
 Shapes: TypeAlias = Proximity | WorldProximity
 
 
-class RobotKinematics(RobotDescription):
+class RobotKinematics(RobotLoops):
     """The kinematics of a :class:`urdd.Robot`."""
 
     # Configurations.

@@ -32,8 +32,12 @@ class Core(Protocol[_Near]):
     def min_distance(self, configurations: Floats) -> Floats: ...
     def in_collision(self, configurations: Floats) -> Bools: ...
     def is_within(self, configurations: Floats, margin: float) -> Bools: ...
-    def blocked_edge(self, starts: Floats, ends: Floats, margin: float, resolution: float | None) -> Floats: ...
-    def first_contact(self, starts: Floats, ends: Floats, margin: float, resolution: float | None) -> Floats: ...
+    def blocked_edge(
+        self, starts: Floats, ends: Floats, margin: float, resolution: float | None, open_loops: bool
+    ) -> Floats: ...
+    def first_contact(
+        self, starts: Floats, ends: Floats, margin: float, resolution: float | None, open_loops: bool
+    ) -> Floats: ...
     def gradients(self, configuration: Floats, k: int) -> list[tuple[_Near, list[float] | None]]: ...
     def penetrations(self, configuration: Floats) -> list[tuple[_Near, float, list[float], list[float]]]: ...
     def nearest(self, configuration: Floats, k: int) -> list[_Near]: ...
@@ -78,7 +82,13 @@ class Queries(ABC, Generic[_Near, _Distance, _Gradient, _Overlap]):
         return batched(q, self._dof_names, lambda rows: self.core.is_within(rows, margin))
 
     def blocked_edge(
-        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        *,
+        margin: float = 0.0,
+        resolution: float | None = 0.01,
+        open_loops: bool = False,
     ) -> Floats:
         """(...): where the straight motion from ``start`` to ``end`` is blocked, as a part of it from 0 to 1; NaN where
         it is free.
@@ -88,15 +98,27 @@ class Queries(ABC, Generic[_Near, _Distance, _Gradient, _Overlap]):
         :meth:`first_contact` has. With ``None``, the motion is proved free by conservative advancement: it then needs
         0.1 mm more than the ``margin``, and the answer is the first part where it has less.
 
+        Where the robot has kinematic loops, the motion is the one in which they stay closed: the independent DOFs go
+        straight, the others follow. It is blocked where no closed configuration is found within the bounds, and at its
+        end where the others arrive elsewhere than at ``end``. It has no proof. With ``open_loops``, it is the straight
+        motion of the spanning tree.
+
         Raises:
             ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a
-                million configurations, or 100,000 steps of a proof.
+                million configurations (with loops 100,000), or 100,000 steps of a proof; for a robot with loops also
+                without a resolution, and where ``start`` or ``end`` is not closed.
         """
         starts, ends, batch = edges(start, end, self._dof_names)
-        return scalar(self.core.blocked_edge(starts, ends, margin, resolution).reshape(batch))
+        return scalar(self.core.blocked_edge(starts, ends, margin, resolution, bool(open_loops)).reshape(batch))
 
     def first_contact(
-        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        *,
+        margin: float = 0.0,
+        resolution: float | None = 0.01,
+        open_loops: bool = False,
     ) -> Floats:
         """(..., 2): the last part of the straight motion from ``start`` to ``end`` that is known to be free (0 if the
         start is not), and the first that is blocked; both NaN where the motion is free.
@@ -110,7 +132,7 @@ class Queries(ABC, Generic[_Near, _Distance, _Gradient, _Overlap]):
             ValueError: as :meth:`blocked_edge`.
         """
         starts, ends, batch = edges(start, end, self._dof_names)
-        return self.core.first_contact(starts, ends, margin, resolution).reshape((*batch, 2))
+        return self.core.first_contact(starts, ends, margin, resolution, bool(open_loops)).reshape((*batch, 2))
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[_Distance]:
         """The ``k`` nearest pairs in one configuration, with their closest points, nearest first; all pairs if there

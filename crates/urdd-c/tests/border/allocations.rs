@@ -107,6 +107,46 @@ fn a_control_loop_does_not_allocate() {
     }
 }
 
+/// A leg of six rods that moves: each round closes it from the last one.
+#[test]
+fn closing_loops_in_a_control_loop_does_not_allocate() {
+    let (_guard, folder) = testkit::robots::made_of(&testkit::looped::leg());
+    let path = CString::new(folder.to_str().expect("UTF-8")).expect("no zero byte");
+    let mut robot = null_mut();
+    // SAFETY: as the header says.
+    unsafe {
+        let ok = |status| assert_eq!(status, Status::Ok);
+        ok(urdd_robot_open(path.as_ptr(), &mut robot));
+        let (mut held, mut q, mut closed) = ([0; 6], [0.0; 21], [0.0; 21]);
+        ok(urdd_robot_independent_dofs(robot, held.as_mut_ptr(), 6));
+        ok(urdd_robot_reference_configuration(robot, q.as_mut_ptr(), 21));
+        let (mut residuals, mut jacobian) = ([0.0; 15], [0.0; 15 * 21]);
+        let (speeds, mut velocities, mut is_closed) = ([0.01; 6], [0.0; 21], false);
+        let mut before = 0;
+        for k in 0..200 {
+            if k == 50 {
+                before = COUNT.get();
+            }
+            for dof in held {
+                q[dof] += 1e-4;
+            }
+            let (at, free, out) = (q.as_ptr(), held.as_ptr(), closed.as_mut_ptr());
+            ok(urdd_robot_close(robot, at, 1, 21, free, 6, null(), 0, out, &mut is_closed));
+            assert!(is_closed, "in round {k}");
+            q = closed;
+            let out = residuals.as_mut_ptr();
+            ok(urdd_robot_loop_residuals(robot, at, 1, 21, out, 15));
+            let out = jacobian.as_mut_ptr();
+            ok(urdd_robot_loop_jacobians(robot, at, 1, 21, out, 15 * 21));
+            let out = velocities.as_mut_ptr();
+            ok(urdd_robot_loop_velocities(robot, at, 1, 21, speeds.as_ptr(), 6, out));
+        }
+        assert!(before > 0);
+        assert_eq!(COUNT.get() - before, 0);
+        ok(urdd_robot_free(robot));
+    }
+}
+
 #[test]
 fn too_little_memory_for_many_targets_is_a_status() {
     let urdf = testkit::repository().join("conformance/robots/welding_arm.urdf");

@@ -472,8 +472,11 @@ fn what_planners_ask_is_what_rust_answers() {
             0.0,
             others.as_mut_ptr(),
         ));
-        let settings =
-            [Some(0.05), None].map(|resolution| EdgeSettings { margin: 0.0, resolution });
+        let settings = [Some(0.05), None].map(|resolution| EdgeSettings {
+            margin: 0.0,
+            resolution,
+            ..Default::default()
+        });
         for (k, row) in q.chunks(dofs).enumerate() {
             assert_eq!(within[0][k], known.is_within(row, 0.05).expect("an answer"));
             assert_eq!(within[1][k], around.is_within(row, 0.05).expect("an answer"));

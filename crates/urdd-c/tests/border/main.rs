@@ -10,5 +10,6 @@ mod changing;
 mod fuzz_findings;
 mod interface;
 mod inverse;
+mod loops;
 mod memory;
 mod motion;

@@ -189,8 +189,11 @@ fn first_contacts_and_motions_without_end() {
                 others,
                 40,
             ));
-            let settings =
-                EdgeSettings { margin: 0.0, resolution: (resolution > 0.0).then_some(resolution) };
+            let settings = EdgeSettings {
+                margin: 0.0,
+                resolution: (resolution > 0.0).then_some(resolution),
+                ..Default::default()
+            };
             let mut blocked = 0;
             for (k, (start, end)) in starts.chunks(6).zip(ends.chunks(6)).enumerate() {
                 let expected = [

@@ -16,7 +16,7 @@ use self::path::Path;
 use super::configurations::ConfigurationSpace;
 use super::error::ConfigurationError;
 use super::forward::ForwardKinematics;
-use super::loops::Loops;
+use super::loops::{Loops, NotClosed, Scratch};
 
 /// With a posture, restarts begin these parts of the way from it to a random configuration, in turn: most solutions
 /// near it are found from near it.
@@ -139,6 +139,14 @@ impl ForwardKinematics {
         let path = Path::new(self, goal, &bounds, loops);
         let mut first = start.to_vec();
         path.confine(&mut first);
+        if let Some(loops) = loops {
+            // What does not move the link is closed once, and stays.
+            let is_held = |dof: usize| path.place[dof].is_some() || settings.locked.contains(&dof);
+            let closing = loops.close(self, &mut first, &bounds, is_held, &mut Scratch::default());
+            if let Err(NotClosed::Unusable(error)) = closing {
+                return Err(error);
+            }
+        }
         let asked = Asked { kinematics: self, goal, settings, near };
         let mut search = Search {
             path: &path,

@@ -17,6 +17,15 @@ pub struct Gap {
     pub rotation: f64,
 }
 
+/// A loop that is not closed, or a coupling that does not hold, by its place in the module.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FirstOpen {
+    /// A loop, with its gap.
+    Loop(usize, Gap),
+    /// A coupling, with its sum.
+    Coupling(usize, f64),
+}
+
 /// Fraction of the reach, and angle in rad, within which a loop without tolerances counts as closed; fraction of its
 /// summands within which a coupling holds (SPEC 6.8.4, 6.8.5).
 pub(super) const CLOSED: f64 = 1e-9;
@@ -190,11 +199,22 @@ impl Loops {
 
     /// Whether all loops are closed and all couplings hold (SPEC 6.8.6), for a configuration and its link poses.
     pub fn is_closed(&self, configuration: &[f64], poses: &[Isometry3<f64>]) -> bool {
-        let loops = self.loops.iter().all(|one| {
-            let (gap, [position, rotation]) = (one.gap(poses), one.tolerances);
-            gap.position <= position + CLOSED * self.reach && gap.rotation <= rotation + CLOSED
-        });
-        loops && self.couplings.iter().all(|one| one.at(configuration).holds())
+        self.first_open(configuration, poses).is_none()
+    }
+
+    /// The first loop that is not closed, or else the first coupling that does not hold.
+    pub fn first_open(&self, configuration: &[f64], poses: &[Isometry3<f64>]) -> Option<FirstOpen> {
+        let gaps = self.loops.iter().map(|one| (one.gap(poses), one.tolerances));
+        let is_open = |(_, (gap, [position, rotation])): &(usize, (Gap, [f64; 2]))| {
+            let position = gap.position <= position + CLOSED * self.reach;
+            !(position && gap.rotation <= rotation + CLOSED)
+        };
+        let open = gaps.enumerate().find(is_open).map(|(k, (gap, _))| FirstOpen::Loop(k, gap));
+        open.or_else(|| {
+            let sums = self.couplings.iter().map(|one| one.at(configuration));
+            let (k, sum) = sums.enumerate().find(|(_, sum)| !sum.holds())?;
+            Some(FirstOpen::Coupling(k, sum.value))
+        })
     }
 
     /// Writes what is not 0 that should be: [`Group::num_rows`] numbers.

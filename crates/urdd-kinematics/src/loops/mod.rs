@@ -10,7 +10,7 @@ mod stacked;
 mod velocities;
 
 pub use close::{Closing, NotClosed, Scratch};
-pub use equations::Gap;
+pub use equations::{FirstOpen, Gap};
 pub use independent::Mobility;
 pub use model::Loops;
 pub(crate) use stacked::Linearised;

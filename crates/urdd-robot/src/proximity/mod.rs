@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use super::Robot;
 use super::error::RobotError;
-use super::kept::Motion;
+use super::kept::{Closure, Motion};
 use super::names::{check_link, index};
 use super::shapes::ShapeKind;
 use super::skips::{PairStatistics, Skips};
@@ -60,6 +60,8 @@ pub struct PairDistance {
 #[derive(Debug, Clone)]
 pub struct Proximity {
     pub(super) motion: Arc<Motion>,
+    /// What closes loops; for a motion alone, so that a fault of it is no fault of others.
+    pub(super) closure: Result<Option<Arc<Closure>>, RobotError>,
     pub(super) kind: ShapeKind,
     /// Of the links, then of the attached objects.
     pub(super) names: Vec<Arc<str>>,
@@ -165,6 +167,7 @@ impl Robot {
         wanted: impl Fn([&Shape; 2], Option<(usize, usize)>) -> bool,
     ) -> Result<Proximity, RobotError> {
         let motion = Arc::clone(self.shared_motion()?);
+        let closure = self.closure().map(Option::<&Arc<_>>::cloned);
         let statistics = self.statistics()?;
         let index: HashMap<(usize, usize), usize> =
             skips.places().iter().enumerate().map(|(index, place)| (*place, index)).collect();
@@ -198,6 +201,7 @@ impl Robot {
             kind,
             shapes,
             pairs,
+            closure,
             groups: Vec::new(),
             rounding: Rounding::None,
             level: Level::new(),

@@ -41,7 +41,7 @@ fn a_ball_that_a_sliding_box_carries() {
     assert_eq!(with.is_within(&[0.0], 0.54), Ok(false));
     assert_eq!(with.is_within(&[0.0], 0.56), Ok(true));
     // From x = 1 to x = -1 the ball touches at x = -0.55.
-    let proved = EdgeSettings { margin: 0.0, resolution: None };
+    let proved = EdgeSettings { margin: 0.0, resolution: None, ..Default::default() };
     let part = with.blocked_edge(&[1.0], &[-1.0], &proved);
     let part = part.expect("an answer").expect("blocked");
     assert!(part <= 0.775 && (part - 0.775).abs() < 1e-3, "{part}");
@@ -168,7 +168,7 @@ fn links_that_cannot_move_against_each_other_have_no_margin() {
     assert!((least - 0.05).abs() < 1e-6, "the distance of the fixed pair: {least}");
     // The plate ends 0.65 m from the base at x = 0.
     assert_eq!([0.64, 0.66].map(|margin| all.is_within(&[0.0], margin)), [Ok(false), Ok(true)]);
-    let proved = |margin: f64| EdgeSettings { margin, resolution: None };
+    let proved = |margin: f64| EdgeSettings { margin, resolution: None, ..Default::default() };
     assert_eq!(all.blocked_edge(&[0.0], &[3.0], &proved(0.6)), Ok(None));
     assert_eq!(all.blocked_edge(&[0.0], &[3.0], &proved(0.7)), Ok(Some(0.0)));
     // What the plate carries need not name the box, which it reaches into.

@@ -1,14 +1,11 @@
 //! Kinematic loops in use: held to the law of cosines, closed derivatives and central differences.
 
-use urdd_robot::{
-    CloseSettings, Closed, ClosedBatch, Inverse, InverseSettings, Robot, RobotError, Target,
-    Verdict,
-};
+use urdd_robot::{CloseSettings, Closed, ClosedBatch, Robot, RobotError};
 
 use testkit::looped::{FOUR_BAR, four_bar, four_bar_at, leg, made_with_loops};
 use testkit::robots::{made_named, made_of};
 
-fn robot_of(urdf: &str) -> (tempfile::TempDir, Robot) {
+pub(super) fn robot_of(urdf: &str) -> (tempfile::TempDir, Robot) {
     let (folder, path) = made_of(urdf);
     (folder, Robot::open(path).expect("a robot"))
 }
@@ -46,7 +43,7 @@ fn a_four_bar_closes_as_the_law_of_cosines_has_it() {
 }
 
 /// Of coupler and rocker together, 0.45 m, the crank's end can be so far from the rocker's hinge.
-const ROCKERS: [f64; 4] = [0.4, 0.3, 0.2, 0.25];
+pub(super) const ROCKERS: [f64; 4] = [0.4, 0.3, 0.2, 0.25];
 
 #[test]
 fn what_cannot_close_is_an_answer_and_bounds_are_kept() {
@@ -176,6 +173,8 @@ fn a_leg_of_six_rods_follows_its_lengths() {
     let rods: Vec<usize> = (0..6).map(|k| robot.dof(&format!("rod_{k}")).unwrap()).collect();
     let mut q = robot.loops().unwrap().expect("loops").reference_configuration.clone();
     assert_eq!((q.len(), robot.num_loop_equations()), (21, Ok(15)));
+    assert_eq!(robot.independent_dofs(), Ok(rods.clone()));
+    assert_eq!(robot.num_independent_dofs(), Ok(6));
     assert_eq!(robot.free_dofs(&q).unwrap().independent.len(), 6);
     // The points of hip and foot that a rod connects are as far apart as it is long.
     for rod in &rods {
@@ -246,103 +245,4 @@ fn a_tree_is_closed_everywhere() {
     assert!(matches!(robot.loop_errors(&q[1..]), Err(RobotError::Configuration(_))));
     let batch = robot.close_batch(&[], &settings).expect("no configuration");
     assert_eq!((batch.configurations.len(), batch.is_closed.len()), (0, 0));
-}
-
-/// The closed configuration of the leg near another one in which its rods have these lengths.
-fn at_lengths(robot: &Robot, near: &[f64], lengths: [f64; 6]) -> Vec<f64> {
-    let rods: Vec<usize> = (0..6).map(|k| robot.dof(&format!("rod_{k}")).unwrap()).collect();
-    let mut q = near.to_vec();
-    rods.iter().zip(lengths).for_each(|(rod, length)| q[*rod] = length);
-    let settings = CloseSettings { held: &rods, ..Default::default() };
-    robot.close(&q, &settings).unwrap().closed().expect("closed")
-}
-
-#[test]
-fn inverse_kinematics_stays_closed() {
-    let (_folder, robot) = robot_of(&leg());
-    let start = robot.loops().unwrap().expect("loops").reference_configuration.clone();
-    let start = at_lengths(&robot, &start, [0.5; 6]);
-    let foot = robot.link("foot").unwrap();
-    let known = robot.configurations().unwrap();
-    let before = robot.link_poses(&start).unwrap()[foot];
-    for (k, shift) in
-        [[0.05, 0.0, 0.02], [-0.03, 0.06, -0.01], [0.0, -0.04, 0.05]].iter().enumerate()
-    {
-        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.1, -0.05 * k as f64, 0.1);
-        let mut pose = before;
-        pose.translation.vector += nalgebra::Vector3::from(*shift);
-        pose.rotation = turn * before.rotation;
-        let target = Target::pose(foot, pose);
-        let ask = |settings: &InverseSettings| {
-            robot.inverse_kinematics(&target, &start, settings).expect("an answer")
-        };
-        let found = ask(&InverseSettings::default()).reached().expect("within reach");
-        assert!(found.restarts == 0 && found.iterations < 12, "{found:?}");
-        let q = &found.configuration;
-        assert!(robot.loop_errors(q).unwrap().is_closed && known.is_within_bounds(q));
-        let there = robot.link_poses(q).unwrap()[foot];
-        assert!((there.translation.vector - pose.translation.vector).norm() < 1e-6);
-        assert!(there.rotation.angle_to(&pose.rotation) < 1e-6);
-        // The tree has one rod that reaches alone.
-        let open = ask(&InverseSettings { open_loops: true, ..Default::default() });
-        let open = open.reached().expect("within reach").configuration;
-        assert!(!robot.loop_errors(&open).unwrap().is_closed);
-        // A rod that is locked leaves five freedoms: the foot's height follows.
-        let rod = robot.dof("rod_3").unwrap();
-        let settings = InverseSettings {
-            locked: vec![rod],
-            posture: Some(start.clone()),
-            ..Default::default()
-        };
-        let free = target.weighted([1.0, 1.0, 0.0, 1.0, 1.0, 1.0]);
-        let found = robot.inverse_kinematics(&free, &start, &settings).unwrap();
-        let q = found.reached().expect("within reach").configuration;
-        assert!(q[rod] == start[rod] && robot.loop_errors(&q).unwrap().is_closed);
-    }
-    // 0.9 m are more than a rod has.
-    let mut far = before;
-    far.translation.z = 0.9 * before.translation.z.signum();
-    let ask = |pose| {
-        let settings = InverseSettings { restarts: 5, ..Default::default() };
-        robot.inverse_kinematics(&Target::pose(foot, pose), &start, &settings).unwrap()
-    };
-    let found = ask(far);
-    assert_eq!(found.nearest().verdict, Verdict::Limits);
-    assert!(robot.loop_errors(&found.nearest().configuration).unwrap().is_closed);
-}
-
-#[test]
-fn what_only_the_tree_reaches_has_a_verdict() {
-    let (_folder, robot) = robot_of(&four_bar(FOUR_BAR, ""));
-    let rocker = robot.link("rocker_link").unwrap();
-    let start = four_bar_at(FOUR_BAR, 0.5, -1.0);
-    let ask = |angle: f64, settings: &InverseSettings| {
-        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, angle);
-        robot.inverse_kinematics(&Target::rotation(rocker, turn), &start, settings).unwrap()
-    };
-    let settings = InverseSettings::default();
-    // Where the rocker is at other angles of the crank.
-    for crank in [0.1, 1.0, 2.0, 3.0, 4.5] {
-        let expected = four_bar_at(FOUR_BAR, crank, -1.0);
-        let found = ask(expected[2], &settings).reached().expect("within reach").configuration;
-        let again = four_bar_at(FOUR_BAR, found[0], -1.0);
-        assert!((again[2] - expected[2]).sin().abs() < 1e-5, "{found:?}, {expected:?}");
-    }
-    // A rocker never points at the ground's other hinge beyond where crank and coupler are in a line.
-    let found = ask(0.0, &settings);
-    assert_eq!(found.nearest().verdict, Verdict::Loops);
-    let q = &found.nearest().configuration;
-    assert!(robot.loop_errors(q).unwrap().is_closed && found.nearest().rotation_error > 0.1);
-    let unknown = ask(0.0, &InverseSettings { explain: false, ..Default::default() });
-    assert_eq!(unknown.nearest().verdict, Verdict::Unknown);
-    assert!(ask(0.0, &InverseSettings { open_loops: true, ..Default::default() }).is_reached());
-    // Locked where nothing closes.
-    let (_folder, robot) = robot_of(&four_bar(ROCKERS, ""));
-    let locked = InverseSettings { locked: vec![0], restarts: 3, ..Default::default() };
-    let start = [std::f64::consts::PI, 0.0, 3.0];
-    let target = Target::rotation(rocker, nalgebra::UnitQuaternion::identity());
-    let found = robot.inverse_kinematics(&target, &start, &locked).unwrap();
-    let Inverse::Nearest(nearest) = found else { panic!("{found:?}") };
-    assert_eq!((nearest.verdict, nearest.configuration[0]), (Verdict::Loops, start[0]));
-    assert!(!robot.loop_errors(&nearest.configuration).unwrap().is_closed);
 }

@@ -6,6 +6,7 @@
 mod cancelled;
 mod carrying;
 mod changing;
+mod closed_ways;
 mod gravity;
 mod inverse;
 mod loops;

@@ -6,7 +6,7 @@ use std::path::Path;
 use nalgebra::{Isometry3, Point3};
 use urdd_kinematics::ForwardKinematics;
 use urdd_robot::{
-    EdgeSettings, FirstContact, Obstacle, Queries, Robot, RobotError, ShapeKind, World,
+    EdgeSettings, FirstContact, Obstacle, Obstruction, Queries, Robot, RobotError, ShapeKind, World,
 };
 
 use testkit::robots::{made, made_of, our_robots};
@@ -45,13 +45,13 @@ fn a_sliding_box_has_closed_forms() {
 
     // From x = 1 to x = -1: they are 0.3 m apart at x = -0.5, after 3/4 of the motion.
     let edge = |resolution: Option<f64>, margin: f64| {
-        let settings = EdgeSettings { margin, resolution };
+        let settings = EdgeSettings { margin, resolution, ..Default::default() };
         proximity.blocked_edge(&[1.0], &[-1.0], &settings).expect("an answer")
     };
     let proved = edge(None, 0.3).expect("blocked");
     assert!((proved - 0.75).abs() < 1e-4 && proved <= 0.75, "{proved}");
     assert_eq!(edge(Some(0.01), 0.3), Some(1.0));
-    let away = EdgeSettings { margin: 0.3, resolution: None };
+    let away = EdgeSettings { margin: 0.3, resolution: None, ..Default::default() };
     assert_eq!(proximity.blocked_edge(&[1.0], &[3.0], &away), Ok(None));
     assert_eq!(proximity.blocked_edge(&[1.0], &[1.0], &away), Ok(None));
 
@@ -62,13 +62,13 @@ fn a_sliding_box_has_closed_forms() {
     let world = proximity.world_proximity(&World::new([wall.ignoring("base")])).expect("a world");
     assert!(!world.is_within(&[1.0], 0.89).expect("an answer"));
     assert!(world.is_within(&[1.0], 0.91).expect("an answer"));
-    let settings = EdgeSettings { margin: 0.0, resolution: None };
+    let settings = EdgeSettings { margin: 0.0, resolution: None, ..Default::default() };
     let at = world.blocked_edge(&[0.0], &[4.0], &settings).expect("an answer").expect("blocked");
     assert!((at - 1.9 / 4.0).abs() < 1e-4 && at <= 1.9 / 4.0, "{at}");
     // Sampled, the wall is between two configurations that are too far apart, and the halves come first.
-    let coarse = EdgeSettings { margin: 0.0, resolution: Some(10.0) };
+    let coarse = EdgeSettings { margin: 0.0, resolution: Some(10.0), ..Default::default() };
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &coarse), Ok(None));
-    let fine = EdgeSettings { margin: 0.0, resolution: Some(0.1) };
+    let fine = EdgeSettings { margin: 0.0, resolution: Some(0.1), ..Default::default() };
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &fine), Ok(Some(0.5)));
     let first = world.first_contact(&[0.0], &[4.0], &fine).expect("an answer").expect("blocked");
     assert!(first.free <= 1.9 / 4.0 && 1.9 / 4.0 <= first.blocked, "{first:?}");
@@ -79,7 +79,10 @@ fn a_sliding_box_has_closed_forms() {
     // From within the wall, toward it, and away from it.
     for settings in [settings, fine] {
         let first = |start: f64, end: f64| world.first_contact(&[start], &[end], &settings);
-        assert_eq!(first(2.0, 0.0), Ok(Some(FirstContact { free: 0.0, blocked: 0.0 })));
+        assert_eq!(
+            first(2.0, 0.0),
+            Ok(Some(FirstContact { free: 0.0, blocked: 0.0, obstruction: Obstruction::Contact }))
+        );
         assert_eq!(first(1.0, -1.0), Ok(None));
     }
 }
@@ -242,8 +245,8 @@ fn proofs_hold_at_every_sample() {
     let (_folder, robot) = robot_of("six_axis_arm");
     let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
     let space = robot.configurations().expect("bounds");
-    let proof = EdgeSettings { margin: 0.02, resolution: None };
-    let dense = EdgeSettings { margin: 0.02, resolution: Some(0.002) };
+    let proof = EdgeSettings { margin: 0.02, resolution: None, ..Default::default() };
+    let dense = EdgeSettings { margin: 0.02, resolution: Some(0.002), ..Default::default() };
     let mut counts = [0, 0];
     for k in 0..60 {
         let (start, mut end) = (space.random(2 * k), space.random(2 * k + 1));
@@ -275,7 +278,8 @@ fn settings_that_make_no_sense_are_refused() {
         assert!(matches!(proximity.is_within(&[0.0], margin), Err(RobotError::Setting(_))));
     }
     let edge = |resolution: f64, end: f64| {
-        let settings = EdgeSettings { margin: 0.0, resolution: Some(resolution) };
+        let settings =
+            EdgeSettings { margin: 0.0, resolution: Some(resolution), ..Default::default() };
         proximity.blocked_edge(&[0.0], &[end], &settings)
     };
     for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -297,7 +301,7 @@ fn motions_without_end_are_refused() {
         let ask = |dof: usize, length: f64, resolution: Option<f64>| {
             let mut end = start.clone();
             end[dof] = length;
-            let settings = EdgeSettings { margin: 0.0, resolution };
+            let settings = EdgeSettings { margin: 0.0, resolution, ..Default::default() };
             let all = [
                 proximity.blocked_edge(&start, &end, &settings),
                 world.first_contact(&start, &end, &settings).map(|one| one.map(|one| one.free)),
