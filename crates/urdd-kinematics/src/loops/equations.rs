@@ -47,20 +47,10 @@ fn held(kind: LoopKind) -> ([bool; 3], Turn) {
     }
 }
 
-impl Ends {
-    /// The pose of frame B in frame A.
-    fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
-        let [a, b] = self.world(poses);
-        a.inv_mul(&b)
-    }
-
-    fn world(&self, poses: &[Isometry3<f64>]) -> [Isometry3<f64>; 2] {
-        [0, 1].map(|end| poses[self.links[end]] * self.frames[end])
-    }
-
-    fn gap(&self, poses: &[Isometry3<f64>]) -> Gap {
-        let between = self.between(poses);
-        let (axes, turn) = held(self.kind);
+impl Gap {
+    /// How far a loop of a kind is from closed, for the pose of frame B in frame A.
+    pub fn of(kind: LoopKind, between: &Isometry3<f64>) -> Self {
+        let (axes, turn) = held(kind);
         let mut position = between.translation.vector;
         for (value, held) in position.iter_mut().zip(axes) {
             *value = if held { *value } else { 0.0 };
@@ -74,6 +64,18 @@ impl Ends {
             Turn::Nothing => 0.0,
         };
         Gap { position: position.norm(), rotation }
+    }
+}
+
+impl Ends {
+    /// The pose of frame B in frame A.
+    fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
+        let [a, b] = self.world(poses);
+        a.inv_mul(&b)
+    }
+
+    fn world(&self, poses: &[Isometry3<f64>]) -> [Isometry3<f64>; 2] {
+        [0, 1].map(|end| poses[self.links[end]] * self.frames[end])
     }
 
     /// What is not 0 that should be: rows of the position divided by the reach, rows of the rotation in rad.
@@ -142,13 +144,13 @@ impl Loops {
     /// If `out` has fewer entries than there are loops.
     pub fn gaps_into(&self, poses: &[Isometry3<f64>], out: &mut [Gap]) {
         for (one, out) in self.loops.iter().zip(out) {
-            *out = one.gap(poses);
+            *out = Gap::of(one.kind, &one.between(poses));
         }
     }
 
     /// How far each loop is from closed, in the order of the module.
     pub fn gaps(&self, poses: &[Isometry3<f64>]) -> Vec<Gap> {
-        self.loops.iter().map(|one| one.gap(poses)).collect()
+        self.loops.iter().map(|one| Gap::of(one.kind, &one.between(poses))).collect()
     }
 
     /// The sum of each coupling, which should be 0, in the order of the module.
@@ -159,7 +161,8 @@ impl Loops {
     /// Whether all loops are closed and all couplings hold (SPEC 6.8.6), for a configuration and its link poses.
     pub fn is_closed(&self, configuration: &[f64], poses: &[Isometry3<f64>]) -> bool {
         let loops = self.loops.iter().all(|one| {
-            let (gap, [position, rotation]) = (one.gap(poses), one.tolerances);
+            let (gap, [position, rotation]) =
+                (Gap::of(one.kind, &one.between(poses)), one.tolerances);
             gap.position <= position + CLOSED * self.reach && gap.rotation <= rotation + CLOSED
         });
         loops && self.couplings.iter().all(|one| one.at(configuration).holds())
