@@ -29,7 +29,7 @@ const BALLS: How = Otherwise(
 const SECOND: How = Otherwise(
     "those that are closed where all joints are at 0, as joints; no cylinders and planes; Drake refuses the file",
 );
-const OUTSIDE: How = Otherwise("as joints that are not of the articulation");
+const OUTSIDE: How = Otherwise("as joints that are not of the articulation; no universal joints");
 const PAIRED: How = Otherwise("welds and balls, and hinges as two balls");
 const SOURCES: How = Otherwise("as URDF+'s elements, which the source has");
 const RETYPED: How = Otherwise("as hinges that the YAML makes balls");

@@ -42,7 +42,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut left_out = LeftOut::default();
     let closings = closings(subject, &mut left_out)?;
     let followers = Followers::new(subject, &mut left_out)?;
-    notes.extend(left_out.notes());
     let module = subject.robot.loops()?;
     let default = || subject.robot.configurations().map(|of| of.zero());
     let zero = module.map_or_else(default, |module| Ok(module.reference_configuration.clone()))?;
@@ -99,8 +98,12 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut taken = paths.taken_joints.clone();
     for closing in &closings {
         let name = taken.free(names::mend(&closing.name));
-        scope.push(loops::prim(subject, &paths, name, closing));
+        match loops::prim(subject, &paths, name, closing) {
+            Some(prim) => scope.push(prim),
+            None => left_out.of_loop(&closing.of.name, loops::UNIVERSAL),
+        }
     }
+    notes.extend(left_out.notes());
     let is_whole = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
     notes.extend(subject.notes().into_iter().filter(is_whole));
     if !paths.mended.is_empty() {

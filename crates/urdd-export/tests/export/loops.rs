@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use tempfile::TempDir;
 use urdd_export::{Choices, Export, Format};
 use urdd_format::loops::{LoopKind, LoopsModule};
@@ -367,4 +367,123 @@ fn couplings_are_mimics_where_a_format_has_no_others() {
         let made = exported(&robot, format, Choices::default());
         assert!(notes(&made).contains("coupling `three` is left out"), "{}", notes(&made));
     }
+}
+
+/// Values in an XML or a USD, each after a word.
+fn values(text: &str, word: &str) -> Vec<[f64; 3]> {
+    let numbers = |rest: &str| {
+        let end = rest.find(['"', ')', '<']).expect("an end");
+        let words = rest[..end].split([' ', ',']).filter(|word| !word.is_empty());
+        words.map(|word| word.parse().expect("a number")).collect::<Vec<f64>>()
+    };
+    text.split(word).skip(1).map(|rest| numbers(rest).try_into().expect("three")).collect()
+}
+
+/// A ball is one ball constraint, a hinge two and a weld three: their points meet where the loop is closed, and no others do.
+#[test]
+fn drake_holds_balls_hinges_and_welds_by_points() {
+    let ends = [pose([0.1, 0.0, 0.2], [0.3, 0.0, 0.1]), pose([0.3, 0.2, 0.1], [0.1, -0.2, 0.3])];
+    for kind in LoopKind::ALL {
+        let (_folder, robot) = made_of(URDF, &loop_of(*kind, Isometry3::identity()));
+        let made = exported(&robot, Format::Drake, Choices::default());
+        let points = ["p_AP value=\"", "p_BQ value=\""]
+            .map(|word| values(&made.text, &format!("drake:ball_constraint_{word}")));
+        let number = match kind {
+            LoopKind::Spherical => 1,
+            LoopKind::Revolute => 2,
+            LoopKind::Fixed => 3,
+            _ => 0,
+        };
+        assert_eq!((points[0].len(), points[1].len()), (number, number), "{kind:?}");
+        let is_said = notes(&made).contains("loop `close` is left out");
+        assert_eq!(is_said, number == 0, "{}", notes(&made));
+        let placed = |end: usize| -> Vec<Point3<f64>> {
+            points[end].iter().map(|point| ends[end] * Point3::from(*point)).collect()
+        };
+        let (in_a, in_b) = (placed(0), placed(1));
+        for (a, b) in in_a.iter().zip(&in_b) {
+            assert!((a - b).norm() < 1e-12, "{kind:?}: {a} {b}");
+        }
+        // The points of a hinge are on its axis, and those of a weld not on a line.
+        let axis = ends[0] * frame_in_tool() * Vector3::z();
+        match in_a[..] {
+            [one, other] => assert!((other - one).cross(&axis).norm() < 1e-12),
+            [one, other, third] => assert!((other - one).cross(&(third - one)).norm() > 1e-3),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn drake_finds_no_world_in_a_model() {
+    let urdf = URDF.replace("\"base\"", "\"world\"");
+    let toml = "[[loop]]\nname = \"close\"\nkind = \"Spherical\"\nlink_a = \"tool\"\nframe_a = { xyz = [0.0, 0.0, 0.0] }\n\
+        link_b = \"world\"\nframe_b = { xyz = [0.1, 0.0, 0.2] }\n";
+    let (_folder, robot) = made_of(&urdf, toml);
+    let made = exported(&robot, Format::Drake, Choices::default());
+    assert!(notes(&made).contains("find no `world`"), "{}", notes(&made));
+    assert!(!made.text.contains("ball_constraint"));
+    // An SDF has it, as a parent alone.
+    let made = exported(&robot, Format::Sdf, Choices::default());
+    assert!(made.text.contains("<joint name=\"close\" type=\"ball\">"), "{}", made.text);
+    assert!(!made.text.contains("<child>world</child>"));
+}
+
+#[test]
+fn usd_has_joints_that_are_not_of_the_articulation() {
+    let types = [
+        (LoopKind::Fixed, "PhysicsFixedJoint", ""),
+        (LoopKind::Revolute, "PhysicsRevoluteJoint", "physics:axis = \"Z\""),
+        (LoopKind::Prismatic, "PhysicsPrismaticJoint", "physics:axis = \"Z\""),
+        (LoopKind::Spherical, "PhysicsSphericalJoint", ""),
+        (LoopKind::Cylindrical, "PhysicsJoint", "transZ rotZ"),
+        (LoopKind::Planar, "PhysicsJoint", "transX transY rotZ"),
+    ];
+    for (kind, word, more) in types {
+        let (_folder, robot) = made_of(URDF, &loop_of(kind, Isometry3::identity()));
+        let made = exported(&robot, Format::Usd, Choices::default());
+        let (_, prim) = made.text.split_once(&format!("def {word} \"close\"")).expect("a prim");
+        let prim = &prim[..prim.find("\n        }").expect("its end")];
+        assert!(prim.contains("bool physics:excludeFromArticulation = 1"), "{prim}");
+        let of = &module(&robot).loops[0];
+        for (place, frame) in [&of.frame_a, &of.frame_b].into_iter().enumerate() {
+            let [found] = values(prim, &format!("physics:localPos{place} = ("))[..] else {
+                panic!("{prim}")
+            };
+            let apart = Vector3::from(found) - Vector3::from(frame.position);
+            assert!(apart.norm() < 1e-7, "{found:?} {:?}", frame.position);
+        }
+        if word != "PhysicsJoint" {
+            assert!(prim.contains(more), "{prim}");
+            continue;
+        }
+        for axis in ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"] {
+            let low = format!("limit:{axis}:physics:low = ");
+            let is_free = prim.contains(&format!("{low}-inf"));
+            assert_eq!(is_free, more.contains(axis), "{axis}: {prim}");
+            assert!(is_free || prim.contains(&format!("{low}1")), "{axis}: {prim}");
+        }
+    }
+    let (_folder, robot) = made_of(URDF, &loop_of(LoopKind::Universal, Isometry3::identity()));
+    let made = exported(&robot, Format::Usd, Choices::default());
+    assert!(notes(&made).contains("loop `close` is left out"), "{}", notes(&made));
+}
+
+/// Bodies of a USD are where the loops are closed, which zero is not.
+#[test]
+fn bodies_of_a_usd_are_in_the_closed_configuration() {
+    let off = pose([0.0, 0.0, 0.05], [0.0; 3]);
+    let (_folder, robot) = made_of(URDF, &loop_of(LoopKind::Spherical, off));
+    let made = exported(&robot, Format::Usd, Choices::default());
+    assert!(notes(&made).contains("reference configuration, in which loops are closed"));
+    let reference = &module(&robot).reference_configuration;
+    let poses = robot.link_poses(reference).expect("poses");
+    let names = robot.link_names().expect("names");
+    let part = names.iter().position(|name| name == "part").expect("a link");
+    let zero = robot.link_poses(&vec![0.0; reference.len()]).expect("poses");
+    assert!((poses[part].translation.vector - zero[part].translation.vector).norm() > 0.01);
+    let (_, prim) = made.text.split_once("\"part\"").expect("a prim");
+    let found = values(prim, "xformOp:translate = (")[0];
+    let apart = Vector3::from(found) - poses[part].translation.vector;
+    assert!(apart.xy().norm() < 1e-6, "{found:?} {}", poses[part]);
 }
