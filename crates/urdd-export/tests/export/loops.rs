@@ -234,6 +234,15 @@ fn extended_urdf_names_motors_and_balls() {
     let yaml = made.files.iter().find(|(path, _)| path == "r.yaml").expect("a YAML");
     let yaml = String::from_utf8_lossy(&yaml.1);
     assert!(yaml.contains("joint_name: [\"free\"]\njoint_type: [\"SPHERICAL\"]\n"), "{yaml}");
+    let free = module(&robot).independent_dof_idxs;
+    let dofs = robot.dof_names().expect("names");
+    let mut motors: Vec<&str> =
+        free.iter().filter_map(|dof| dofs[dof.get()].split('/').next()).collect();
+    motors.dedup();
+    assert!((1..4).contains(&motors.len()), "{motors:?}");
+    let listed: Vec<String> = motors.iter().map(|name| format!("{name:?}")).collect();
+    let listed = format!("name_mot: [{}]\n", listed.join(", "));
+    assert!(yaml.contains(&listed), "{listed} {yaml}");
     let (_again, same) = again(&made, "r.urdf");
     assert_eq!(same.dof_names().expect("names"), robot.dof_names().expect("names"));
     assert_eq!(module(&same).independent_dof_idxs, module(&robot).independent_dof_idxs);
@@ -345,12 +354,15 @@ fn elements_of_urdf_plus_are_not_copied_where_they_are_wrong() {
 fn couplings_are_mimics_where_a_format_has_no_others() {
     let toml = "independent = [\"spin\"]\n[[coupling]]\nname = \"ab\"\nconstant = 0.5\nterms = { turn = [2.0], spin = [-1.0] }\n\
         [[coupling]]\nname = \"bc\"\nconstant = 0.0\nterms = { turn = [1.0], mesh = [4.0] }\n";
-    let (_folder, robot) = made_of(URDF, toml);
+    let copy = r#"<link name="copy"/><joint name="copies" type="continuous"><parent link="base"/><child link="copy"/>
+        <axis xyz="0 0 1"/><mimic joint="mesh" multiplier="3" offset="1"/></joint></robot>"#;
+    let (_folder, robot) = made_of(&URDF.replace("</robot>", copy), toml);
     // turn = (spin - 0.5) / 2, mesh = - turn / 4 = - spin / 8 + 0.0625
     let drake = exported(&robot, Format::Drake, Choices::default()).text;
     for words in [
         "<mimic joint=\"spin\" multiplier=\"0.5\" offset=\"-0.25\"/>",
         "<mimic joint=\"spin\" multiplier=\"-0.125\" offset=\"0.0625\"/>",
+        "<mimic joint=\"spin\" multiplier=\"-0.375\" offset=\"1.1875\"/>",
     ] {
         assert!(drake.contains(words), "{words}: {drake}");
     }
