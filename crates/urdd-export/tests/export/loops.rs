@@ -313,18 +313,17 @@ fn loops_stay_where_they_are_in_another_tree() {
         link_a = \"tool\"\nframe_a = { xyz = [0.0, 0.0, 0.4], rpy = [1.0, 0.0, 0.0] }\nlink_b = \"tip\"\nframe_b = { xyz = [0.0, 0.0, 0.0] }\n".replace("TWO", &two);
     let (_folder, robot) = made_of(&urdf, &toml);
     let choices = || Choices { root: Some("tool".into()), merge_fixed: true, ..Choices::default() };
-    let made = exported(&robot, Format::UrdfPlus, choices());
-    assert!(
-        notes(&made).contains("loop `one` is left out: its two links are one body"),
-        "{}",
-        notes(&made)
-    );
-    let (_again, same) = again(&made, "r.urdf");
-    for number in [0, 1] {
-        let ((_, _, was), (_, names, is)) = (frames(&robot, number), frames(&same, number));
-        assert!(!names.contains(&"tip".to_owned()), "{names:?}");
-        let (was, is) = (was[0].inv_mul(&was[1]), is[0].inv_mul(&is[1]));
-        assert_same(LoopKind::Fixed, &was, &is);
+    for (format, file) in [(Format::UrdfPlus, "r.urdf"), (Format::Mjcf, "r.xml")] {
+        let made = exported(&robot, format, choices());
+        let said = notes(&made);
+        assert!(said.contains("loop `one` is left out: its two links are one body"), "{said}");
+        let (_again, same) = again(&made, file);
+        for number in [0, 1] {
+            let ((_, _, was), (_, names, is)) = (frames(&robot, number), frames(&same, number));
+            assert!(!names.contains(&"tip".to_owned()), "{names:?}");
+            let (was, is) = (was[0].inv_mul(&was[1]), is[0].inv_mul(&is[1]));
+            assert_same(LoopKind::Fixed, &was, &is);
+        }
     }
 }
 
