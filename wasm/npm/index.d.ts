@@ -133,7 +133,9 @@ export type Format =
   | "spherized"
   | "moveit"
   | "sdf"
-  | "usd";
+  | "usd"
+  | "urdf-plus"
+  | "extended-urdf";
 
 /** As the options of `urdd.export` in Python. */
 export interface ExportOptions {

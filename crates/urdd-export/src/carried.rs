@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 
 use crate::urdf_elements::is_kept;
-use crate::{Export, ExportError, Format, Note, Subject, order};
+use crate::{Export, ExportError, Format, Note, Subject, order, urdf};
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
 use urdd_format::carried::{self, Part, table};
+use urdd_format::loops::LoopsModule;
 use urdd_format::urdf::{Joint, JointType, Limit, Link};
 use urdd_xml::other_parts::OtherPart;
 
@@ -15,13 +16,26 @@ struct Feature {
     /// How many a robot has.
     count: fn(&Subject) -> usize,
     /// By format, in the order of [`Format::ALL`].
-    by_format: [How; 10],
+    by_format: [How; 12],
 }
 
 const MIMIC: How = Otherwise("as equality constraints, which hold in simulation only");
 const CLOSED: How = Otherwise(
     "hinges, balls and welds as `connect` and `weld`, in simulation only; start in the keyframe `closed`",
 );
+const BALLS: How = Otherwise(
+    "hinges, balls and welds as one to three `drake:ball_constraint`, in simulation only",
+);
+const SECOND: How = Otherwise(
+    "those that are closed where all joints are at 0, as joints; no cylinders and planes; Drake refuses the file",
+);
+const OUTSIDE: How = Otherwise("as joints that are not of the articulation; no universal joints");
+const PAIRED: How = Otherwise("welds and balls, and hinges as two balls");
+const SOURCES: How = Otherwise("as URDF+'s elements, which the source has");
+const RETYPED: How = Otherwise("as hinges that the YAML makes balls");
+const SUMS: How = Otherwise("of one joint, or of one as a polynomial of another");
+const FOLLOWS: How = Otherwise("where one joint follows another linearly, as a mimic");
+const SIDES: How = Otherwise("linear ones of the joints down to two links, without a constant");
 const CHAIN: How = Otherwise("as a chain of joints of one DOF, and a ball joint");
 const SLIDES: How = Otherwise("as three slides and a ball joint");
 const PLANAR: How = Otherwise("as two slides and a hinge");
@@ -59,7 +73,17 @@ impl Feature {
         [urdf, drake, mjcf, sdf, usd]: [How; 5],
     ) -> Self {
         let e = Elsewhere;
-        Feature { name, count, by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf, usd] }
+        Feature {
+            name,
+            count,
+            by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf, usd, urdf, urdf],
+        }
+    }
+
+    /// The same, but for URDF+ and Extended URDF.
+    const fn with_loops(mut self, [plus, extended]: [How; 2]) -> Self {
+        (self.by_format[10], self.by_format[11]) = (plus, extended);
+        self
     }
 
     /// The same, but for MoveIt.
@@ -75,7 +99,7 @@ impl Feature {
     }
 }
 
-const TABLE: [Feature; 24] = [
+const TABLE: [Feature; 25] = [
     Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 5]),
     Feature::new(
         "colours of visual geometry",
@@ -86,7 +110,10 @@ const TABLE: [Feature; 24] = [
     Feature {
         name: COLLISIONS,
         count: |_| 0,
-        by_format: [Elsewhere, ASKED, ASKED, ASKED, SPHERES, SPHERES, SPHERES, ASKED, ASKED, ASKED],
+        by_format: [
+            Elsewhere, ASKED, ASKED, ASKED, SPHERES, SPHERES, SPHERES, ASKED, ASKED, ASKED, ASKED,
+            ASKED,
+        ],
     },
     // `textures` counts what became of them.
     Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG, Yes]),
@@ -130,7 +157,8 @@ const TABLE: [Feature; 24] = [
         |of| typed(of, JointType::Floating),
         [Yes, CHAIN, SLIDES, CHAIN, GENERIC],
     ),
-    Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 5]),
+    Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 5])
+        .with_loops([Yes, RETYPED]),
     Feature::new(
         "names of visual and collision elements",
         named_shapes,
@@ -163,27 +191,41 @@ const TABLE: [Feature; 24] = [
         [Yes, Yes, No, No, CUSTOM],
     ),
     Feature::new(
-        "closed chains, and couplings of joints",
-        |of| {
-            let loops = of.robot.loops().ok().flatten();
-            loops.map_or(0, |module| module.loops.len() + module.couplings.len())
-        },
-        [No, No, CLOSED, No, No],
-    ),
+        CHAINS,
+        |of| loops(of).map_or(0, |module| module.loops.len()),
+        [No, BALLS, CLOSED, SECOND, OUTSIDE],
+    )
+    .with_loops([Yes, PAIRED]),
+    Feature::new(
+        COUPLINGS,
+        |of| loops(of).map_or(0, |module| module.couplings.len()),
+        [No, FOLLOWS, SUMS, FOLLOWS, FOLLOWS],
+    )
+    .with_loops([SIDES, No]),
     // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",
         count: |of| of.disabled().count(),
-        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE, KEPT],
+        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE, KEPT, No, No],
     },
     Feature {
         name: "named configurations",
         count: |of| of.robot.named_configurations().map_or(0, <[_]>::len),
         by_format: [
             Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No, CUSTOM,
+            Elsewhere, Elsewhere,
         ],
     },
 ];
+
+/// Whether the file has URDF+'s elements as the source has them.
+fn has_loops_of_source(subject: &Subject) -> bool {
+    urdf::keeps_loops(subject) && of_robot(subject, urdf::is_of_loops) > 0
+}
+
+fn loops<'s>(subject: &'s Subject) -> Option<&'s LoopsModule> {
+    subject.robot.loops().ok().flatten()
+}
 
 const GAZEBO_TAG: &str = "gazebo";
 const HARDWARE_TAG: &str = "ros2_control";
@@ -237,7 +279,9 @@ fn others(subject: &Subject, is_wanted: impl Fn(&OtherPart) -> bool) -> usize {
 fn other_elements(subject: &Subject) -> usize {
     let of_links = subject.urdf.links.iter().map(|link| link.unknown_elements.len());
     let of_joints = subject.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
-    let is_other = |text: &str| !is_a(text, GAZEBO_TAG) && !is_a(text, HARDWARE_TAG);
+    let is_other = |text: &str| {
+        !is_a(text, GAZEBO_TAG) && !is_a(text, HARDWARE_TAG) && !urdf::is_of_loops(text)
+    };
     of_links.chain(of_joints).sum::<usize>() + of_robot(subject, is_other)
 }
 
@@ -251,6 +295,10 @@ fn has_texture(link: &Link) -> bool {
     let mut textures = materials.filter_map(|material| material.texture.as_ref());
     textures.any(|texture| !texture.filename.is_empty())
 }
+
+const CHAINS: &str = "closed chains";
+
+const COUPLINGS: &str = "couplings of joints";
 
 const TEXTURES: &str = "textures of meshes";
 
@@ -285,7 +333,11 @@ fn carried<'s>(subject: &'s Subject) -> impl Iterator<Item = (&'static str, usiz
     let place = Format::ALL.iter().position(|format| *format == subject.format);
     TABLE.iter().filter_map(move |feature| {
         let count = (feature.count)(subject);
-        let how = feature.by_format[place?];
+        let mut how = feature.by_format[place?];
+        if how == No && [CHAINS, COUPLINGS].contains(&feature.name) && has_loops_of_source(subject)
+        {
+            how = SOURCES;
+        }
         (count > 0 && how != Elsewhere).then_some((feature.name, count, how))
     })
 }

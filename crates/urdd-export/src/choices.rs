@@ -58,6 +58,8 @@ const TREE: &[Format] = &[
     Format::Moveit,
     Format::Sdf,
     Format::Usd,
+    Format::UrdfPlus,
+    Format::ExtendedUrdf,
 ];
 
 /// Declares [`Choices`], and what front ends know of each.

@@ -252,6 +252,16 @@ pub enum Note {
         /// Why.
         reason: &'static str,
     },
+    /// Loops or couplings that are not in the file.
+    #[error("{} left out: {why}", which(.what, .names))]
+    LeftOut {
+        /// `loop` or `coupling`.
+        what: &'static str,
+        /// Their names; at least one.
+        names: Vec<String>,
+        /// Why.
+        why: String,
+    },
     /// Spheres whose error rates exceed the goals.
     #[error("the spheres are not good enough to plan with: {0}")]
     Spheres(String),
@@ -381,6 +391,14 @@ fn few(names: &[String]) -> String {
     match names.len().saturating_sub(SHOWN) {
         0 => all(names),
         more => format!("{} and {more} others", all(&names[..SHOWN])),
+    }
+}
+
+/// What has these names, and a verb.
+fn which(what: &str, names: &[String]) -> String {
+    match names {
+        [name] => format!("{what} `{}` is", name.escape_debug()),
+        _ => format!("{what}s {} are", few(names)),
     }
 }
 

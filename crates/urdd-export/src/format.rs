@@ -23,6 +23,10 @@ urdd_format::words! {
         Sdf "sdf",
         /// For Isaac, Newton and Omniverse: a `.usda` of rigid bodies, joints, shapes, filtered pairs.
         Usd "usd",
+        /// URDF of the robot with what closes its loops, as URDF+ has it.
+        UrdfPlus "urdf-plus",
+        /// URDF of the robot, and a YAML beside it with what closes its loops, as Extended URDF has it.
+        ExtendedUrdf "extended-urdf",
     }
 }
 
@@ -40,7 +44,14 @@ impl Format {
             Format::Moveit => "MoveIt's configuration",
             Format::Sdf => "SDF",
             Format::Usd => "USD",
+            Format::UrdfPlus => "URDF+",
+            Format::ExtendedUrdf => "Extended URDF",
         }
+    }
+
+    /// Whether it is a URDF of links and joints, without pairs and settings of a program.
+    pub(super) fn is_plain_urdf(self) -> bool {
+        matches!(self, Format::Urdf | Format::UrdfPlus | Format::ExtendedUrdf)
     }
 
     /// Whether its shapes are fitted spheres.

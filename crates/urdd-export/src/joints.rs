@@ -3,7 +3,8 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use crate::layout::origin;
-use crate::{Note, Subject};
+use crate::loops::{Followers, LeftOut};
+use crate::{ExportError, Note, Subject};
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_document::tree::Resolved;
@@ -40,6 +41,21 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
         joint
     };
     each.map(joint).collect()
+}
+
+/// The joints where couplings are mimics too, for formats that have no other couplings.
+pub(super) fn coupled(subject: &Subject, notes: &mut Vec<Note>) -> Result<Vec<Joint>, ExportError> {
+    let mut left_out = LeftOut::default();
+    let followers = Followers::new(subject, &mut left_out)?;
+    notes.extend(left_out.notes());
+    let mut joints = joints(subject, notes);
+    for (index, joint) in joints.iter_mut().enumerate() {
+        let own = subject.mimics.by_joint[index];
+        if let Some(of) = followers.mimic(subject, index).filter(|of| Some(*of) != own) {
+            joint.mimic = Some(mimic(None, &subject.view.joints[of.driver], &of));
+        }
+    }
+    Ok(joints)
 }
 
 /// The mimic as written in the source if it names the driver directly; otherwise the resolved one.

@@ -84,6 +84,12 @@ impl Layout {
         self.content.get(link).map_or(link, |place| place.link)
     }
 
+    /// Where a frame of a link of the URDD is: the link that has the mass and shapes of its link, and its pose in it.
+    pub fn place(&self, link: usize, frame: &Isometry3<f64>) -> Place {
+        let on = self.content.get(link).copied().unwrap_or(Place::at(link));
+        Place { link: on.link, pose: on.pose * frame }
+    }
+
     /// The link and piece of a shape of the URDD.
     pub fn shape(&self, (link, piece): (usize, usize)) -> (usize, usize) {
         (self.body(link), piece + self.shapes.get(link).map_or(0, |numbers| numbers.start))

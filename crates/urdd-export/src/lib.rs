@@ -14,6 +14,8 @@
 //! | [`Format::Spherized`] | any reader of URDF | the robot, with these spheres as collision geometry |
 //! | [`Format::Moveit`] | MoveIt 2 | a package: groups, limits, solvers, planners, controllers, a launch file, our URDF |
 //! | [`Format::Sdf`] | Gazebo, Drake | links, joints, our shapes as collisions, collision filters for Drake |
+//! | [`Format::UrdfPlus`] | generalized_rbda | as `urdf`, with `<loop>` and `<coupling>` |
+//! | [`Format::ExtendedUrdf`] | example-parallel-robots | as `urdf`, with a YAML of pairs of links that coincide |
 //! | [`Format::Usd`] | Isaac, Newton, Omniverse | rigid bodies under an articulation, joints, our shapes, filtered pairs |
 //!
 //! ```
@@ -37,6 +39,7 @@ mod choices;
 mod contacts;
 mod drake;
 mod error;
+mod extended_urdf;
 mod fit;
 mod format;
 mod gains;
@@ -45,6 +48,7 @@ mod groups;
 pub mod inertia;
 mod joints;
 mod layout;
+mod loops;
 mod meshes;
 #[doc(hidden)]
 pub mod mjcf;
@@ -74,6 +78,7 @@ mod subject;
 mod textures;
 mod urdf;
 mod urdf_elements;
+mod urdf_plus;
 mod usd;
 mod xacro;
 #[doc(hidden)]
@@ -156,6 +161,8 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Format::Moveit => moveit::export(&subject),
         Format::Sdf => sdf::export(&subject),
         Format::Usd => usd::export(&subject),
+        Format::UrdfPlus => urdf_plus::export(&subject),
+        Format::ExtendedUrdf => extended_urdf::export(&subject),
     }?;
     made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());

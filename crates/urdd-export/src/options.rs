@@ -55,8 +55,8 @@ impl Choices {
         let mut chosen = self.clone();
         chosen.bandwidth =
             chosen.bandwidth.filter(|_| matches!(format, Format::Mjcf | Format::Usd));
-        let has_setup =
-            !matches!(format, Format::Srdf | Format::Urdf | Format::Foam | Format::Spherized);
+        let has_setup = !matches!(format, Format::Srdf | Format::Foam | Format::Spherized)
+            && !format.is_plain_urdf();
         chosen.setup = chosen.setup.filter(|_| has_setup);
         let text = |of: &std::ffi::OsStr| of.to_string_lossy().into_owned();
         let output = self.output.as_ref();

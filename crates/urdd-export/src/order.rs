@@ -189,7 +189,9 @@ impl<'a> Joints<'a> {
 /// The orders in the programs that load an export, as JSON.
 pub(super) fn report(subject: &Subject) -> Result<Value, ExportError> {
     let format = match subject.format {
-        Format::Spherized | Format::Moveit => Format::Urdf,
+        Format::Spherized | Format::Moveit | Format::UrdfPlus | Format::ExtendedUrdf => {
+            Format::Urdf
+        }
         format => format,
     };
     let joints = Joints::new(format, &subject.structure);

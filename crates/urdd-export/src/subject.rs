@@ -74,7 +74,7 @@ impl<'a> Subject<'a> {
     ) -> Result<Self, ExportError> {
         let (format, chosen) = (options.format, &options.chosen);
         let (shapes, given) = (chosen.shapes, chosen.setup.as_ref());
-        let has_pairs = with_pairs && !format.has_spheres() && format != Format::Urdf;
+        let has_pairs = with_pairs && !format.has_spheres() && !format.is_plain_urdf();
         let described = robot.description()?;
         let own = Structure::of(&described)?;
         if let Some(setup) = given {

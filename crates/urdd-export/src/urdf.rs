@@ -8,8 +8,11 @@ use crate::urdf_elements::{
     push_unknown, ros2_control, type_name,
 };
 use crate::{Export, ExportError, Files, Format, Note, Shape, Subject, xacro};
+use urdd_xml::Kind;
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
+
+const STALE: &str = "the source's `<loop>` and `<coupling>` are left out, since links have other frames now: `urdf-plus` writes those of the file";
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
@@ -40,6 +43,13 @@ pub(super) fn robot(
         robot.push(element);
     }
     let mut own = Cow::Borrowed(urdf.unknown_elements.as_slice());
+    if !keeps_loops(subject) {
+        let all = own.len();
+        own.to_mut().retain(|text| !is_of_loops(text));
+        if subject.format == Format::Urdf && own.len() < all {
+            notes.push(Note::Robot(STALE));
+        }
+    }
     if subject.format == Format::Moveit {
         // The package has hardware of its own.
         own.to_mut().retain(|text| ros2_control(text).is_none());
@@ -49,6 +59,20 @@ pub(super) fn robot(
         notes.push(Note::Elements(lost));
     }
     Ok((robot, files))
+}
+
+/// Whether what URDF+ says in the source is true of the file: links have the frames that they have in the source, and the
+/// format does not say it itself.
+pub(super) fn keeps_loops(subject: &Subject) -> bool {
+    subject.layout.is_empty() && !matches!(subject.format, Format::UrdfPlus | Format::ExtendedUrdf)
+}
+
+/// Whether an element of a robot is URDF+'s.
+pub(super) fn is_of_loops(text: &str) -> bool {
+    let document = urdd_xml::parse(text, Kind::Other);
+    document.is_ok_and(|document| {
+        ["loop", "coupling"].contains(&document.root_element().tag_name().name())
+    })
 }
 
 /// Elements that URDF does not define, as the format needs them; empty where it cannot have one.

@@ -202,7 +202,7 @@ fn element_of_inertial(
 /// The names of moments and products of inertia.
 pub(super) const INERTIA: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
-fn element_of_origin(origin: &Origin) -> Element {
+pub(super) fn element_of_origin(origin: &Origin) -> Element {
     Element::new("origin")
         .with_some("xyz", origin.xyz.map(|xyz| numbers(&xyz)))
         .with_some("rpy", origin.rpy.map(|rpy| numbers(&rpy)))

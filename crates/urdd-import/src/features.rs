@@ -100,7 +100,8 @@ features! {
     OWN_DATA = "data of users", No, Elsewhere;
     SETTINGS = "settings of the simulator and the viewer", No, No;
     SCREWS = "screws", Elsewhere, SCREW;
-    GEARBOXES = "gearboxes", Elsewhere, No;
+    GEARBOXES = "gearboxes", Elsewhere, LOOPS;
+    LOST_GEARBOXES = "gearboxes about other axes than their joints turn, or seen from no link", Elsewhere, No;
     ONE_SIDED = "limits of one side", Elsewhere, SIDE;
     TURNED = "joints that lead to their parent", Elsewhere, TURN;
     DETACHED = "links that no joint holds", Elsewhere, HELD;

@@ -24,6 +24,8 @@ export const FORMATS: readonly Format[] = [
   { word: "moveit", title: "MoveIt (package)", ending: "" },
   { word: "srdf", title: "Pairs of links (SRDF)", ending: ".srdf" },
   { word: "urdf", title: "URDF with our collision shapes", ending: ".urdf" },
+  { word: "urdf-plus", title: "URDF with loops (URDF+)", ending: ".urdf" },
+  { word: "extended-urdf", title: "URDF with loops (Extended URDF)", ending: ".urdf" },
   { word: "curobo", title: "cuRobo (YAML)", ending: ".yml" },
   { word: "foam", title: "Foam (JSON of spheres)", ending: ".json" },
   { word: "spherized", title: "URDF with spheres", ending: ".urdf" },

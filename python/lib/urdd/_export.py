@@ -15,10 +15,23 @@ from ._description import RobotDescription
 
 __all__ = ["Actuators", "Export", "Format", "Ros", "export", "exported_with"]
 
-Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf", "usd"]
+Format: TypeAlias = Literal[
+    "srdf",
+    "urdf",
+    "drake",
+    "mjcf",
+    "curobo",
+    "foam",
+    "spherized",
+    "moveit",
+    "sdf",
+    "usd",
+    "urdf-plus",
+    "extended-urdf",
+]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
 for cuRobo and Foam, URDF with these spheres, a package for MoveIt 2, SDF for Gazebo, USD for Isaac, Newton
-and Omniverse."""
+and Omniverse, and URDF with what closes its loops, as URDF+ and Extended URDF have it."""
 
 Actuators: TypeAlias = Literal["position", "velocity", "motor"]
 """What actuators are told: positions (rad or m), velocities (rad/s or m/s), or torques and forces (N m or N)."""

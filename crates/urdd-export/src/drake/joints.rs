@@ -4,7 +4,7 @@
 //! becomes three prismatic joints and a ball joint, with massless links between them. Drake aborts if a lower limit
 //! exceeds its upper limit, and applies the limits of a continuous joint.
 
-use crate::joints::joints as resolved;
+use crate::joints::coupled;
 use crate::names::check_unique;
 use crate::urdf_elements::{element_of_joint, type_name};
 use crate::{ExportError, Moves, Note, Structure, Subject};
@@ -50,7 +50,7 @@ pub(super) fn joints<'a>(
     let mut made = DrakeJoints::default();
     let mut names = Vec::new();
     let sources = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.names.parts);
-    let each = resolved(subject, notes).into_iter().zip(sources).enumerate();
+    let each = coupled(subject, notes)?.into_iter().zip(sources).enumerate();
     for (index, (mut joint, ((source, view), parts))) in each {
         if subject.is_of_frame(index) {
             made.frames.push(frame(&joint));

@@ -2,6 +2,7 @@
 //! collision filter groups.
 
 mod joints;
+mod loops;
 mod transmissions;
 
 use std::collections::BTreeMap;
@@ -9,6 +10,7 @@ use std::collections::BTreeMap;
 use joints::Driven;
 
 use crate::names::check_package;
+use crate::urdf::is_of_loops;
 use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
 };
@@ -40,7 +42,10 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         robot.push(element);
     }
     robot.extend(joints.frames);
-    let mut kept = transmissions::kept(&urdf.unknown_elements, &joints.driven, &mut notes);
+    robot.extend(loops::constraints(subject, &mut notes)?);
+    let others = urdf.unknown_elements.iter().filter(|text| !is_of_loops(text)).cloned();
+    let others: Vec<String> = others.collect();
+    let mut kept = transmissions::kept(&others, &joints.driven, &mut notes);
     lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
     robot.extend(kept.others(&subject.structure));
     if lost > 0 {

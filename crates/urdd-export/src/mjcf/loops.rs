@@ -3,24 +3,20 @@
 //! Sites say where the ends are; a `connect` of two bodies takes the second end from the pose of the model, in which loops
 //! may be open.
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::Translation3;
 
 use super::body::{placed, site_named};
+use crate::loops::{APART, Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear};
 use crate::{ExportError, Note, Subject};
-use urdd_format::loops::{Coupling, Loop, LoopKind};
-use urdd_format::pose::Pose;
-use urdd_kinematics::pose::to_isometry;
+use urdd_format::loops::{Coupling, LoopKind};
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
-/// How far apart the two points are that hold a hinge, m.
-const APART: f64 = 0.1;
 /// Stiffer than MuJoCo's default.
 const STIFF: &str = "0.99 0.999 0.001";
 
-const OTHER_KIND: &str = "a loop of a kind that MuJoCo's equality constraints cannot say is left out: a slide, a plane, or a universal joint";
-const OTHER_LINK: &str = "a loop is left out: one of its links is not in the file";
-const OTHER_SUM: &str = "a coupling is left out: MuJoCo's equality constraints are of one joint, or of one as a polynomial of another";
+const OTHER_SUM: &str =
+    "equality constraints are of one joint, or of one as a polynomial of another";
 
 /// What loops need in a file.
 #[derive(Default)]
@@ -34,55 +30,26 @@ pub(super) struct Closings {
 /// The constraints of the robot's loops and couplings, with their sites.
 pub(super) fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, ExportError> {
     let mut made = Closings { sites: vec![Vec::new(); subject.links.len()], ..Closings::default() };
-    let Some(module) = subject.robot.loops()? else { return Ok(made) };
-    let links = subject.robot.link_names()?;
-    for (place, one) in module.loops.iter().enumerate() {
-        let ends = [(one.link_a_idx, &one.frame_a), (one.link_b_idx, &one.frame_b)];
-        let ends = ends.map(|(link, frame)| {
-            let name = links.get(link.get())?;
-            let link = subject.links.iter().position(|of| of == name)?;
-            Some(on_body(subject, link, frame))
-        });
-        let [Some(a), Some(b)] = ends else {
-            notes.push(Note::Robot(OTHER_LINK));
-            continue;
-        };
-        if !made.hold(subject, place, one, [a, b]) {
-            notes.push(Note::Robot(OTHER_KIND));
+    let mut left_out = LeftOut::default();
+    for closing in loops_of(subject, &mut left_out)? {
+        if !made.hold(subject, &closing) {
+            left_out.of_loop(&closing.of.name, OTHER_KIND);
         }
     }
-    for coupling in &module.couplings {
+    for coupling in subject.robot.loops()?.iter().flat_map(|module| &module.couplings) {
         match equation(subject, coupling)? {
             Some(element) => made.equalities.push(element),
-            None => notes.push(Note::Robot(OTHER_SUM)),
+            None => left_out.coupling(&coupling.name, OTHER_SUM),
         }
     }
-    notes.dedup();
+    notes.extend(left_out.notes());
     Ok(made)
-}
-
-/// The body that carries a link's frame, and the frame in it.
-fn on_body(subject: &Subject, link: usize, frame: &Pose) -> (usize, Isometry3<f64>) {
-    let mut at = (link, to_isometry(frame).unwrap_or_default());
-    while subject.is_frame(at.0)
-        && let Some(joint) = subject.tree.parent_joint[at.0]
-    {
-        let origin = subject.view.joints[joint].origin.motion();
-        at = (subject.tree.joint_links[joint].0, origin * at.1);
-    }
-    at
 }
 
 impl Closings {
     /// Adds what holds a loop; false for a kind that nothing holds.
-    fn hold(
-        &mut self,
-        subject: &Subject,
-        place: usize,
-        one: &Loop,
-        ends: [(usize, Isometry3<f64>); 2],
-    ) -> bool {
-        let (word, points) = match one.kind {
+    fn hold(&mut self, subject: &Subject, closing: &Closing) -> bool {
+        let (word, points) = match closing.of.kind {
             LoopKind::Fixed => ("weld", &[0.0][..]),
             LoopKind::Spherical => ("connect", &[0.0][..]),
             // Two points on the axis hold a hinge.
@@ -91,14 +58,12 @@ impl Closings {
         };
         for (number, along) in points.iter().enumerate() {
             let mut element = Element::new(word);
-            for ((key, end), (link, frame)) in
-                [("site1", "a"), ("site2", "b")].into_iter().zip(ends)
-            {
+            for ((key, end), on) in [("site1", "a"), ("site2", "b")].into_iter().zip(closing.ends) {
                 // Our names of sites have two slashes and the number of the loop.
-                let name = format!("loop/{place}/{end}{number}");
+                let name = format!("loop/{}/{end}{number}", closing.number);
                 let name = subject.names.taken.clone().free(name);
-                let pose = frame * Translation3::new(0.0, 0.0, *along);
-                self.sites[link].push(placed(site_named(&name), &pose));
+                let pose = on.pose * Translation3::new(0.0, 0.0, *along);
+                self.sites[on.link].push(placed(site_named(&name), &pose));
                 element = element.with(key, name);
             }
             self.equalities.push(element.with("solimp", STIFF));
@@ -114,11 +79,10 @@ fn equation(subject: &Subject, coupling: &Coupling) -> Result<Option<Element>, E
         let name = names.get(dof)?;
         subject.view.joints.iter().find(|joint| joint.name == *name && joint.num_dofs() == 1)
     };
-    let only_linear = |[_, rest @ ..]: &[f64; 4]| rest.iter().all(|other| *other == 0.0);
     let (follower, leader) = match &coupling.terms[..] {
-        [one] if only_linear(&one.coefficients) => (one, None),
-        [one, other] if only_linear(&other.coefficients) => (other, Some(one)),
-        [one, other] if only_linear(&one.coefficients) => (one, Some(other)),
+        [one] if is_linear(&one.coefficients) => (one, None),
+        [one, other] if is_linear(&other.coefficients) => (other, Some(one)),
+        [one, other] if is_linear(&one.coefficients) => (one, Some(other)),
         _ => return Ok(None),
     };
     let Some(joint1) = joint(follower.dof_idx.get()) else { return Ok(None) };

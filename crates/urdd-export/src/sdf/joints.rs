@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::gazebo::{Gazebo, Place};
-use crate::joints::joints as resolved;
-use crate::{Moves, Note, Subject, Taken};
+use crate::joints::coupled;
+use crate::{ExportError, Moves, Note, Subject, Taken};
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};
@@ -36,12 +36,12 @@ pub(super) fn joints(
     taken: Taken,
     gazebo: &Gazebo,
     notes: &mut Vec<Note>,
-) -> Joints {
+) -> Result<Joints, ExportError> {
     let names = &subject.names;
     let mut made = Joints { taken, ..Joints::default() };
     let by_name: HashMap<&str, &String> =
         subject.view.joints.iter().map(|joint| joint.name.as_str()).zip(&names.joints).collect();
-    let each = resolved(subject, notes).into_iter().zip(&subject.view.joints).enumerate();
+    let each = coupled(subject, notes)?.into_iter().zip(&subject.view.joints).enumerate();
     for (index, (mut joint, view)) in each {
         if subject.is_of_frame(index) {
             made.last_parts.push(String::new());
@@ -108,7 +108,7 @@ pub(super) fn joints(
             notes.push(Note::joint(&view.name, AXIS));
         }
     }
-    made
+    Ok(made)
 }
 
 /// Position and roll, pitch, yaw of a joint in its parent link. A joint that follows a fixed one stands at its offset.

@@ -1,9 +1,8 @@
 //! Links: mass, visuals and collisions.
 
-use nalgebra::Isometry3;
-
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
+use super::pose::placed;
 use crate::inertia::{held, mean};
 use crate::meshes::looks;
 use crate::shapes::thick;
@@ -211,11 +210,4 @@ fn element_of_primitive(primitive: Primitive) -> Element {
     let (tag, sizes) = sizes(thick(primitive));
     let sizes = sizes.into_iter().map(|(key, size)| Element::text(key, &size));
     sizes.fold(Element::new(tag), Element::holding)
-}
-
-fn placed(pose: &Isometry3<f64>) -> Element {
-    let rotation = pose.rotation.to_rotation_matrix();
-    let mut values = pose.translation.vector.as_slice().to_vec();
-    values.extend(to_rpy(rotation.matrix()));
-    Element::text("pose", &numbers(&values))
 }

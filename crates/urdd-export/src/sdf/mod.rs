@@ -8,6 +8,8 @@ mod foreign;
 mod gazebo;
 mod joints;
 mod links;
+mod loops;
+mod pose;
 
 use crate::{Export, ExportError, Note, Subject, drake};
 use gazebo::{Gazebo, Place};
@@ -24,7 +26,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let gazebo = Gazebo::new(subject, &mut notes);
     let mut taken = subject.names.taken.clone();
     gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
-    let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
+    let mut joints = joints::joints(subject, taken, &gazebo, &mut notes)?;
     let (links, files) = links::links(subject, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
@@ -40,7 +42,8 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         let child = Element::text("child", &subject.links[root]);
         model.push(world.holding(parent).holding(child));
     }
-    model.extend(joints.elements);
+    model.extend(std::mem::take(&mut joints.elements));
+    model.extend(loops::loops(subject, &mut joints.taken, &mut notes)?);
     model.extend(drake::groups(subject, &mut joints.taken));
     if subject.disabled().next().is_some() {
         notes.push(Note::Robot(GAZEBO));

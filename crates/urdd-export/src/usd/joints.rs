@@ -8,6 +8,7 @@ use super::custom::elements;
 use super::names::{Filters, Paths, last};
 use super::prim::{Prim, float, floats, wxyz};
 use crate::joints::moved;
+use crate::loops::Followers;
 use crate::{Gains, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::Joint;
@@ -34,6 +35,8 @@ pub(super) struct Joints<'a> {
     pub filters: &'a Filters,
     /// What moves each joint.
     pub drives: Option<Vec<Option<Gains>>>,
+    /// Couplings that are mimics.
+    pub followers: Followers,
     /// The configuration in which the bodies are.
     pub values: HashMap<&'a str, f64>,
 }
@@ -137,12 +140,7 @@ impl Joints<'_> {
             }
             Motion::Ball => self.inner(index, 1f64.to_degrees(), &mut prim),
             Motion::Generic(_, free) => {
-                for (axis, free) in AXES.into_iter().zip(free) {
-                    prim.apply(format!("PhysicsLimitAPI:{axis}"));
-                    let [low, high] = if free { ["-inf", "inf"] } else { ["1", "-1"] };
-                    prim.set(&format!("float limit:{axis}:physics:low"), low);
-                    prim.set(&format!("float limit:{axis}:physics:high"), high);
-                }
+                generic(&mut prim, free);
             }
         }
         prim
@@ -210,7 +208,7 @@ impl Joints<'_> {
     }
 
     fn mimic(&self, index: usize, axis: &str, unit: f64, prim: &mut Prim, notes: &mut Vec<Note>) {
-        let Some(mimic) = &self.subject.mimics.by_joint[index] else {
+        let Some(mimic) = self.followers.mimic(self.subject, index) else {
             return;
         };
         let joints = &self.subject.view.joints;
@@ -279,8 +277,23 @@ fn turned(origin: &Isometry3<f64>, by: &UnitQuaternion<f64>) -> [Isometry3<f64>;
     [origin * by, by]
 }
 
+/// Says which axes of a generic joint move.
+pub(super) fn generic(prim: &mut Prim, free: [bool; 6]) {
+    for (axis, free) in AXES.into_iter().zip(free) {
+        prim.apply(format!("PhysicsLimitAPI:{axis}"));
+        let [low, high] = if free { ["-inf", "inf"] } else { ["1", "-1"] };
+        prim.set(&format!("float limit:{axis}:physics:low"), low);
+        prim.set(&format!("float limit:{axis}:physics:high"), high);
+    }
+}
+
 /// Connects the parent, or the world, and the child.
-fn connect(prim: &mut Prim, parent: Option<&String>, child: &str, frames: &[Isometry3<f64>; 2]) {
+pub(super) fn connect(
+    prim: &mut Prim,
+    parent: Option<&String>,
+    child: &str,
+    frames: &[Isometry3<f64>; 2],
+) {
     if let Some(parent) = parent {
         prim.relate("physics:body0", std::slice::from_ref(parent));
     }

@@ -7,6 +7,7 @@
 mod custom;
 mod joints;
 mod looks;
+mod loops;
 mod mass;
 pub(super) mod names;
 mod prim;
@@ -16,6 +17,7 @@ mod surface;
 use nalgebra::Isometry3;
 
 use crate::gains::gains;
+use crate::loops::{Followers, LeftOut, closings};
 use crate::meshes::looks;
 use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject};
 use joints::Joints;
@@ -26,6 +28,8 @@ use prim::Prim;
 const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";
 const ELSEWHERE: &str = "Bodies are in the default configuration, in which joints are not at 0; `state` of a joint has its position";
 
+const CLOSED: &str = "Bodies are in the reference configuration, in which loops are closed; `state` of a joint has its position";
+
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if let Some(file) = &subject.options.file
         && let Some(ending) = [".usdc", ".usdz"].into_iter().find(|of| file.ends_with(of))
@@ -35,7 +39,12 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
     let paths = Paths::new(subject);
     let filters = Filters::new(subject, &paths);
-    let zero = subject.robot.configurations()?.zero();
+    let mut left_out = LeftOut::default();
+    let closings = closings(subject, &mut left_out)?;
+    let followers = Followers::new(subject, &mut left_out)?;
+    let module = subject.robot.loops()?;
+    let default = || subject.robot.configurations().map(|of| of.zero());
+    let zero = module.map_or_else(default, |module| Ok(module.reference_configuration.clone()))?;
     let stand = Stand::new(subject, false)?;
     let up = Isometry3::translation(0.0, 0.0, stand.base_height);
     let poses = subject.link_poses(&zero)?;
@@ -73,9 +82,9 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     }
     let values = subject.values(&zero)?;
     if values.values().any(|value| *value != 0.0) {
-        notes.push(Note::Robot(ELSEWHERE));
+        notes.push(Note::Robot(if module.is_some() { CLOSED } else { ELSEWHERE }));
     }
-    let joints = Joints { subject, paths: &paths, filters: &filters, drives, values };
+    let joints = Joints { subject, paths: &paths, filters: &filters, drives, followers, values };
     let mut scope = Prim::new("Scope", paths.scopes[0].as_str());
     if !subject.has_free_base() {
         scope.push(joints.to_world());
@@ -86,6 +95,15 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     for index in (0..subject.view.joints.len()).filter(|joint| !subject.is_of_frame(*joint)) {
         scope.push(joints.prim(index, &mut notes));
     }
+    let mut taken = paths.taken_joints.clone();
+    for closing in &closings {
+        let name = taken.free(names::mend(&closing.name));
+        match loops::prim(subject, &paths, name, closing) {
+            Some(prim) => scope.push(prim),
+            None => left_out.of_loop(&closing.of.name, loops::UNIVERSAL),
+        }
+    }
+    notes.extend(left_out.notes());
     let is_whole = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
     notes.extend(subject.notes().into_iter().filter(is_whole));
     if !paths.mended.is_empty() {

@@ -17,6 +17,8 @@ pub(super) struct Paths {
     pub scopes: [String; 2],
     /// What the joint to the world is called.
     pub world: String,
+    /// The names beside joints that are taken.
+    pub taken_joints: Taken,
     /// Names that are written in another way.
     pub mended: Vec<String>,
 }
@@ -50,6 +52,7 @@ impl Paths {
             root,
             scopes,
             world,
+            taken_joints: taken,
             mended,
         }
     }

@@ -31,8 +31,8 @@ const URDF: &str = r#"<robot name="r"><link name="base"><inertial><mass value="2
 <gazebo reference="base"><gravity>false</gravity></gazebo><ros2_control name="c" type="system"/><gear_train/></robot>"#;
 
 /// What a format writes of each thing; nothing where it does not carry it.
-const PROBES: [(&str, &[&str; 10]); 10] = [
-    // SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt's URDF, SDF, USD.
+const PROBES: [(&str, &[&str; 12]); 10] = [
+    // SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt's URDF, SDF, USD, URDF+, Extended URDF.
     (
         "masses and inertias",
         &[
@@ -46,6 +46,8 @@ const PROBES: [(&str, &[&str; 10]); 10] = [
             "mass value=\"2.5\"",
             "<mass>2.5</mass>",
             "physics:mass = 2.5",
+            "mass value=\"2.5\"",
+            "mass value=\"2.5\"",
         ],
     ),
     (
@@ -62,6 +64,8 @@ const PROBES: [(&str, &[&str; 10]); 10] = [
             "0.125 0.25 0.5 1",
             // sRGB's curve of each.
             "inputs:diffuseColor = (0.0143",
+            "0.125 0.25 0.5 1",
+            "0.125 0.25 0.5 1",
         ],
     ),
     (
@@ -77,15 +81,30 @@ const PROBES: [(&str, &[&str; 10]); 10] = [
             "lower=\"-0.75\"",
             "<lower>-0.75</lower>",
             "lowerLimit = -42.971",
+            "lower=\"-0.75\"",
+            "lower=\"-0.75\"",
         ],
     ),
     (
         "limits of effort and velocity",
-        &["", "7.25", "7.25", "7.25", "", "", "7.25", "7.25", "7.25", "velocityLimit = 186.2"],
+        &[
+            "",
+            "7.25",
+            "7.25",
+            "7.25",
+            "",
+            "",
+            "7.25",
+            "7.25",
+            "7.25",
+            "velocityLimit = 186.2",
+            "7.25",
+            "7.25",
+        ],
     ),
     (
         "limits of acceleration and jerk",
-        &["", "9.125", "9.125", "", "", "", "9.125", "9.125", "", ""],
+        &["", "9.125", "9.125", "", "", "", "9.125", "9.125", "", "", "9.125", "9.125"],
     ),
     (
         "damping and friction of joints",
@@ -100,15 +119,43 @@ const PROBES: [(&str, &[&str; 10]); 10] = [
             "0.375",
             "0.375",
             "newton:friction = 0.625",
+            "0.375",
+            "0.375",
         ],
     ),
     (
         "mimic joints",
-        &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875", "mimicCoef1 = 1.875"],
+        &[
+            "",
+            "1.875",
+            "1.875",
+            "1.875",
+            "",
+            "",
+            "1.875",
+            "1.875",
+            "1.875",
+            "mimicCoef1 = 1.875",
+            "1.875",
+            "1.875",
+        ],
     ),
     (
         "`<gazebo>` elements",
-        &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false", "<gazebo"],
+        &[
+            "",
+            "<gazebo",
+            "<gazebo",
+            "",
+            "",
+            "",
+            "<gazebo",
+            "<gazebo",
+            "<gravity>false",
+            "<gazebo",
+            "<gazebo",
+            "<gazebo",
+        ],
     ),
     (
         "hardware of ros2_control",
@@ -123,11 +170,13 @@ const PROBES: [(&str, &[&str; 10]); 10] = [
             "<ros2_control name=\"mock_hardware",
             "",
             "<ros2_control",
+            "<ros2_control name=\"c",
+            "<ros2_control name=\"c",
         ],
     ),
     (
         "other elements that URDF does not define, such as transmissions",
-        &["", "<gear", "<gear", "", "", "", "<gear", "<gear", "", "<gear"],
+        &["", "<gear", "<gear", "", "", "", "<gear", "<gear", "", "<gear", "<gear", "<gear"],
     ),
 ];
 

@@ -6,7 +6,7 @@ use urdd_export::{ActuatorKind, Choices, Fit, Format, Ros};
 #[test]
 fn what_a_format_does_not_have_is_refused() {
     let none = Choices::default;
-    let tree = "srdf and urdf and drake and mjcf and moveit and sdf and usd";
+    let tree = "srdf and urdf and drake and mjcf and moveit and sdf and usd and urdf-plus and extended-urdf";
     let cases = [
         ("merge_fixed", Choices { merge_fixed: true, ..none() }, tree),
         ("fit", Choices { fit: Some(Fit::default()), ..none() }, tree),

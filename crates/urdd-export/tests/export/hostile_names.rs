@@ -78,7 +78,11 @@ struct Names {
 fn read(format: Format, text: &str) -> Names {
     match format {
         Format::Srdf | Format::Moveit => srdf(text),
-        Format::Urdf | Format::Drake | Format::Spherized => urdf(text),
+        Format::Urdf
+        | Format::Drake
+        | Format::Spherized
+        | Format::UrdfPlus
+        | Format::ExtendedUrdf => urdf(text),
         Format::Sdf => sdf(text),
         Format::Mjcf => mjcf(text),
         Format::Usd => usd(text),
@@ -335,7 +339,8 @@ fn files_are_safe(made: &Export, name: &str) {
     for (path, _) in &made.files {
         let folders = ["meshes/", "config/", "launch/", ""].map(|folder| path.strip_prefix(folder));
         let file = folders.into_iter().flatten().next().expect("in a folder");
-        assert!(path.starts_with("meshes/") || made.path.is_some(), "{path}");
+        let is_beside = path.starts_with("meshes/") || path == "robot.yaml";
+        assert!(is_beside || made.path.is_some(), "{path}");
         let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
         assert!(file.chars().all(is_plain) && !file.starts_with('.'), "{name:?}: {path}");
         assert!(file.len() < 200, "{path}");

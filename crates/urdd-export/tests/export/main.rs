@@ -16,6 +16,7 @@ mod inertia;
 mod invented_names;
 mod kinematic_text;
 mod locked;
+mod loops;
 mod made;
 mod merged;
 mod mjcf;

@@ -6,14 +6,15 @@ use nalgebra::Isometry3;
 use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, Closing, Shape};
+use super::super::model::{Body, Closing, Coupled, Shape};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::closing::closing;
+use super::gearbox::gearbox;
 use super::moving::{moving, needs_links, say_turned};
 use super::poses::{Frames, snapped};
 use super::scene::{Placeable, Scene, SdfJointKind, WORLD};
-use super::spanning::branches;
+use super::spanning::{Tree, branches};
 
 /// The bodies of a scene, and whether they are held by the world.
 pub struct Bodies {
@@ -21,6 +22,8 @@ pub struct Bodies {
     pub is_held: bool,
     /// What closes chains.
     pub closings: Charged<Closing>,
+    /// What gearboxes say.
+    pub couplings: Charged<Coupled>,
 }
 
 /// Makes bodies: of the world if a joint holds on to it, of links, and of frames.
@@ -30,7 +33,7 @@ pub fn bodies(
     tally: &mut Tally,
     account: &Account,
 ) -> Result<Bodies, Refusal> {
-    let (tree, outside) = branches(&scene, frames, tally)?;
+    let Tree { branches: tree, outside, gearboxes } = branches(&scene, frames, tally)?;
     let world = scene.links.len();
     let mut at = vec![None; world + 1];
     let mut made: Charged<Body> = Charged::default();
@@ -75,6 +78,13 @@ pub fn bodies(
             closings.push(closing, account).or_else(|why| Refusal::at(place, why))?;
         }
     }
+    let mut couplings = Charged::default();
+    for outside in gearboxes {
+        let place = scene.nodes[scene.joints[outside.joint].node].place;
+        if let Some(coupled) = gearbox(&scene, frames, outside, &at, (&made, &poses), tally)? {
+            couplings.push(coupled, account).or_else(|why| Refusal::at(place, why))?;
+        }
+    }
     for (link, index) in at.iter().enumerate().take(world) {
         let Some(index) = *index else { continue };
         let shapes = std::mem::take(&mut scene.links[link].shapes);
@@ -99,7 +109,7 @@ pub fn bodies(
         let charged = made.push(Body { is_frame: true, ..body }, account);
         charged.or_else(|why| Refusal::at(node.place, why))?;
     }
-    Ok(Bodies { is_held: at[world].is_some(), bodies: made, closings })
+    Ok(Bodies { is_held: at[world].is_some(), bodies: made, closings, couplings })
 }
 
 /// A shape in the frame of its link.

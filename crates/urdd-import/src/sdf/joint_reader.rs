@@ -51,8 +51,9 @@ pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joi
     let node = Node::of(tag, whole.clone(), node_kind, scope)?;
     let node = Node { attached_to: Some(child), ..node };
     let wanted: &[&str] = match kind {
-        SdfJointKind::Fixed | SdfJointKind::Ball | SdfJointKind::Gearbox => &[],
-        SdfJointKind::Two => &["axis", "axis2"],
+        SdfJointKind::Fixed | SdfJointKind::Ball => &[],
+        SdfJointKind::Gearbox(_) if tag.child("axis2").is_none() => &["axis"],
+        SdfJointKind::Two | SdfJointKind::Gearbox(_) => &["axis", "axis2"],
         _ => &["axis"],
     };
     let axes = wanted.iter().map(|wanted| {
@@ -71,7 +72,8 @@ pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joi
             name => reader.tally.unread(format!("`<{name}>` of `<joint>`")),
         }
     }
-    Ok((node, Joint { node: reader.scene.nodes.len(), kind, parent, axes }))
+    let reference = tag.words("gearbox_reference_body");
+    Ok((node, Joint { node: reader.scene.nodes.len(), kind, parent, axes, reference }))
 }
 
 fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
@@ -83,7 +85,7 @@ fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
         "prismatic" => SdfJointKind::Slide,
         "ball" => SdfJointKind::Ball,
         "revolute2" | "universal" => SdfJointKind::Two,
-        "gearbox" => SdfJointKind::Gearbox,
+        "gearbox" => SdfJointKind::Gearbox(tag.number("gearbox_ratio")?.unwrap_or(1.0)),
         "screw" => SdfJointKind::Screw(match tag.number("screw_thread_pitch")? {
             Some(pitch) => pitch,
             // Radians for a metre, of a left-handed thread.

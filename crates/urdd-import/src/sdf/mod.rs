@@ -5,6 +5,7 @@ mod bodies;
 mod chosen;
 mod closing;
 pub mod fault;
+mod gearbox;
 mod included;
 mod inertial;
 mod joint_reader;
@@ -62,6 +63,7 @@ fn made(reader: &mut SdfReader, file: TextFile, options: &ImportOptions) -> Resu
         files: std::mem::take(&mut reader.files),
         is_floating: !made.is_held && !is_static,
         closings: made.closings,
+        couplings: made.couplings,
         bodies: made.bodies,
         assets: std::mem::take(&mut reader.assets.files),
         elements: std::mem::take(&mut reader.kept),

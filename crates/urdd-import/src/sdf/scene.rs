@@ -109,7 +109,8 @@ pub enum SdfJointKind {
     Two,
     /// The length that it moves for each revolution.
     Screw(f64),
-    Gearbox,
+    /// How far the child turns back for what the parent turns, seen from another link.
+    Gearbox(f64),
 }
 
 /// A joint.
@@ -119,6 +120,8 @@ pub struct Joint {
     pub kind: SdfJointKind,
     pub parent: String,
     pub axes: Vec<Axis>,
+    /// The link from which a gearbox sees its two links turn, if it is said.
+    pub reference: Option<String>,
 }
 
 /// An axis of a joint.

@@ -16,12 +16,21 @@ pub struct Branch {
     pub is_turned: bool,
 }
 
-/// A joint that closes a chain, so that it is no branch, and its links; the number of links means the world.
+/// A joint and its links; the number of links means the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outside {
     pub joint: usize,
     pub parent: usize,
     pub child: usize,
+}
+
+/// What the joints of a scene are.
+#[derive(Debug)]
+pub struct Tree {
+    pub branches: Vec<Branch>,
+    /// Those that close chains.
+    pub outside: Vec<Outside>,
+    pub gearboxes: Vec<Outside>,
 }
 
 /// The branches of a scene, and the joints that are none: each link once, and the world if a joint holds on to it.
@@ -31,24 +40,21 @@ pub struct Outside {
 ///
 /// # Errors
 /// If a joint names what is not there.
-pub fn branches(
-    scene: &Scene,
-    frames: &Frames,
-    tally: &mut Tally,
-) -> Result<(Vec<Branch>, Vec<Outside>), Refusal> {
+pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Tree, Refusal> {
     let world = scene.links.len();
     let mut sets = Sets::new(world + 1);
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); world + 1];
     let mut is_child = vec![false; world + 1];
-    let (first, further) = ends(scene, frames, tally)?;
+    let [first, further, gearboxes] = ends(scene, frames)?;
     let mut left_out = Vec::new();
-    for (index, parent, child) in first.into_iter().chain(further) {
+    for end in first.into_iter().chain(further) {
+        let Outside { joint, parent, child } = end;
         if sets.join(parent, child) {
-            around[parent].push((child, index, false));
-            around[child].push((parent, index, true));
+            around[parent].push((child, joint, false));
+            around[child].push((parent, joint, true));
             is_child[child] = true;
         } else {
-            left_out.push(Outside { joint: index, parent, child });
+            left_out.push(end);
         }
     }
     around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
@@ -94,39 +100,30 @@ pub fn branches(
             }
         }
     }
-    Ok((branches, left_out))
+    Ok(Tree { branches, outside: left_out, gearboxes })
 }
 
-/// A joint, the link that it is on, and its child.
-type End = (usize, usize, usize);
-
-/// The joints that are the first to hold their child, and the others.
-fn ends(
-    scene: &Scene,
-    frames: &Frames,
-    tally: &mut Tally,
-) -> Result<(Vec<End>, Vec<End>), Refusal> {
+/// The joints that are the first to hold their child, the others, and gearboxes, which hold none.
+fn ends(scene: &Scene, frames: &Frames) -> Result<[Vec<Outside>; 3], Refusal> {
     let world = scene.links.len();
-    let (mut first, mut further) = (Vec::new(), Vec::new());
+    let (mut first, mut further, mut gearboxes) = (Vec::new(), Vec::new(), Vec::new());
     let mut is_held = vec![false; world];
     for (index, joint) in scene.joints.iter().enumerate() {
-        let node = &scene.nodes[joint.node];
         let parent = match joint.parent.as_str() {
             WORLD => Some(world),
             name => frames.links[Frames::named(scene, joint.node, "parent", name)?],
         };
         let Some((parent, child)) = parent.zip(frames.links[joint.node]) else { continue };
-        if joint.kind == SdfJointKind::Gearbox {
-            tally.count(features::GEARBOXES);
-            let text = format!("the gearbox `{}` is lost: its joints turn on their own", node.name);
-            tally.remark(node.place, text);
+        let end = Outside { joint: index, parent, child };
+        if matches!(joint.kind, SdfJointKind::Gearbox(_)) {
+            gearboxes.push(end);
         } else if std::mem::replace(&mut is_held[child], true) {
-            further.push((index, parent, child));
+            further.push(end);
         } else {
-            first.push((index, parent, child));
+            first.push(end);
         }
     }
-    Ok((first, further))
+    Ok([first, further, gearboxes])
 }
 
 /// Sets of links that joints connect.

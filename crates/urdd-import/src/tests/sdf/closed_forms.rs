@@ -195,3 +195,54 @@ fn a_shape_without_a_size_has_that_of_sdf() {
     }
     assert!(matches!(of("<cone/>").0, Geometry::Mesh { scale: [1.0, 1.0, 1.0], .. }));
 }
+
+/// Seen from the base, the second wheel turns by minus the ratio of what the first does; axes and joints may point the other
+/// way, and a wheel may be on an arm that turns too.
+#[test]
+fn a_gearbox_is_an_equation_of_what_turns_its_links() {
+    let coupled = |reference: &str, axis2: &str, second: &str| {
+        let joint = |name: &str, parent: &str, child: &str, axis: &str| {
+            format!(
+                "<joint name='{name}' type='revolute'><parent>{parent}</parent><child>{child}</child><axis><xyz>{axis}</xyz></axis></joint>"
+            )
+        };
+        let text = format!(
+            "<link name='base'/><link name='p'/><link name='arm'><pose>1 0 0 0 0 0.3</pose></link><link name='c'><pose>2 0 0 3.141592653589793 0 0</pose></link>{}{}{}{}
+             <joint name='gears' type='gearbox'><parent>p</parent><child>c</child><gearbox_ratio>-1.5</gearbox_ratio>
+             {reference}<axis><xyz expressed_in='__model__'>0 0 1</xyz></axis><axis2><xyz expressed_in='__model__'>{axis2}</xyz></axis2></joint>",
+            "<joint name='still' type='fixed'><parent>world</parent><child>base</child></joint>",
+            joint("a", "base", "p", "0 0 -1"),
+            joint("b", "base", "arm", "0 0 1"),
+            joint("d", "arm", "c", second),
+        );
+        inside("1.9", &text).expect("a model")
+    };
+    let terms = |model: &crate::model::Model| {
+        let coupled = model.couplings.first().expect("a coupling");
+        assert_eq!((coupled.name.as_deref(), coupled.constant), (Some("gears"), 0.0));
+        let terms = coupled.terms.iter().map(|(name, of)| (name.clone(), of.clone()));
+        terms.collect::<Vec<_>>()
+    };
+    let of = |name: &str, factor: f64| (name.to_owned(), vec![factor]);
+    // The child's own z points down: `d` turns it back about z.
+    let base = "<gearbox_reference_body>base</gearbox_reference_body>";
+    let model = coupled(base, "0 0 1", "0 0 1");
+    assert_eq!(terms(&model), [of("a", 1.5), of("b", 1.0), of("d", -1.0)]);
+    assert_eq!(model.tally.number_of(crate::features::GEARBOXES), 1);
+    // About the other direction, its angle has the other sign.
+    assert_eq!(
+        terms(&coupled(base, "0 0 -1", "0 0 1")),
+        [of("a", 1.5), of("b", -1.0), of("d", 1.0)]
+    );
+    // From the arm, the parent turns by what it does and what the arm turns back.
+    let arm = "<gearbox_reference_body>arm</gearbox_reference_body>";
+    assert_eq!(terms(&coupled(arm, "0 0 1", "0 0 1")), [of("a", 1.5), of("b", 1.5), of("d", -1.0)]);
+    // Without one it is the world, to which the base is fixed.
+    assert_eq!(terms(&coupled("", "0 0 1", "0 0 1")), terms(&model));
+    // What turns about another axis is no angle about this one.
+    let lost = coupled(base, "0 0 1", "0 1 1");
+    assert_eq!(lost.couplings.len(), 0);
+    assert_eq!(lost.tally.number_of(crate::features::LOST_GEARBOXES), 1);
+    let nowhere = "<gearbox_reference_body>nowhere</gearbox_reference_body>";
+    assert_eq!(coupled(nowhere, "0 0 1", "0 0 1").couplings.len(), 0);
+}

@@ -1,0 +1,139 @@
+//! URDF+: a URDF with what closes its loops.
+//!
+//! Facts: M. Chignoli et al., URDF+ (2024), and the parser of generalized_rbda. The axis of a loop is in the frames of both
+//! ends; a coupling says that the joints down to its successor move `ratio` times as far as those down to its predecessor.
+
+use std::collections::BTreeMap;
+
+use crate::layout::{Place, origin};
+use crate::loops::{Closing, LeftOut, closings, freedom, is_linear, joints_of_dofs, names};
+use crate::urdf_elements::element_of_origin;
+use crate::{Export, ExportError, Note, Subject, urdf};
+use urdd_format::loops::{Coupling, LoopKind};
+use urdd_xml::number::number;
+use urdd_xml::writer::Element;
+
+const OTHER_SUM: &str = "a coupling of URDF+ is of the joints down to two links from their last common one: those of each side by the same factor, without a constant";
+const PARTLY: &str =
+    "some of its DOFs move freely and others follow, which URDF+ does not say: it is independent";
+
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mut notes = Vec::new();
+    let (mut robot, files) = urdf::robot(subject, subject.shapes_by_link()?, &mut notes)?;
+    say_independent(subject, &mut robot, &mut notes)?;
+    let mut left_out = LeftOut::default();
+    for closing in closings(subject, &mut left_out)? {
+        robot.push(element(subject, &closing));
+    }
+    if let Some(module) = subject.robot.loops()? {
+        let dofs = joints_of_dofs(subject)?;
+        let names = names(subject.format, module).into_iter().skip(module.loops.len());
+        for (coupling, name) in module.couplings.iter().zip(names) {
+            match sides(subject, coupling, &dofs) {
+                Some((links, ratio)) => {
+                    let [predecessor, successor] = links.map(|link| subject.links[link].as_str());
+                    let ratio = Element::new("ratio").with("value", number(ratio));
+                    robot.push(
+                        Element::new("coupling")
+                            .with("name", name)
+                            .holding(Element::new("predecessor").with("link", predecessor))
+                            .holding(Element::new("successor").with("link", successor))
+                            .holding(ratio),
+                    );
+                }
+                None => left_out.coupling(&coupling.name, OTHER_SUM),
+            }
+        }
+    }
+    notes.extend(left_out.notes());
+    let what = format!("Collision geometry: {}.", subject.shapes);
+    let text = robot.document(&subject.comments(what, &notes)?);
+    Ok(Export::of(text, files, notes))
+}
+
+/// Says of each joint whether it moves freely.
+fn say_independent(
+    subject: &Subject,
+    robot: &mut Element,
+    notes: &mut Vec<Note>,
+) -> Result<(), ExportError> {
+    let freedom = freedom(subject)?;
+    let joints = robot.elements_mut().filter(|element| element.name() == "joint");
+    for (joint, of) in joints.zip(freedom) {
+        let word = of.map(|of| if of.all || of.any { "true" } else { "false" });
+        joint.set("independent", word);
+        if of.is_some_and(|of| of.any && !of.all) {
+            let name = joint.attribute("name").unwrap_or_default().to_owned();
+            notes.push(Note::joint(&name, PARTLY));
+        }
+    }
+    Ok(())
+}
+
+fn element(subject: &Subject, closing: &Closing) -> Element {
+    let kind = match closing.of.kind {
+        LoopKind::Revolute => "revolute".to_owned(),
+        other => other.as_str().to_ascii_lowercase(),
+    };
+    let end = |tag: &'static str, end: Place| {
+        let link = Element::new(tag).with("link", subject.links[end.link].as_str());
+        link.holding(element_of_origin(&origin(&end.pose)))
+    };
+    let [predecessor, successor] = closing.ends;
+    Element::new("loop")
+        .with("name", closing.name.as_str())
+        .with("type", kind)
+        .holding(end("predecessor", predecessor))
+        .holding(end("successor", successor))
+        .holding(Element::new("axis").with("xyz", "0 0 1"))
+}
+
+/// The predecessor, the successor and the ratio of a coupling; `None` if URDF+ does not hold it.
+fn sides(
+    subject: &Subject,
+    coupling: &Coupling,
+    dofs: &[(Option<usize>, bool)],
+) -> Option<([usize; 2], f64)> {
+    let tree = &subject.tree;
+    let mut terms = BTreeMap::new();
+    for term in &coupling.terms {
+        let (joint, _) = *dofs.get(term.dof_idx.get())?;
+        let factor = Some(term.coefficients[0]).filter(|_| is_linear(&term.coefficients))?;
+        terms.insert(joint?, factor);
+    }
+    let down_to = |link: usize| subject.between(tree.root, link);
+    let child = |joint: usize| tree.joint_links[joint].1;
+    let deepest = |joints: &mut dyn Iterator<Item = usize>| {
+        joints.max_by_key(|joint| (down_to(child(*joint)).len(), std::cmp::Reverse(*joint)))
+    };
+    let one = deepest(&mut terms.keys().copied())?;
+    let chain = down_to(child(one));
+    let other = deepest(&mut terms.keys().copied().filter(|joint| !chain.contains(joint)));
+    let ends = match other {
+        Some(other) if other < one => [child(other), child(one)],
+        Some(other) => [child(one), child(other)],
+        None => {
+            let first = chain.iter().find(|joint| terms.contains_key(joint))?;
+            [tree.joint_links[*first].0, child(one)]
+        }
+    };
+    // A mimic joint on the way would add a term of another joint.
+    let [mut to_a, mut to_b] = ends.map(down_to);
+    while to_a.first().is_some_and(|first| to_b.first() == Some(first)) {
+        to_a.remove(0);
+        to_b.remove(0);
+    }
+    let factor_of = |joints: &[usize]| -> Option<Option<f64>> {
+        let mut factor = None;
+        for joint in joints.iter().filter(|joint| subject.view.joints[**joint].num_dofs() > 0) {
+            let own = *terms.get(joint)?;
+            (*factor.get_or_insert(own) == own).then_some(())?;
+        }
+        Some(factor)
+    };
+    let (a, b) = (factor_of(&to_a)?, factor_of(&to_b)?);
+    let is_whole = terms.keys().all(|joint| to_a.contains(joint) || to_b.contains(joint));
+    let ratio = a.map_or(1.0, |a| -a / b.unwrap_or(1.0));
+    let is_usable = ratio.is_finite() && coupling.constant == 0.0 && b.is_some() && is_whole;
+    is_usable.then_some((ends, ratio))
+}
