@@ -49,7 +49,9 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     root.push(compiler);
     let flag = Element::new("flag").with("filterparent", "disable");
     let mut option = Element::new("option").holding(flag);
-    if options.actuators.is_some() {
+    if !closings.equalities.is_empty() {
+        option = option.with("integrator", loops::INTEGRATOR);
+    } else if options.actuators.is_some() {
         // The damping of actuators is integrated implicitly: it is stable for light links too.
         option = option.with("integrator", "implicitfast");
     }
