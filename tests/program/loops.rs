@@ -131,3 +131,24 @@ fn loops_of_a_urdf_are_those_of_its_parts() {
         urdd(&["generate", "p.urdf", "-o", "none", "--loops", "nowhere.toml"], folder.path());
     assert!(status == 1 && said.contains("nowhere.toml"), "{status}: {said}");
 }
+
+/// What an export writes is what `urdd generate` reads: one file for URDF+, and a YAML beside the URDF for Extended URDF.
+#[test]
+fn exports_of_loops_are_sources_of_loops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("slider.xml"), SLIDER_CRANK).expect("written");
+    run(folder.path(), &["generate", "slider.xml", "-o", "one", "--samples", "5"]);
+    let loops = json(&at("one/loops_module/module.json"));
+    for format in ["urdf-plus", "extended-urdf"] {
+        let file = format!("{format}.urdf");
+        run(folder.path(), &["export", format, "one", "-o", &file]);
+        assert_eq!(at("extended-urdf.yaml").exists(), format == "extended-urdf");
+        run(folder.path(), &["generate", &file, "-o", format, "--modules", "core"]);
+        let again = json(&at(format).join("loops_module/module.json"));
+        assert_eq!(again["loops"][0]["kind"], "Spherical");
+        assert_eq!(again["independent_dof_idxs"], loops["independent_dof_idxs"], "{format}");
+        let out = run(folder.path(), &["validate", format]);
+        assert!(out.contains("0 errors"), "{out}");
+    }
+}

@@ -55,6 +55,7 @@ pub mod mjcf;
 mod moveit;
 #[doc(hidden)]
 pub mod names;
+mod note;
 mod options;
 mod order;
 mod output;
@@ -88,10 +89,11 @@ use urdd_robot::Robot;
 
 pub use carried::carried_table;
 pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
-pub use error::{ExportError, Note};
+pub use error::ExportError;
 pub use fit::{Fit, NoFit};
 pub use format::Format;
 pub use groups::JointGroup;
+pub use note::Note;
 pub use options::{Misfit, Options};
 pub use order::{JointOrder, joint_orders};
 pub use output::Export;

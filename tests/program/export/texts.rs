@@ -203,7 +203,11 @@ fn options(format: Format, setup: Setup) -> Choices {
 fn files(format: Format, made: &Export) -> Vec<(String, String)> {
     let own = made.path.clone().unwrap_or_else(|| match format {
         Format::Srdf => "robot.srdf".to_owned(),
-        Format::Urdf | Format::Drake | Format::Spherized => "robot.urdf".to_owned(),
+        Format::Urdf
+        | Format::Drake
+        | Format::Spherized
+        | Format::UrdfPlus
+        | Format::ExtendedUrdf => "robot.urdf".to_owned(),
         Format::Mjcf => "robot.xml".to_owned(),
         Format::Sdf => "robot.sdf".to_owned(),
         Format::Curobo => "robot.yml".to_owned(),

@@ -12,8 +12,8 @@ use urdd_format::loops::{Coupling, LoopKind};
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
-/// As stiff as MuJoCo's time step of 2 ms lets it be, whatever the mass of a rod: twice that time, critically damped.
-const SOLREF: &str = "0.004 1";
+/// Nearly as stiff as MuJoCo's time step of 2 ms lets it be, whatever the mass of a rod: three times that, critically damped.
+const SOLREF: &str = "0.006 1";
 /// The largest impedance that MuJoCo takes.
 const SOLIMP: &str = "0.9999 0.9999 0.001";
 
@@ -72,7 +72,7 @@ impl Closings {
                 self.sites[on.link].push(placed(site_named(&name), &pose));
                 element = element.with(key, name);
             }
-            self.equalities.push(element.with("solref", SOLREF).with("solimp", SOLIMP));
+            self.equalities.push(stiff(element));
         }
         true
     }
@@ -103,5 +103,9 @@ fn equation(subject: &Subject, coupling: &Coupling) -> Result<Option<Element>, E
         }
     }
     let is_finite = polynomial.iter().all(|number| number.is_finite());
-    Ok(is_finite.then(|| element.with("polycoef", numbers(&polynomial))))
+    Ok(is_finite.then(|| stiff(element.with("polycoef", numbers(&polynomial)))))
+}
+
+fn stiff(element: Element) -> Element {
+    element.with("solref", SOLREF).with("solimp", SOLIMP)
 }

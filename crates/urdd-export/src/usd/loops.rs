@@ -8,7 +8,8 @@ use crate::loops::Closing;
 use urdd_format::loops::LoopKind;
 
 /// Why a universal joint is left out.
-pub(super) const UNIVERSAL: &str = "programs of USD turn about the axes of a generic joint in different orders, so that none is the same universal joint in all";
+pub(super) const UNIVERSAL: &str =
+    "USD does not say in which order a generic joint turns about its axes";
 
 /// The prim of a loop's joint; `None` of a universal joint.
 pub(super) fn prim(
