@@ -363,6 +363,15 @@ export interface Among extends Own {
   obstacles: Body[];
 }
 
+/** How a motion is checked. */
+export interface EdgeOptions {
+  /** The distance that is kept, metres; 0 by default. */
+  margin?: number;
+  resolution?: number;
+  /** Whether kinematic loops may be open on the way: all DOFs go straight. */
+  open_loops?: boolean;
+}
+
 /** A robot. Configurations have a value for each DOF, rad or m; poses are in the root link's frame, metres. */
 export class Robot {
   private constructor();
@@ -446,11 +455,14 @@ export class Robot {
    * configurations no point of the robot travels farther than `resolution`, metres, and the end and the halves come
    * first: the answer need not be the first part that is blocked. Without, the motion is proved free, which needs 0.1 mm
    * more than the margin.
+   *
+   * Of a robot with kinematic loops, the independent DOFs go straight and the others follow. Both ends must be closed
+   * (`closeLoops`), and a resolution is needed. Where the loops do not close on the way, the motion is blocked.
    */
   blockedEdge(
     start: Iterable<number>,
     end: Iterable<number>,
-    among?: (Own | Among) & { margin?: number; resolution?: number },
+    among?: (Own | Among) & EdgeOptions,
   ): number | null;
   /**
    * The last part of a straight motion that is known to be free (0 if the start is not), and the first that is blocked;
@@ -459,8 +471,13 @@ export class Robot {
   firstContact(
     start: Iterable<number>,
     end: Iterable<number>,
-    among?: (Own | Among) & { margin?: number; resolution?: number },
-  ): { free: number; blocked: number } | null;
+    among?: (Own | Among) & EdgeOptions,
+  ): {
+    free: number;
+    blocked: number;
+    /** A pair too near; loops that do not close; or an end on another branch of the closed configurations. */
+    obstruction: "contact" | "open" | "branch";
+  } | null;
   /** The nearest pairs, with the derivative of each distance for each DOF, m/rad or m/m; null where the two touch. */
   gradients(
     q: Iterable<number>,
@@ -473,10 +490,7 @@ export class Robot {
     among?: ShapeKind | Own,
   ): (Distance & { gradient: number[] | null })[];
   /** The pairs that touch or overlap. */
-  penetrations(
-    q: Iterable<number>,
-    among: Among,
-  ): (ObstacleDistance & Depth)[];
+  penetrations(q: Iterable<number>, among: Among): (ObstacleDistance & Depth)[];
   penetrations(
     q: Iterable<number>,
     among?: ShapeKind | Own,
@@ -498,7 +512,10 @@ export class Robot {
    */
   gravityTorques(
     q: Iterable<number>,
-    settings?: { gravity?: Vector; payload?: { link: number; mass: number; point?: Vector } },
+    settings?: {
+      gravity?: Vector;
+      payload?: { link: number; mass: number; point?: Vector };
+    },
   ): number[];
   /** The learned self-collision model and its measured error rates; null if the URDD has none. */
   readonly collisionModel: CollisionModel | null;

@@ -235,13 +235,13 @@ export class Robot {
     return this.#collisions({ is_within: { q: [...q], margin } }, among);
   }
 
-  blockedEdge(start, end, { margin, resolution, ...among } = {}) {
-    const edge = { start: [...start], end: [...end], margin, resolution };
+  blockedEdge(start, end, { margin, resolution, open_loops, ...among } = {}) {
+    const edge = { start: [...start], end: [...end], margin, resolution, open_loops };
     return this.#collisions({ blocked_edge: edge }, among);
   }
 
-  firstContact(start, end, { margin, resolution, ...among } = {}) {
-    const edge = { start: [...start], end: [...end], margin, resolution };
+  firstContact(start, end, { margin, resolution, open_loops, ...among } = {}) {
+    const edge = { start: [...start], end: [...end], margin, resolution, open_loops };
     return this.#collisions({ first_contact: edge }, among);
   }
 

@@ -5,8 +5,8 @@ use std::str::FromStr;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{
-    EdgeSettings, FirstContact, ObstacleDistance, Overlap, PairDistance, Queries, RobotError,
-    ShapeKind,
+    EdgeSettings, FirstContact, ObstacleDistance, Obstruction, Overlap, PairDistance, Queries,
+    RobotError, ShapeKind,
 };
 
 use crate::bodies::{Attached, Body};
@@ -77,11 +77,15 @@ pub struct Edge {
     #[serde(default)]
     margin: f64,
     resolution: Option<f64>,
+    /// Whether the kinematic loops of the robot may be open on the way.
+    #[serde(default)]
+    open_loops: bool,
 }
 
 impl Edge {
     fn settings(&self) -> EdgeSettings {
-        EdgeSettings { margin: self.margin, resolution: self.resolution, ..Default::default() }
+        let Edge { margin, resolution, open_loops, .. } = *self;
+        EdgeSettings { margin, resolution, open_loops }
     }
 }
 
@@ -134,7 +138,13 @@ pub fn to_obstacle(pair: &ObstacleDistance) -> Value {
 }
 
 fn contact(found: Option<FirstContact>) -> Value {
-    found.map_or(Value::Null, |found| json!({ "free": found.free, "blocked": found.blocked }))
+    let Some(FirstContact { free, blocked, obstruction, .. }) = found else { return Value::Null };
+    let obstruction = match obstruction {
+        Obstruction::Open => "open",
+        Obstruction::Branch => "branch",
+        _ => "contact",
+    };
+    json!({ "free": free, "blocked": blocked, "obstruction": obstruction })
 }
 
 fn with(mut value: Value, gradient: Option<Vec<f64>>) -> Value {

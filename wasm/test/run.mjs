@@ -226,6 +226,13 @@ function closes(urdd, folder) {
   assert.ok(reached.reached && loops({ errors: { q: reached.configuration } }).is_closed, JSON.stringify(reached));
   const open = urdd.ask(handle, { ...wish, open_loops: true, position: there.position.map((x) => x + 0.01) });
   assert.equal(loops({ errors: { q: open.configuration } }).is_closed, false);
+  // A motion follows the loops, from closed ends; with open ones it is that of the tree.
+  const collisions = (edge) => urdd.ask(handle, { ask: "collisions", about: { blocked_edge: { resolution: 0.005, ...edge } } });
+  const end = loops({ close: { q: q.map((value, dof) => (dof === free ? value + 0.1 : value)), held: [free] } }).configuration;
+  assert.equal(collisions({ start: q, end }), null);
+  const far = q.map((value, dof) => (dof === free ? value + 0.1 : value));
+  assert.throws(() => collisions({ start: q, end: far }), /close/);
+  assert.equal(collisions({ start: q, end: far, open_loops: true }), null);
   urdd.close(handle);
   urdd.closeFiles(files);
 }
