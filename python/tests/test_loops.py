@@ -87,6 +87,7 @@ def test_equations_and_velocities(four_bar: urdd.Robot) -> None:
     step = 1e-6
     jacobian = four_bar.loop_jacobian(q)
     assert jacobian.shape == (10, 5, 3)
+    assert four_bar.num_loop_equations == 5
     for dof in range(3):
         by = step * np.eye(3)[dof]
         expected = (four_bar.loop_residuals(q + by) - four_bar.loop_residuals(q - by)) / (2 * step)
