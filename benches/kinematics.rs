@@ -1,15 +1,15 @@
 //! Time for poses, Jacobians and inverse kinematics, on one thread.
 //!
-//! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over 10,000
-//! random configurations, in microseconds: the poses of all links, and the Jacobian of the last link by
+//! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over
+//! 10,000 random configurations, in microseconds: the poses of all links, and the Jacobian of the last link by
 //! `Robot::jacobian_batch`. Then it takes 1,000 target poses, of all links in turn, in configurations that are not
-//! starting points. It prints how many `Robot::inverse_kinematics` reaches, and the time; and the time with a posture.
-//! For a robot with kinematic loops it also closes 10,000 configurations, each from the last one, in which the independent
-//! DOFs are up to 0.01 rad or 1 mm elsewhere, and prints how many poses of all links that takes. `--leg` is such a robot: a
-//! leg of six rods. It should close within 50 us, or 40 poses.
+//! starting points, closed if there are loops. It prints how many `Robot::inverse_kinematics` reaches, and the time;
+//! and the time with a posture. For a robot with kinematic loops it also closes 10,000 configurations, each from the
+//! last one, in which the independent DOFs are up to 0.005 rad or 0.25 mm elsewhere, and prints how many poses of all
+//! links that takes. `--leg` is such a robot: a leg of six rods. It should close within 50 us, or 40 poses.
 //!
-//! With `--json` it measures nothing: for each URDD and each of 20 configurations, it prints one line with the values,
-//! the gravity torques, and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in
+//! With `--json` it measures nothing: for each URDD and each of 20 configurations, it prints one line with the
+//! values, the gravity torques, and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in
 //! column-major order.
 //! `tests/figures/kinematics_pinocchio.py` compares these with Pinocchio.
 
@@ -89,17 +89,27 @@ fn measure(path: &std::path::Path) {
     }
 }
 
-/// The way is the same each time, and closed all along.
+/// A closed configuration in the middle of the bounds of what moves freely, if there is one.
+fn middle(robot: &Robot, settings: &CloseSettings) -> Vec<f64> {
+    let reference = robot.reference_configuration().expect("a configuration");
+    let middle = robot.configurations().expect("configurations").middle();
+    let mut q = reference.clone();
+    settings.held.iter().for_each(|dof| q[*dof] = middle[*dof]);
+    let found = robot.close(&q, settings).expect("an answer");
+    found.closed().unwrap_or(reference)
+}
+
+/// The way is the same each time.
 fn close(robot: &Robot) {
     let units = robot.dof_units().expect("units");
     let held = robot.independent_dofs().expect("DOFs");
     let settings = CloseSettings { held: &held, bounds: None };
-    let reference = robot.reference_configuration().expect("a configuration");
+    let reference = middle(robot, &settings);
     let mut q = reference.clone();
     let (mut apart, mut poses, mut seconds) = (0, Vec::new(), [0.0; 2]);
     for k in 0..CONFIGURATIONS {
         for dof in &held {
-            let most = if units[*dof] == "m" { 0.02 } else { 0.2 };
+            let most = if units[*dof] == "m" { 0.005 } else { 0.1 };
             let turn = 0.05 * k as f64 + *dof as f64;
             q[*dof] = reference[*dof] + most * (turn.sin() - (*dof as f64).sin());
         }
@@ -123,7 +133,9 @@ fn inverse(robot: &Robot, with_rotation: bool) {
     let questions: Vec<(Target, Vec<f64>)> = (0..TARGETS)
         .map(|k| {
             // Numbers that no restart begins with.
-            let poses = robot.link_poses(&space.random((1 << 20) + k));
+            let there = space.random((1 << 20) + k);
+            let there = robot.close(&there, &Default::default()).expect("an answer");
+            let poses = robot.link_poses(there.configuration());
             let link = (k % links) as usize;
             let pose = poses.expect("poses")[link];
             let target = match with_rotation {

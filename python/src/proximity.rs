@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use urdd_robot::{EdgeSettings, PairDistance, Queries};
+use urdd_robot::{EdgeSettings, Obstruction, PairDistance, Queries};
 
 use crate::arrays::{Batch, shaped};
 use crate::errors::of_robot;

@@ -142,6 +142,33 @@ macro_rules! queries {
                 })
             }
 
+            /// (count,): what stops each motion: 0 for nothing, else by its place among `OBSTRUCTIONS`.
+            fn obstruction<'py>(
+                &self,
+                py: Python<'py>,
+                starts: PyReadonlyArray2<'py, f64>,
+                ends: PyReadonlyArray2<'py, f64>,
+                margin: f64,
+                resolution: Option<f64>,
+                open_loops: bool,
+            ) -> PyResult<Bound<'py, PyArray1<u8>>> {
+                let (count, from) = (ends.shape()[0], Batch::new(&starts)?);
+                let settings = EdgeSettings { margin, resolution, open_loops };
+                self.each(py, &ends, count, |of, all, on, out| {
+                    let mut found = vec![None; count];
+                    of.motion_batch_into([&from.values, all], &settings, on, &mut found)?;
+                    for (out, found) in out.iter_mut().zip(found) {
+                        *out = match found.map(|one| one.obstruction) {
+                            None => 0,
+                            Some(Obstruction::Open) => 2,
+                            Some(Obstruction::Branch) => 3,
+                            Some(_) => 1,
+                        };
+                    }
+                    Ok(())
+                })
+            }
+
             /// The nearest pairs in one configuration, nearest first.
             fn nearest(
                 &self,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use urdd_robot::{EdgeSettings, ObstacleDistance, Queries, World};
+use urdd_robot::{EdgeSettings, ObstacleDistance, Obstruction, Queries, World};
 
 use crate::arrays::{Batch, check_memory, shaped, zeros};
 use crate::errors::of_robot;

@@ -42,11 +42,11 @@ def four_bar(tmp_path_factory: pytest.TempPathFactory) -> urdd.Robot:
     return urdd.load(folder / "four_bar")
 
 
-def at(crank: Floats) -> Floats:
-    """The circles about the crank's end and about the rocker's hinge meet in two points: this is the lower one."""
+def at(crank: Floats, side: float = -1.0) -> Floats:
+    """The circles about the ends of crank and rocker meet in two points, of which ``side`` chooses one."""
     x, y = GROUND - CRANK * np.cos(crank), -CRANK * np.sin(crank)
     far = np.hypot(x, y)
-    turned = np.arctan2(-y, -x) - np.arccos((ROCKER**2 + far**2 - COUPLER**2) / (2 * ROCKER * far))
+    turned = np.arctan2(-y, -x) + side * np.arccos((ROCKER**2 + far**2 - COUPLER**2) / (2 * ROCKER * far))
     along = np.stack([GROUND + ROCKER * np.cos(turned), ROCKER * np.sin(turned)])
     along -= np.stack([CRANK * np.cos(crank), CRANK * np.sin(crank)])
     return np.stack([crank, np.arctan2(along[1], along[0]) - crank, turned], axis=-1)
@@ -87,6 +87,7 @@ def test_equations_and_velocities(four_bar: urdd.Robot) -> None:
     step = 1e-6
     jacobian = four_bar.loop_jacobian(q)
     assert jacobian.shape == (10, 5, 3)
+    assert four_bar.num_loop_equations == 5
     for dof in range(3):
         by = step * np.eye(3)[dof]
         expected = (four_bar.loop_residuals(q + by) - four_bar.loop_residuals(q - by)) / (2 * step)
@@ -117,6 +118,11 @@ def test_inverse_kinematics_and_motions_stay_closed(four_bar: urdd.Robot) -> Non
     proximity = four_bar.proximity()
     assert np.isnan(proximity.blocked_edge(start, end))
     assert np.isnan(proximity.first_contact(start, end)).all()
+    assert proximity.obstruction(start, end) == "nothing"
+    other = at(np.array([2.0]), 1.0)[0]
+    assert four_bar.loop_errors(other).is_closed
+    assert proximity.obstruction([start, start], [end, other]).tolist() == ["nothing", "branch"]
+    assert proximity.blocked_edge(start, other) == 1
     with pytest.raises(urdd.ConfigurationError, match=r"the end .* `pin` .* call `close` first"):
         proximity.blocked_edge(start, np.add(end, [0, 0.01, 0]))
     with pytest.raises(urdd.ConfigurationError, match="resolution"):

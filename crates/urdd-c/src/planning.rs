@@ -228,13 +228,14 @@ impl From<Option<FirstContact>> for Motion {
 
 /// Writes where each motion is blocked by the robot itself first, and why.
 ///
-/// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the one
-/// in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the last
-/// one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others arrive on
-/// another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the spanning tree.
+/// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the
+/// one in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the
+/// last one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others
+/// arrive on another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the
+/// spanning tree.
 ///
-/// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a motion
-/// that needs more than 100,000 configurations.
+/// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a
+/// motion that needs more than 100,000 configurations.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_motions(
     handle: *const Proximity,

@@ -65,12 +65,12 @@ pub(super) fn answer<C: Checked, T: Send>(
 ///
 /// # Errors
 /// As there.
-pub(super) fn answer_edges<C: Checked, const N: usize>(
+pub(super) fn answer_edges<C: Checked, T: Copy + Send, const N: usize>(
     pairs: &C,
     [starts, ends]: [&[f64]; 2],
     cancellation: &Cancellation,
-    out: &mut [f64],
-    ask: impl Fn(&[f64], &[f64]) -> Result<[f64; N], RobotError> + Sync,
+    out: &mut [T],
+    ask: impl Fn(&[f64], &[f64]) -> Result<[T; N], RobotError> + Sync,
 ) -> Result<(), RobotError> {
     let motion = &pairs.shapes().motion;
     let ends = motion.rows(ends)?;

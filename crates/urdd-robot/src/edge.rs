@@ -24,8 +24,8 @@ pub struct EdgeSettings {
     /// Between two checked configurations no point of the robot travels farther than this, m. `None` proves that the
     /// motion is free, which needs 0.1 mm more than the margin.
     pub resolution: Option<f64>,
-    /// Whether the kinematic loops of the robot may be open on the way: the motion is then that of its spanning tree, straight
-    /// in all DOFs. Without meaning for a tree.
+    /// Whether the kinematic loops of the robot may be open on the way: the motion is then that of its spanning tree,
+    /// straight in all DOFs. Without meaning for a tree.
     pub open_loops: bool,
 }
 

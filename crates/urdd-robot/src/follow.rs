@@ -67,12 +67,18 @@ fn check_closed(
 
 type IsBlocked<'a> = dyn FnMut(&[f64]) -> Result<bool, RobotError> + 'a;
 
-/// A configuration on the way that is blocked. The way is gone first, so that the halves can be checked first.
+/// A configuration on the way that is blocked. The ends are checked first; then the way is gone, so that the halves can be
+/// checked before the rest.
 fn any_blocked<C: Checked>(
     follower: &mut Follower<'_, C>,
     is_blocked: &mut IsBlocked,
 ) -> Result<Option<FirstContact>, RobotError> {
     let dofs = follower.now.len();
+    for (end, part) in [(follower.ends[1], 1.0), (follower.ends[0], 0.0)] {
+        if is_blocked(end)? {
+            return Ok(Some(FirstContact::new(0.0, part)));
+        }
+    }
     let (mut parts, mut way) = (vec![0.0], follower.now.clone());
     while follower.part < 1.0 {
         match follower.advance()? {
@@ -83,8 +89,8 @@ fn any_blocked<C: Checked>(
         parts.push(follower.part);
         way.extend_from_slice(&follower.now);
     }
-    let last = parts.len() as u64 - 1;
-    for k in std::iter::once(last).chain(halving(last)) {
+    // Both ends are free.
+    for k in halving(parts.len() as u64 - 1).skip(1) {
         let k = k as usize;
         if is_blocked(&way[k * dofs..(k + 1) * dofs])? {
             return Ok(Some(FirstContact::new(0.0, parts[k])));

@@ -110,11 +110,11 @@ impl Robot {
     /// its bounds are from 0, unless the settings have bounds: an angle half a turn either way, a length one metre. So a
     /// continuous joint that follows a path does not jump by a turn, and its value may leave [-pi, pi].
     ///
-    /// Where the robot has kinematic loops, the solution is closed: every step of the search is, from the closed configuration
-    /// that [`Robot::close`] finds near its beginning. DOFs that loops tie to those that move the link move too, within their
-    /// bounds. Set [`InverseSettings::open_loops`] for a solution of the spanning tree. If no closed one reaches the target, but one
-    /// with open loops does, the verdict is [`Verdict::Loops`](crate::Verdict::Loops); if the loops cannot be closed at all,
-    /// the configuration is that with the smallest gaps.
+    /// Where the robot has kinematic loops, the solution is closed: every step of the search is, from the closed
+    /// configuration that [`Robot::close`] finds near its beginning. DOFs that loops tie to those that move the link move
+    /// too, within their bounds. Set [`InverseSettings::open_loops`] for a solution of the spanning tree. If no closed one
+    /// reaches the target, but one with open loops does, the verdict is [`Verdict::Loops`](crate::Verdict::Loops); if the
+    /// loops cannot be closed at all, the configuration is that with the smallest gaps.
     ///
     /// Does not check for collisions: [`Robot::inverse_kinematics_where`] does. Returns the first solution within the
     /// tolerances, or the one that is nearest to a [posture](InverseSettings::posture); it depends only on the target,

@@ -1,5 +1,5 @@
-//! The equations of kinematic loops: which DOFs move freely, what is not 0 that should be, its derivatives, and velocities that
-//! keep loops closed.
+//! The equations of kinematic loops: which DOFs move freely, what is not 0 that should be, its derivatives, and velocities
+//! that keep loops closed.
 
 use nalgebra::DMatrix;
 
@@ -117,9 +117,9 @@ impl Robot {
         })
     }
 
-    /// The velocities of all DOFs, rad/s or m/s, that keep the loops closed, for those of the independent DOFs, in the order
-    /// of [`Robot::independent_dofs`]: by least squares, with the rank as SPEC 6.8.7 decides it. `None` where the others do
-    /// not follow from the independent DOFs: at a dead point, or where parts are in a line and more moves freely.
+    /// The velocities of all DOFs, rad/s or m/s, that keep the loops closed, for those of the independent DOFs, in the
+    /// order of [`Robot::independent_dofs`]: by least squares, with the rank as SPEC 6.8.7 decides it. `None` where the
+    /// others do not follow from the independent DOFs: at a dead point, or where parts are in a line and more moves freely.
     ///
     /// # Errors
     /// [`RobotError::Room`] if the number of velocities differs from that of independent DOFs, and [`RobotError::Setting`]
@@ -134,7 +134,8 @@ impl Robot {
         Ok(found.then_some(velocities))
     }
 
-    /// As [`Robot::loop_velocities`], into `out`: false instead of `None`. It does not allocate after the first of a thread.
+    /// As [`Robot::loop_velocities`], into `out`: false instead of `None`. It does not allocate after the first of a
+    /// thread.
     ///
     /// # Errors
     /// As there, and [`RobotError::Room`] if the length of `out` differs from the number of DOFs.

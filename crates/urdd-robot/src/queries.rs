@@ -389,6 +389,19 @@ pub trait Queries: Checked + Sized {
             Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
         })
     }
+
+    /// As [`Queries::first_contact`] from each configuration of the first batch to that of the second, into `out`.
+    fn motion_batch_into(
+        &self,
+        edges: [&[f64]; 2],
+        settings: &EdgeSettings,
+        cancellation: &Cancellation,
+        out: &mut [Option<FirstContact>],
+    ) -> Result<(), RobotError> {
+        answer_edges(self, edges, cancellation, out, |start, end| {
+            Ok([self.first_contact(start, end, settings)?])
+        })
+    }
 }
 
 impl<C: Checked> Queries for C {}

@@ -29,6 +29,11 @@ class RobotLoops(RobotDescription):
         return tuple(self._core.loop_names()[1])
 
     @property
+    def num_loop_equations(self) -> int:
+        """The number of equations of all loops and couplings: 0 for a tree."""
+        return self._core.num_loop_equations()
+
+    @property
     def reference_configuration(self) -> Floats:
         """(dofs,): a configuration in which all loops are closed, to begin with: that of ``loops_module``. For a tree,
         the default one, :attr:`urdd.Robot.zero`."""

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import (
     Bools,
@@ -18,6 +18,9 @@ from ._arrays import (
     optional_array,
     scalar,
 )
+
+#: As the compiled part numbers them.
+_OBSTRUCTIONS = np.array(["nothing", "contact", "open", "branch"])
 
 _Near = TypeVar("_Near")
 _Distance = TypeVar("_Distance")
@@ -38,6 +41,9 @@ class Core(Protocol[_Near]):
     def first_contact(
         self, starts: Floats, ends: Floats, margin: float, resolution: float | None, open_loops: bool
     ) -> Floats: ...
+    def obstruction(
+        self, starts: Floats, ends: Floats, margin: float, resolution: float | None, open_loops: bool
+    ) -> NDArray[np.uint8]: ...
     def gradients(self, configuration: Floats, k: int) -> list[tuple[_Near, list[float] | None]]: ...
     def penetrations(self, configuration: Floats) -> list[tuple[_Near, float, list[float], list[float]]]: ...
     def nearest(self, configuration: Floats, k: int) -> list[_Near]: ...
@@ -133,6 +139,27 @@ class Queries(ABC, Generic[_Near, _Distance, _Gradient, _Overlap]):
         """
         starts, ends, batch = edges(start, end, self._dof_names)
         return self.core.first_contact(starts, ends, margin, resolution, bool(open_loops)).reshape((*batch, 2))
+
+    def obstruction(
+        self,
+        start: ArrayLike,
+        end: ArrayLike,
+        *,
+        margin: float = 0.0,
+        resolution: float | None = 0.01,
+        open_loops: bool = False,
+    ) -> NDArray[np.str_]:
+        """(...): what stops the motion of :meth:`first_contact`: ``nothing``; ``contact``: a pair is at most ``margin``
+        apart; ``open``: no configuration was found there in which the loops of the robot are closed, within its bounds;
+        ``branch``: the DOFs that follow would have to jump, or arrive elsewhere than at ``end``.
+
+        Raises:
+            ValueError: as :meth:`blocked_edge`.
+        """
+        starts, ends, batch = edges(start, end, self._dof_names)
+        found = self.core.obstruction(starts, ends, margin, resolution, bool(open_loops))
+        answer: NDArray[np.str_] = _OBSTRUCTIONS[found].reshape(batch)[()]
+        return answer
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[_Distance]:
         """The ``k`` nearest pairs in one configuration, with their closest points, nearest first; all pairs if there

@@ -38,8 +38,8 @@ pub(super) struct Found {
 pub(super) trait Descend {
     /// Descends from a configuration within bounds.
     fn from(&mut self, start: Vec<f64>) -> Found;
-    /// The part of the way to a posture that is free at a solution, for each DOF of the path; `None` if there is none that can
-    /// be computed.
+    /// The part of the way to a posture that is free at a solution, for each DOF of the path; `None` if there is none that
+    /// can be computed.
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>>;
     /// Iterations so far.
     fn iterations(&self) -> usize;

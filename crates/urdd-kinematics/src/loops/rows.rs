@@ -1,5 +1,5 @@
-//! The equations of loops and couplings in metres and radians, and their derivatives: those of a kind alone, without the rows
-//! that are always 0.
+//! The equations of loops and couplings in metres and radians, and their derivatives: those of a kind alone, without the
+//! rows that are always 0.
 
 use nalgebra::Isometry3;
 
@@ -36,9 +36,9 @@ impl Loops {
         }
     }
 
-    /// Writes the derivatives of the equations by each DOF: column-major, [`Loops::num_equations`] numbers for each DOF. The
-    /// rows of a rotation that is wholly held are the angular velocity of frame B relative to frame A, in frame A; that is
-    /// the derivative of the rotation vector where the loop is closed.
+    /// Writes the derivatives of the equations by each DOF: column-major, [`Loops::num_equations`] numbers for each DOF.
+    /// The rows of a rotation that is wholly held are the angular velocity of frame B relative to frame A, in frame A; that
+    /// is the derivative of the rotation vector where the loop is closed.
     ///
     /// # Panics
     /// If `out` has fewer than [`Loops::num_equations`] numbers for each DOF.

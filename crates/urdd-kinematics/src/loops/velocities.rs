@@ -24,9 +24,9 @@ pub struct VelocityScratch {
 }
 
 impl Loops {
-    /// Computes the velocities of the DOFs that loops and couplings depend on and that are not `given`, from those that are:
-    /// by least squares, as equations may say the same as others. False where they do not follow from them: the others could
-    /// move alone, or no velocities of theirs keep the loops closed. `velocities` is then left as it was, or in part.
+    /// Computes the velocities of the DOFs that loops and couplings depend on and that are not `given`, from those that
+    /// are: by least squares, as equations may say the same as others. False where they do not follow from them: the others
+    /// could move alone, or no velocities of theirs keep the loops closed. `velocities` is then left as it was, or in part.
     pub fn velocities(
         &self,
         kinematics: &ForwardKinematics,
@@ -103,8 +103,8 @@ impl Loops {
     }
 }
 
-/// Makes a column orthogonal to a direction of length 1; returns how much of it was along that. Twice, so that it stays so in
-/// spite of rounding.
+/// Makes a column orthogonal to a direction of length 1; returns how much of it was along that. Twice, so that it stays so
+/// in spite of rounding.
 fn take_away(direction: &[f64], column: &mut [f64]) -> f64 {
     let mut along = 0.0;
     for _ in 0..2 {
