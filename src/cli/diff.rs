@@ -61,7 +61,7 @@ pub struct DiffArguments {
 enum DiffFormat {
     /// Text for people.
     Text,
-    /// JSON; its schema is `urdd schema show diff_report@1.2.0`.
+    /// JSON; its schema is `urdd schema show diff_report@1.3.0`.
     Json,
     /// Markdown, for a comment on a pull request.
     Markdown,

@@ -7,11 +7,17 @@ use urdd_document::pose::unit;
 use urdd_format::urdf::{Joint, JointType, Limit};
 use urdd_xml::other_parts::{OtherParts, Owner};
 
-pub(super) fn parts(side: &Side, others: Option<&OtherParts>) -> Vec<(String, Fields)> {
+/// `said` are names of attributes that another list compares.
+pub(super) fn parts(
+    side: &Side,
+    others: Option<&OtherParts>,
+    said: &[&str],
+) -> Vec<(String, Fields)> {
     let part = |joint: &Joint| {
         let mut fields = fields(joint, side.has_quaternions());
         other_elements::add(&joint.unknown_elements, &side.account, &mut fields);
-        other_elements::add_parts(others, &Owner::Joint(joint.name.clone()), &mut fields);
+        let owner = Owner::Joint(joint.name.clone());
+        other_elements::add_parts_but(others, &owner, said, &mut fields);
         (joint.name.clone(), fields)
     };
     side.robot.joints.iter().map(part).collect()

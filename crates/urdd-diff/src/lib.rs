@@ -53,7 +53,11 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         notes.push(format!("numbers that differ by at most {tolerance:?} are taken as equal"));
     }
     let [a, b] = before.others_beside(after);
-    let joints = parts::differences(&joints::parts(before, a), &joints::parts(after, b), tolerance);
+    let said: &[&str] =
+        if loops::say_independent(before, after) { &[loops::OF_JOINT] } else { &[] };
+    let [joints_a, joints_b] =
+        [(before, a), (after, b)].map(|(side, others)| joints::parts(side, others, said));
+    let joints = parts::differences(&joints_a, &joints_b, tolerance);
     if a.is_none() {
         notes.push(
             "attributes that URDF does not define are not compared: one has no URDF".to_owned(),
@@ -68,7 +72,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         same: false,
         robot: robot(before, after),
         links: links::differences(before, after, tolerance),
-        loops: loops::differences(before, after, tolerance, &joints),
+        loops: loops::differences(before, after, tolerance),
         joints,
         materials: parts(&|side| geometry::materials(&side.robot.materials)),
         other_elements: parts(&|side| {

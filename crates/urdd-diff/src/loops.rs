@@ -9,7 +9,7 @@ use crate::fields::Fields;
 use crate::parts;
 use crate::side::Side;
 use urdd_directory::loops_toml::{File, FrameTable};
-use urdd_format::diff_report::{PartDifference, Presence};
+use urdd_format::diff_report::PartDifference;
 use urdd_format::loops::LoopsModule;
 use urdd_format::pose::Pose;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -19,31 +19,27 @@ use urdd_kinematics::rotation::from_rpy;
 /// The part that lists the DOFs that move freely.
 const INDEPENDENT: &str = "DOFs that move freely";
 /// What a joint of URDF+ says of that.
-const OF_JOINT: &str = "independent";
+pub(super) const OF_JOINT: &str = "independent";
 
 type Parts = Vec<(String, Fields)>;
 
-/// The loops and couplings that differ. `joints` are the differences of joints, which are not said again.
-pub(super) fn differences(
-    before: &Side,
-    after: &Side,
-    tolerance: f64,
-    joints: &[PartDifference],
-) -> Vec<PartDifference> {
+/// Whether both say which DOFs move freely, and mean the same by it: a URDF may leave it open or say too many, and a URDD has
+/// those of which the others follow.
+pub(super) fn say_independent(before: &Side, after: &Side) -> bool {
+    let say = |side: &Side| of(side).iter().any(is_independent);
+    before.urdd.is_some() == after.urdd.is_some() && say(before) && say(after)
+}
+
+/// The loops and couplings that differ.
+pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<PartDifference> {
     let mut both = [of(before), of(after)];
-    // A URDF may leave open which DOFs move freely.
-    let say = both.iter().all(|parts| parts.is_empty() || parts.iter().any(is_independent));
-    let mut changes = joints.iter().flat_map(|joint| &joint.changes);
-    if !say || changes.any(|change| change.field == OF_JOINT) {
+    if !say_independent(before, after) {
         for parts in &mut both {
             parts.retain(|part| !is_independent(part));
         }
     }
     let [a, b] = &both;
-    let mut found = parts::differences(a, b, tolerance);
-    // Which DOFs move freely is new with the first loop, and gone with the last one.
-    found.retain(|part| part.name != INDEPENDENT || part.presence == Presence::Changed);
-    found
+    parts::differences(a, b, tolerance)
 }
 
 fn is_independent((name, _): &(String, Fields)) -> bool {

@@ -39,7 +39,18 @@ pub(super) fn add(elements: &[String], account: &Account, fields: &mut Fields) {
 
 /// Adds what the URDF says of a link, a joint or the robot where URDF defines nothing.
 pub(super) fn add_parts(parts: Option<&OtherParts>, owner: &Owner, fields: &mut Fields) {
-    for part in parts.and_then(|parts| parts.get(owner)).into_iter().flatten() {
+    add_parts_but(parts, owner, &[], fields);
+}
+
+/// As [`add_parts`], without attributes of its own that have these names.
+pub(super) fn add_parts_but(
+    parts: Option<&OtherParts>,
+    owner: &Owner,
+    said: &[&str],
+    fields: &mut Fields,
+) {
+    let all = parts.and_then(|parts| parts.get(owner)).into_iter().flatten();
+    for part in all.filter(|part| !part.path.is_empty() || !said.contains(&&*part.name)) {
         let dot = if part.path.is_empty() { "" } else { "." };
         let at = format!("{}{dot}{}", part.path.replace('/', "."), part.name);
         let words: Vec<&str> = part.value.split_whitespace().collect();

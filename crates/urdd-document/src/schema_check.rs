@@ -126,7 +126,7 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
         Kind::Required { property } => {
             let key = property.as_str().unwrap_or_default();
             let message = format!(
-                "the key `{key}` is missing; every key is required: write null for an absent value"
+                "the key `{key}` is missing; every key is required: where the schema allows null, that is an absent value"
             );
             (message, Some(format!("key {key}")), None)
         }

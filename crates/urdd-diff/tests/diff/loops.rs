@@ -72,6 +72,17 @@ fn loops_of_urdfs_and_urdds_are_compared() {
     // A URDD says what its source says.
     assert_eq!(found(&plus[0], &plus[1]), [""; 0]);
     assert_eq!(found(&beside[0], &beside[1]), [""; 0]);
+    // What a joint of URDF+ says of it is no difference of the joint.
+    let crank = |joint: &str| {
+        let urdf = parallelogram(LOOP).replace(r#" independent="false""#, "");
+        let this = format!(r#"<joint name="{joint}" type="continuous""#);
+        urdf.replace(&this, &format!(r#"{this} independent="false""#))
+    };
+    let (a, b) = (made("not_a", &crank("a"), None), made("not_b", &crank("b"), None));
+    assert_eq!(
+        found(&a[0], &b[0]),
+        ["loops/DOFs that move freely/b", "loops/DOFs that move freely/a"]
+    );
     // The same loop, in the URDF and beside it.
     let elsewhere = found(&plus[0], &beside[0]);
     assert!(elsewhere.iter().all(|place| place.starts_with("joints/")), "{elsewhere:?}");

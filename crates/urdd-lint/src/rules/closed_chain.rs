@@ -50,8 +50,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         )
     });
     let Some((_, first)) = closing.first() else {
-        let message = format!("{}; begin in a closed one, which `urdd generate` looks for", open?);
-        urdf.at(urdf.root, message).report(findings);
+        if let Some(open) = open {
+            let message = format!("{open}; begin in a closed one, which `urdd generate` looks for");
+            urdf.at(urdf.root, message).report(findings);
+        }
         return Some(());
     };
     let freely = urdf.joints_of(&ONE_DOF).filter(|joint| child(*joint, "mimic").is_none());

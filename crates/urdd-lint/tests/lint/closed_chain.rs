@@ -3,6 +3,7 @@
 use std::fs;
 
 use super::linted;
+use urdd_format::report::Verdict;
 use urdd_lint::LintSettings;
 
 const OPEN: &str = include_str!("../cases/LNT066/invalid.urdf");
@@ -58,7 +59,9 @@ fn said_of(name: &str, files: &[(&str, &str)]) -> Vec<String> {
         fs::write(folder.path().join(name), text).expect("written");
     }
     let file = folder.path().join(name);
-    let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+    let linted = linted(&file, &LintSettings::default()).report.urdds.remove(0);
+    assert_ne!(linted.verdict, Verdict::Incomplete, "{:?}", linted.reason);
+    let findings = linted.findings;
     let of_loop = findings.into_iter().filter(|finding| finding.code == "LNT066");
     of_loop.map(|finding| finding.message).collect()
 }

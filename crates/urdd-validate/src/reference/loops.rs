@@ -99,6 +99,11 @@ impl Held {
         if poses > MOST_WORK || values.saturating_mul(4) > MOST_WORK {
             return None;
         }
+        // What the row of each coupling is divided by.
+        let of_row = |coupling| steepest(coupling, configuration, lengths, reach);
+        let steepest: Option<Vec<f64>> = module.couplings.iter().map(of_row).collect();
+        let divisor = |largest: f64| if largest > 0.0 { largest } else { 1.0 };
+        let steepest: Vec<f64> = steepest?.into_iter().map(divisor).collect();
         let mut columns = Vec::new();
         let mut moving = Vec::new();
         for dof in 0..dofs {
@@ -114,8 +119,8 @@ impl Held {
                 let [before, after] = [between(one, &ends[0])?, between(one, &ends[1])?];
                 column.extend(rows_of(one.kind, &before, &after, reach));
             }
-            for coupling in &module.couplings {
-                column.push(slope(coupling, dof, *configuration.get(dof)?) * unit);
+            for (coupling, largest) in module.couplings.iter().zip(&steepest) {
+                column.push(slope(coupling, dof, *configuration.get(dof)?) * unit / largest);
             }
             // Of what does not move, rounding alone is left.
             if column.iter().any(|value| value.abs() > 1e-10) {
@@ -123,14 +128,7 @@ impl Held {
                 moving.push(dof);
             }
         }
-        let mut matrix = DMatrix::from_column_slice(rows, moving.len(), &columns);
-        for (place, coupling) in module.couplings.iter().enumerate() {
-            let largest = steepest(coupling, configuration, lengths, reach)?;
-            if largest > 0.0 {
-                let mut row = matrix.row_mut(6 * module.loops.len() + place);
-                row /= largest;
-            }
-        }
+        let matrix = DMatrix::from_column_slice(rows, moving.len(), &columns);
         Some(Held { matrix, dofs: moving })
     }
 

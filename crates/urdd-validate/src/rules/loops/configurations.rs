@@ -20,7 +20,8 @@ declare_rule! {
     /// Sample k has the independent DOFs where the specification's sampled configuration k has them, so that all programs
     /// mean the same by it, and can be compared.
     ///
-    /// Number samples from 0 without gaps, and take the values of the independent DOFs from the formulas of SPEC 9.3.
+    /// Number samples from 0 without gaps, and take the values of the independent DOFs from the formulas of SPEC 9.3. Where all
+    /// samples are wrong in one DOF, that DOF may be none of the independent ones: LOP009 is judged when the samples are right.
     LOP013 "closed-sample-wrong", Error, clause "6.8.8", since "1.4.0",
     phase References, needs [
         ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), ModuleV1(Kind::Chain), ModuleV1(Kind::Bounds), Passed(DOF001),
