@@ -67,6 +67,11 @@ def test_gaps_and_closing(four_bar: urdd.Robot) -> None:
     np.testing.assert_array_equal(found.configuration[..., 0], q[..., 0])
     np.testing.assert_allclose(np.cos(found.configuration - q), 1, atol=1e-15)
     one = four_bar.close(off[0, 0], held=["crank"])
+    np.testing.assert_array_equal(
+        four_bar.close(off[0, 0], held=four_bar.independent_dofs).configuration, one.configuration
+    )
+    with pytest.raises(IndexError, match="DOF index 3 is out of range"):
+        four_bar.close(off[0, 0], held=[3])
     assert one.is_closed
     np.testing.assert_array_equal(one.configuration, found.configuration[0, 0])
     narrow = [[-9, 9], [-9, 9], [q[0, 0, 2] + 1, 9]]

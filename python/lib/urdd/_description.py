@@ -104,13 +104,19 @@ class RobotDescription:
             raise IndexError(f"link index {index} is out of range: the robot has {self.num_links} links")
         return index % self.num_links
 
-    def dof(self, name: str) -> int:
-        """The index of a DOF.
+    def dof(self, name: str | int) -> int:
+        """The index of a DOF, given by name or index; negative indices count from the end.
 
         Raises:
             UnknownNameError: for an unknown name, with the nearest known one.
+            IndexError: for an index that is out of range.
         """
-        return self._core.dof(name)
+        if isinstance(name, str):
+            return self._core.dof(name)
+        index = int(name)
+        if not -self.num_dofs <= index < self.num_dofs:
+            raise IndexError(f"DOF index {index} is out of range: the robot has {self.num_dofs} DOFs")
+        return index % self.num_dofs
 
     @cached_property
     def folder(self) -> Path | None:

@@ -247,7 +247,7 @@ class RobotKinematics(RobotLoops):
         seed: int = 0,
         bounds: ArrayLike | None = None,
         weights: ArrayLike | None = None,
-        locked: Iterable[str] = (),
+        locked: Iterable[str | int] = (),
         posture: ArrayLike | None = None,
         free_of: Shapes | Iterable[Shapes] = (),
         margin: float = 0.0,
@@ -280,7 +280,7 @@ class RobotKinematics(RobotLoops):
                 y, z, then of the rotation about x, y, z, along the axes of the target pose, or of the root link's frame
                 for a position. A factor of 0 leaves a direction free: ``[0, 0, 0, 1, 1, 1]`` is a rotation alone,
                 ``[1, 1, 1, 1, 1, 0]`` leaves a tool free to turn about its own z axis.
-            locked: the names of DOFs that keep their start value.
+            locked: the DOFs that keep their start value, by name or index.
             posture: (dofs,): the solution should be near this configuration. Each solution is moved toward it as far as
                 the target allows, and the nearest one counts; the search ends when 12 restarts in a row bring no nearer
                 one.
@@ -325,7 +325,7 @@ class RobotKinematics(RobotLoops):
             seed=whole(seed, "a seed", 0, 2**64 - 1),
             bounds=limits,
             weights=None if weights is None else six(weights, "weights"),
-            locked=[self.dof(name) for name in words(locked, "locked")],
+            locked=[self.dof(dof) for dof in words(locked, "locked")],
             posture=None if posture is None else one_configuration(posture, self.dof_names)[0].tolist(),
             free_of=[one.core for one in shapes],
             margin=float(margin),

@@ -55,7 +55,7 @@ class RobotLoops(RobotDescription):
             is_closed=scalar((found[:, -1] == 1).reshape(batch)),
         )
 
-    def close(self, q: ArrayLike, *, held: Iterable[str] = (), bounds: ArrayLike | None = None) -> Closed:
+    def close(self, q: ArrayLike, *, held: Iterable[str | int] = (), bounds: ArrayLike | None = None) -> Closed:
         """The closed configuration near another one, within the bounds; for each of many, on all threads.
 
         Start near what is wanted, such as from the last configuration of a motion: the result is on the branch of
@@ -63,7 +63,7 @@ class RobotLoops(RobotDescription):
 
         Args:
             q: a configuration, or many.
-            held: the names of DOFs that keep their value.
+            held: the DOFs that keep their value, by name or index.
             bounds: (dofs, 2), which may be infinite, instead of :attr:`bounds`; by default a DOF that is not limited
                 has none.
 
@@ -79,7 +79,7 @@ class RobotLoops(RobotDescription):
                 raise ConfigurationError(
                     f"bounds must have the shape ({self.num_dofs}, 2), the lower ones first; theirs is {limits.shape}"
                 )
-        found = self._core.close(rows, [self.dof(name) for name in words(held, "held")], limits)
+        found = self._core.close(rows, [self.dof(dof) for dof in words(held, "held")], limits)
         return Closed(
             configuration=found[:, :-1].reshape(*batch, self.num_dofs),
             is_closed=scalar((found[:, -1] == 1).reshape(batch)),

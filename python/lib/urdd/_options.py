@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from operator import index
 from pathlib import Path
-from typing import Literal, SupportsIndex, TypedDict
+from typing import Literal, SupportsIndex, TypedDict, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ __all__ = [
     "whole",
     "words",
 ]
+
+
+Word = TypeVar("Word", str, str | int)
 
 
 class MakingOptions(TypedDict, total=False):
@@ -234,7 +237,7 @@ def ranged(given: SupportsIndex, option: str) -> int:
     return whole(given, option.rpartition(".")[2], least, most)
 
 
-def words(given: Iterable[str], what: str) -> list[str]:
+def words(given: Iterable[Word], what: str) -> list[Word]:
     """A list of words. Rejects a single text, whose letters would become the words."""
     if isinstance(given, str):
         raise TypeError(f"{what} must be a list of words: [{given!r}]")
