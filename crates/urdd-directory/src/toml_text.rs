@@ -52,7 +52,14 @@ fn length(inside: &str, quotes: &str) -> usize {
         match c {
             _ if is_escaped => is_escaped = false,
             '\\' => is_escaped = quotes.starts_with('"'),
-            _ if inside[at..].starts_with(quotes) => return at,
+            _ if inside[at..].starts_with(quotes) => {
+                // Up to two quotes before three are of the text.
+                let is_later = |more: &usize| {
+                    quotes.len() > 1
+                        && inside.get(at + more..).is_some_and(|it| it.starts_with(quotes))
+                };
+                return at + (1..=2).take_while(is_later).count();
+            }
             _ => {}
         }
     }

@@ -19,7 +19,6 @@ use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
-use urdd_format::short::Short;
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::Xml;
@@ -99,18 +98,7 @@ fn with_loops<T>(
 ) -> Result<(Source, T), SourceError> {
     if let Some(said) = said.as_ref().filter(|said| !said.retyped.is_empty()) {
         let (text, missing) = loops::retyped(&Xml::new(&read.text), &said.retyped);
-        let file = said.text.as_ref().map_or(&read.shown, |(file, _)| file);
-        notes.extend(missing.iter().map(|joint| Note {
-            kind: NoteKind::LeftOut,
-            file: file.clone(),
-            line: 0,
-            column: 0,
-            problem: format!(
-                "the URDF has no joint `{}`, which is to be another",
-                Short::of(joint)
-            ),
-            assumed: "the name is passed over".to_owned(),
-        }));
+        notes.extend(missing.iter().map(|joint| said.missing(joint, &read.shown)));
         read.is_verbatim &= text == read.text;
         read.text = text;
     }

@@ -38,6 +38,21 @@ impl Said {
         }
     }
 
+    /// The note about a joint that is to be another, and that the URDF does not have.
+    pub fn missing(&self, joint: &str, urdf: &str) -> Note {
+        Note {
+            kind: NoteKind::LeftOut,
+            file: self.text.as_ref().map_or(urdf, |(file, _)| file).to_owned(),
+            line: 0,
+            column: 0,
+            problem: format!(
+                "the URDF has no joint `{}`, which is to be another",
+                Short::of(joint)
+            ),
+            assumed: "the name is passed over".to_owned(),
+        }
+    }
+
     /// The error about a place of the file, if it is known.
     pub fn error(&self, place: Option<Range<usize>>, urdf: &str, fault: String) -> SourceError {
         let (file, at) = match &self.text {
