@@ -1,15 +1,17 @@
 //! `urdd diff`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
 use super::inputs::advice;
 use super::output::{self, Failure};
 use super::signals::{self, Signals};
-use super::sources::{PackageArguments, RobotArguments, XacroArguments, only_arguments};
+use super::sources::{
+    LoopsArguments, PackageArguments, RobotArguments, XacroArguments, only_arguments,
+};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
-use urdd_source::Settings;
+use urdd_source::{Settings, format_of};
 use urdd_validate::report;
 
 /// Exit status: the robots differ.
@@ -51,6 +53,9 @@ pub struct DiffArguments {
     packages: PackageArguments,
 
     #[command(flatten)]
+    named_loops: LoopsArguments,
+
+    #[command(flatten)]
     xacro: XacroArguments,
 
     #[command(flatten)]
@@ -87,11 +92,16 @@ pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
-    let settings = arguments.packages.settings()?;
+    let settings =
+        Settings { loops: arguments.named_loops.loops.clone(), ..arguments.packages.settings()? };
+    // It is about the URDF of the two.
+    let says_itself = |path: &Path| format_of(path, &settings.files).is_some();
+    let is_of_one = says_itself(&arguments.before) != says_itself(&arguments.after);
     let [of_before, of_after] = arguments.of_xacro()?;
     let open = |path: &PathBuf, of_xacro: Vec<String>| {
+        let loops = settings.loops.clone().filter(|_| !(is_of_one && says_itself(path)));
         let options = Options {
-            urdf: Settings { xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
+            urdf: Settings { loops, xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
             cancellation: signals.cancellation(),
             without_findings: arguments.no_findings,
         };

@@ -17,7 +17,7 @@ const MAX_NOTES: usize = 20;
 #[derive(Args)]
 #[command(
     after_help = "Writes NAME.urdf with its meshes, and where they say something NAME.srdf (named configurations, pairs that never \
-    collide) and NAME.export.toml (kind of base, gains). The format is told by the content of the file. `urdd generate`, \
+    collide), NAME.export.toml (kind of base, gains) and NAME.loops.toml (loops and couplings). The format is told by the content of the file. `urdd generate`, \
     `view`, `diff`, `lint` and `combine` take MJCF and SDF directly.\n\n\
     Exit status: 0 the files are written; 2 the file cannot be imported or written."
 )]

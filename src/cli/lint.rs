@@ -9,7 +9,7 @@ use similar::TextDiff;
 use super::output::{self, Color, Failure, about, one_line, shown};
 use super::reporting::ReportArguments;
 use super::signals::{self, Signals};
-use super::sources::{PackageArguments, XacroArguments, split};
+use super::sources::{LoopsArguments, PackageArguments, XacroArguments, split};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
@@ -72,6 +72,9 @@ pub struct LintArguments {
     packages: PackageArguments,
 
     #[command(flatten)]
+    named_loops: LoopsArguments,
+
+    #[command(flatten)]
     xacro: XacroArguments,
 }
 
@@ -88,7 +91,11 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
     let baseline = arguments.baseline.as_deref().or(usual.as_deref());
     let mut settings = LintSettings {
         report: file.settings,
-        source: urdd_source::Settings { robots, ..arguments.packages.settings()? },
+        source: urdd_source::Settings {
+            robots,
+            loops: arguments.named_loops.loops.clone(),
+            ..arguments.packages.settings()?
+        },
         baseline: baseline.map(Baseline::read).transpose()?.map(Arc::new),
         without_meshes: false,
     };

@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 use super::generate_output::ResultFormat;
 use super::output::{Failure, one_line};
 use super::signals::Signals;
-use super::sources::{PackageArguments, XacroArguments};
+use super::sources::{LoopsArguments, PackageArguments, XacroArguments};
 use super::words::{Preferred, value_of};
 use urdd_export::REASONS;
 use urdd_format::link_shapes_skips::SkippedReason;
@@ -23,6 +23,9 @@ pub(super) struct MakingArguments {
 
     #[command(flatten)]
     packages: PackageArguments,
+
+    #[command(flatten)]
+    named_loops: LoopsArguments,
 
     /// Elements that the geometry of links is taken from. A link without any of them uses the other kind.
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
@@ -129,6 +132,7 @@ impl MakingArguments {
             model_effort: Effort::default(),
             source: urdd_source::Settings {
                 xacro: self.xacro.settings(xacro_arguments),
+                loops: self.named_loops.loops.clone(),
                 ..self.packages.settings()?
             },
             strict: self.strict,

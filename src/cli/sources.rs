@@ -33,11 +33,6 @@ pub(super) struct PackageArguments {
     #[arg(long, value_name = "NAME")]
     model: Option<String>,
 
-    /// File that says what closes the loops of a URDF, which says trees alone: a TOML, or the YAML of Extended URDF; default:
-    /// NAME.loops.toml beside NAME.urdf, or NAME.yaml there if it has `closed_loop`.
-    #[arg(long, value_name = "FILE")]
-    loops: Option<PathBuf>,
-
     /// How a ball joint of an MJCF or SDF is written: as a spherical joint, which few programs read, or as three revolute
     /// joints.
     #[arg(long, value_enum, default_value_t = Ball::Spherical, value_name = "JOINTS")]
@@ -86,7 +81,6 @@ impl PackageArguments {
         }
         Ok(Settings {
             allowed_folders: self.allowed_folders.clone(),
-            loops: self.loops.clone(),
             import: ImportOptions {
                 body: self.body.clone(),
                 model: self.model.clone(),
@@ -96,6 +90,15 @@ impl PackageArguments {
             ..settings
         })
     }
+}
+
+/// What closes the loops of a URDF.
+#[derive(Args)]
+pub(super) struct LoopsArguments {
+    /// File that says what closes the loops of a URDF, which says trees alone: a TOML, or the YAML of Extended URDF; default:
+    /// NAME.loops.toml beside NAME.urdf, or NAME.yaml there if it has `closed_loop`.
+    #[arg(long, value_name = "FILE")]
+    pub(super) loops: Option<PathBuf>,
 }
 
 /// How xacro files are expanded.

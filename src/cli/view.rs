@@ -12,7 +12,7 @@ use super::configurations::Lines;
 use super::generate_output::{FAILED, Printer, ResultFormat};
 use super::output::{self, Failure, one_line};
 use super::signals::Signals;
-use super::sources::{PackageArguments, RobotArguments, XacroArguments, split};
+use super::sources::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
 use urdd_directory::temporary::Temporary;
@@ -68,6 +68,9 @@ pub struct ViewArguments {
     packages: PackageArguments,
 
     #[command(flatten)]
+    named_loops: LoopsArguments,
+
+    #[command(flatten)]
     declared: RobotArguments,
 
     #[command(flatten)]
@@ -96,6 +99,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         source: Settings {
             xacro: arguments.xacro.settings(xacro_arguments),
             robots: arguments.declared.declared()?.into(),
+            loops: arguments.named_loops.loops.clone(),
             ..arguments.packages.settings()?
         },
         cancellation: signals.cancellation(),

@@ -61,13 +61,16 @@ fn an_mjcf_with_a_pin_is_a_urdd_that_closes_and_an_mjcf_again() {
     assert!(out.contains("0 errors"), "{out}");
     run(folder.path(), &["export", "mjcf", "one", "-o", "again.xml"]);
     let text = fs::read_to_string(at("again.xml")).expect("the export");
-    for words in ["<connect site1=\"loop/0/a0\" site2=\"loop/0/b0\"", "<key name=\"closed\""] {
+    for words in
+        ["<connect name=\"pin\" site1=\"loop/0/a0\" site2=\"loop/0/b0\"", "<key name=\"closed\""]
+    {
         assert!(text.contains(words), "{words}: {text}");
     }
     // Read back, the pin is between the same points.
     run(folder.path(), &["generate", "again.xml", "-o", "three", "--samples", "5"]);
     let again = json(&at("three/loops_module/module.json"));
     assert_eq!(again["loops"][0]["kind"], "Spherical");
+    assert_eq!(again["loops"][0]["name"], "pin");
     assert_eq!(again["independent_dof_idxs"], loops["independent_dof_idxs"]);
 }
 

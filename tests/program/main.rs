@@ -23,6 +23,7 @@ mod large_inputs;
 mod links;
 mod lint;
 mod loops;
+mod loops_found;
 mod lsp;
 mod new_extension;
 mod outputs;

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use toml::{Spanned, Table};
 
+use crate::toml_text::printable;
+
 /// A name, and where it is in the file.
 pub type Name = Spanned<String>;
 
@@ -62,7 +64,7 @@ impl File {
     /// # Errors
     /// None are known: each value has a form in TOML.
     pub fn to_text(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(&Table::try_from(self)?)
+        Ok(printable(&toml::to_string(&Table::try_from(self)?)?))
     }
 }
 

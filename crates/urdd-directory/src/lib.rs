@@ -35,5 +35,6 @@ pub mod take;
 pub mod target_lock;
 pub mod temporary;
 pub mod text_fault;
+mod toml_text;
 pub mod writer;
 pub mod yaml;

@@ -10,6 +10,7 @@ use toml::{Spanned, Table};
 use urdd_format::loops::LoopKind;
 
 use crate::export_toml::Name;
+use crate::toml_text::printable;
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -65,6 +66,6 @@ impl File {
     /// # Errors
     /// None are known: each value has a form in TOML.
     pub fn to_text(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(&Table::try_from(self)?)
+        Ok(printable(&toml::to_string(&Table::try_from(self)?)?))
     }
 }

@@ -35,7 +35,13 @@ pub struct Misfit {
 impl Misfit {
     /// The words of the formats that the option is for.
     pub fn formats(&self) -> String {
-        self.of.iter().map(|format| format.word()).collect::<Vec<_>>().join(" and ")
+        let words: Vec<&str> = self.of.iter().map(|format| format.word()).collect();
+        match words.split_last() {
+            Some((last, others)) if !others.is_empty() => {
+                format!("{} and {last}", others.join(", "))
+            }
+            _ => words.concat(),
+        }
     }
 }
 

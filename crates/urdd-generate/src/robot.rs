@@ -143,6 +143,7 @@ pub fn generate_in_memory(
     let given = imported.as_ref().map(GivenDecisions::from).unwrap_or_default();
     let decisions = given.decisions(true, Decisions::default());
     let context = Context::new(&source, &settings, None, decisions, progress)?;
+    check_assumptions(&context.loop_notes, &settings)?;
     let files = Memory::default();
     let writer = Writer::in_memory(files.clone());
     let written = write(&context, None, &writer, Root::of(files.clone()))?;
@@ -230,6 +231,7 @@ fn make(
     check_target(target, replaced, settings)?;
 
     let context = Context::new(source, settings, given.composition, decisions, progress)?;
+    check_assumptions(&context.loop_notes, settings)?;
     let content = staging.content();
     let writer = Writer::new(content);
     let root = Root::open_folder(content)

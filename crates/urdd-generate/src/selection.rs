@@ -7,12 +7,28 @@ use thiserror::Error;
 use urdd_format::registry::{ModuleKind, Profile, modules};
 use urdd_format::root_metadata::ConformanceClass;
 
-/// A word that is not the name of a module.
+/// A word that is not the name of a module that can be selected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("there is no module `{word}`; there are: {}", known())]
+#[error("{}", self.fault())]
 pub struct UnknownModule {
     /// The word.
     pub word: String,
+}
+
+impl UnknownModule {
+    fn fault(&self) -> String {
+        let word = &self.word;
+        let unasked = NOT_SELECTABLE.iter().find(|(kind, _)| is_named(*kind, word));
+        let what = match unasked {
+            Some((_, of)) => format!("`{word}` is not selected: it is made of {of}"),
+            None => format!("there is no module `{word}`"),
+        };
+        format!("{what}; there are: {}", known())
+    }
+}
+
+fn is_named(kind: ModuleKind, word: &str) -> bool {
+    word == kind.name() || word == kind.short_name()
 }
 
 fn known() -> String {
@@ -20,15 +36,17 @@ fn known() -> String {
     names.chain(["core", "geometry", "shapes", "all"]).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1 that cannot be selected: the composition module, which every composed robot gets, the named
-/// configurations, which every robot with such configurations gets, and the loops, which every robot with loops gets.
-const NOT_SELECTABLE: &[ModuleKind] =
-    &[ModuleKind::Composition, ModuleKind::NamedConfigurations, ModuleKind::Loops];
+/// The modules of version 1 that cannot be selected, and which robots have them.
+const NOT_SELECTABLE: &[(ModuleKind, &str)] = &[
+    (ModuleKind::Composition, "every robot that is combined"),
+    (ModuleKind::NamedConfigurations, "every robot with named configurations"),
+    (ModuleKind::Loops, "every robot whose source says loops"),
+];
 
 /// The modules of version 1 that can be selected, in the order of the specification.
 pub(crate) fn kinds() -> Vec<ModuleKind> {
     let kinds = modules().iter().filter(|spec| spec.profile == Profile::V1).map(|spec| spec.kind);
-    kinds.filter(|kind| !NOT_SELECTABLE.contains(kind)).collect()
+    kinds.filter(|kind| NOT_SELECTABLE.iter().all(|(other, _)| other != kind)).collect()
 }
 
 /// The modules to generate: the selected ones, their dependencies, and the core class, which every URDD needs.
@@ -60,8 +78,7 @@ impl Selection {
         asked.retain(|kind| kind.class().is_some());
         for word in words {
             let word = word.trim();
-            let named =
-                kinds.iter().copied().find(|kind| word == kind.name() || word == kind.short_name());
+            let named = kinds.iter().copied().find(|kind| is_named(*kind, word));
             match (word, named) {
                 (_, Some(kind)) => asked.push(kind),
                 ("core", _) => asked.extend(up_to(ConformanceClass::Core)),

@@ -164,6 +164,9 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     // A URDF is not read twice.
     let Some(format) = format_of(path, &settings.files) else { return Ok(None) };
     let shown = path.display().to_string();
+    if settings.loops.is_some() {
+        return Err(SourceError::SaysItsLoops { file: shown, format: format.name() });
+    }
     let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical

@@ -39,6 +39,12 @@ pub enum SourceError {
     Import { file: String, line: u32, column: u32, fault: String },
     #[error("{file}: this is a URDF already; `urdd generate` takes it as it is")]
     IsUrdf { file: String },
+    /// A file of loops is named for a description of another format than URDF.
+    #[error(
+        "{}: a description of the format {format} says its loops itself, so `--loops` has no meaning; leave it out, or `urdd import` it and edit NAME.loops.toml",
+        escape::line(file)
+    )]
+    SaysItsLoops { file: String, format: &'static str },
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// A bug in this program.
@@ -61,7 +67,8 @@ impl SourceError {
             SourceError::Read { .. } => "unreadable",
             SourceError::Refused { .. }
             | SourceError::Import { .. }
-            | SourceError::IsUrdf { .. } => "refused",
+            | SourceError::IsUrdf { .. }
+            | SourceError::SaysItsLoops { .. } => "refused",
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
             SourceError::NeedsArguments { .. } => "needs-arguments",

@@ -19,7 +19,6 @@ use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
-use urdd_format::short::Short;
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::Xml;
@@ -84,27 +83,33 @@ pub fn load_with<T>(
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let mut notes = Vec::new();
-    let mut read = read(path, settings, cancellation, &mut notes)?;
+    let read = read(path, settings, cancellation, &mut notes)?;
     let said = loops::beside(path, settings)?;
+    with_loops(read, said, settings, notes, also)
+}
+
+/// The robot of a text, with what a file beside it says of its loops.
+fn with_loops<T>(
+    mut read: Read,
+    said: Option<Said>,
+    settings: &Settings,
+    mut notes: Vec<Note>,
+    also: impl FnOnce(&Xml<'_>, bool) -> T,
+) -> Result<(Source, T), SourceError> {
     if let Some(said) = said.as_ref().filter(|said| !said.retyped.is_empty()) {
         let (text, missing) = loops::retyped(&Xml::new(&read.text), &said.retyped);
-        let file = said.text.as_ref().map_or(&read.shown, |(file, _)| file);
-        notes.extend(missing.iter().map(|joint| Note {
-            kind: NoteKind::LeftOut,
-            file: file.clone(),
-            line: 0,
-            column: 0,
-            problem: format!(
-                "the URDF has no joint `{}`, which is to be another",
-                Short::of(joint)
-            ),
-            assumed: "the name is passed over".to_owned(),
-        }));
+        notes.extend(missing.iter().map(|joint| said.missing(joint, &read.shown)));
         read.is_verbatim &= text == read.text;
         read.text = text;
     }
     let (mut source, also) = mend(&Xml::new(&read.text), &read, notes, also)?;
-    source.loops = said.or(source.loops);
+    let Some(said) = said else { return Ok((source, also)) };
+    source.notes.extend(said.notes.iter().cloned());
+    // A file that is named in the settings is chosen by a person.
+    if source.loops.is_some() && settings.loops.is_none() {
+        source.notes.push(said.passed_over(&read.shown));
+    }
+    source.loops = Some(said);
     Ok((source, also))
 }
 
@@ -229,7 +234,8 @@ fn explained(error: SourceError, path: &Path, settings: &Settings) -> SourceErro
     }
 }
 
-/// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`.
+/// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`. Of its loops only a file tells that the
+/// settings name.
 ///
 /// # Errors
 /// If it is not a valid robot.
@@ -243,7 +249,9 @@ pub fn load_text(
         .files
         .canonicalize(folder)
         .map_err(|error| SourceError::Read { file: shown.to_owned(), reason: error.to_string() })?;
-    in_memory(within_limit(bytes, shown)?, shown, folder, "robot", None)
+    let mut notes = Vec::new();
+    let read = held(within_limit(bytes, shown)?, shown, folder, "robot", &mut notes)?;
+    Ok(with_loops(read, loops::named(settings)?, settings, notes, |_, _| ())?.0)
 }
 
 /// As [`load_text`], of a text that others read too, in a folder that may be missing.
@@ -271,14 +279,25 @@ fn in_memory(
     known: Option<&Xml<'_>>,
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
-    let (text, is_verbatim) = decode::decode(&bytes, shown, &mut notes)?;
-    let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
-    let read = Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path };
+    let read = held(bytes, shown, folder, stem, &mut notes)?;
     let loaded = match known.filter(|known| known.text() == read.text) {
         Some(xml) => mend(xml, &read, notes, |_, _| ()),
         None => mend(&Xml::new(&read.text), &read, notes, |_, _| ()),
     };
     Ok(loaded?.0)
+}
+
+/// Decodes bytes that are in memory.
+fn held(
+    bytes: Vec<u8>,
+    shown: &str,
+    folder: PathBuf,
+    stem: &str,
+    notes: &mut Vec<Note>,
+) -> Result<Read, SourceError> {
+    let (text, is_verbatim) = decode::decode(&bytes, shown, notes)?;
+    let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
+    Ok(Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path })
 }
 
 /// A robot, read from memory.

@@ -26,6 +26,7 @@ mod text_arbitrary;
 mod text_bad_input;
 mod text_fault;
 mod text_yaml;
+mod toml_text;
 mod yaml_places;
 mod yaml_scalar;
 mod yaml_transcript;

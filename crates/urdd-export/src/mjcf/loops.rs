@@ -6,8 +6,8 @@
 use nalgebra::Translation3;
 
 use super::body::{placed, site_named};
-use crate::loops::{APART, Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear};
-use crate::{ExportError, Note, Subject};
+use crate::loops::{APART, Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, names};
+use crate::{ExportError, Note, Subject, Taken};
 use urdd_format::loops::{Coupling, LoopKind};
 use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
@@ -37,13 +37,16 @@ pub(super) struct Closings {
 pub(super) fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, ExportError> {
     let mut made = Closings { sites: vec![Vec::new(); subject.links.len()], ..Closings::default() };
     let mut left_out = LeftOut::default();
+    let Some(module) = subject.robot.loops()? else { return Ok(made) };
+    let names = names(subject.format, module);
+    let mut taken = Taken::new(names.iter());
     for closing in loops_of(subject, &mut left_out)? {
-        if !made.hold(subject, &closing) {
+        if !made.hold(subject, &closing, &mut taken) {
             left_out.of_loop(&closing.of.name, OTHER_KIND);
         }
     }
-    for coupling in subject.robot.loops()?.iter().flat_map(|module| &module.couplings) {
-        match equation(subject, coupling)? {
+    for (coupling, name) in module.couplings.iter().zip(&names[module.loops.len()..]) {
+        match equation(subject, coupling, name)? {
             Some(element) => made.equalities.push(element),
             None => left_out.coupling(&coupling.name, OTHER_SUM),
         }
@@ -54,7 +57,7 @@ pub(super) fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closi
 
 impl Closings {
     /// Adds what holds a loop; false for a kind that nothing holds.
-    fn hold(&mut self, subject: &Subject, closing: &Closing) -> bool {
+    fn hold(&mut self, subject: &Subject, closing: &Closing, taken: &mut Taken) -> bool {
         let (word, points) = match closing.of.kind {
             LoopKind::Fixed => ("weld", &[0.0][..]),
             LoopKind::Spherical => ("connect", &[0.0][..]),
@@ -63,7 +66,11 @@ impl Closings {
             _ => return false,
         };
         for (number, along) in points.iter().enumerate() {
-            let mut element = Element::new(word);
+            let own = match number {
+                0 => closing.name.clone(),
+                _ => taken.free(format!("{}/{number}", closing.name)),
+            };
+            let mut element = Element::new(word).with("name", own);
             for ((key, end), on) in [("site1", "a"), ("site2", "b")].into_iter().zip(closing.ends) {
                 // Our names of sites have two slashes and the number of the loop.
                 let name = format!("loop/{}/{end}{number}", closing.number);
@@ -79,7 +86,11 @@ impl Closings {
 }
 
 /// A coupling as an equality of one joint, or of two. `None` if it is of more, or of no joint as a polynomial of the other.
-fn equation(subject: &Subject, coupling: &Coupling) -> Result<Option<Element>, ExportError> {
+fn equation(
+    subject: &Subject,
+    coupling: &Coupling,
+    name: &str,
+) -> Result<Option<Element>, ExportError> {
     let names = subject.robot.dof_names()?;
     let joint = |dof: usize| {
         let name = names.get(dof)?;
@@ -94,7 +105,7 @@ fn equation(subject: &Subject, coupling: &Coupling) -> Result<Option<Element>, E
     let Some(joint1) = joint(follower.dof_idx.get()) else { return Ok(None) };
     let factor = -1.0 / follower.coefficients[0];
     let mut polynomial = [coupling.constant * factor, 0.0, 0.0, 0.0, 0.0];
-    let mut element = Element::new("joint").with("joint1", joint1.name.as_str());
+    let mut element = Element::new("joint").with("name", name).with("joint1", joint1.name.as_str());
     if let Some(leader) = leader {
         let Some(joint2) = joint(leader.dof_idx.get()) else { return Ok(None) };
         element = element.with("joint2", joint2.name.as_str());

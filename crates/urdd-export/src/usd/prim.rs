@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use nalgebra::UnitQuaternion;
 
+use urdd_format::escape::is_hidden;
 use urdd_kinematics::rotation::canonical;
 use urdd_xml::number::number;
 
@@ -178,8 +179,11 @@ pub(super) fn string(text: &str) -> String {
             }
             '\n' => quoted += "\\n",
             '\t' => quoted += "\\t",
-            _ if c.is_ascii_control() => {
-                let _ = write!(quoted, "\\x{:02x}", u32::from(c));
+            // USD has escapes of bytes alone, and its text is UTF-8.
+            _ if is_hidden(c) => {
+                for byte in c.encode_utf8(&mut [0; 4]).bytes() {
+                    let _ = write!(quoted, "\\x{byte:02x}");
+                }
             }
             _ => quoted.push(c),
         }

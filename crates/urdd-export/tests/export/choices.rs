@@ -6,7 +6,7 @@ use urdd_export::{ActuatorKind, Choices, Fit, Format, Ros};
 #[test]
 fn what_a_format_does_not_have_is_refused() {
     let none = Choices::default;
-    let tree = "srdf and urdf and drake and mjcf and moveit and sdf and usd and urdf-plus and extended-urdf";
+    let tree = "srdf, urdf, drake, mjcf, moveit, sdf, usd, urdf-plus and extended-urdf";
     let cases = [
         ("merge_fixed", Choices { merge_fixed: true, ..none() }, tree),
         ("fit", Choices { fit: Some(Fit::default()), ..none() }, tree),
@@ -14,7 +14,7 @@ fn what_a_format_does_not_have_is_refused() {
         ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf and usd"),
         ("sensors", Choices { sensors: true, ..none() }, "mjcf"),
         ("scene", Choices { scene: true, ..none() }, "mjcf"),
-        ("floating_base", Choices { floating_base: true, ..none() }, "mjcf and sdf and usd"),
+        ("floating_base", Choices { floating_base: true, ..none() }, "mjcf, sdf and usd"),
         ("robot_file", Choices { robot_file: Some("r.urdf".to_owned()), ..none() }, "curobo"),
         ("ros", Choices { ros: Some(Ros::Humble), ..none() }, "moveit"),
         ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
@@ -23,7 +23,7 @@ fn what_a_format_does_not_have_is_refused() {
         assert_eq!(none().options(*format).map(|options| options.format), Ok(*format));
         for (option, choices, formats) in &cases {
             let said = choices.options(*format).map_err(|misfit| misfit.to_string());
-            match formats.split(" and ").any(|word| word == format.word()) {
+            match formats.replace(" and ", ", ").split(", ").any(|word| word == format.word()) {
                 true => assert_eq!(said.map(|options| options.format), Ok(*format)),
                 false => assert_eq!(said, Err(format!("{option} is for {formats} only"))),
             }

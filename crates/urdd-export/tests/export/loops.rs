@@ -65,7 +65,7 @@ fn settings() -> Settings {
     Settings { selection, ..Settings::default() }
 }
 
-fn made_of(urdf: &str, toml: &str) -> (TempDir, Robot) {
+pub(super) fn made_of(urdf: &str, toml: &str) -> (TempDir, Robot) {
     let folder = TempDir::new().expect("a folder");
     std::fs::write(folder.path().join("r.urdf"), urdf).expect("a URDF");
     std::fs::write(folder.path().join("r.loops.toml"), toml).expect("loops");
@@ -76,14 +76,14 @@ fn made_of(urdf: &str, toml: &str) -> (TempDir, Robot) {
     (folder, robot)
 }
 
-fn exported(robot: &Robot, format: Format, choices: Choices) -> Export {
+pub(super) fn exported(robot: &Robot, format: Format, choices: Choices) -> Export {
     let file = if format == Format::Sdf { "r.sdf" } else { "r.urdf" };
     let output = Some(file.into());
     export(robot, format, &Choices { output, ..choices }).expect("an export")
 }
 
 /// The robot of an export.
-fn again(made: &Export, file: &str) -> (TempDir, Robot) {
+pub(super) fn again(made: &Export, file: &str) -> (TempDir, Robot) {
     let folder = TempDir::new().expect("a folder");
     for (path, bytes) in &made.files {
         let path = folder.path().join(path);
@@ -99,11 +99,11 @@ fn again(made: &Export, file: &str) -> (TempDir, Robot) {
     (folder, robot)
 }
 
-fn module(robot: &Robot) -> LoopsModule {
+pub(super) fn module(robot: &Robot) -> LoopsModule {
     robot.loops().expect("readable").cloned().unwrap_or_else(|| panic!("no loops"))
 }
 
-fn notes(made: &Export) -> String {
+pub(super) fn notes(made: &Export) -> String {
     made.notes.iter().map(|note| format!("{note}\n")).collect()
 }
 

@@ -17,6 +17,7 @@ mod invented_names;
 mod kinematic_text;
 mod locked;
 mod loops;
+mod loops_named;
 mod made;
 mod merged;
 mod mjcf;

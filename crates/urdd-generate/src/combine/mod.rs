@@ -279,6 +279,11 @@ fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
             );
             note("texture", text);
         }
+        let has_loops = member.loaded.modules.iter().any(|module| module == "loops_module");
+        if has_loops && !["<loop", "<coupling"].iter().any(|tag| member.loaded.text.contains(tag)) {
+            let text = "its loops are not in its URDF, so they are left out: say them in a file of the combined robot, `--loops FILE`";
+            note("loops", text.to_owned());
+        }
         if !member.is_urdd() {
             continue;
         }
@@ -289,11 +294,6 @@ fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
                 );
                 note("mesh-not-found", text);
             }
-        }
-        let has_loops = member.loaded.modules.iter().any(|module| module == "loops_module");
-        if has_loops && !["<loop", "<coupling"].iter().any(|tag| member.loaded.text.contains(tag)) {
-            let text = "its loops are not in its URDF, so they are left out: say them in a file of the combined robot, `--loops FILE`";
-            note("loops", text.to_owned());
         }
         let lacks = |name: &&str| {
             let is_name = |module: &String| module == name;

@@ -83,6 +83,8 @@ pub(super) fn load(
     // Derived modules are only generated for the combined robot.
     settings.selection = Selection::parse(["original_meshes"]).unwrap_or_else(|_| Selection::all());
     settings.donors.clear();
+    // A file that is named is about the combined robot.
+    settings.source.loops = None;
     let (made, digest, plain_meshes) = match source.kind {
         SourceKind::Legacy => {
             let carried = legacy::read(&source.path).map_err(refused)?;

@@ -57,7 +57,7 @@ impl<'m> Placed<'m> {
                 };
                 // Where it is held, in the second body.
                 let point = Isometry3::from(Translation3::from(Point3::from(anchor)));
-                (LoopKind::Fixed, [relative * point, point])
+                (welded(view)?, [relative * point, point])
             }
             _ => return Ok(None),
         };
@@ -67,17 +67,26 @@ impl<'m> Placed<'m> {
     }
 
     /// The loop of a `connect` or `weld` between two sites.
-    pub fn sites(&self, view: View<'_>, names: [&str; 2]) -> Option<Closing> {
+    pub fn sites(&self, view: View<'_>, names: [&str; 2]) -> Fallible<Option<Closing>> {
         let [a, b] = names.map(|name| self.sites.get(name).copied());
         let kind = match view.element.tag.as_str() {
             "connect" => LoopKind::Spherical,
-            "weld" => LoopKind::Fixed,
-            _ => return None,
+            "weld" => welded(view)?,
+            _ => return Ok(None),
         };
-        let (a, b) = a.zip(b).filter(|(a, b)| a != b)?;
+        let Some((a, b)) = a.zip(b).filter(|(a, b)| a != b) else { return Ok(None) };
         let ends = [a, b].map(|body| End { body, frame: Isometry3::identity() });
-        Some(closing(view, kind, ends))
+        Ok(Some(closing(view, kind, ends)))
     }
+}
+
+/// What a weld holds: without `torquescale` no rotation, as in MuJoCo.
+fn welded(view: View<'_>) -> Fallible<LoopKind> {
+    let scale = view.numbers::<1>("torquescale")?;
+    Ok(match scale {
+        Some([0.0]) => LoopKind::Spherical,
+        _ => LoopKind::Fixed,
+    })
 }
 
 fn closing(view: View<'_>, kind: LoopKind, ends: [End; 2]) -> Closing {

@@ -88,7 +88,7 @@ fn tie(
     let mut closing = None;
     if let [Some(one), Some(other)] = sites {
         let named = [element.text("site1"), element.text("site2")].map(Option::unwrap_or_default);
-        closing = placed.sites(view, named);
+        closing = placed.sites(view, named)?;
         who = [one, other];
     } else {
         let mut bodies = Vec::new();
@@ -151,7 +151,7 @@ fn couple(
         let leading = leader.and_then(|leader| Some((leader, *made.joints.get(&leader)?)));
         let is_plain = |at| matches!(raw(at).kind, MjcfJointKind::Hinge | MjcfJointKind::Slide);
         let reason = match leading {
-            None => Some("its joint is held still, or follows one that is left out"),
+            None => Some("it is of a ball, or its joint follows one that is left out"),
             Some(_) if !is_linear => Some("it is not linear"),
             Some((leader, _)) if !is_plain(leader) || !is_plain(follower) => {
                 Some("it is of another joint than a hinge or a slide")
@@ -186,6 +186,15 @@ fn couple(
                     (name((body, place)), vec![1.0]),
                     (name(at_leader), coefficients.iter().map(|of| -of).collect()),
                 ],
+            };
+            tally.count(features::POLYNOMIALS);
+            made.couplings.push(coupled, account).map_err(|why| refusal::at(element.place, why))?;
+        } else if names[1].is_none() && is_plain(follower) {
+            // y - y0 = c0
+            let coupled = Coupled {
+                name: element.text("name").map(|name| format!("{name}{suffix}")),
+                constant: -raw(follower).reference - c0,
+                terms: vec![(made.bodies[body].joints[place].name.clone(), vec![1.0])],
             };
             tally.count(features::POLYNOMIALS);
             made.couplings.push(coupled, account).map_err(|why| refusal::at(element.place, why))?;

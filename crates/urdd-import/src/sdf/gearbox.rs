@@ -14,6 +14,7 @@ use super::moving::direction;
 use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
 use super::spanning::Outside;
+use urdd_format::short::Short;
 
 /// Axes are parallel within this.
 const PARALLEL: f64 = 1e-9;
@@ -39,6 +40,16 @@ pub fn gearbox(
         axes.push(frames.poses[joint.node].rotation * direction);
     }
     let body = |link: usize| at.get(link).copied().flatten();
+    let mut lost = |why: &str| {
+        tally.count(features::LOST_GEARBOXES);
+        let text =
+            format!("the gearbox `{}` is lost, and its joints turn on their own: {why}", node.name);
+        tally.remark(node.place, text);
+        Ok(None)
+    };
+    if outside.parent == outside.child {
+        return lost("it has the same link at both ends");
+    }
     let named = joint.reference.as_deref().unwrap_or(WORLD);
     let reference = match named {
         WORLD => body(scene.links.len()),
@@ -47,6 +58,10 @@ pub fn gearbox(
             found.and_then(|node| frames.links[node]).and_then(body)
         }
     };
+    if reference.is_none() {
+        let named = Short::of(named);
+        return lost(&format!("there is no link `{named}`, its reference body, in the robot"));
+    }
     let sum = || {
         let (reference, parent, child) = (reference?, body(outside.parent)?, body(outside.child)?);
         let mut terms = BTreeMap::new();
@@ -59,14 +74,24 @@ pub fn gearbox(
         (!terms.is_empty()).then_some(terms)
     };
     let Some(terms) = sum() else {
-        tally.count(features::LOST_GEARBOXES);
+        return lost(
+            "between its links and the reference body there is nothing that turns about its axes alone",
+        );
+    };
+    if joint.reference.is_none() {
         let text = format!(
-            "the gearbox `{}` is lost, and its joints turn on their own: between its links and the reference body there is nothing that turns about its axes alone",
+            "the gearbox `{}` names no `gearbox_reference_body`: the world is taken",
             node.name
         );
         tally.remark(node.place, text);
-        return Ok(None);
-    };
+    }
+    if ratio == 0.0 {
+        let text = format!(
+            "the `gearbox_ratio` of `{}` is 0: its child does not turn, seen from the reference body",
+            node.name
+        );
+        tally.remark(node.place, text);
+    }
     tally.count(features::GEARBOXES);
     Ok(Some(Coupled { name: Some(node.name.clone()), constant: 0.0, terms }))
 }

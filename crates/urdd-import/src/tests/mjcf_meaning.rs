@@ -337,3 +337,42 @@ fn a_polynomial_of_joints_is_an_equation() {
     }
     assert_eq!(model.tally.number_of(features::POLYNOMIALS), 1);
 }
+
+#[test]
+fn a_joint_that_is_held_is_an_equation_of_it_alone() {
+    let model = linkage(r#"<joint name="hold" joint1="a" polycoef="0.5 7 0 0 0"/>"#);
+    let [coupled] = &model.couplings[..] else { panic!("{}", remarks(&model)) };
+    // a - 0.25 = 0.5
+    assert_eq!((coupled.name.as_deref(), coupled.constant), (Some("hold"), -0.75));
+    assert_eq!(coupled.terms, [("a".to_owned(), vec![1.0])]);
+    assert_eq!(model.tally.number_of(features::POLYNOMIALS), 1);
+    let ball = read(
+        r#"<mujoco><worldbody><body name="b"><joint name="j" type="ball"/><geom size="0.1"/></body></worldbody>
+        <equality><joint joint1="j"/></equality></mujoco>"#,
+    );
+    assert_eq!((ball.couplings.len(), ball.tally.number_of(features::COUPLINGS)), (0, 1));
+}
+
+/// MuJoCo 4.0.0 lets a body turn at 1 rad/s that a weld with `torquescale="0"` holds, and stops it with 1.
+#[test]
+fn a_weld_that_holds_no_rotation_is_a_ball() {
+    for (equality, kind) in [
+        (
+            r#"<weld body1="base" body2="rod" anchor="0 0.1 0" torquescale="0"/>"#,
+            LoopKind::Spherical,
+        ),
+        (r#"<weld body1="base" body2="rod" anchor="0 0.1 0" torquescale="0.1"/>"#, LoopKind::Fixed),
+        (r#"<weld site1="s" site2="t" torquescale="0"/>"#, LoopKind::Spherical),
+        (r#"<weld site1="s" site2="t"/>"#, LoopKind::Fixed),
+    ] {
+        let model = linkage(equality);
+        let [closing] = &model.closings[..] else { panic!("{}", remarks(&model)) };
+        assert_eq!(closing.kind, kind, "{equality}");
+        if equality.contains("anchor") {
+            // At its anchor: in the base where the model has it.
+            let [a, b] = closing.ends.map(|end| end.frame.translation.vector);
+            assert!((a - Vector3::new(0.3, 0.0, 0.1)).norm() < 1e-12, "{a}");
+            assert!((b - Vector3::new(0.0, 0.1, 0.0)).norm() < 1e-12, "{b}");
+        }
+    }
+}

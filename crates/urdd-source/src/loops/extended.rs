@@ -18,7 +18,7 @@ use super::said::{Retyped, Said};
 use crate::error::SourceError;
 
 /// The key by which such a file is known.
-pub(super) const KEY: &str = "closed_loop";
+const KEY: &str = "closed_loop";
 
 #[derive(Deserialize)]
 struct Extended {
@@ -31,6 +31,11 @@ struct Extended {
     joint_name: Option<Vec<String>>,
     #[serde(default)]
     joint_type: Option<Vec<String>>,
+}
+
+/// Whether a YAML is such a file.
+pub(super) fn is_one(text: &str) -> bool {
+    text.lines().any(|line| line.starts_with(KEY))
 }
 
 /// Reads such a file.

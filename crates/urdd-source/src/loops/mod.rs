@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 pub use extended::retyped;
 pub use said::{Retyped, Said};
+use urdd_directory::file_type;
 use urdd_directory::limits::MAX_TOML_BYTES;
 pub use urdd_directory::loops_toml::File;
 pub use urdf_plus::{table, urdf_plus};
@@ -22,25 +23,47 @@ const ENDING: &str = "loops.toml";
 /// The ending of Extended URDF's.
 const EXTENDED: &str = "yaml";
 
-/// Reads the file that is named in the settings, or the one beside a URDF, if there is one.
+/// Reads the file that is named in the settings, or the one beside a URDF, if there is one. A second one beside it is passed
+/// over with a note.
 ///
 /// # Errors
 /// If it cannot be read, or is not what its name says.
 pub fn beside(urdf: &Path, settings: &Settings) -> Result<Option<Said>, SourceError> {
-    if let Some(path) = &settings.loops {
-        return read(path, text(path, settings)?).map(Some);
+    if settings.loops.is_some() {
+        return named(settings);
     }
-    let there = |path: &PathBuf| settings.files.is_file(path);
-    if let Some(path) = Some(urdf.with_extension(ENDING)).filter(there) {
-        return read(&path, beside_text(&path, settings)?).map(Some);
-    }
+    let stem = file_type::stem(urdf);
+    let at = |ending: &str| urdf.with_file_name(format!("{stem}.{ending}"));
+    let files = &settings.files;
+    // A folder, a pipe or a link that leads nowhere is refused when it is read.
+    let is_there = |path: &PathBuf| files.exists(path) || files.is_dangling(path);
+    let toml = Some(at(ENDING)).filter(is_there);
     // A YAML of this name may be about anything.
-    let Some(path) = Some(urdf.with_extension(EXTENDED)).filter(there) else { return Ok(None) };
-    let text = beside_text(&path, settings)?;
-    match text.lines().any(|line| line.starts_with(extended::KEY)) {
-        true => extended::read(&path, text).map(Some),
-        false => Ok(None),
+    let yaml = match Some(at(EXTENDED)).filter(|path| files.is_file(path)) {
+        Some(path) => match beside_text(&path, settings) {
+            Ok(text) => extended::is_one(&text).then_some((path, text)),
+            Err(_) if toml.is_some() => None,
+            Err(error) => return Err(error),
+        },
+        None => None,
+    };
+    match (toml, yaml) {
+        (Some(path), yaml) => {
+            let mut said = read(&path, beside_text(&path, settings)?)?;
+            said.notes.extend(yaml.map(|(yaml, _)| said.passed_over(&yaml.display().to_string())));
+            Ok(Some(said))
+        }
+        (None, Some((path, text))) => extended::read(&path, text).map(Some),
+        (None, None) => Ok(None),
     }
+}
+
+/// Reads the file that is named in the settings, if one is.
+///
+/// # Errors
+/// Those of [`beside`].
+pub fn named(settings: &Settings) -> Result<Option<Said>, SourceError> {
+    settings.loops.as_ref().map(|path| read(path, text(path, settings)?)).transpose()
 }
 
 fn read(path: &Path, text: String) -> Result<Said, SourceError> {
@@ -78,6 +101,9 @@ fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> 
             Some(outside) => {
                 format!("it is {}, outside of the robot's folders", outside.display())
             }
+            None if settings.files.is_dangling(path) => {
+                "it is a link that leads nowhere".to_owned()
+            }
             None => "it cannot be opened".to_owned(),
         }),
     };
@@ -87,5 +113,7 @@ fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> 
 fn decoded(path: &Path, bytes: Result<Vec<u8>, String>) -> Result<String, SourceError> {
     let text =
         bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned()));
+    // A byte order mark is no part of the text.
+    let text = text.map(|text| text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text));
     text.map_err(|reason| SourceError::Read { file: path.display().to_string(), reason })
 }

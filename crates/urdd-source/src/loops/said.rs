@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use crate::error::SourceError;
+use crate::note::{Note, NoteKind};
 use urdd_directory::loops_toml::File;
 use urdd_directory::position::position;
+use urdd_format::short::Short;
 
 /// What a file says of loops.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,9 +17,42 @@ pub struct Said {
     pub retyped: Vec<(String, Retyped)>,
     /// The file, as it is shown, and its text. `None` if the URDF itself says it.
     pub text: Option<(String, String)>,
+    /// What else says loops and is passed over.
+    pub notes: Vec<Note>,
 }
 
 impl Said {
+    /// The note about another file that says loops, too.
+    pub fn passed_over(&self, other: &str) -> Note {
+        let used = self.text.as_ref().map_or("the URDF", |(file, _)| file);
+        Note {
+            kind: NoteKind::LeftOut,
+            file: other.to_owned(),
+            line: 0,
+            column: 0,
+            problem: format!("this file says loops, and so does `{}`", Short::of(used)),
+            assumed: format!(
+                "the loops of this file are passed over, those of `{}` are used",
+                Short::of(used)
+            ),
+        }
+    }
+
+    /// The note about a joint that is to be another, and that the URDF does not have.
+    pub fn missing(&self, joint: &str, urdf: &str) -> Note {
+        Note {
+            kind: NoteKind::LeftOut,
+            file: self.text.as_ref().map_or(urdf, |(file, _)| file).to_owned(),
+            line: 0,
+            column: 0,
+            problem: format!(
+                "the URDF has no joint `{}`, which is to be another",
+                Short::of(joint)
+            ),
+            assumed: "the name is passed over".to_owned(),
+        }
+    }
+
     /// The error about a place of the file, if it is known.
     pub fn error(&self, place: Option<Range<usize>>, urdf: &str, fault: String) -> SourceError {
         let (file, at) = match &self.text {

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod files;
+mod loops;
 mod origin;
 mod packages;
 mod sniff;

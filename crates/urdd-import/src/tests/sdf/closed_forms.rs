@@ -244,5 +244,41 @@ fn a_gearbox_is_an_equation_of_what_turns_its_links() {
     assert_eq!(lost.couplings.len(), 0);
     assert_eq!(lost.tally.number_of(crate::features::LOST_GEARBOXES), 1);
     let nowhere = "<gearbox_reference_body>nowhere</gearbox_reference_body>";
-    assert_eq!(coupled(nowhere, "0 0 1", "0 0 1").couplings.len(), 0);
+    let lost = coupled(nowhere, "0 0 1", "0 0 1");
+    assert_eq!(lost.couplings.len(), 0);
+    let remarks = |model: &crate::model::Model| {
+        model.tally.remarks.iter().map(|of| of.text.clone()).collect::<Vec<_>>().join("\n")
+    };
+    assert!(
+        remarks(&lost).contains("there is no link `nowhere`, its reference body"),
+        "{}",
+        remarks(&lost)
+    );
+    assert!(!remarks(&model).contains("the world is taken"), "{}", remarks(&model));
+    let assumed = remarks(&coupled("", "0 0 1", "0 0 1"));
+    assert!(assumed.contains("names no `gearbox_reference_body`: the world is taken"), "{assumed}");
+}
+
+/// A gearbox of a link with itself is none, and one of the ratio 0 holds its child.
+#[test]
+fn a_gearbox_that_locks_a_joint_says_so() {
+    let of = |parent: &str, ratio: &str| {
+        inside("1.9", &format!(
+            "<link name='base'/><link name='p'/><link name='c'/>
+            <joint name='a' type='revolute'><parent>base</parent><child>p</child><axis><xyz>0 0 1</xyz></axis></joint>
+            <joint name='b' type='revolute'><parent>base</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint>
+            <joint name='gears' type='gearbox'><parent>{parent}</parent><child>c</child><gearbox_ratio>{ratio}</gearbox_ratio>
+            <gearbox_reference_body>base</gearbox_reference_body><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2></joint>",
+        )).expect("a model")
+    };
+    let said = |model: &crate::model::Model, words: &str| {
+        model.tally.remarks.iter().any(|of| of.text.contains(words))
+    };
+    assert!(!said(&of("p", "2"), "is 0"));
+    let held = of("p", "0");
+    assert_eq!(held.couplings.len(), 1);
+    assert!(said(&held, "`gearbox_ratio` of `gears` is 0: its child does not turn"));
+    let itself = of("c", "2");
+    assert_eq!(itself.couplings.len(), 0);
+    assert!(said(&itself, "it has the same link at both ends"));
 }
