@@ -11,7 +11,7 @@ pub use extended::retyped;
 pub use said::{Retyped, Said};
 use urdd_directory::limits::MAX_TOML_BYTES;
 pub use urdd_directory::loops_toml::File;
-pub use urdf_plus::{table, urdf_plus};
+pub use urdf_plus::{LoopFault, table, urdf_plus};
 
 use super::error::SourceError;
 use super::gate::Gate;
