@@ -5,9 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use toml::{Spanned, Table};
 use urdd_format::loops::LoopKind;
+use urdd_format::short::Short;
 
 use crate::export_toml::Name;
 use crate::toml_text::printable;
@@ -28,6 +29,7 @@ pub struct File {
 #[serde(deny_unknown_fields)]
 pub struct LoopTable {
     pub name: String,
+    #[serde(deserialize_with = "kind")]
     pub kind: LoopKind,
     pub link_a: Name,
     #[serde(default)]
@@ -68,4 +70,21 @@ impl File {
     pub fn to_text(&self) -> Result<String, toml::ser::Error> {
         Ok(printable(&toml::to_string(&Table::try_from(self)?)?))
     }
+}
+
+/// The kind of loop of this word, in any letter case.
+///
+/// # Errors
+/// Which kinds there are, if it is none.
+pub fn kind_of(word: &str) -> Result<LoopKind, String> {
+    let mut all = LoopKind::ALL.iter().copied();
+    all.find(|kind| kind.as_str().eq_ignore_ascii_case(word.trim())).ok_or_else(|| {
+        let known: Vec<&str> = LoopKind::ALL.iter().map(|kind| kind.as_str()).collect();
+        let (word, known) = (Short::of(word), known.join(", ").to_lowercase());
+        format!("`{word}` is no kind of loop; there are {known}")
+    })
+}
+
+fn kind<'de, D: Deserializer<'de>>(reader: D) -> Result<LoopKind, D::Error> {
+    kind_of(&String::deserialize(reader)?).map_err(serde::de::Error::custom)
 }

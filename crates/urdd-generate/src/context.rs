@@ -1,7 +1,5 @@
 //! What all stages may use. It is complete before the first stage, and no stage changes it.
 
-use std::cell::Cell;
-
 use super::donor::edits::{Decisions, Edits};
 use super::error::{GenerateError, Result};
 use super::kinematics_samples::kinematics_samples_module;
@@ -77,7 +75,6 @@ impl<'a> Context<'a> {
             space: &space,
             kinematics: &kinematics,
             cancellation: &settings.cancellation,
-            spent: Cell::default(),
         };
         let beginning = reference.as_ref().map(|reference| &*reference.configuration);
         let (loops, loop_notes) = found.module(beginning)?;

@@ -8,7 +8,7 @@ use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
-use super::loops::{self, Said};
+use super::loops::{self, LoopFault, Said};
 use super::made_from::Origin;
 use super::note::{Note, NoteKind, Remark, SourcePlace};
 use super::repair;
@@ -360,20 +360,22 @@ fn mend<T>(
             repaired = Some(apply(xml.text(), std::mem::take(&mut reading.edits)));
             continue;
         }
-        let plus = xml.document().map_or(Ok(None), loops::urdf_plus).unwrap_or_else(|fault| {
-            let offset = repaired.is_none().then_some(fault.offset);
-            let place = origin.offsets(xml.text(), offset.into_iter()).pop();
-            let place = place.unwrap_or(SourcePlace { file: shown.clone(), line: 0, column: 0 });
-            let SourcePlace { file, line, column } = place;
-            notes.push(Note {
-                kind: NoteKind::LeftOut,
-                file,
-                line,
-                column,
-                problem: format!("this is no loop or coupling of URDF+: {}", fault.fault),
-                assumed: "the loops of this URDF are left out".to_owned(),
-            });
-            None
+        let plus = xml.document().ok().and_then(loops::urdf_plus).map(|(mut said, faults)| {
+            let offsets: Vec<usize> =
+                said.offsets().chain(faults.iter().map(|fault| fault.offset)).collect();
+            let unknown = || SourcePlace { file: shown.clone(), line: 0, column: 0 };
+            let mut places = match repaired {
+                None => origin.offsets(xml.text(), offsets.iter().copied()),
+                Some(_) => offsets.iter().map(|_| unknown()).collect(),
+            };
+            let of_faults = places.split_off(places.len().saturating_sub(faults.len()));
+            said.places = offsets.into_iter().zip(places).collect();
+            notes.extend(faults.into_iter().zip(of_faults).map(|(fault, place)| {
+                let SourcePlace { file, line, column } = place;
+                let LoopFault { fault: problem, assumed, .. } = fault;
+                Note { kind: NoteKind::LeftOut, file, line, column, problem, assumed }
+            }));
+            said
         });
         let also = also(xml, is_verbatim);
         let source = Source {

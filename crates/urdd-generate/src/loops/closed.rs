@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::made::Made;
 use crate::error::Result;
-use urdd_kinematics::loops::{Closing, Gap, Loops, NotClosed, Scratch};
+use urdd_kinematics::loops::{Gap, Loops, NotClosed, Scratch};
 use urdd_kinematics::rotation::{from_rotation_vector, to_rotation_vector};
 use urdd_kinematics::unit;
 
@@ -17,36 +17,12 @@ const AROUND: u64 = 8;
 const ASIDE: f64 = 0.3;
 /// In how many parts the way to a sample is gone.
 const PARTS: u32 = 8;
-/// Most multiplications of all closings of a robot: some seconds.
-const MOST_SPENT: u64 = 20_000_000_000;
-/// What one that fails is taken to cost, in steps.
-const FAILED_STEPS: usize = 200;
-/// Multiplications for the pose of a link.
-const POSE: usize = 100;
+/// Most work for the loops of a robot, in the unit of [`Loops::work`]: some seconds.
+pub(super) const MOST_SPENT: u64 = 20_000_000_000;
 /// A loop whose smallest gap is larger does not close, m by the reach, and rad.
 const OPEN: f64 = 1e-4;
 
 impl Made<'_> {
-    /// As [`Loops::close`], until the work of all closings is spent: then nothing more is found.
-    fn close(
-        &self,
-        loops: &Loops,
-        configuration: &mut [f64],
-        limits: &[[f64; 2]],
-        held: impl Fn(usize) -> bool,
-        scratch: &mut Scratch,
-    ) -> Result<Closing, NotClosed> {
-        if self.spent.get() > MOST_SPENT {
-            return Err(NotClosed::Apart);
-        }
-        let closed = loops.close(self.kinematics, configuration, limits, held, scratch);
-        let steps = closed.as_ref().map_or(FAILED_STEPS, |closing| closing.steps + 1);
-        let of_step = loops.work() + POSE * self.kinematics.num_links();
-        let cost = (of_step as u64).saturating_mul(steps as u64);
-        self.spent.set(self.spent.get().saturating_add(cost));
-        closed
-    }
-
     /// The bounds of limited DOFs; others have none.
     pub(super) fn limits(&self) -> Vec<[f64; 2]> {
         let bounds = self.bounds.bounds.iter().zip(&self.bounds.dof_limited);
@@ -68,7 +44,11 @@ impl Made<'_> {
         let beginnings = beginnings.chain((0..BEGINNINGS).map(|k| self.space.sampled(k)));
         for mut configuration in beginnings {
             self.cancellation.check()?;
-            let closed = self.close(loops, &mut configuration, limits, |_| false, scratch);
+            if scratch.is_spent() {
+                break;
+            }
+            let closed =
+                loops.close(self.kinematics, &mut configuration, limits, |_| false, scratch);
             let none = || vec![Gap::default(); loops.num_loops()];
             let is_closed = closed.is_ok() && self.is_short(&mut configuration, |_| false);
             match closed {
@@ -112,12 +92,16 @@ impl Made<'_> {
         let mut best = (rank(&reference), reference.clone());
         for k in (0..AROUND).filter(|_| is_exact) {
             self.cancellation.check()?;
+            if scratch.is_spent() {
+                break;
+            }
             let mut near = reference.clone();
             for dof in loops.dofs().map(|dof| dof.get()) {
                 near[dof] += ASIDE * (2.0 * unit(k, dof as u64) - 1.0);
             }
-            let closed = self.close(loops, &mut near, limits, |_| false, scratch);
+            let closed = loops.close(self.kinematics, &mut near, limits, |_| false, scratch);
             if closed.is_ok() && self.is_short(&mut near, |_| false) {
+                scratch.spend(loops.mobility_work(self.kinematics));
                 let rank = rank(&near);
                 if rank > best.0 {
                     best = (rank, near);
@@ -140,6 +124,9 @@ impl Made<'_> {
         let goal = self.space.sampled(u64::from(k));
         let is_held = |dof: usize| independent.binary_search(&dof).is_ok();
         let mut along = |parts: u32, from: &[f64]| {
+            if scratch.is_spent() {
+                return None;
+            }
             let mut at = from.to_vec();
             for part in 1..=parts {
                 let share = f64::from(part) / f64::from(parts);
@@ -147,7 +134,7 @@ impl Made<'_> {
                     let [from, to] = [from[dof], goal[dof]];
                     at[dof] = if part == parts { to } else { from + share * (to - from) };
                 }
-                self.close(loops, &mut at, limits, is_held, scratch).ok()?;
+                loops.close(self.kinematics, &mut at, limits, is_held, scratch).ok()?;
             }
             self.is_short(&mut at, is_held).then_some(at)
         };

@@ -3,23 +3,26 @@
 mod closed;
 mod made;
 mod resolved;
+mod terms;
 
 use super::error::Result;
-use closed::widen;
+use closed::{MOST_SPENT, widen};
 pub(super) use made::Made;
 use urdd_format::index::{DofIdx, SampleIdx};
 use urdd_format::loops::{ClosedSample, LoopsModule};
 use urdd_format::named_configurations::{ConfigurationName, NamedConfiguration};
 use urdd_format::short::Short;
-use urdd_kinematics::loops::{Loops, Scratch};
+use urdd_kinematics::loops::{Gap, Loops, Scratch};
 use urdd_source::note::{Note, NoteKind};
 
 /// What the reference configuration of loops is called in edits of skips.
 const CLOSED: &str = "closed loops";
 /// Number of closed samples.
 const SAMPLES: u32 = 16;
-/// Most multiplications of one step of the solver.
-const MOST_WORK: usize = 50_000_000;
+/// Most work of one step of the solver.
+const MOST_WORK: usize = 1_000_000_000;
+/// What is made of a robot whose loops are not closed.
+const OF_TREE: &str = "the URDD has no loops_module: it is that of the tree with open ends";
 /// How much larger than what was found a stated tolerance is.
 const MARGIN: f64 = 1.5;
 
@@ -30,23 +33,34 @@ impl Made<'_> {
         let Some(said) = self.source.loops.as_ref().filter(|said| !said.file.is_empty()) else {
             return Ok((None, Vec::new()));
         };
-        let mut module = self.resolved(said)?;
+        let mut notes = Vec::new();
+        let mut module = self.resolved(said, &mut notes)?;
+        if module.loops.is_empty() && module.couplings.is_empty() {
+            return Ok((None, notes));
+        }
         let reach = urdd_kinematics::reach(&self.source.reading.robot, self.chain);
         let made = |module: &LoopsModule| {
             let loops = Loops::new(module, self.kinematics, self.dof, reach);
             loops.map_err(|error| self.refused(said, None, error.to_string()))
         };
         let mut loops = made(&module)?;
-        if loops.work() > MOST_WORK {
-            let fault = "the loops depend on too many joints at once for this program";
-            return Err(self.refused(said, None, fault.to_owned()));
+        if loops.work(self.kinematics) > MOST_WORK
+            || loops.mobility_work(self.kinematics) > MOST_SPENT
+        {
+            notes.push(self.note(
+                NoteKind::LeftOut,
+                "the loops depend on too many joints at once for this program".to_owned(),
+                OF_TREE,
+            ));
+            return Ok((None, notes));
         }
         let limits = self.limits();
-        let mut scratch = Scratch::default();
+        let mut scratch = Scratch::within(MOST_SPENT);
         let Some((reference, widest)) =
             self.reference(&loops, &limits, beginning, reach, &mut scratch)?
         else {
-            return Ok((None, vec![self.open(&loops, &module, &limits, &mut scratch)]));
+            notes.push(self.open(&loops, &module, (&limits, reach), &mut scratch));
+            return Ok((None, notes));
         };
         let reference = self.regular(&loops, reference, &widest, &limits, &mut scratch)?;
         // While samples are looked for, wider.
@@ -55,31 +69,22 @@ impl Made<'_> {
                 (10.0 * gap.position, 10.0 * gap.rotation);
         }
         loops = made(&module)?;
-        let mut notes = Vec::new();
         let poses = self.kinematics.link_poses(&reference);
         let poses = poses.map_err(|error| self.refused(said, None, error.to_string()))?;
         let preferred = self.preferred(said, &loops, &mut notes)?;
-        let mobility = loops.mobility(self.kinematics, &reference, &poses, |dof| preferred[dof]);
-        let free = mobility.independent.iter().filter(|dof| !preferred[**dof]).count();
-        let follow = mobility.dependent.iter().filter(|dof| preferred[**dof]).count();
-        // Other formats name motors; rods turn about themselves besides.
-        let is_complete = said.text.is_none();
-        if said.file.independent.is_some() && (follow > 0 || is_complete && free > 0) {
-            notes.push(self.note(
-                NoteKind::Otherwise,
-                format!(
-                    "the DOFs that are said to move freely are not those that do: {follow} of them follow from others, and {free} others move freely"
-                ),
-                "loops_module says which DOFs are independent where all loops are closed",
-            ));
-        }
+        let mobility = loops.mobility_by(self.kinematics, &reference, &poses, |dof| preferred[dof]);
+        notes.extend(self.otherwise(said, &loops, &mobility));
         let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
         module.independent_dof_idxs = mobility.independent.iter().copied().map(index).collect();
         let mut gaps = widest;
+        let mut spent_at = None;
         for k in 0..SAMPLES {
             self.cancellation.check()?;
             let found =
                 self.sample(k, &loops, &reference, &mobility.independent, &limits, &mut scratch);
+            if found.is_none() && scratch.is_spent() {
+                spent_at.get_or_insert(k);
+            }
             if found.is_some() {
                 widen(&mut gaps, &loops.gaps(scratch.poses()));
             }
@@ -87,6 +92,13 @@ impl Made<'_> {
                 sample_idx: SampleIdx(k),
                 configuration: found.map(|found| found.iter().map(|q| q + 0.0).collect()),
             });
+        }
+        if let Some(k) = spent_at {
+            notes.push(self.note(
+                NoteKind::TooLarge,
+                format!("the loops are large: the work that one robot may take was spent at closed sample {k} of {SAMPLES}"),
+                "this sample and those after it are null",
+            ));
         }
         for (one, gap) in module.loops.iter_mut().zip(&gaps) {
             one.position_tolerance = stated(gap.position, reach);
@@ -101,9 +113,10 @@ impl Made<'_> {
         &self,
         loops: &Loops,
         module: &LoopsModule,
-        limits: &[[f64; 2]],
+        (limits, reach): (&[[f64; 2]], f64),
         scratch: &mut Scratch,
     ) -> Note {
+        let was_spent = scratch.is_spent();
         let mut nearest = self.space.default_configuration();
         let _ = loops.close(self.kinematics, &mut nearest, limits, |_| false, scratch);
         let gaps = self.kinematics.link_poses(&nearest).map(|poses| loops.gaps(&poses));
@@ -111,23 +124,44 @@ impl Made<'_> {
         let worst = gaps.iter().enumerate().max_by(|(_, a), (_, b)| {
             (a.position + a.rotation).total_cmp(&(b.position + b.rotation))
         });
-        let which = worst.map_or_else(
-            || "the couplings do not hold".to_owned(),
-            |(place, gap)| {
-                format!(
-                    "the loop `{}` stays {} m and {} rad apart",
-                    Short::of(&module.loops[place].name),
-                    urdd_format::readable::number(gap.position, 3),
-                    urdd_format::readable::number(gap.rotation, 3)
-                )
-            },
-        );
+        let sums = loops.sums(&nearest);
+        let coupling = || {
+            let sums = sums.iter().enumerate();
+            let (place, sum) = sums.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+            let name = Short::of(&module.couplings[place].name);
+            Some(match sum.is_finite() {
+                true => format!(
+                    "the sum of the coupling `{name}` stays {}",
+                    urdd_format::readable::number(*sum, 3)
+                ),
+                false => format!("the sum of the coupling `{name}` is not finite"),
+            })
+        };
+        let of_loop = |(place, gap): (usize, &Gap)| {
+            let name = Short::of(&module.loops[place].name);
+            if !gap.position.is_finite() || !gap.rotation.is_finite() {
+                return format!("the gap of the loop `{name}` is not finite");
+            }
+            format!(
+                "the loop `{name}` stays {} m and {} rad apart",
+                urdd_format::readable::number(gap.position, 3),
+                urdd_format::readable::number(gap.rotation, 3)
+            )
+        };
+        let is_open =
+            |(_, gap): &(usize, &Gap)| !(gap.position <= 1e-9 * reach && gap.rotation <= 1e-9);
+        let which = worst.filter(is_open).map(of_loop).or_else(coupling);
+        let which = which.or_else(|| worst.map(of_loop)).unwrap_or_default();
+        let which = match was_spent {
+            true => format!("{which} (the work that one robot may take was spent)"),
+            false => which,
+        };
         self.note(
             NoteKind::LeftOut,
             format!(
                 "no configuration was found in which all loops of the robot are closed: {which}"
             ),
-            "the URDD has no loops_module: it is that of the tree with open ends",
+            OF_TREE,
         )
     }
 }

@@ -1,27 +1,36 @@
 //! What a source says of loops, by the robot's indices.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 use nalgebra::{Isometry3, Translation3};
+use toml::Spanned;
 
 use super::made::Made;
+use super::terms::{Terms, substituted};
 use crate::error::Result;
 use urdd_directory::export_toml::Name;
-use urdd_directory::loops_toml::FrameTable;
+use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable};
 use urdd_format::index::{DofIdx, LinkIdx};
-use urdd_format::loops::{Coupling, CouplingTerm, Loop, LoopsModule};
+use urdd_format::loops::{Coupling, Loop, LoopsModule};
 use urdd_format::nearest::nearest;
 use urdd_format::short::Short;
 use urdd_format::urdf::JointType;
-use urdd_kinematics::loops::Loops;
+use urdd_kinematics::loops::{Loops, Mobility};
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation::from_rpy;
 use urdd_source::loops::{File, Said};
 use urdd_source::note::{Note, NoteKind};
 
+/// A place in the source, and what is wrong there.
+type Faulty = (Range<usize>, String);
+
+/// Most names in a message.
+const MOST_NAMED: usize = 5;
+
 impl Made<'_> {
     /// The loops and couplings by index, without configurations.
-    pub(super) fn resolved(&self, said: &Said) -> Result<LoopsModule> {
+    pub(super) fn resolved(&self, said: &Said, notes: &mut Vec<Note>) -> Result<LoopsModule> {
         let links: HashMap<&str, usize> = self
             .chain
             .links_in_chain
@@ -29,7 +38,67 @@ impl Made<'_> {
             .enumerate()
             .map(|(idx, link)| (link.name.as_str(), idx))
             .collect();
-        let link = |name: &Name| -> Result<LinkIdx> {
+        let File { loops, couplings, .. } = &said.file;
+        let mut names: HashSet<&str> = HashSet::new();
+        let mut is_new = |name| match names.insert(name) {
+            true => Ok(()),
+            false => Err(format!("another loop or coupling is called `{}`", Short::of(name))),
+        };
+        let mut module = LoopsModule {
+            loops: Vec::new(),
+            couplings: Vec::new(),
+            independent_dof_idxs: Vec::new(),
+            reference_configuration: Vec::new(),
+            closed_samples: Vec::new(),
+        };
+        for one in loops {
+            let name = &one.get_ref().name;
+            let read = is_new(name).map_err(|fault| (one.span(), fault));
+            match read.and_then(|()| self.closing(one, &links)) {
+                Ok(one) => module.loops.push(one),
+                Err((place, fault)) => {
+                    notes.push(self.fault(said, (one.span(), place), name, fault)?);
+                }
+            }
+        }
+        for one in couplings {
+            let name = &one.get_ref().name;
+            let read = is_new(name).map_err(|fault| (one.span(), fault));
+            let sum = match read.and_then(|()| self.sum(one)) {
+                Ok(sum) => sum,
+                Err((place, fault)) => {
+                    notes.push(self.fault(said, (one.span(), place), name, fault)?);
+                    continue;
+                }
+            };
+            if sum.terms.is_empty() {
+                let problem = match sum.constant == 0.0 {
+                    true => format!(
+                        "the coupling `{}` adds nothing: its terms cancel once mimic joints are replaced by what they follow",
+                        Short::of(name)
+                    ),
+                    false => format!(
+                        "the coupling `{}` contradicts the other joints: its terms cancel, and {} is left, which is not 0",
+                        Short::of(name),
+                        urdd_format::readable::number(sum.constant, 3)
+                    ),
+                };
+                notes.push(self.left_out(said, one.span(), problem, name));
+                continue;
+            }
+            module.couplings.push(sum);
+        }
+        Ok(module)
+    }
+
+    /// A loop, or what is wrong and where.
+    fn closing(
+        &self,
+        one: &Spanned<LoopTable>,
+        links: &HashMap<&str, usize>,
+    ) -> Result<Loop, Faulty> {
+        let of = one.get_ref();
+        let link = |name: &Name| {
             let word = name.get_ref().as_str();
             // Extended URDF also names joints, and means their children.
             let joints = || {
@@ -39,84 +108,82 @@ impl Made<'_> {
             let link = links.get(word).and_then(|idx| u32::try_from(*idx).ok()).map(LinkIdx);
             link.or_else(joints).ok_or_else(|| {
                 let known = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
-                self.refused(said, Some(name.span()), unknown("link", word, known))
+                (name.span(), unknown("link", word, known))
             })
         };
-        let File { loops, couplings, .. } = &said.file;
-        let mut names: HashMap<&str, ()> = HashMap::new();
-        let all = loops.iter().map(|one| (&*one.get_ref().name, one.span()));
-        let all = all.chain(couplings.iter().map(|one| (&*one.get_ref().name, one.span())));
-        for (name, place) in all {
-            if names.insert(name, ()).is_some() {
-                let fault = format!("another loop or coupling is called `{}`", Short::of(name));
-                return Err(self.refused(said, Some(place), fault));
+        let (link_a_idx, link_b_idx) = (link(&of.link_a)?, link(&of.link_b)?);
+        if link_a_idx == link_b_idx {
+            let fault = format!("the loop `{}` connects a link with itself", Short::of(&of.name));
+            return Err((of.link_b.span(), fault));
+        }
+        for (frame, called) in [(&of.frame_a, "frame_a"), (&of.frame_b, "frame_b")] {
+            if !frame.xyz.iter().chain(&frame.rpy).all(|x| x.is_finite()) {
+                let name = Short::of(&of.name);
+                let fault = format!("a number in `{called}` of the loop `{name}` is not finite");
+                return Err((one.span(), fault));
             }
         }
-        let mut module = LoopsModule {
-            loops: Vec::new(),
-            couplings: Vec::new(),
-            independent_dof_idxs: Vec::new(),
-            reference_configuration: Vec::new(),
-            closed_samples: Vec::new(),
-        };
-        for one in loops {
-            let of = one.get_ref();
-            let (link_a_idx, link_b_idx) = (link(&of.link_a)?, link(&of.link_b)?);
-            if link_a_idx == link_b_idx {
-                let fault =
-                    format!("the loop `{}` connects a link with itself", Short::of(&of.name));
-                return Err(self.refused(said, Some(one.span()), fault));
-            }
-            let is_usable =
-                |frame: &FrameTable| frame.xyz.iter().chain(&frame.rpy).all(|x| x.is_finite());
-            if !is_usable(&of.frame_a) || !is_usable(&of.frame_b) {
-                let fault = "a number of a frame is not finite".to_owned();
-                return Err(self.refused(said, Some(one.span()), fault));
-            }
-            module.loops.push(Loop {
-                name: of.name.clone(),
-                kind: of.kind,
-                link_a_idx,
-                frame_a: from_isometry(&isometry(&of.frame_a)),
-                link_b_idx,
-                frame_b: from_isometry(&isometry(&of.frame_b)),
-                position_tolerance: 0.0,
-                rotation_tolerance: 0.0,
-            });
+        Ok(Loop {
+            name: of.name.clone(),
+            kind: of.kind,
+            link_a_idx,
+            frame_a: from_isometry(&isometry(&of.frame_a)),
+            link_b_idx,
+            frame_b: from_isometry(&isometry(&of.frame_b)),
+            position_tolerance: 0.0,
+            rotation_tolerance: 0.0,
+        })
+    }
+
+    /// A coupling, maybe without terms, or what is wrong and where.
+    fn sum(&self, one: &Spanned<CouplingTable>) -> Result<Coupling, Faulty> {
+        let of = one.get_ref();
+        let name = Short::of(&of.name);
+        if !of.constant.is_finite() {
+            return Err((
+                one.span(),
+                format!("the constant of the coupling `{name}` is not finite"),
+            ));
         }
-        for one in couplings {
-            let of = one.get_ref();
-            let mut terms: Vec<CouplingTerm> = Vec::new();
-            let mut constant = of.constant;
-            for (name, coefficients) in &of.terms {
-                let [idx] = *self.dofs(name.get_ref()) else {
-                    match self.coupled(name.get_ref(), coefficients, &mut constant) {
-                        Some(Some(term)) => add(&mut terms, term),
-                        Some(None) => {}
-                        None => {
-                            let known = self.dof.dofs.iter().map(|dof| dof.name.as_str());
-                            let fault = unknown("DOF", name.get_ref(), known);
-                            return Err(self.refused(said, Some(name.span()), fault));
-                        }
+        let mut sum = Terms::new(of.constant);
+        let mut names_dof = false;
+        for (name, coefficients) in &of.terms {
+            let word = name.get_ref().as_str();
+            let dofs = self.dofs(word);
+            let coefficients = four(coefficients).ok_or_else(|| {
+                let word = Short::of(word);
+                let fault = format!("one to four finite coefficients are needed for `{word}`");
+                (name.span(), fault)
+            })?;
+            match *dofs {
+                [idx] => {
+                    sum.add(DofIdx(u32::try_from(idx).unwrap_or(u32::MAX)), coefficients, None);
+                    names_dof = true;
+                }
+                [] => match self.coupled(word, coefficients, &mut sum) {
+                    Some(moves) => names_dof |= moves,
+                    None => {
+                        let known = self.dof.dofs.iter().map(|dof| dof.name.as_str());
+                        return Err((name.span(), unknown("DOF", word, known)));
                     }
-                    continue;
-                };
-                let Some(coefficients) = four(coefficients) else {
-                    let fault = "one to four finite coefficients are needed".to_owned();
-                    return Err(self.refused(said, Some(name.span()), fault));
-                };
-                let dof_idx = DofIdx(u32::try_from(idx).unwrap_or(u32::MAX));
-                add(&mut terms, CouplingTerm { dof_idx, coefficients });
+                },
+                [..] => {
+                    let dofs: Vec<&str> =
+                        dofs.iter().map(|dof| self.dof.dofs[*dof].name.as_str()).collect();
+                    let (word, dofs) = (Short::of(word), named(&dofs));
+                    let fault = format!("the joint `{word}` has several DOFs: name one of {dofs}");
+                    return Err((name.span(), fault));
+                }
             }
-            terms.retain(|term| term.coefficients.iter().any(|x| *x != 0.0));
-            terms.sort_by_key(|term| term.dof_idx);
-            if terms.is_empty() {
-                let fault = format!("the coupling `{}` says nothing of a DOF", Short::of(&of.name));
-                return Err(self.refused(said, Some(one.span()), fault));
-            }
-            module.couplings.push(Coupling { name: of.name.clone(), constant, terms });
         }
-        Ok(module)
+        if !names_dof {
+            let fault = format!(
+                "the coupling `{name}` says nothing of a DOF: it names no joint that moves"
+            );
+            return Err((one.span(), fault));
+        }
+        let (constant, terms) = sum.done();
+        Ok(Coupling { name: of.name.clone(), constant, terms })
     }
 
     /// The DOFs of this name: of a DOF, or all of a joint.
@@ -131,66 +198,55 @@ impl Made<'_> {
     }
 
     /// What a joint without a DOF of its own adds to a coupling: a mimic joint a term of its driver, a fixed one nothing.
-    /// `None` if there is no such joint, or its part is not a multiple.
-    fn coupled(
-        &self,
-        name: &str,
-        coefficients: &[f64],
-        constant: &mut f64,
-    ) -> Option<Option<CouplingTerm>> {
+    /// Whether it moves; `None` if there is no such joint.
+    fn coupled(&self, name: &str, coefficients: [f64; 4], sum: &mut Terms) -> Option<bool> {
         let idx = self.chain.joints_in_chain.iter().position(|joint| joint.joint_name == name)?;
-        let [a, b, c, d] = four(coefficients)?;
         if self.chain.joints_in_chain[idx].joint_type == JointType::Fixed {
-            return Some(None);
+            return Some(false);
         }
         let mimic = self.dof.joint_idx_to_mimic_mapping[idx].as_ref()?;
-        let (dof_idx, m, o) = (mimic.dof_idx, mimic.multiplier, mimic.offset);
-        // The polynomial of m q + o.
-        *constant += o * (a + o * (b + o * (c + o * d)));
-        let coefficients = [
-            m * (a + o * (2.0 * b + o * (3.0 * c + o * 4.0 * d))),
-            m * m * (b + o * (3.0 * c + o * 6.0 * d)),
-            m * m * m * (c + 4.0 * o * d),
-            m * m * m * m * d,
-        ];
-        Some(dof_idx.map(|dof_idx| CouplingTerm { dof_idx, coefficients }))
+        let (m, o) = (mimic.multiplier, mimic.offset);
+        let sizes = substituted(coefficients.map(f64::abs), m.abs(), o.abs());
+        let (constant, coefficients) = substituted(coefficients, m, o);
+        sum.add_constant(constant, sizes.0);
+        if let Some(dof_idx) = mimic.dof_idx {
+            sum.add(dof_idx, coefficients, Some(sizes.1));
+        }
+        Some(true)
     }
 
-    /// For each DOF, whether it is rather to move freely than to follow.
+    /// For each DOF, how much rather it is to move freely than to follow: 0 to 2.
     pub(super) fn preferred(
         &self,
         said: &Said,
         loops: &Loops,
         notes: &mut Vec<Note>,
-    ) -> Result<Vec<bool>> {
-        let mut preferred = vec![true; self.dof.dofs.len()];
+    ) -> Result<Vec<u8>> {
+        let mut preferred = vec![2; self.dof.dofs.len()];
         for dof in loops.dofs() {
-            preferred[dof.get()] = false;
+            preferred[dof.get()] = 0;
         }
-        let Some(names) = &said.file.independent else {
-            // Where nobody says it, joints that are nearest to the root move the others.
-            let depths = self.depths();
-            let depth = |dof: usize| depths[self.dof.dofs[dof].joint_idx.get()];
-            for group in loops.groups() {
-                let least = group.iter().map(|dof| depth(*dof)).min();
-                for dof in group {
-                    preferred[*dof] = Some(depth(*dof)) == least;
+        let names = said.file.independent.iter().flatten();
+        let mut none = Vec::new();
+        let mut fixed = Vec::new();
+        let mut says_one = false;
+        for name in names {
+            let word = name.get_ref().as_str();
+            let dofs = self.dofs(word);
+            if dofs.is_empty() && said.text.is_some() {
+                let mut joints = self.chain.joints_in_chain.iter();
+                match joints.any(|joint| joint.joint_name == word) {
+                    true => fixed.push(word),
+                    false => none.push(word),
                 }
             }
-            return Ok(preferred);
-        };
-        let mut none = Vec::new();
-        for name in names {
-            let dofs = self.dofs(name.get_ref());
-            let is_joint = || {
-                self.chain.joints_in_chain.iter().any(|joint| joint.joint_name == *name.get_ref())
-            };
-            if dofs.is_empty() && !is_joint() {
-                none.push(name.get_ref().as_str());
-            }
             for dof in dofs {
-                preferred[dof] = true;
+                says_one |= preferred[dof] < 2;
+                preferred[dof] = preferred[dof].max(1);
             }
+        }
+        for dof in said.first.iter().flat_map(|word| self.dofs(word)) {
+            preferred[dof] = 2;
         }
         if let Some(first) = none.first() {
             let known = self.dof.dofs.iter().map(|dof| dof.name.as_str());
@@ -199,7 +255,66 @@ impl Made<'_> {
             let assumed = "the name is passed over";
             notes.push(self.note(NoteKind::LeftOut, problem, assumed));
         }
+        if !fixed.is_empty() {
+            let problem = format!("{} cannot move freely: no DOF is of this name", named(&fixed));
+            notes.push(self.note(NoteKind::LeftOut, problem, "the names are passed over"));
+        }
+        if !says_one {
+            // Where nobody says it, joints that are nearest to the root move the others.
+            let depths = self.depths();
+            let depth = |dof: usize| depths[self.dof.dofs[dof].joint_idx.get()];
+            for group in loops.groups() {
+                let least = group.iter().map(|dof| depth(*dof)).min();
+                for dof in group {
+                    preferred[*dof] = if Some(depth(*dof)) == least { 2 } else { 0 };
+                }
+            }
+        }
         Ok(preferred)
+    }
+
+    /// What moves freely though the source does not say so, or follows though it does.
+    pub(super) fn otherwise(
+        &self,
+        said: &Said,
+        loops: &Loops,
+        mobility: &Mobility,
+    ) -> Option<Note> {
+        let told = said.file.independent.as_ref()?;
+        let told: HashSet<usize> = told.iter().flat_map(|name| self.dofs(name.get_ref())).collect();
+        let first: HashSet<usize> = said.first.iter().flat_map(|name| self.dofs(name)).collect();
+        let name = |dof: &usize| self.dof.dofs[*dof].name.as_str();
+        let free: Vec<&str> = mobility
+            .independent
+            .iter()
+            .filter(|dof| !told.contains(dof))
+            .filter(|dof| loops.dofs().any(|of| of.get() == **dof))
+            .map(name)
+            .collect();
+        let follow: Vec<&str> = mobility
+            .dependent
+            .iter()
+            .filter(|dof| if first.is_empty() { &told } else { &first }.contains(dof))
+            .map(name)
+            .collect();
+        let mut parts = Vec::new();
+        if !follow.is_empty() {
+            parts.push(format!(
+                "{} follow from others, and are said to move freely",
+                named(&follow)
+            ));
+        }
+        if !free.is_empty() {
+            parts.push(format!("{} move freely, and are not said to", named(&free)));
+        }
+        if parts.is_empty() {
+            return None;
+        }
+        Some(self.note(
+            NoteKind::Otherwise,
+            format!("other DOFs move freely than the source says: {}", parts.join("; ")),
+            "loops_module says which DOFs are independent where all loops are closed",
+        ))
     }
 
     /// For each joint, how many joints are above it.
@@ -226,14 +341,13 @@ fn four(coefficients: &[f64]) -> Option<[f64; 4]> {
     (!coefficients.is_empty() && four.iter().all(|x| x.is_finite())).then_some(four)
 }
 
-fn add(terms: &mut Vec<CouplingTerm>, term: CouplingTerm) {
-    match terms.iter_mut().find(|other| other.dof_idx == term.dof_idx) {
-        Some(other) => {
-            for (sum, more) in other.coefficients.iter_mut().zip(term.coefficients) {
-                *sum += more;
-            }
-        }
-        None => terms.push(term),
+/// Some names, and how many others there are.
+fn named(names: &[&str]) -> String {
+    let some: Vec<String> =
+        names.iter().take(MOST_NAMED).map(|name| format!("`{}`", Short::of(name))).collect();
+    match names.len().saturating_sub(MOST_NAMED) {
+        0 => some.join(", "),
+        more => format!("{} and {more} more", some.join(", ")),
     }
 }
 

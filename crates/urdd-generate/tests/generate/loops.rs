@@ -183,7 +183,7 @@ fn faults_of_loops_have_a_place() {
         (
             "p.loops.toml",
             toml("link_a = \"crank\"\nlink_b = \"crank\"\n"),
-            ":1:1: the loop `l` connects a link with itself",
+            ":5:10: the loop `l` connects a link with itself",
         ),
         (
             "p.loops.toml",
@@ -214,7 +214,7 @@ fn faults_of_loops_have_a_place() {
         (
             "p.yaml",
             "closed_loop: [[crank, rocker]]\ntype: []\n".to_owned(),
-            "`closed_loop` has 1 entries and `type` has 0",
+            "`closed_loop` and `type` need as many entries: there are 1 and 0",
         ),
         ("p.yaml", "closed_loop: [[crank, rocker]]\ntype: [5d]\n".to_owned(), "neither 6d nor 3d"),
         ("p.yaml", format!("closed_loop: {}\n", "[".repeat(5000)), "recursion limit exceeded"),

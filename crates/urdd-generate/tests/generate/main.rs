@@ -9,6 +9,7 @@ mod distinct;
 mod free;
 mod in_memory;
 mod loops;
+mod loops_left_out;
 mod meshes_names;
 mod shape_documents;
 mod shapes_rounding;

@@ -34,9 +34,27 @@ pub struct Scratch {
     trial: Vec<f64>,
     /// Places in the group's DOFs.
     free: Vec<usize>,
+    spent: u64,
+    most: Option<u64>,
 }
 
 impl Scratch {
+    /// One with which closings end with [`NotClosed::Apart`] once all of them together have taken this much work, in the unit
+    /// of [`Loops::work`].
+    pub fn within(most: u64) -> Self {
+        Scratch { most: Some(most), ..Scratch::default() }
+    }
+
+    /// Counts work done elsewhere.
+    pub fn spend(&mut self, work: u64) {
+        self.spent = self.spent.saturating_add(work);
+    }
+
+    /// Whether the work is spent.
+    pub fn is_spent(&self) -> bool {
+        self.most.is_some_and(|most| self.spent > most)
+    }
+
     /// The link poses of the configuration that was found last.
     pub fn poses(&self) -> &[Isometry3<f64>] {
         &self.poses
@@ -114,8 +132,10 @@ impl Loops {
         let mut damping = DAMPING;
         let mut steps = 0;
         let mut is_new = true;
-        while steps < MOST_STEPS && cost > DONE && damping < MOST_DAMPING {
+        let of_step = self.work_of(group, kinematics) as u64;
+        while steps < MOST_STEPS && cost > DONE && damping < MOST_DAMPING && !at.is_spent() {
             steps += 1;
+            at.spend(of_step);
             if is_new {
                 let Scratch { poses, jacobian, .. } = at;
                 self.jacobian_into(group, kinematics, configuration, poses, jacobian);

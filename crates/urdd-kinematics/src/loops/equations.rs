@@ -30,6 +30,9 @@ pub enum FirstOpen {
 /// summands within which a coupling holds (SPEC 6.8.4, 6.8.5).
 pub(super) const CLOSED: f64 = 1e-9;
 
+/// A coupling whose summands change less with each DOF does not change.
+const LEAST_SLOPE: f64 = 1e-10;
+
 /// The sum of a coupling may always be this far from 0.
 const LEAST_SUM: f64 = 1e-12;
 
@@ -295,13 +298,13 @@ impl Sum {
         sum
     }
 
-    /// The largest derivative of a summand, each in its DOF's unit; 1 where all are 0.
+    /// The largest derivative of a summand, each in its DOF's unit; 1 where all are 0 but for rounding.
     fn largest(&self, configuration: &[f64], units: &[f64]) -> f64 {
         let slopes = self.terms.iter().flat_map(|(dof, coefficients)| {
             slopes(coefficients, configuration[*dof]).map(|slope| (slope * units[*dof]).abs())
         });
         let largest = slopes.fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
+        if largest > LEAST_SLOPE { largest } else { 1.0 }
     }
 }
 

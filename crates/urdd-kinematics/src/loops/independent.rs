@@ -8,6 +8,9 @@ use crate::forward::ForwardKinematics;
 /// A column counts while what is left of it exceeds this fraction of the largest column (SPEC 6.8.7).
 pub(super) const RANK: f64 = 1e-5;
 
+/// And while it exceeds this.
+const LEAST: f64 = 1e-9;
+
 /// A DOF that is rather to be independent follows others only if those that may follow leave less than this.
 const WELL: f64 = 1e-3;
 
@@ -29,6 +32,17 @@ impl Loops {
         poses: &[Isometry3<f64>],
         preferred: impl Fn(usize) -> bool,
     ) -> Mobility {
+        self.mobility_by(kinematics, configuration, poses, |dof| u8::from(preferred(dof)))
+    }
+
+    /// As [`Loops::mobility`]; DOFs of a higher rank are rather independent than those of a lower one.
+    pub fn mobility_by(
+        &self,
+        kinematics: &ForwardKinematics,
+        configuration: &[f64],
+        poses: &[Isometry3<f64>],
+        rank: impl Fn(usize) -> u8,
+    ) -> Mobility {
         let mut columns: Vec<Vec<f64>> = Vec::with_capacity(self.groups.len());
         for group in &self.groups {
             let mut left = vec![0.0; group.num_rows() * group.dofs.len()];
@@ -45,17 +59,24 @@ impl Loops {
         for (group, left) in self.groups.iter().zip(&mut columns) {
             let rows = group.num_rows().max(1);
             let mut follows = vec![false; group.dofs.len()];
-            for (all, least) in [(false, WELL), (true, RANK)] {
+            let mut ranks: Vec<u8> = group.dofs.iter().map(|dof| rank(*dof)).collect();
+            ranks.push(1);
+            ranks.sort_unstable();
+            ranks.dedup();
+            let last = ranks.pop().unwrap_or_default();
+            let phases = ranks.into_iter().map(|rank| (rank, WELL)).chain([(last, RANK)]);
+            for (most, least) in phases {
                 loop {
                     let rest = group
                         .dofs
                         .iter()
                         .enumerate()
-                        .filter(|(place, dof)| !follows[*place] && (all || !preferred(**dof)));
+                        .filter(|(place, dof)| !follows[*place] && rank(**dof) <= most);
                     let best = rest
                         .map(|(place, _)| (place, norm(&left[place * rows..(place + 1) * rows])))
                         .fold(None, better);
-                    let Some((pivot, size)) = best.filter(|(_, size)| *size > least * largest)
+                    let Some((pivot, size)) =
+                        best.filter(|(_, size)| *size > LEAST && *size > least * largest)
                     else {
                         break;
                     };

@@ -127,6 +127,24 @@ fn a_planar_four_bar_has_one_freedom_though_it_holds_five_numbers() {
 }
 
 #[test]
+fn closing_ends_once_its_work_is_spent() {
+    let (kinematics, loops) = four_bar();
+    let steps = |most: u64| {
+        let mut q = [0.5, 0.4, 2.0];
+        let mut scratch = Scratch::within(most);
+        let closed = loops.close(&kinematics, &mut q, &[ANY; 3], |_| false, &mut scratch);
+        (closed.map(|closing| closing.steps), scratch.is_spent())
+    };
+    let of_step = loops.work(&kinematics) as u64;
+    let (needed, is_spent) = steps(u64::MAX);
+    let needed = needed.expect("closed") as u64;
+    assert!(needed > 2 && !is_spent);
+    // All steps are counted, and no more.
+    assert_eq!(steps(needed * of_step), (Ok(needed as usize), false));
+    assert_eq!(steps(of_step), (Err(NotClosed::Apart), true));
+}
+
+#[test]
 fn a_slider_crank_slides_as_its_triangle_says() {
     // A crank, a rod on it, and a slide along x that the rod's end is a ball on.
     let slide = Joint { axis: X, ..between(0, 3, Prismatic, [0.0; 3]) };

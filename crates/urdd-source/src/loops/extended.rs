@@ -3,6 +3,7 @@
 //! Facts: V. Batto et al., Extended URDF (2024), and the loader of example-parallel-robots. Frames are those of the two links;
 //! `6d` holds position and rotation, `3d` the position.
 
+use std::ops::Range;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -63,44 +64,71 @@ pub(super) fn read(path: &Path, text: String) -> Result<Said, SourceError> {
     ];
     for (a, of_a, b, of_b) in lengths {
         if of_a != of_b {
-            let fault = format!("`{a}` has {of_a} entries and `{b}` has {of_b}: one for each");
-            return Err(refused(1, 1, fault));
+            let fault =
+                format!("`{a}` and `{b}` need as many entries: there are {of_a} and {of_b}");
+            return Err(said.error(place(text, b, ""), &shown, fault));
         }
     }
     let mut file = File::default();
+    let link = |name: String| {
+        let at = place(text, KEY, &name).unwrap_or(0..0);
+        Spanned::new(at, name)
+    };
     for ([a, b], word) in read.closed_loop.into_iter().zip(&read.types) {
         let kind = match word.to_ascii_lowercase().as_str() {
             "6d" => LoopKind::Fixed,
             "3d" => LoopKind::Spherical,
             _ => {
-                let word = word.escape_debug();
-                return Err(refused(1, 1, format!("`{word}` in `type` is neither 6d nor 3d")));
+                let fault = format!("`{}` in `type` is neither 6d nor 3d", word.escape_debug());
+                return Err(said.error(place(text, "type", word), &shown, fault));
             }
         };
         let table = LoopTable {
             name: a.clone(),
             kind,
-            link_a: unplaced(a),
+            link_a: link(a),
             frame_a: FrameTable::default(),
-            link_b: unplaced(b),
+            link_b: link(b),
             frame_b: FrameTable::default(),
         };
-        file.loops.push(Spanned::new(0..0, table));
+        file.loops.push(Spanned::new(table.link_a.span(), table));
     }
     file.independent = read.name_mot.map(|names| names.into_iter().map(unplaced).collect());
     let mut retyped = Vec::new();
     let words = read.joint_type.unwrap_or_default();
     for (joint, word) in read.joint_name.unwrap_or_default().into_iter().zip(words) {
         let Some(kind) = Retyped::of(&word) else {
+            let at = place(text, "joint_type", &word);
             let (word, joint) = (word.escape_debug(), joint.escape_debug());
             let fault = format!(
                 "the joint `{joint}` is to be `{word}`: there are SPHERICAL, FIXED, and UJOINT_ with two of X, Y and Z"
             );
-            return Err(refused(1, 1, fault));
+            return Err(said.error(at, &shown, fault));
         };
         retyped.push((joint, kind));
     }
     Ok(Said { file, retyped, ..said })
+}
+
+/// Where the text has a word after a key, or the key, if it does not have the word as it is.
+fn place(text: &str, key: &str, word: &str) -> Option<Range<usize>> {
+    let is_key = |line: &str| line.strip_prefix(key).is_some_and(|rest| rest.starts_with(':'));
+    let mut begin = 0;
+    for line in text.split_inclusive('\n') {
+        if is_key(line) {
+            break;
+        }
+        begin += line.len();
+    }
+    let after = text.get(begin + key.len()..).filter(|_| begin < text.len())?;
+    let is_part = |of: Option<char>| of.is_some_and(|of| of.is_alphanumeric() || of == '_');
+    let mut found = after.match_indices(word).filter(|(at, _)| {
+        !word.is_empty()
+            && !is_part(after[..*at].chars().next_back())
+            && !is_part(after[at + word.len()..].chars().next())
+    });
+    let at = found.next().map_or(begin, |(at, _)| begin + key.len() + at);
+    Some(at..at)
 }
 
 impl Retyped {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::error::SourceError;
-use crate::note::{Note, NoteKind};
+use crate::note::{Note, NoteKind, SourcePlace};
 use urdd_directory::loops_toml::File;
 use urdd_directory::position::position;
 use urdd_format::short::Short;
@@ -13,6 +13,10 @@ use urdd_format::short::Short;
 pub struct Said {
     /// The loops.
     pub file: File,
+    /// Joints that the source itself says move freely, where others move freely because it says nothing of them, by name.
+    pub first: Vec<String>,
+    /// Where the elements of the URDF are in the user's files, by their byte offset. Empty if another file says it.
+    pub places: Vec<(usize, SourcePlace)>,
     /// Joints that have another type than the URDF says, by name.
     pub retyped: Vec<(String, Retyped)>,
     /// The file, as it is shown, and its text. `None` if the URDF itself says it.
@@ -51,6 +55,17 @@ impl Said {
             ),
             assumed: "the name is passed over".to_owned(),
         }
+    }
+
+    /// Where its loops and couplings begin, byte offsets.
+    pub fn offsets(&self) -> impl Iterator<Item = usize> {
+        let loops = self.file.loops.iter().map(|one| one.span().start);
+        loops.chain(self.file.couplings.iter().map(|one| one.span().start))
+    }
+
+    /// Where an element of the URDF is, if the URDF says it.
+    pub fn place(&self, offset: usize) -> Option<&SourcePlace> {
+        self.places.iter().find(|(of, _)| *of == offset).map(|(_, place)| place)
     }
 
     /// The error about a place of the file, if it is known.

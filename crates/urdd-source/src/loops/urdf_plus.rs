@@ -3,13 +3,14 @@
 //! Facts: M. Chignoli et al., URDF+ (2024), and the parser of generalized_rbda. A loop's axis is z of both frames; a coupling
 //! says that the joints down to its successor move `ratio` times as far as those down to its predecessor.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use toml::Spanned;
 use urdd_directory::export_toml::unplaced;
-use urdd_directory::loops_toml::{CouplingTable, File, FrameTable, LoopTable};
+use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable, kind_of};
 use urdd_format::loops::LoopKind;
+use urdd_format::short::Short;
 use urdd_kinematics::rotation::{from_rpy, from_z, to_rpy, unit_axis};
 use urdd_xml::element::{attribute, children};
 use urdd_xml::{Document, Node};
@@ -23,19 +24,19 @@ pub struct LoopFault {
     pub offset: usize,
     /// What is wrong.
     pub fault: String,
+    /// What is assumed.
+    pub assumed: String,
 }
 
-/// The loops and couplings of a URDF; `None` if it has none.
-///
-/// # Errors
-/// The first element that is not as URDF+ has it.
-pub fn urdf_plus(document: &Document<'_>) -> Result<Option<Said>, LoopFault> {
+/// The loops and couplings of a URDF, and each element that is not as URDF+ has it; `None` if it has no such elements.
+pub fn urdf_plus(document: &Document<'_>) -> Option<(Said, Vec<LoopFault>)> {
     let robot = document.root_element();
     let elements = || children(robot);
     if !elements().any(|(name, _)| matches!(name, "loop" | "coupling")) {
-        return Ok(None);
+        return None;
     }
-    let mut file = File::default();
+    let mut said = Said::default();
+    let mut faults = Vec::new();
     let mut joints: HashMap<&str, (&str, &str)> = HashMap::new();
     let mut independent = Vec::new();
     let mut says_independent = false;
@@ -47,31 +48,62 @@ pub fn urdf_plus(document: &Document<'_>) -> Result<Option<Said>, LoopFault> {
             continue;
         };
         joints.insert(child.value(), (name.value(), parent.value()));
-        let word = attribute(joint, "independent").map(|word| word.value());
-        says_independent |= word.is_some();
-        if word != Some("false") {
-            independent.push(unplaced(name.value().to_owned()));
-        }
-    }
-    file.independent = says_independent.then_some(independent);
-    for (name, element) in elements() {
-        let begin = element.range().start;
-        match name {
-            "loop" => file.loops.push(Spanned::new(element.range(), of_loop(element)?)),
-            "coupling" => {
-                let coupling = of_coupling(element, &joints)?;
-                let none = || fault(begin, "no joint is between the two links of this coupling");
-                let coupling = coupling.ok_or_else(none)?;
-                file.couplings.push(Spanned::new(element.range(), coupling));
+        let word = attribute(joint, "independent");
+        match word.map(|word| word.value().trim().to_ascii_lowercase()).as_deref() {
+            Some("true") => {
+                says_independent = true;
+                said.first.push(name.value().to_owned());
             }
-            _ => {}
+            Some("false") => {
+                says_independent = true;
+                continue;
+            }
+            Some(_) => {
+                let at = word.map_or(0, |word| word.range().start);
+                let (word, name) = (word.map_or("", |word| word.value()), name.value());
+                let (word, name) = (Short::of(word), Short::of(name));
+                faults.push(LoopFault {
+                    assumed: format!("the joint `{name}` is as if it were not there"),
+                    ..fault(at, format!("`independent=\"{word}\"` is neither true nor false"))
+                });
+            }
+            None => {}
+        }
+        independent.push(unplaced(name.value().to_owned()));
+    }
+    said.file.independent = says_independent.then_some(independent);
+    let links = elements().filter(|(name, _)| *name == "link");
+    let links = links.filter_map(|(_, link)| Some(attribute(link, "name")?.value()));
+    let tree = Tree { links: links.collect(), joints };
+    for (name, element) in elements() {
+        let place = element.range();
+        let read = match name {
+            "loop" => of_loop(element).map(|one| said.file.loops.push(Spanned::new(place, one))),
+            "coupling" => of_coupling(element, &tree)
+                .map(|one| said.file.couplings.push(Spanned::new(place, one))),
+            _ => continue,
+        };
+        if let Err(fault) = read {
+            let called = attribute(element, "name").map_or("without a name", |name| name.value());
+            faults.push(LoopFault {
+                fault: format!("this is no loop or coupling of URDF+: {}", fault.fault),
+                assumed: format!("the {name} `{}` is left out", Short::of(called)),
+                ..fault
+            });
         }
     }
-    Ok(Some(Said { file, ..Said::default() }))
+    Some((said, faults))
+}
+
+/// The tree of a URDF.
+struct Tree<'a> {
+    links: HashSet<&'a str>,
+    /// For each child, its joint and parent.
+    joints: HashMap<&'a str, (&'a str, &'a str)>,
 }
 
 fn fault(offset: usize, fault: impl Into<String>) -> LoopFault {
-    LoopFault { offset, fault: fault.into() }
+    LoopFault { offset, fault: fault.into(), assumed: String::new() }
 }
 
 fn only<'a>(parent: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
@@ -102,17 +134,10 @@ fn numbers(element: Node<'_, '_>, name: &str) -> Result<Option<[f64; 3]>, LoopFa
 
 fn of_loop(element: Node<'_, '_>) -> Result<LoopTable, LoopFault> {
     let word = text(element, "type")?;
-    let kind = LoopKind::ALL
-        .iter()
-        .copied()
-        .find(|kind| kind.as_str().eq_ignore_ascii_case(word.trim()))
-        .or_else(|| (word.trim() == "continuous").then_some(LoopKind::Revolute));
-    let kind = kind.ok_or_else(|| {
-        let known: Vec<&str> = LoopKind::ALL.iter().map(|kind| kind.as_str()).collect();
-        let known = known.join(", ").to_lowercase();
-        let known = format!("`{}` is no kind of loop; there are {known}", word.escape_debug());
-        fault(element.range().start, known)
-    })?;
+    let kind = match word.trim().eq_ignore_ascii_case("continuous") {
+        true => LoopKind::Revolute,
+        false => kind_of(&word).map_err(|known| fault(element.range().start, known))?,
+    };
     // Where none is said, it is that of a joint (SPEC 5.7).
     let mut xyz = [1.0, 0.0, 0.0];
     let said = only(element, "axis");
@@ -150,11 +175,8 @@ pub fn table(pose: &Isometry3<f64>) -> FrameTable {
     FrameTable { xyz: pose.translation.vector.into(), rpy: to_rpy(matrix.matrix()) }
 }
 
-/// `ratio` times the joints down to the predecessor, less those down to the successor. `None` without such joints.
-fn of_coupling(
-    element: Node<'_, '_>,
-    joints: &HashMap<&str, (&str, &str)>,
-) -> Result<Option<CouplingTable>, LoopFault> {
+/// `ratio` times the joints down to the predecessor, less those down to the successor.
+fn of_coupling(element: Node<'_, '_>, tree: &Tree<'_>) -> Result<CouplingTable, LoopFault> {
     let (a, b) = (child(element, "predecessor")?, child(element, "successor")?);
     let ratio = child(element, "ratio")?;
     let value = text(ratio, "value")?.trim().parse::<f64>().ok().filter(|ratio| ratio.is_finite());
@@ -162,9 +184,13 @@ fn of_coupling(
         value.ok_or_else(|| fault(ratio.range().start, "the ratio is not a finite number"))?;
     let path = |end: Node<'_, '_>| -> Result<Vec<String>, LoopFault> {
         let mut at = text(end, "link")?;
+        if !tree.links.contains(at.as_str()) {
+            let unknown = format!("there is no link `{}`", Short::of(&at));
+            return Err(fault(end.range().start, unknown));
+        }
         let mut path = Vec::new();
-        while let Some((joint, parent)) = joints.get(at.as_str())
-            && path.len() <= joints.len()
+        while let Some((joint, parent)) = tree.joints.get(at.as_str())
+            && path.len() <= tree.joints.len()
         {
             path.push((*joint).to_owned());
             at = (*parent).to_owned();
@@ -180,5 +206,9 @@ fn of_coupling(
     terms.extend(to_a.into_iter().map(|joint| (unplaced(joint), vec![value])));
     terms.extend(to_b.into_iter().map(|joint| (unplaced(joint), vec![-1.0])));
     let name = text(element, "name")?;
-    Ok((!terms.is_empty()).then_some(CouplingTable { name, constant: 0.0, terms }))
+    if terms.is_empty() {
+        let none = "no joint is between the two links of this coupling";
+        return Err(fault(element.range().start, none));
+    }
+    Ok(CouplingTable { name, constant: 0.0, terms })
 }
