@@ -160,24 +160,28 @@ fn tokens(text: &str) -> Vec<Token> {
 }
 
 fn string(rest: &str) -> (Token, usize) {
-    let mut text = String::new();
+    // Escapes are of bytes.
+    let mut text: Vec<u8> = Vec::new();
     let mut chars = rest.char_indices().skip(1);
     while let Some((at, c)) = chars.next() {
         match c {
-            '"' => return (Token::Value(Value::Text(text)), at + 1),
+            '"' => {
+                let text = String::from_utf8(text).expect("UTF-8");
+                return (Token::Value(Value::Text(text)), at + 1);
+            }
             '\n' => panic!("a string over several lines"),
             '\\' => match chars.next().expect("an escape").1 {
-                'n' => text.push('\n'),
-                't' => text.push('\t'),
+                'n' => text.push(b'\n'),
+                't' => text.push(b'\t'),
                 'x' => {
                     let digits: String = chars.by_ref().take(2).map(|(_, c)| c).collect();
                     let code = u8::from_str_radix(&digits, 16).expect("two digits");
-                    text.push(char::from(code));
+                    text.push(code);
                 }
-                c @ ('"' | '\\') => text.push(c),
+                c @ ('"' | '\\') => text.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes()),
                 other => panic!("an escape `{other}`"),
             },
-            _ => text.push(c),
+            _ => text.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes()),
         }
     }
     panic!("a string without an end")

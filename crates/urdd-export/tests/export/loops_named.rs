@@ -12,7 +12,7 @@ const URDF: &str = r#"<robot name="fb"><link name="ground"/><link name="crank"/>
 
 fn of_kind(name: &str, kind: &str) -> String {
     format!(
-        "[[loop]]\nname = {name:?}\nkind = {kind:?}\nlink_a = \"coupler\"\nframe_a = {{ xyz = [0.3, 0.0, 0.0] }}\nlink_b = \"rocker\"\nframe_b = {{ xyz = [0.1, 0.0, 0.0] }}\n"
+        "[[loop]]\nname = \"{name}\"\nkind = {kind:?}\nlink_a = \"coupler\"\nframe_a = {{ xyz = [0.3, 0.0, 0.0] }}\nlink_b = \"rocker\"\nframe_b = {{ xyz = [0.1, 0.0, 0.0] }}\n"
     )
 }
 
