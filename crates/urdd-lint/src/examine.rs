@@ -21,7 +21,6 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
-use urdd_source::loops::beside;
 use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
@@ -121,12 +120,7 @@ impl<'a> Job<'a> {
     fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
         let settings = &self.settings.source;
         let source = SourceMeshes::of_xml(self.xml, self.name, self.folder, settings);
-        let mut source = source.map_err(|error| refusal(&error, checks))?;
-        // `urdd generate` refuses a file of loops that is at fault.
-        if let Ok(Some(said)) = beside(&self.folder.join(self.name), settings) {
-            source.loops = Some(said);
-        }
-        Ok(source)
+        source.map_err(|error| refusal(&error, checks))
     }
 
     fn subject<'d>(

@@ -28,8 +28,8 @@ use urdd_format::index::Count;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::short;
 use urdd_format::urdf::JointType;
-use urdd_source::loops::File;
-use urdd_source::{Files, SourceMesh, SourceMeshes};
+use urdd_source::loops::{File, Said, beside};
+use urdd_source::{Files, Settings, SourceMesh, SourceMeshes};
 use urdd_xml::element::name;
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
@@ -50,6 +50,8 @@ pub struct Subject<'a> {
     pub joints: Vec<Node<'a, 'a>>,
     /// Its SRDFs.
     pub srdfs: Srdfs<'a>,
+    settings: &'a Settings,
+    beside: OnceLock<Result<Option<Said>, String>>,
     lines: LineIndex<'a>,
     source: Result<&'a SourceMeshes, SkipReason>,
     robot: OnceLock<(Robot, Option<Bodies>)>,
@@ -92,6 +94,8 @@ impl<'a> Subject<'a> {
             root,
             lines: LineIndex::new(document.input_text()),
             source,
+            settings: &settings.source,
+            beside: OnceLock::new(),
             without_meshes: settings.without_meshes,
             srdfs: Srdfs::new(settings, srdfs),
             links,
@@ -117,8 +121,23 @@ impl<'a> Subject<'a> {
     }
 
     /// What is said of the robot's loops, in the URDF or beside it, if it can be read.
-    pub fn loops(&self) -> Option<&'a File> {
-        Some(&self.source.as_ref().ok()?.loops.as_ref()?.file)
+    pub fn loops(&self) -> Option<&File> {
+        let beside = self.loops_beside().ok().flatten();
+        let own = || self.source.as_ref().ok()?.loops.as_ref();
+        beside.or_else(own).map(|said| &said.file)
+    }
+
+    /// What a file beside it says of loops, if there is one.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub fn loops_beside(&self) -> Result<Option<&Said>, &str> {
+        let read = || {
+            let said = beside(&self.folder.join(self.file), self.settings);
+            said.map_err(|error| error.to_string())
+        };
+        let said = self.beside.get_or_init(read).as_ref();
+        said.map(Option::as_ref).map_err(String::as_str)
     }
 
     /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).

@@ -7,6 +7,7 @@ use urdd_document::robot::Robot;
 use urdd_format::readable;
 use urdd_kinematics::loops::Gap;
 use urdd_kinematics::rotation::from_rpy;
+use urdd_source::loops::urdf_plus;
 
 declare_lint! {
     /// A joint or coupling closes a chain, and no program that reads URDFs keeps it closed.
@@ -22,6 +23,9 @@ declare_lint! {
     /// Of loops that a file beside the URDF says (`NAME.loops.toml`, the YAML of Extended URDF), or an MJCF or SDF, only those are
     /// told that are open in the default configuration.
     ///
+    /// An element that is no loop or coupling of URDF+, as URDF+ has it, is told by itself, and a file beside the URDF that cannot
+    /// be read.
+    ///
     /// Close the chain for the program that solves it: `urdd export mjcf` writes `<connect>` and `<weld>`; Drake takes
     /// `<drake:ball_constraint>`, PyBullet `createConstraint`, Pinocchio a constraint model. Where a joint follows another one at a constant rate, as
     /// in many grippers, `<mimic>` is enough.
@@ -32,11 +36,40 @@ declare_lint! {
 const MEET: f64 = 1e-6;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let closing = children(urdf.root).filter(|(name, _)| ["loop", "coupling"].contains(name));
-    let closing = closing.filter(|(_, node)| {
-        ["predecessor", "successor"].iter().all(|end| child(*node, end).is_some())
-    });
-    let closing: Vec<(&str, Node)> = closing.collect();
+    let of_urdf = urdf_plus(urdf.root).map_or_else(Vec::new, |(_, faults)| faults);
+    let is_closing = |(name, node): &(&str, Node)| {
+        let has_end = |end: &&str| child(*node, end).is_some();
+        ["loop", "coupling"].contains(name) && ["predecessor", "successor"].iter().any(has_end)
+    };
+    let all = children(urdf.root).filter(is_closing);
+    let fault_of = |(_, node): &(&str, Node)| {
+        of_urdf.iter().find(|fault| node.range().contains(&fault.offset))
+    };
+    let (faulty, closing): (Vec<_>, Vec<_>) = all.partition(|one| fault_of(one).is_some());
+    let checked = chains(urdf, &closing, findings);
+    for (one, fault) in faulty.iter().filter_map(|one| Some((one, fault_of(one)?))) {
+        let message = format!(
+            "`urdd generate` leaves this out: {}; mend it, so that the chain is closed",
+            urdd_format::escape::line(&fault.fault)
+        );
+        urdf.at(one.1, message).report(findings);
+    }
+    if let Err(said) = urdf.loops_beside() {
+        let message = format!(
+            "`urdd generate` refuses the robot, for what says its loops: {}",
+            urdd_format::escape::line(said)
+        );
+        urdf.at(urdf.root, message).report(findings);
+    }
+    checked
+}
+
+/// What no program keeps closed.
+fn chains<'a>(
+    urdf: &Subject<'a>,
+    closing: &[(&str, Node<'a, 'a>)],
+    findings: &mut Findings,
+) -> Option<()> {
     let said = urdf.loops();
     if closing.is_empty() && said.is_none_or(|file| file.loops.is_empty()) {
         return Some(());

@@ -49,7 +49,7 @@ fn gaps_are_those_of_the_geometry() {
     assert_eq!(said(&raised, "\"pin\" type=\"spherical\""), expected("0.301 m"));
     // A loop with a fault has no gap: `urdd generate` says what is wrong with it.
     let no_axis = format!("{SHORT}<axis xyz=\"0 0 0\"/>");
-    assert_eq!(said(&no_axis, "\"pin\" type=\"prismatic\""), expected(""));
+    assert!(said(&no_axis, "\"pin\" type=\"prismatic\"").contains("this axis has no direction"));
 }
 
 /// What LNT066 says of a file of this name; others are beside it.
@@ -91,4 +91,28 @@ fn loops_beside_a_urdf_are_told_where_they_are_open() {
     };
     assert_eq!(said_of("m.xml", &[("m.xml", &mjcf(0.19))]), [open]);
     assert_eq!(said_of("m.xml", &[("m.xml", &mjcf(0.2))]), [""; 0]);
+}
+
+#[test]
+fn what_is_no_loop_is_told_where_it_is() {
+    let told = |from: &str, to: &str| {
+        assert!(OPEN.contains(from), "{from}");
+        said_of("a.urdf", &[("a.urdf", &OPEN.replace(from, to))])
+    };
+    let left_out = |said: &[String], words: &str| {
+        let of = |message: &&String| message.starts_with("`urdd generate` leaves this out: ");
+        let found: Vec<&String> = said.iter().filter(of).collect();
+        assert!(found.len() == 1 && found[0].contains(words), "{said:?}");
+    };
+    left_out(
+        &told("type=\"revolute\">\n    <predecessor", "type=\"revolut\">\n    <predecessor"),
+        "revolut",
+    );
+    // A file beside the URDF that cannot be read.
+    let broken = said_of("a.urdf", &[("a.urdf", OPEN), ("a.loops.toml", "foo")]);
+    let refused = |message: &String| {
+        message.starts_with("`urdd generate` refuses the robot, for what says its loops: ")
+    };
+    assert_eq!(broken.iter().filter(|message| refused(message)).count(), 1, "{broken:?}");
+    assert!(told("rod_turns", "rod_turn").iter().all(|message| message.starts_with("no program")));
 }

@@ -12,8 +12,8 @@ use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable, kind_of};
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 use urdd_kinematics::rotation::{from_rpy, from_z, to_rpy, unit_axis};
+use urdd_xml::Node;
 use urdd_xml::element::{attribute, children};
-use urdd_xml::{Document, Node};
 
 use super::said::Said;
 
@@ -28,9 +28,8 @@ pub struct LoopFault {
     pub assumed: String,
 }
 
-/// The loops and couplings of a URDF, and each element that is not as URDF+ has it; `None` if it has no such elements.
-pub fn urdf_plus(document: &Document<'_>) -> Option<(Said, Vec<LoopFault>)> {
-    let robot = document.root_element();
+/// The loops and couplings of a URDF, whose `<robot>` is given, and each element that is not as URDF+ has it; `None` if it has no such elements.
+pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
     let elements = || children(robot);
     if !elements().any(|(name, _)| matches!(name, "loop" | "coupling")) {
         return None;
