@@ -144,7 +144,7 @@ fn a_byte_order_mark_is_no_part_of_a_file_of_loops() {
     let at = |name: &str| folder.path().join(name);
     let urdf = FOUR_BAR.replace("</robot>", r#"<link name="end"/><joint name="e" type="fixed"><parent link="coupler"/><child link="end"/><origin xyz="0.2 0 0"/></joint></robot>"#);
     fs::write(at("fb.urdf"), urdf).expect("written");
-    fs::write(at("fb.yaml"), format!("\u{feff}closed_loop: [[end, rocker]]\ntype: [3d]\n"))
+    fs::write(at("fb.yaml"), "\u{feff}closed_loop: [[end, rocker]]\ntype: [3d]\n")
         .expect("written");
     assert_eq!(generated(folder.path(), "fb.urdf", &[]).2, ["end"]);
     fs::write(at("fb.loops.toml"), format!("\u{feff}{TOML}")).expect("written");

@@ -8,9 +8,9 @@ use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
-use super::loops::{self, LoopFault, Said};
+use super::loops::{self, Said};
 use super::made_from::Origin;
-use super::note::{Note, NoteKind, Remark, SourcePlace};
+use super::note::{Note, Remark, SourcePlace};
 use super::repair;
 use super::settings::Settings;
 use super::urdf::{self, Reading};
@@ -360,26 +360,17 @@ fn mend<T>(
             repaired = Some(apply(xml.text(), std::mem::take(&mut reading.edits)));
             continue;
         }
-        let plus =
-            xml.document().ok().and_then(|document| loops::urdf_plus(document.root_element())).map(
-                |(mut said, faults)| {
-                    let offsets: Vec<usize> =
-                        said.offsets().chain(faults.iter().map(|fault| fault.offset)).collect();
-                    let unknown = || SourcePlace { file: shown.clone(), line: 0, column: 0 };
-                    let mut places = match repaired {
-                        None => origin.offsets(xml.text(), offsets.iter().copied()),
-                        Some(_) => offsets.iter().map(|_| unknown()).collect(),
-                    };
-                    let of_faults = places.split_off(places.len().saturating_sub(faults.len()));
-                    said.places = offsets.into_iter().zip(places).collect();
-                    notes.extend(faults.into_iter().zip(of_faults).map(|(fault, place)| {
-                        let SourcePlace { file, line, column } = place;
-                        let LoopFault { fault: problem, assumed, .. } = fault;
-                        Note { kind: NoteKind::LeftOut, file, line, column, problem, assumed }
-                    }));
-                    said
-                },
-            );
+        let places_of = |offsets: Vec<usize>| match repaired {
+            None => origin.offsets(xml.text(), offsets.into_iter()),
+            Some(_) => {
+                let unknown = SourcePlace { file: shown.clone(), line: 0, column: 0 };
+                vec![unknown; offsets.len()]
+            }
+        };
+        let plus = xml.document().ok();
+        let plus = plus.and_then(|document| {
+            loops::placed_urdf_plus(document.root_element(), places_of, &mut notes)
+        });
         let also = also(xml, is_verbatim);
         let source = Source {
             folder: read.folder.clone(),

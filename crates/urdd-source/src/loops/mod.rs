@@ -12,6 +12,7 @@ pub use said::{Retyped, Said};
 use urdd_directory::file_type;
 use urdd_directory::limits::MAX_TOML_BYTES;
 pub use urdd_directory::loops_toml::File;
+pub(super) use urdf_plus::placed_urdf_plus;
 pub use urdf_plus::{LoopFault, table, urdf_plus};
 
 use super::error::SourceError;

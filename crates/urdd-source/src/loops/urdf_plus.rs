@@ -16,6 +16,7 @@ use urdd_xml::Node;
 use urdd_xml::element::{attribute, children};
 
 use super::said::Said;
+use crate::note::{Note, NoteKind, SourcePlace};
 
 /// What is wrong with an element, and where it begins.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,6 +27,26 @@ pub struct LoopFault {
     pub fault: String,
     /// What is assumed.
     pub assumed: String,
+}
+
+/// As [`urdf_plus`], with the places of its elements, and a note about each that is left out.
+pub fn placed_urdf_plus(
+    robot: Node<'_, '_>,
+    places_of: impl FnOnce(Vec<usize>) -> Vec<SourcePlace>,
+    notes: &mut Vec<Note>,
+) -> Option<Said> {
+    let (mut said, faults) = urdf_plus(robot)?;
+    let of_faults = faults.iter().map(|fault| fault.offset);
+    let offsets: Vec<usize> = said.offsets().chain(of_faults).collect();
+    let mut places = places_of(offsets.clone());
+    let of_faults = places.split_off(places.len().saturating_sub(faults.len()));
+    said.places = offsets.into_iter().zip(places).collect();
+    notes.extend(faults.into_iter().zip(of_faults).map(|(fault, place)| {
+        let SourcePlace { file, line, column } = place;
+        let LoopFault { fault: problem, assumed, .. } = fault;
+        Note { kind: NoteKind::LeftOut, file, line, column, problem, assumed }
+    }));
+    Some(said)
 }
 
 /// The loops and couplings of a URDF, whose `<robot>` is given, and each element that is not as URDF+ has it; `None` if it has no such elements.
