@@ -549,9 +549,9 @@ enum urdd_status urdd_robot_reference_configuration(const struct urdd_robot *han
 // Writes how far each configuration is from closed.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m. `gaps` has room for `gaps_length` values, rows x loops x 2:
-// the position gap of each loop in metres, then its rotation gap in radians. `sums` has room for `sums_length` values, rows
-// x couplings: the sum of each coupling, which is 0 where it holds. `closed` has room for `rows` values: whether all loops
-// are closed and all couplings hold, within their tolerances.
+// the position gap of each loop in metres, then its rotation gap in radians. `sums` has room for `sums_length` values,
+// rows x couplings: the sum of each coupling, which is 0 where it holds. `closed` has room for `rows` values: whether all
+// loops are closed and all couplings hold, within their tolerances.
 enum urdd_status urdd_robot_loop_errors(const struct urdd_robot *handle,
                                         const double *configurations,
                                         size_t rows,
@@ -564,13 +564,13 @@ enum urdd_status urdd_robot_loop_errors(const struct urdd_robot *handle,
 
 // Writes the closed configuration near each of some configurations, within the bounds.
 //
-// `configurations` has `rows` rows of `dofs` values, rad or m; `found` has room for rows x dofs values, `closed` for `rows`.
-// Start near what is wanted, such as from the last configuration of a motion: the result is on the branch of closed
-// configurations that is near. Where none is found, `closed` is false, and `found` has the smallest gaps: as a rule, the
-// loops cannot close with what is held and bounded. `held` has the indices of `held_length` DOFs that keep their value; or
-// null. `bounds` has `bounds_length` values, dofs x 2, a lower and an upper one for each DOF, which may be infinite; or
-// null, with 0, for those of bounds_module: a DOF that is not limited has none. Values out of bounds are first moved to the
-// nearest bound. One row is computed on this thread, without an allocation.
+// `configurations` has `rows` rows of `dofs` values, rad or m; `found` has room for rows x dofs values, `closed` for
+// `rows`. Start near what is wanted, such as from the last configuration of a motion: the result is on the branch of
+// closed configurations that is near. Where none is found, `closed` is false, and `found` has the smallest gaps: as a
+// rule, the loops cannot close with what is held and bounded. `held` has the indices of `held_length` DOFs that keep their
+// value; or null. `bounds` has `bounds_length` values, dofs x 2, a lower and an upper one for each DOF, which may be
+// infinite; or null, with 0, for those of bounds_module: a DOF that is not limited has none. Values out of bounds are
+// first moved to the nearest bound. One row is computed on this thread, without an allocation.
 //
 // Errors: also `OUT_OF_RANGE` for a held DOF; `VALUE` for crossed bounds.
 enum urdd_status urdd_robot_close(const struct urdd_robot *handle,
@@ -584,11 +584,9 @@ enum urdd_status urdd_robot_close(const struct urdd_robot *handle,
                                   double *found,
                                   bool *closed);
 
-// Writes the indices of the DOFs that move freely, ascending, as loops_module states them; the others follow from them near
-// its reference configuration. `out` has room for `length` indices: as many as `urdd_robot_loop_sizes` says.
-enum urdd_status urdd_robot_independent_dofs(const struct urdd_robot *handle,
-                                             size_t *out,
-                                             size_t length);
+// Writes the indices of the DOFs that move freely, ascending, as loops_module states them; the others follow from them
+// near its reference configuration. `out` has room for `length` indices: as many as `urdd_robot_loop_sizes` says.
+enum urdd_status urdd_robot_independent_dofs(const struct urdd_robot *handle, size_t *out, size_t length);
 
 // Writes for each DOF whether it moves freely in a closed configuration: as `urdd_robot_independent_dofs`, as far as the
 // others follow from these there. `configuration` has `dofs` values, rad or m; `free` has room for as many.
@@ -599,8 +597,8 @@ enum urdd_status urdd_robot_free_dofs(const struct urdd_robot *handle,
 
 // Writes the left-hand side of each equation, which is 0 where it holds: for each loop those of its kind, then the sum of
 // each coupling. With the pose of frame B in frame A, of position p and rotation R, a loop has the components of p that it
-// holds, m; then the rotation vector of R if it holds the rotation, the x and y components of R ez if it holds the direction
-// of z, or the z component of R ez if it holds the right angle.
+// holds, m; then the rotation vector of R if it holds the rotation, the x and y components of R ez if it holds the
+// direction of z, or the z component of R ez if it holds the right angle.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `residuals` has room for `length` values: rows x equations.
 // One row is computed on this thread, without an allocation.
@@ -611,9 +609,9 @@ enum urdd_status urdd_robot_loop_residuals(const struct urdd_robot *handle,
                                            double *residuals,
                                            size_t length);
 
-// Writes the derivatives of the equations of `urdd_robot_loop_residuals` by each DOF. Velocities keep the loops closed where
-// this matrix times them is 0. The rows of a rotation that a loop holds are the angular velocity of frame B relative to frame
-// A, in the axes of frame A. Rows that say the same as others are normal.
+// Writes the derivatives of the equations of `urdd_robot_loop_residuals` by each DOF. Velocities keep the loops closed
+// where this matrix times them is 0. The rows of a rotation that a loop holds are the angular velocity of frame B relative
+// to frame A, in the axes of frame A. Rows that say the same as others are normal.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `jacobians` has room for `length` values: rows x dofs x
 // equations, the values of each column together (column-major). One row is computed on this thread, without an allocation.
@@ -626,9 +624,10 @@ enum urdd_status urdd_robot_loop_jacobians(const struct urdd_robot *handle,
 
 // Writes the velocities of all DOFs that keep the loops closed, rad/s or m/s, for those of the independent DOFs.
 //
-// `configurations` has `rows` rows of `dofs` values, rad or m; `independent` has `length` values, rows x independent, in the
-// order of `urdd_robot_independent_dofs`; `velocities` has room for rows x dofs values. NaN where the others do not follow
-// from these: at a dead point, or where parts are in a line. One row is computed on this thread, without an allocation.
+// `configurations` has `rows` rows of `dofs` values, rad or m; `independent` has `length` values, rows x independent, in
+// the order of `urdd_robot_independent_dofs`; `velocities` has room for rows x dofs values. NaN where the others do not
+// follow from these: at a dead point, or where parts are in a line. One row is computed on this thread, without an
+// allocation.
 //
 // Errors: also `VALUE` for a velocity that is not finite.
 enum urdd_status urdd_robot_loop_velocities(const struct urdd_robot *handle,
@@ -862,13 +861,14 @@ enum urdd_status urdd_world_proximity_first_contact(const struct urdd_world_prox
 
 // Writes where each motion is blocked by the robot itself first, and why.
 //
-// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the one
-// in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the last
-// one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others arrive on
-// another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the spanning tree.
+// As `urdd_proximity_first_contact`; `motions` has room for `rows`. Where the robot has kinematic loops, the motion is the
+// one in which they stay closed: the independent DOFs go straight, the others follow, each configuration closed from the
+// last one, within the bounds. It is blocked where no closed configuration is found, and at the end where the others
+// arrive on another branch than `ends` is on. It has no proof. With `open_loops`, it is the straight motion of the
+// spanning tree.
 //
-// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a motion
-// that needs more than 100,000 configurations.
+// Errors: as there; for a robot with loops also `VALUE` without a resolution, for an end that is not closed, and for a
+// motion that needs more than 100,000 configurations.
 enum urdd_status urdd_proximity_motions(const struct urdd_proximity *handle,
                                         const double *starts,
                                         const double *ends,
