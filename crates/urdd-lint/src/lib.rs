@@ -8,6 +8,7 @@
 #[doc(hidden)]
 pub mod allow;
 mod bodies;
+mod closing;
 mod effects;
 mod elements;
 mod examine;

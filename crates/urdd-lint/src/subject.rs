@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use urdd_xml::{Document, Node};
 
 use super::bodies::Bodies;
+use super::closing::Closing;
 use super::elements::{child, kind, named, numbers};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
@@ -28,8 +29,7 @@ use urdd_format::index::Count;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::short;
 use urdd_format::urdf::JointType;
-use urdd_source::loops::{File, Said, beside};
-use urdd_source::{Files, Settings, SourceMesh, SourceMeshes};
+use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::name;
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
@@ -50,8 +50,8 @@ pub struct Subject<'a> {
     pub joints: Vec<Node<'a, 'a>>,
     /// Its SRDFs.
     pub srdfs: Srdfs<'a>,
-    settings: &'a Settings,
-    beside: OnceLock<Result<Option<Said>, String>>,
+    /// What is said of its loops.
+    pub closing: Closing<'a>,
     lines: LineIndex<'a>,
     source: Result<&'a SourceMeshes, SkipReason>,
     robot: OnceLock<(Robot, Option<Bodies>)>,
@@ -86,6 +86,8 @@ impl<'a> Subject<'a> {
             let why = || refused("its links and joints could not be told apart");
             is_same.then_some(source).ok_or_else(why)
         });
+        let of_urdf = source.as_ref().ok().copied();
+        let closing = Closing::new(of_urdf, folder.join(file), &settings.source);
         Subject {
             file,
             folder,
@@ -94,10 +96,9 @@ impl<'a> Subject<'a> {
             root,
             lines: LineIndex::new(document.input_text()),
             source,
-            settings: &settings.source,
-            beside: OnceLock::new(),
             without_meshes: settings.without_meshes,
             srdfs: Srdfs::new(settings, srdfs),
+            closing,
             links,
             joints,
             robot: OnceLock::new(),
@@ -118,26 +119,6 @@ impl<'a> Subject<'a> {
     /// The robot with its mesh files. Skips the rule if the URDF describes none.
     pub fn source(&self, findings: &mut Findings) -> Option<&'a SourceMeshes> {
         findings.or_skip(self.source.clone())
-    }
-
-    /// What is said of the robot's loops, in the URDF or beside it, if it can be read.
-    pub fn loops(&self) -> Option<&File> {
-        let beside = self.loops_beside().ok().flatten();
-        let own = || self.source.as_ref().ok()?.loops.as_ref();
-        beside.or_else(own).map(|said| &said.file)
-    }
-
-    /// What a file beside it says of loops, if there is one.
-    ///
-    /// # Errors
-    /// Why it cannot be read.
-    pub fn loops_beside(&self) -> Result<Option<&Said>, &str> {
-        let read = || {
-            let said = beside(&self.folder.join(self.file), self.settings);
-            said.map_err(|error| error.to_string())
-        };
-        let said = self.beside.get_or_init(read).as_ref();
-        said.map(Option::as_ref).map_err(String::as_str)
     }
 
     /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).

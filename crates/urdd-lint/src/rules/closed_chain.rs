@@ -54,7 +54,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         );
         urdf.at(one.1, message).report(findings);
     }
-    if let Err(said) = urdf.loops_beside() {
+    if let Err(said) = urdf.closing.beside() {
         let message = format!(
             "`urdd generate` refuses the robot, for what says its loops: {}",
             urdd_format::escape::line(said)
@@ -70,7 +70,7 @@ fn chains<'a>(
     closing: &[(&str, Node<'a, 'a>)],
     findings: &mut Findings,
 ) -> Option<()> {
-    let said = urdf.loops();
+    let said = urdf.closing.loops();
     if closing.is_empty() && said.is_none_or(|file| file.loops.is_empty()) {
         return Some(());
     }
