@@ -39,13 +39,16 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
         &format!("    {kind}({stem}::{kind}Module): {kind} @ \"1.0.0\", V1;\n"),
     )?;
     let selection = edits.read(SELECTION)?;
-    let list = "NOT_SELECTABLE: &[ModuleKind] =";
+    let list = "NOT_SELECTABLE: &[(ModuleKind, &str)] =";
     let begin = selection
         .find(list)
         .and_then(|at| Some(at + list.len() + selection[at + list.len()..].find('[')? + 1));
     let begin = begin.ok_or(format!("{SELECTION} is not as expected: no {list:?}"))?;
     let (head, tail) = selection.split_at(begin);
-    edits.set(SELECTION, format!("{head}ModuleKind::{kind}, {tail}"));
+    edits.set(
+        SELECTION,
+        format!("{head}\n    (ModuleKind::{kind}, \"TODO: which robots have it\"),{tail}"),
+    );
     let clause = next_clause(&edits.read(SPEC)?)?;
     edits.insert_before(
         SPEC,

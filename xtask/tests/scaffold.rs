@@ -164,7 +164,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
             "crates/urdd-format/src/registry.rs",
             "BatteryPack(battery_pack::BatteryPackModule): BatteryPack @ \"1.0.0\", V1;\n    OriginalMeshes(",
         ),
-        ("crates/urdd-generate/src/selection.rs", "&[ModuleKind::BatteryPack, "),
+        ("crates/urdd-generate/src/selection.rs", "(ModuleKind::BatteryPack, "),
         ("SPEC.md", &format!("### {clause} `battery_pack_module`\n\n**{clause}.1** TODO")),
         ("SPEC.md", "[BAT001] TODO: say what MUST or SHOULD be. [BAT002]\n\n## 7 "),
         (
