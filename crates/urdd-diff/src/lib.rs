@@ -53,8 +53,8 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         notes.push(format!("numbers that differ by at most {tolerance:?} are taken as equal"));
     }
     let [a, b] = before.others_beside(after);
-    let said: &[&str] =
-        if loops::say_independent(before, after) { &[loops::OF_JOINT] } else { &[] };
+    let loops = loops::Both::of(before, after);
+    let said: &[&str] = if loops.say_independent { &[loops::OF_JOINT] } else { &[] };
     let [joints_a, joints_b] =
         [(before, a), (after, b)].map(|(side, others)| joints::parts(side, others, said));
     let joints = parts::differences(&joints_a, &joints_b, tolerance);
@@ -72,12 +72,12 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
         same: false,
         robot: robot(before, after),
         links: links::differences(before, after, tolerance),
-        loops: loops::differences(before, after, tolerance),
+        loops: loops.differences(tolerance),
         joints,
         materials: parts(&|side| geometry::materials(&side.robot.materials)),
         other_elements: parts(&|side| {
             let mut parts = other_elements::parts(&side.robot.unknown_elements, &side.account);
-            parts.retain(|(label, _)| ![before, after].iter().any(|of| loops::is_said(label, of)));
+            parts.retain(|(label, _)| !loops.labels.contains(label));
             parts
         }),
         poses: poses::difference(before, after, tolerance),

@@ -1,7 +1,7 @@
 //! Differences of what closes kinematic loops, of couplings between DOFs, and of which DOFs move freely: of the source of a
 //! URDF, or of `loops_module`. Links and DOFs are by name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -23,37 +23,41 @@ pub(super) const OF_JOINT: &str = "independent";
 
 type Parts = Vec<(String, Fields)>;
 
-/// Whether both say which DOFs move freely, and mean the same by it: a URDF may leave it open or say too many, and a URDD has
-/// those of which the others follow.
-pub(super) fn say_independent(before: &Side, after: &Side) -> bool {
-    let say = |side: &Side| of(side).iter().any(is_independent);
-    before.urdd.is_some() == after.urdd.is_some() && say(before) && say(after)
+/// What two robots say of loops.
+pub(super) struct Both {
+    parts: [Parts; 2],
+    /// Whether both say which DOFs move freely, and mean the same by it: a URDF may leave it open or say too many, and a URDD
+    /// has those of which the others follow.
+    pub say_independent: bool,
+    /// What the elements of URDF+ that say the same are called, such as `loop "pin"`.
+    pub labels: HashSet<String>,
 }
 
-/// The loops and couplings that differ.
-pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<PartDifference> {
-    let mut both = [of(before), of(after)];
-    if !say_independent(before, after) {
-        for parts in &mut both {
-            parts.retain(|part| !is_independent(part));
+impl Both {
+    pub fn of(before: &Side, after: &Side) -> Self {
+        let mut parts = [before, after].map(of);
+        let is_independent = |(name, _): &(String, Fields)| name == INDEPENDENT;
+        let label = |(name, _): &(String, Fields)| {
+            let (tag, own) = name.split_once(' ')?;
+            Some(format!("{tag} \"{own}\""))
+        };
+        let elements = parts.iter().flatten().filter(|part| !is_independent(part));
+        let labels = elements.filter_map(label).collect();
+        let say = parts.iter().all(|parts| parts.iter().any(is_independent));
+        let say_independent = say && before.urdd.is_some() == after.urdd.is_some();
+        if !say_independent {
+            for parts in &mut parts {
+                parts.retain(|part| !is_independent(part));
+            }
         }
+        Both { parts, say_independent, labels }
     }
-    let [a, b] = &both;
-    parts::differences(a, b, tolerance)
-}
 
-fn is_independent((name, _): &(String, Fields)) -> bool {
-    name == INDEPENDENT
-}
-
-/// Whether an element at the top of a URDF, by its label such as `loop "pin"`, is among the loops and couplings.
-pub(super) fn is_said(label: &str, side: &Side) -> bool {
-    let Some((tag, name)) = label.split_once(' ') else { return false };
-    ["loop", "coupling"].contains(&tag)
-        && of(side).iter().any(|(of, _)| {
-            of.split_once(' ')
-                .is_some_and(|(word, own)| word == tag && format!("\"{own}\"") == name)
-        })
+    /// The loops and couplings that differ.
+    pub fn differences(&self, tolerance: f64) -> Vec<PartDifference> {
+        let [a, b] = &self.parts;
+        parts::differences(a, b, tolerance)
+    }
 }
 
 fn of(side: &Side) -> Parts {
@@ -95,14 +99,11 @@ fn of_module(module: &LoopsModule, side: &Side) -> Parts {
 
 fn of_file(file: &File, side: &Side) -> Parts {
     // Extended URDF also names joints, and means their children.
-    let link = |name: &str| {
-        let joints = || side.robot.joints.iter().find(|joint| joint.name == name);
-        let is_link = side.robot.links.iter().any(|link| link.name == name);
-        match is_link {
-            true => name.to_owned(),
-            false => joints().map_or(name, |joint| joint.child.link.as_str()).to_owned(),
-        }
-    };
+    let joints = side.robot.joints.iter().rev();
+    let mut links: HashMap<&str, &str> =
+        joints.map(|joint| (&*joint.name, &*joint.child.link)).collect();
+    links.extend(side.robot.links.iter().map(|link| (&*link.name, &*link.name)));
+    let link = |name: &str| links.get(name).map_or(name, |link| *link).to_owned();
     let mut parts: Parts = file
         .loops
         .iter()

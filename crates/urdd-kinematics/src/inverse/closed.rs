@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Vector6};
 
-use super::descent::{DAMPING, Descend, Descent, Found, LITTLE, PATIENCE, REFUSED, STEP};
+use super::descent::{Descend, Descent, STEP};
 use super::path::{Path, RangeKind, within};
 use crate::cholesky;
 use crate::forward::ForwardKinematics;
@@ -78,9 +78,14 @@ impl<'a> ClosedDescent<'a> {
             free: Vec::new(),
         }
     }
+}
 
-    /// Moves a configuration to a closed one that is near. False if none is found.
-    fn close(&mut self, q: &mut [f64]) -> bool {
+impl<'a> Descend<'a> for ClosedDescent<'a> {
+    fn tree(&mut self) -> &mut Descent<'a> {
+        &mut self.tree
+    }
+
+    fn settle(&mut self, q: &mut [f64]) -> bool {
         let is_held = |dof: usize| self.path.place[dof].is_none();
         let closing =
             self.loops.close(self.kinematics, q, &self.bounds, is_held, &mut self.scratch);
@@ -91,7 +96,6 @@ impl<'a> ClosedDescent<'a> {
         true
     }
 
-    /// The normal equations at a closed configuration whose error is known.
     fn linearise(&mut self, q: &[f64]) {
         self.tree.linearise(q);
         let n = self.path.dofs.len();
@@ -116,8 +120,6 @@ impl<'a> ClosedDescent<'a> {
         );
     }
 
-    /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
-    /// others are solved again to compensate.
     fn step(&mut self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
         let Self { path, tree, normal, matrix, right, wanted, free, .. } = self;
         let n = path.dofs.len();
@@ -164,46 +166,6 @@ impl<'a> ClosedDescent<'a> {
         }
         path.wrap(next);
     }
-}
-
-impl Descend for ClosedDescent<'_> {
-    fn from(&mut self, start: Vec<f64>) -> Found {
-        let mut q = start;
-        if !self.close(&mut q) {
-            let left = self.tree.left(&q);
-            let found = self.tree.found(q, &left);
-            return Found { reached: false, cost: f64::INFINITY, ..found };
-        }
-        let mut left = self.tree.left(&q);
-        let mut next = q.clone();
-        let [mut damping, least_damping] = DAMPING;
-        let (mut slow, mut refused) = (0, 0);
-        let mut fresh = false;
-        for _ in 0..self.tree.settings.iterations {
-            if self.tree.is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
-                break;
-            }
-            self.tree.iterations += 1;
-            if !fresh {
-                self.linearise(&q);
-                fresh = true;
-            }
-            self.step(&q, &left.vector, damping * left.cost, &mut next);
-            let after = self.close(&mut next).then(|| self.tree.left(&next));
-            let Some(after) = after.filter(|after| after.cost < left.cost) else {
-                damping = (damping * 10.0).max(1e-2);
-                refused += 1;
-                continue;
-            };
-            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
-            refused = 0;
-            damping = (damping * 0.3).max(least_damping);
-            fresh = false;
-            left = after;
-            q.copy_from_slice(&next);
-        }
-        self.tree.found(q, &left)
-    }
 
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>> {
         self.tree.left(q);
@@ -218,9 +180,5 @@ impl Descend for ClosedDescent<'_> {
         self.matrix.extend(self.normal.iter().map(|value| weight * value));
         let mut free: Vec<f64> = dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
         cholesky::solve(&mut self.matrix, 1.0, &mut free).then_some(free)
-    }
-
-    fn iterations(&self) -> usize {
-        self.tree.iterations
     }
 }

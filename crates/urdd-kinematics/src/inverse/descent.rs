@@ -10,14 +10,14 @@ use crate::rotation::to_rotation_vector;
 pub(super) const STEP: f64 = 0.8;
 
 /// A descent is stuck when this many consecutive steps each reduced the cost by less than the fraction [`LITTLE`].
-pub(super) const PATIENCE: usize = 3;
-pub(super) const LITTLE: f64 = 1e-2;
+const PATIENCE: usize = 3;
+const LITTLE: f64 = 1e-2;
 
 /// Damping relative to the cost: initial and minimum value.
-pub(super) const DAMPING: [f64; 2] = [0.1, 1e-3];
+const DAMPING: [f64; 2] = [0.1, 1e-3];
 
 /// Consecutive rejected steps before a descent gives up.
-pub(super) const REFUSED: usize = 8;
+const REFUSED: usize = 8;
 
 /// A solution is as near to a posture as it gets when this part of the way there does not bring it nearer by this
 /// fraction.
@@ -35,19 +35,69 @@ pub(super) struct Found {
 }
 
 /// A descent to a goal.
-pub(super) trait Descend {
-    /// Descends from a configuration within bounds.
-    fn from(&mut self, start: Vec<f64>) -> Found;
+pub(super) trait Descend<'a> {
+    /// The goal, the error and the Jacobian.
+    fn tree(&mut self) -> &mut Descent<'a>;
+    /// Moves a configuration to where the descent may be, such as a closed one. False if there is none near.
+    fn settle(&mut self, q: &mut [f64]) -> bool;
+    /// Linearises at a configuration whose error is known.
+    fn linearise(&mut self, q: &[f64]);
+    /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
+    /// others are solved again to compensate.
+    fn step(&mut self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]);
     /// The part of the way to a posture that is free at a solution, for each DOF of the path; `None` if there is none that
     /// can be computed.
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>>;
+
     /// Iterations so far.
-    fn iterations(&self) -> usize;
+    fn iterations(&mut self) -> usize {
+        self.tree().iterations
+    }
+
+    /// Descends from a configuration within bounds.
+    fn from(&mut self, start: Vec<f64>) -> Found {
+        let mut q = start;
+        let is_settled = self.settle(&mut q);
+        let mut left = self.tree().left(&q);
+        if !is_settled {
+            let found = self.tree().found(q, &left);
+            return Found { reached: false, cost: f64::INFINITY, ..found };
+        }
+        let mut next = q.clone();
+        let [mut damping, least_damping] = DAMPING;
+        let (mut slow, mut refused) = (0, 0);
+        let mut fresh = false;
+        for _ in 0..self.tree().settings.iterations {
+            if self.tree().is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
+                break;
+            }
+            self.tree().iterations += 1;
+            if !fresh {
+                self.linearise(&q);
+                fresh = true;
+            }
+            self.step(&q, &left.vector, damping * left.cost, &mut next);
+            let after = self.settle(&mut next).then(|| self.tree().left(&next));
+            let is_worse = |after: &Left| after.cost.is_nan() || after.cost >= left.cost;
+            let Some(after) = after.filter(|after| !is_worse(after)) else {
+                damping = (damping * 10.0).max(1e-2);
+                refused += 1;
+                continue;
+            };
+            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
+            refused = 0;
+            damping = (damping * 0.3).max(least_damping);
+            fresh = false;
+            left = after;
+            q.copy_from_slice(&next);
+        }
+        self.tree().found(q, &left)
+    }
 }
 
 /// Moves a solution toward a posture, along the motions that the goal leaves free.
 pub(super) fn toward(
-    descent: &mut dyn Descend,
+    descent: &mut dyn Descend<'_>,
     path: &Path,
     posture: &[f64],
     mut found: Found,
@@ -170,9 +220,21 @@ impl<'a> Descent<'a> {
         };
         Left { vector, cost: vector.norm_squared(), position, rotation }
     }
+}
 
-    /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
-    /// others are solved again to compensate.
+impl<'a> Descend<'a> for Descent<'a> {
+    fn tree(&mut self) -> &mut Descent<'a> {
+        self
+    }
+
+    fn settle(&mut self, _: &mut [f64]) -> bool {
+        true
+    }
+
+    fn linearise(&mut self, q: &[f64]) {
+        Descent::linearise(self, q);
+    }
+
     fn step(&mut self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
         let Self { path, jacobian: columns, free, .. } = self;
         let mut left = *left;
@@ -221,41 +283,6 @@ impl<'a> Descent<'a> {
         }
         path.wrap(next);
     }
-}
-
-impl Descend for Descent<'_> {
-    fn from(&mut self, start: Vec<f64>) -> Found {
-        let mut q = start;
-        let mut left = self.left(&q);
-        let mut next = q.clone();
-        let [mut damping, least_damping] = DAMPING;
-        let (mut slow, mut refused) = (0, 0);
-        let mut fresh = false;
-        for _ in 0..self.settings.iterations {
-            if self.is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
-                break;
-            }
-            self.iterations += 1;
-            if !fresh {
-                self.linearise(&q);
-                fresh = true;
-            }
-            self.step(&q, &left.vector, damping * left.cost, &mut next);
-            let after = self.left(&next);
-            if after.cost.is_nan() || after.cost >= left.cost {
-                damping = (damping * 10.0).max(1e-2);
-                refused += 1;
-                continue;
-            }
-            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
-            refused = 0;
-            damping = (damping * 0.3).max(least_damping);
-            fresh = false;
-            left = after;
-            q.copy_from_slice(&next);
-        }
-        self.found(q, &left)
-    }
 
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>> {
         self.left(q);
@@ -276,9 +303,5 @@ impl Descend for Descent<'_> {
             *change -= column.dot(&needed);
         }
         Some(free)
-    }
-
-    fn iterations(&self) -> usize {
-        self.iterations
     }
 }

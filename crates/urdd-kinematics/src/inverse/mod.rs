@@ -216,7 +216,7 @@ struct Asked<'a> {
 
 impl<'a> Asked<'a> {
     /// A descent among all configurations, or among those in which loops are closed.
-    fn descent<'b>(self, path: &'b Path<'b>, loops: Option<&'b Loops>) -> Box<dyn Descend + 'b>
+    fn descent<'b>(self, path: &'b Path<'b>, loops: Option<&'b Loops>) -> Box<dyn Descend<'b> + 'b>
     where
         'a: 'b,
     {
@@ -234,7 +234,7 @@ struct Search<'a> {
     space: &'a ConfigurationSpace,
     settings: &'a InverseSettings,
     conditions: &'a Conditions<'a>,
-    descent: Box<dyn Descend + 'a>,
+    descent: Box<dyn Descend<'a> + 'a>,
     restarts: usize,
     /// The first configuration that reaches the goal and was refused.
     refused: Option<Found>,
