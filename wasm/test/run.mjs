@@ -322,7 +322,7 @@ function among(urdd, handle, ask, q) {
   const first = ask({ first_contact: { start: from, end, resolution: 0.002 } }, wall);
   assert.equal(first === null, blocked === null);
   // Of a start that collides, no part is free.
-  if (first !== null && collides(0)) assert.deepEqual(first, { free: 0, blocked: 0 });
+  if (first !== null && collides(0)) assert.deepEqual(first, { free: 0, blocked: 0, obstruction: "contact" });
   else if (first !== null) {
     assert.ok(first.free < first.blocked && first.free <= blocked, `${first.free} ${first.blocked} ${blocked}`);
     assert.deepEqual([first.free, first.blocked].map(collides), [false, true]);
