@@ -105,6 +105,11 @@ struct SampleRange;
 struct ModelEvaluation;
 struct ModelTestVector;
 struct SelfCollisionModelModule;
+struct SphereLevel;
+struct LinkSphere;
+struct SphereFit;
+struct SphereEvaluation;
+struct LinkShapesSpheresModule;
 struct Loop;
 struct Coupling;
 struct CouplingTerm;
@@ -2527,6 +2532,173 @@ struct SelfCollisionModelModule {
         visitor.required("calibration", self.calibration);
         visitor.required("evaluation", self.evaluation);
         visitor.required("test_vectors", self.test_vectors);
+        visitor.optional("$schema", self.schema);
+        visitor.extra(self.extra);
+    }
+};
+
+/// Where the spheres of a level are from.
+/// - `Computed`: A program made them from the pieces.
+/// - `Given`: A person gave them. A producer that makes the module again keeps them.
+enum class SphereOrigin { computed, given };
+
+template <> struct detail::Words<SphereOrigin> {
+    static constexpr std::array<std::string_view, 2> words{"Computed", "Given"};
+};
+
+/// A sphere of a link.
+struct LinkSphere {
+    /// Radius, metres.
+    ///
+    /// Unit: `m`.
+    double radius{};
+    /// Centre in the link's frame, metres.
+    ///
+    /// Unit: `m`. Frame: `link`.
+    std::array<double, 3> offset_xyz;
+    /// The sphere of the same link in the outer level that this one is inside of; null in the first level.
+    ///
+    /// Index of: `other`.
+    std::optional<std::size_t> outer_sphere_idx;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("radius", self.radius);
+        visitor.required("offset_xyz", self.offset_xyz);
+        visitor.required("outer_sphere_idx", self.outer_sphere_idx);
+        visitor.extra(self.extra);
+    }
+};
+
+/// How far the spheres of a link are from its pieces, by the points of SPEC 8.9.5.
+struct SphereFit {
+    /// The largest distance of a point on the spheres from the pieces, metres.
+    ///
+    /// Unit: `m`.
+    double max_standoff{};
+    /// The mean distance of points on the spheres from the pieces, metres.
+    ///
+    /// Unit: `m`.
+    double mean_standoff{};
+    /// The part of the surface of the pieces that is outside of all spheres, from 0 to 1.
+    ///
+    /// Unit: `1`.
+    double uncovered_fraction{};
+    /// The largest distance of a point of that surface from the spheres, metres; 0 where all of it is in spheres.
+    ///
+    /// Unit: `m`.
+    double max_uncovered{};
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("max_standoff", self.max_standoff);
+        visitor.required("mean_standoff", self.mean_standoff);
+        visitor.required("uncovered_fraction", self.uncovered_fraction);
+        visitor.required("max_uncovered", self.max_uncovered);
+        visitor.extra(self.extra);
+    }
+};
+
+/// How often a check by a level is right. A configuration is in collision where two pieces are in contact whose links
+/// are not skipped, and free otherwise; the level touches where spheres are in contact of two links that are neither
+/// skipped nor ignored.
+struct SphereEvaluation {
+    /// Number of configurations in collision.
+    ///
+    /// Unit: `1`.
+    std::size_t num_colliding{};
+    /// Number of these in which the level does not touch.
+    ///
+    /// Unit: `1`.
+    std::size_t num_missed{};
+    /// Number of free configurations.
+    ///
+    /// Unit: `1`.
+    std::size_t num_free{};
+    /// Number of these in which the level touches.
+    ///
+    /// Unit: `1`.
+    std::size_t num_false_contacts{};
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("num_colliding", self.num_colliding);
+        visitor.required("num_missed", self.num_missed);
+        visitor.required("num_free", self.num_free);
+        visitor.required("num_false_contacts", self.num_false_contacts);
+        visitor.extra(self.extra);
+    }
+};
+
+/// A level: spheres of each link, and what they say.
+struct SphereLevel {
+    /// Where the spheres are from.
+    SphereOrigin origin{};
+    /// Whether every point of every piece is in a sphere of its link. Such a level never calls a collision free.
+    bool covers{};
+    /// The level before this one whose spheres hold the spheres of this one; null for the first level.
+    ///
+    /// Index of: `other`.
+    std::optional<std::size_t> outer_level_idx;
+    /// For each link, its spheres; none for a link without a piece.
+    ///
+    /// Length: `links`.
+    std::vector<std::vector<LinkSphere>> spheres;
+    /// For each link, how far its spheres are from its pieces; null for a link without spheres.
+    ///
+    /// Length: `links`.
+    std::vector<std::optional<SphereFit>> fits;
+    /// Pairs of links that a check by this level leaves out, besides the skipped ones (SPEC 8.8.5): they were in no
+    /// sampled collision, and their spheres touch all the same. None for a level that covers.
+    std::vector<LinkPair> ignored_pairs;
+    /// Pairs of links with a sphere of each in contact in every sampled configuration.
+    std::vector<LinkPair> always_pairs;
+    /// Pairs of links with a sphere of each in contact in some of the sampled configurations, and not in all. All other
+    /// pairs are in contact in none.
+    std::vector<LinkPair> sometimes_pairs;
+    /// How often a check by this level is right in the sampled configurations.
+    SphereEvaluation evaluation;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("origin", self.origin);
+        visitor.required("covers", self.covers);
+        visitor.required("outer_level_idx", self.outer_level_idx);
+        visitor.required("spheres", self.spheres);
+        visitor.required("fits", self.fits);
+        visitor.required("ignored_pairs", self.ignored_pairs);
+        visitor.required("always_pairs", self.always_pairs);
+        visitor.required("sometimes_pairs", self.sometimes_pairs);
+        visitor.required("evaluation", self.evaluation);
+        visitor.extra(self.extra);
+    }
+};
+
+/// Spheres that stand for the convex pieces of links, for programs that check very many configurations.
+struct LinkShapesSpheresModule {
+    /// The levels, from coarse to fine. The first has one sphere for each link with a piece.
+    std::vector<SphereLevel> levels;
+    /// How many sampled configurations (SPEC 9.3), from 2^31 on, pairs and counts of the levels are of.
+    ///
+    /// Unit: `1`.
+    std::size_t num_samples{};
+    /// The JSON Schema that this document follows, for editors.
+    std::optional<std::string> schema;
+    /// Other keys: `x_` and those of later minor versions. An object, or null.
+    Json extra;
+
+    static constexpr const char *module_name{"link_shapes_spheres_module"};
+    static constexpr const char *module_folder{"link_shapes_modules/link_shapes_spheres_module"};
+    static constexpr const char *module_version{"1.0.0"};
+    static constexpr std::array<const char *, 5> depends_on{"dof_module", "chain_module", "bounds_module", "convex_decomposition_meshes_module", "link_shapes_skips_module"};
+
+    template <class Self, class Visitor> static void members(Self &self, Visitor &visitor) {
+        visitor.required("levels", self.levels);
+        visitor.required("num_samples", self.num_samples);
         visitor.optional("$schema", self.schema);
         visitor.extra(self.extra);
     }

@@ -2275,6 +2275,171 @@ export interface SelfCollisionModelModule extends Extensible {
 }
 
 /**
+ * A level: spheres of each link, and what they say.
+ */
+export interface SphereLevel extends Extensible {
+  /**
+   * Where the spheres are from.
+   */
+  origin: SphereOrigin;
+  /**
+   * Whether every point of every piece is in a sphere of its link. Such a level never calls a collision
+   * free.
+   */
+  covers: boolean;
+  /**
+   * The level before this one whose spheres hold the spheres of this one; null for the first level.
+   *
+   * Index of: `other`.
+   */
+  outer_level_idx: number | null;
+  /**
+   * For each link, its spheres; none for a link without a piece.
+   *
+   * Length: `links`.
+   */
+  spheres: LinkSphere[][];
+  /**
+   * For each link, how far its spheres are from its pieces; null for a link without spheres.
+   *
+   * Length: `links`.
+   */
+  fits: (SphereFit | null)[];
+  /**
+   * Pairs of links that a check by this level leaves out, besides the skipped ones (SPEC 8.8.5): they
+   * were in no sampled collision, and their spheres touch all the same. None for a level that covers.
+   */
+  ignored_pairs: LinkPair[];
+  /**
+   * Pairs of links with a sphere of each in contact in every sampled configuration.
+   */
+  always_pairs: LinkPair[];
+  /**
+   * Pairs of links with a sphere of each in contact in some of the sampled configurations, and not in
+   * all. All other pairs are in contact in none.
+   */
+  sometimes_pairs: LinkPair[];
+  /**
+   * How often a check by this level is right in the sampled configurations.
+   */
+  evaluation: SphereEvaluation;
+}
+
+/**
+ * Where the spheres of a level are from.
+ * - `Computed`: A program made them from the pieces.
+ * - `Given`: A person gave them. A producer that makes the module again keeps them.
+ */
+export type SphereOrigin = "Computed" | "Given";
+
+/**
+ * A sphere of a link.
+ */
+export interface LinkSphere extends Extensible {
+  /**
+   * Radius, metres.
+   *
+   * Unit: `m`.
+   */
+  radius: number;
+  /**
+   * Centre in the link's frame, metres.
+   *
+   * Unit: `m`. Frame: `link`.
+   */
+  offset_xyz: [number, number, number];
+  /**
+   * The sphere of the same link in the outer level that this one is inside of; null in the first level.
+   *
+   * Index of: `other`.
+   */
+  outer_sphere_idx: number | null;
+}
+
+/**
+ * How far the spheres of a link are from its pieces, by the points of SPEC 8.9.5.
+ */
+export interface SphereFit extends Extensible {
+  /**
+   * The largest distance of a point on the spheres from the pieces, metres.
+   *
+   * Unit: `m`.
+   */
+  max_standoff: number;
+  /**
+   * The mean distance of points on the spheres from the pieces, metres.
+   *
+   * Unit: `m`.
+   */
+  mean_standoff: number;
+  /**
+   * The part of the surface of the pieces that is outside of all spheres, from 0 to 1.
+   *
+   * Unit: `1`.
+   */
+  uncovered_fraction: number;
+  /**
+   * The largest distance of a point of that surface from the spheres, metres; 0 where all of it is in
+   * spheres.
+   *
+   * Unit: `m`.
+   */
+  max_uncovered: number;
+}
+
+/**
+ * How often a check by a level is right. A configuration is in collision where two pieces are in
+ * contact whose links are not skipped, and free otherwise; the level touches where spheres are in
+ * contact of two links that are neither skipped nor ignored.
+ */
+export interface SphereEvaluation extends Extensible {
+  /**
+   * Number of configurations in collision.
+   *
+   * Unit: `1`.
+   */
+  num_colliding: number;
+  /**
+   * Number of these in which the level does not touch.
+   *
+   * Unit: `1`.
+   */
+  num_missed: number;
+  /**
+   * Number of free configurations.
+   *
+   * Unit: `1`.
+   */
+  num_free: number;
+  /**
+   * Number of these in which the level touches.
+   *
+   * Unit: `1`.
+   */
+  num_false_contacts: number;
+}
+
+/**
+ * Spheres that stand for the convex pieces of links, for programs that check very many configurations.
+ */
+export interface LinkShapesSpheresModule extends Extensible {
+  /**
+   * The levels, from coarse to fine. The first has one sphere for each link with a piece.
+   */
+  levels: SphereLevel[];
+  /**
+   * How many sampled configurations (SPEC 9.3), from 2^31 on, pairs and counts of the levels are of.
+   *
+   * Unit: `1`.
+   */
+  num_samples: number;
+  /**
+   * The JSON Schema that this document follows, for editors.
+   */
+  $schema?: string;
+}
+
+/**
  * What holds two links together besides the joints of the tree.
  */
 export interface Loop extends Extensible {
@@ -2452,5 +2617,6 @@ export interface Documents {
   link_shapes_simple_skips_module: LinkShapesSimpleSkipsModule;
   link_shapes_skips_module: LinkShapesSkipsModule;
   self_collision_model_module: SelfCollisionModelModule;
+  link_shapes_spheres_module: LinkShapesSpheresModule;
   loops_module: LoopsModule;
 }

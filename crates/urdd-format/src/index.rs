@@ -25,6 +25,12 @@ integer! {
     /// Number of a sampled configuration: `k` of SPEC's sequence, from 0.
     pub struct SampleIdx says "x-index" = "sample";
 
+    /// Index of a level of spheres, from 0.
+    pub struct LevelIdx says "x-index" = "other";
+
+    /// Index of a sphere among those of one link in one level, from 0.
+    pub struct SphereIdx says "x-index" = "other";
+
     /// Index of a robot among those that a robot was combined from, from 0.
     pub struct RobotIdx says "x-index" = "part";
 }

@@ -46,6 +46,7 @@ pub mod link_shapes_approximations;
 pub mod link_shapes_distance_statistics;
 pub mod link_shapes_simple_skips;
 pub mod link_shapes_skips;
+pub mod link_shapes_spheres;
 pub mod loops;
 pub mod meshes;
 pub mod named_configurations;

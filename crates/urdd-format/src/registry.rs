@@ -64,7 +64,7 @@ macro_rules! kinds {
             /// The version of the specification that has it first; what `urdd_version` is at least.
             pub fn since(self) -> &'static str {
                 match self {
-                    ModuleKind::Loops => "1.1.0",
+                    ModuleKind::LinkShapesSpheres | ModuleKind::Loops => "1.1.0",
                     _ => FIRST_SPEC_VERSION,
                 }
             }
@@ -126,6 +126,8 @@ kinds! {
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
     /// A network that estimates distances between links. Optional.
     SelfCollisionModel = "self_collision_model_module" in "link_shapes_modules/", None, needs [Dof, Chain, Bounds, ConvexDecompositionMeshes, LinkShapesSkips];
+    /// Spheres of links, in levels. Optional.
+    LinkShapesSpheres = "link_shapes_spheres_module" in "link_shapes_modules/", None, needs [Dof, Chain, Bounds, ConvexDecompositionMeshes, LinkShapesSkips];
     /// What closes the loops of a robot that is no tree. Robots with loops only.
     Loops = "loops_module" in "", None, needs [Urdf, Dof, Chain, Bounds];
     /// Error of linearised distances. Legacy only.
@@ -197,6 +199,7 @@ modules! {
     LinkShapesSimpleSkips(link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "1.0.0", V1;
     LinkShapesSkips(link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "1.0.0", V1;
     SelfCollisionModel(self_collision_model::SelfCollisionModelModule): SelfCollisionModel @ "1.0.0", V1;
+    LinkShapesSpheres(link_shapes_spheres::LinkShapesSpheresModule): LinkShapesSpheres @ "1.0.0", V1;
     Loops(loops::LoopsModule): Loops @ "1.0.0", V1;
     LegacyUrdf(legacy::urdf::UrdfModule): Urdf @ "0.0.3" | "0.0.1", Legacy;
     LegacyDof(legacy::kinematics::DofModule): Dof @ "0.0.2" | "0.0.1", Legacy;

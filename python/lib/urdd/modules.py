@@ -64,6 +64,8 @@ __all__ = [
     "LinkShapesMaxDistanceFromOriginModule",
     "LinkShapesSimpleSkipsModule",
     "LinkShapesSkipsModule",
+    "LinkShapesSpheresModule",
+    "LinkSphere",
     "Loop",
     "LoopKind",
     "LoopsModule",
@@ -108,6 +110,10 @@ __all__ = [
     "SkippedReason",
     "Source",
     "Sphere",
+    "SphereEvaluation",
+    "SphereFit",
+    "SphereLevel",
+    "SphereOrigin",
     "Texture",
     "UrdfModule",
     "Visual",
@@ -174,6 +180,12 @@ SkippedReason: TypeAlias = Literal["SameLink", "Always", "Adjacent", "Default", 
 - `Default`: In contact in the default configuration.
 - `Never`: Never in contact, as far as the samples show: the number of samples is `num_samples` of
   `link_shapes_distance_statistics_module`.
+"""
+
+SphereOrigin: TypeAlias = Literal["Computed", "Given"]
+"""Where the spheres of a level are from.
+- `Computed`: A program made them from the pieces.
+- `Given`: A person gave them. A producer that makes the module again keeps them.
 """
 
 LoopKind: TypeAlias = Literal["Fixed", "Revolute", "Prismatic", "Cylindrical", "Universal", "Spherical", "Planar"]
@@ -2005,6 +2017,146 @@ class SelfCollisionModelModule:
 
 
 @dataclass(frozen=True)
+class SphereLevel:
+    """A level: spheres of each link, and what they say."""
+
+    origin: SphereOrigin
+    """Where the spheres are from."""
+
+    covers: bool
+    """Whether every point of every piece is in a sphere of its link. Such a level never calls a collision free."""
+
+    outer_level_idx: int | None
+    """The level before this one whose spheres hold the spheres of this one; null for the first level.
+
+    Index of: `other`.
+    """
+
+    spheres: list[list[LinkSphere]]
+    """For each link, its spheres; none for a link without a piece.
+
+    Length: `links`.
+    """
+
+    fits: list[SphereFit | None]
+    """For each link, how far its spheres are from its pieces; null for a link without spheres.
+
+    Length: `links`.
+    """
+
+    ignored_pairs: list[LinkPair]
+    """Pairs of links that a check by this level leaves out, besides the skipped ones (SPEC 8.8.5): they were in no
+    sampled collision, and their spheres touch all the same. None for a level that covers."""
+
+    always_pairs: list[LinkPair]
+    """Pairs of links with a sphere of each in contact in every sampled configuration."""
+
+    sometimes_pairs: list[LinkPair]
+    """Pairs of links with a sphere of each in contact in some of the sampled configurations, and not in all. All
+    other pairs are in contact in none."""
+
+    evaluation: SphereEvaluation
+    """How often a check by this level is right in the sampled configurations."""
+
+
+@dataclass(frozen=True)
+class LinkSphere:
+    """A sphere of a link."""
+
+    radius: float
+    """Radius, metres.
+
+    Unit: `m`.
+    """
+
+    offset_xyz: list[float]
+    """Centre in the link's frame, metres.
+
+    Unit: `m`. Frame: `link`.
+    """
+
+    outer_sphere_idx: int | None
+    """The sphere of the same link in the outer level that this one is inside of; null in the first level.
+
+    Index of: `other`.
+    """
+
+
+@dataclass(frozen=True)
+class SphereFit:
+    """How far the spheres of a link are from its pieces, by the points of SPEC 8.9.5."""
+
+    max_standoff: float
+    """The largest distance of a point on the spheres from the pieces, metres.
+
+    Unit: `m`.
+    """
+
+    mean_standoff: float
+    """The mean distance of points on the spheres from the pieces, metres.
+
+    Unit: `m`.
+    """
+
+    uncovered_fraction: float
+    """The part of the surface of the pieces that is outside of all spheres, from 0 to 1.
+
+    Unit: `1`.
+    """
+
+    max_uncovered: float
+    """The largest distance of a point of that surface from the spheres, metres; 0 where all of it is in spheres.
+
+    Unit: `m`.
+    """
+
+
+@dataclass(frozen=True)
+class SphereEvaluation:
+    """How often a check by a level is right. A configuration is in collision where two pieces are in contact whose
+    links are not skipped, and free otherwise; the level touches where spheres are in contact of two links that
+    are neither skipped nor ignored."""
+
+    num_colliding: int
+    """Number of configurations in collision.
+
+    Unit: `1`.
+    """
+
+    num_missed: int
+    """Number of these in which the level does not touch.
+
+    Unit: `1`.
+    """
+
+    num_free: int
+    """Number of free configurations.
+
+    Unit: `1`.
+    """
+
+    num_false_contacts: int
+    """Number of these in which the level touches.
+
+    Unit: `1`.
+    """
+
+
+@dataclass(frozen=True)
+class LinkShapesSpheresModule:
+    """Spheres that stand for the convex pieces of links, for programs that check very many configurations."""
+
+    levels: list[SphereLevel]
+    """The levels, from coarse to fine. The first has one sphere for each link with a piece."""
+
+    num_samples: int
+    """How many sampled configurations (SPEC 9.3), from 2^31 on, pairs and counts of the levels are of.
+
+    Unit: `1`.
+    """
+
+
+@dataclass(frozen=True)
 class Loop:
     """What holds two links together besides the joints of the tree."""
 
@@ -2875,6 +3027,53 @@ def _self_collision_model_module(v: Any) -> SelfCollisionModelModule:
     )
 
 
+def _sphere_level(v: Any) -> SphereLevel:
+    return SphereLevel(
+        origin=v["origin"],
+        covers=v["covers"],
+        outer_level_idx=None if v["outer_level_idx"] is None else int(v["outer_level_idx"]),
+        spheres=[[_link_sphere(y) for y in x] for x in v["spheres"]],
+        fits=[None if x is None else _sphere_fit(x) for x in v["fits"]],
+        ignored_pairs=[_link_pair(x) for x in v["ignored_pairs"]],
+        always_pairs=[_link_pair(x) for x in v["always_pairs"]],
+        sometimes_pairs=[_link_pair(x) for x in v["sometimes_pairs"]],
+        evaluation=_sphere_evaluation(v["evaluation"]),
+    )
+
+
+def _link_sphere(v: Any) -> LinkSphere:
+    return LinkSphere(
+        radius=v["radius"],
+        offset_xyz=v["offset_xyz"],
+        outer_sphere_idx=None if v["outer_sphere_idx"] is None else int(v["outer_sphere_idx"]),
+    )
+
+
+def _sphere_fit(v: Any) -> SphereFit:
+    return SphereFit(
+        max_standoff=v["max_standoff"],
+        mean_standoff=v["mean_standoff"],
+        uncovered_fraction=v["uncovered_fraction"],
+        max_uncovered=v["max_uncovered"],
+    )
+
+
+def _sphere_evaluation(v: Any) -> SphereEvaluation:
+    return SphereEvaluation(
+        num_colliding=int(v["num_colliding"]),
+        num_missed=int(v["num_missed"]),
+        num_free=int(v["num_free"]),
+        num_false_contacts=int(v["num_false_contacts"]),
+    )
+
+
+def _link_shapes_spheres_module(v: Any) -> LinkShapesSpheresModule:
+    return LinkShapesSpheresModule(
+        levels=[_sphere_level(x) for x in v["levels"]],
+        num_samples=int(v["num_samples"]),
+    )
+
+
 def _loop(v: Any) -> Loop:
     return Loop(
         name=v["name"],
@@ -3031,6 +3230,11 @@ class Modules(Reading):
         passing over configurations that are far from any contact. It is an estimate, not a guarantee:
         `evaluation` says how often it is wrong."""
         return self._read("self_collision_model_module", _self_collision_model_module)
+
+    @property
+    def link_shapes_spheres(self) -> LinkShapesSpheresModule:
+        """Spheres that stand for the convex pieces of links, for programs that check very many configurations."""
+        return self._read("link_shapes_spheres_module", _link_shapes_spheres_module)
 
     @property
     def loops(self) -> LoopsModule:
