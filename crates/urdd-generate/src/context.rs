@@ -22,6 +22,7 @@ use urdd_kinematics::{ConfigurationSpace, ForwardKinematics, KinematicsError};
 use urdd_source::Source;
 use urdd_source::fault::Fault;
 use urdd_source::note::{Note, NoteKind};
+use urdd_spheres::list::SphereList;
 
 pub(crate) struct Context<'a> {
     pub source: &'a Source,
@@ -39,6 +40,8 @@ pub(crate) struct Context<'a> {
     /// The configuration in which pairs that touch are skipped, in place of the default configuration: a named one, or the
     /// closed one of a robot with loops.
     pub reference: Option<NamedConfiguration>,
+    /// Spheres that a person gave.
+    pub spheres: Vec<SphereList>,
     pub loops: Option<LoopsModule>,
     /// What is to say of them.
     pub loop_notes: Vec<Note>,
@@ -79,6 +82,10 @@ impl<'a> Context<'a> {
         let beginning = reference.as_ref().map(|reference| &*reference.configuration);
         let (loops, loop_notes) = found.module(beginning)?;
         let reference = reference.or_else(|| loops.as_ref().and_then(closed));
+        let spheres = match &settings.spheres {
+            Some(given) => vec![given.clone()],
+            None => decisions.spheres.clone(),
+        };
         let decisions = match settings.reference.is_some() || loops.is_some() {
             true => without_reference(decisions, reference.is_some()),
             false => decisions,
@@ -86,6 +93,7 @@ impl<'a> Context<'a> {
         Ok(Context {
             named,
             reference,
+            spheres,
             loops,
             loop_notes,
             edits: Edits::of(decisions, &chain),

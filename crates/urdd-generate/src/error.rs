@@ -198,6 +198,12 @@ pub enum EditsFault {
         s = if *.0 == 1 { "" } else { "s" }
     )]
     NotAskedFor(usize),
+    /// The module that would hold given spheres is not requested.
+    #[error(
+        "it holds {0} given sphere{s}, but the requested modules leave out link_shapes_spheres_module; add `link_shapes_spheres` to `--modules`",
+        s = if *.0 == 1 { "" } else { "s" }
+    )]
+    SpheresNotAskedFor(usize),
 }
 
 /// A mesh outside the folders from which files may be read.

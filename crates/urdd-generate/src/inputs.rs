@@ -47,6 +47,9 @@ pub(super) fn text(kind: ModuleKind, context: &Context) -> Option<String> {
             }
         }
         ModuleKind::SelfCollisionModel => format!("{VERSION} {:?}", settings.model_effort),
+        ModuleKind::LinkShapesSpheres => {
+            format!("{} {:?}", urdd_spheres::module::VERSION, context.spheres)
+        }
         _ => return None,
     })
 }

@@ -1,9 +1,8 @@
 //! The stage that trains `self_collision_model_module`: SPEC 8.8.
 
-use std::cmp::Ordering;
-
 use sha2::{Digest, Sha256 as Hash};
 
+use super::checked_pieces::CheckedPieces;
 use super::context::Context;
 use super::error::Result;
 use super::made::{Digests, Made, made};
@@ -61,43 +60,18 @@ pub(super) fn self_collision_model(
 /// The pairs of links to check: those with two pieces whose pair is not skipped or, without matrices over pieces, those
 /// whose hulls are not skipped.
 fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<BodyPairs, String> {
-    // Pieces of an earlier run are read from their files, with vertices in another order. The last digits of distances
-    // depend on that order.
-    let in_order = |vertices: &[[f64; 3]]| {
-        let mut vertices = vertices.to_vec();
-        vertices.sort_by(|a, b| {
-            a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).fold(Ordering::Equal, Ordering::then)
-        });
-        vertices.dedup();
-        vertices
-    };
-    let shapes = pieces.iter().enumerate();
-    let shapes: Vec<(usize, Vec<[f64; 3]>)> = shapes
-        .flat_map(|(link, pieces)| {
-            let vertices = pieces.iter().map(|piece| in_order(&piece.mesh.vertices));
-            vertices.map(move |vertices| (link, vertices))
-        })
-        .collect();
-    let each = shapes.iter().map(|(link, vertices)| (*link, vertices.as_slice()));
-    let mut pairs = BodyPairs::new(each).map_err(|(piece, error)| {
-        let of = skips.decomposition_shapes.get(piece);
-        let of = of.map_or_else(String::new, |of| {
-            format!(" piece {} of link {}", of.piece_idx, of.link_idx)
-        });
-        format!("distances cannot be computed for{of}: {error}")
-    })?;
+    let pieces = CheckedPieces::new(pieces, skips);
+    let shapes = pieces.in_order();
+    let each = shapes.iter().map(|(link, mesh)| (*link, mesh.vertices.as_slice()));
+    let mut pairs = BodyPairs::new(each).map_err(|error| pieces.fault(error))?;
     let links = &skips.full_shapes;
     for (i, a) in links.iter().enumerate() {
-        for (j, b) in links.iter().enumerate().skip(i + 1) {
+        for b in links.iter().skip(i + 1) {
             // Beyond this number no model is trained, so the exact number does not matter.
             if pairs.bodies().len() > MAX_PAIRS {
                 return Ok(pairs);
             }
-            let skipped = |a: usize, b: usize| match &skips.decomposition_convex_hulls_skips {
-                Some(rows) => rows[a][b],
-                None => skips.full_convex_hulls_skips[i][j],
-            };
-            pairs.add([a.get(), b.get()], |a, b| !skipped(a, b));
+            pairs.add([a.get(), b.get()], |a, b| pieces.is_checked(a, b));
         }
     }
     Ok(pairs)

@@ -22,6 +22,7 @@
 pub mod batch;
 #[doc(hidden)]
 pub mod chain;
+mod checked_pieces;
 pub mod combine;
 #[doc(hidden)]
 pub mod connections;
@@ -54,6 +55,7 @@ pub mod shape_documents;
 pub mod shapes;
 mod size;
 mod skipped_contacts;
+mod spheres;
 mod stages;
 
 pub use error::{EditsFault, GenerateError, OutsideMesh, ReferenceFault};

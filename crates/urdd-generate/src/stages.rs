@@ -15,7 +15,9 @@ use super::modules::Modules;
 use super::named::Named;
 use super::shapes::statistics::Shapes;
 use super::shapes::{ConvexMeshes, approximations, simple_skips, statistics};
-use super::{geometry_notes, inputs, learned, mesh_stages as meshes, product, skipped_contacts};
+use super::{
+    geometry_notes, inputs, learned, mesh_stages as meshes, product, skipped_contacts, spheres,
+};
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::named_configurations::NamedConfigurationsModule;
 use urdd_format::plain_meshes::PlainMeshesModule;
@@ -97,6 +99,9 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
     modules.add(ModuleKind::SelfCollisionModel, |digests| {
         let (pieces, skips) = (pieces.get()?, skips.get()?);
         learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
+    })?;
+    modules.add(ModuleKind::LinkShapesSpheres, |_| {
+        spheres::spheres(context, pieces.get()?, skips.get()?)
     })?;
     modules.add(ModuleKind::Loops, |_| made(&context.loops))?;
     modules.notes.extend(context.loop_notes.iter().cloned());

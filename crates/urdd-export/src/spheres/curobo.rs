@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use nalgebra::Point3;
 
-use super::model::Sphere;
 use super::{Model, said};
 use crate::yaml::entries;
 use crate::{Export, ExportError, Note, Setup, Subject, Taken, Yaml};
 use urdd_format::named_configurations::NamedConfiguration;
+use urdd_spheres::model::Sphere;
 use urdd_xml::number::number;
 
 const BUFFERS: &str = "Buffers are added to radii: `collision_sphere_buffer` for obstacles, `self_collision_buffer` of a link for self-collision. What is measured holds for 0.";

@@ -2,12 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
+use super::Model;
 use super::said::{self, Stand};
-use super::{Model, model::Sphere};
 use crate::subject::by_link;
 use crate::{Export, ExportError, Subject, urdf};
 use urdd_format::escape;
 use urdd_robot::{LinkShape, Solid};
+use urdd_spheres::model::Sphere;
 
 pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let model = Model::new(subject)?;

@@ -1,48 +1,15 @@
 //! Evaluates spheres in configurations that were not used for the fit.
 
-use super::judge::{self, PairFaults, SphereRates};
-use super::model::Spheres;
-use super::pairs::Pairs;
-use super::samples::{Ask, Region, Sample, Sampler};
+use super::Moving;
 use urdd_robot::{Robot, RobotError};
+use urdd_spheres::fitted::Numbers;
+use urdd_spheres::judge::{self, PairFaults, SphereRates};
+use urdd_spheres::model::Spheres;
+use urdd_spheres::pairs::Pairs;
+use urdd_spheres::samples::{Ask, Region, Sample, Sampler};
 
-/// Numbers of sampled configurations. The first indices keep the sets disjoint, and apart from the samples of a URDD's
-/// own statistics and skips.
-pub(super) struct Numbers {
-    pub fit: usize,
-    /// For balancing the two rates, and for counting them.
-    pub measure: usize,
-}
-
-/// Minimum number of samples for a meaningful rate.
-const LEAST: usize = 100;
-/// Maximum number of stored poses.
-const POSES: usize = 2_000_000;
-/// Maximum number of checks of pairs of links, and of pairs of spheres.
-const LOOKS: usize = 200_000_000;
-/// Number of spheres per link that counts as small. The limit on samples shrinks with the square of the multiple of
-/// this.
-const FEW: usize = 16;
 /// Maximum number of wrong results that are traced to pairs.
 const TRACED: usize = 2000;
-
-impl Numbers {
-    /// Index of the first sample (SPEC 9.3) for the fit.
-    pub const FIT: u64 = 1_000_000;
-    /// Index of the first sample for balancing the two rates.
-    pub const GROW: u64 = 2_000_000;
-    /// Index of the first sample for counting the rates.
-    pub const MEASURE: u64 = 3_000_000;
-
-    /// Evaluates `wanted` samples, or fewer if that is too expensive.
-    pub fn new(wanted: usize, pairs: &Pairs, spheres_per_link: usize) -> Self {
-        let many = (spheres_per_link / FEW).max(1);
-        let most = (POSES / pairs.links.len().max(1)).min(LOOKS / pairs.checked.len().max(1))
-            / (many * many);
-        let most = most.max(LEAST);
-        Numbers { fit: wanted.saturating_add(wanted / 2).min(most), measure: wanted.min(most) }
-    }
-}
 
 /// The results of an evaluation.
 #[derive(Debug, Default)]
@@ -90,7 +57,7 @@ pub(super) fn measure(
         // Only whether they touch matters here.
         judge::gaps(spheres, &pairs.checked, ignored, samples, f64::MIN_POSITIVE)
     };
-    let sampler = Sampler { robot, pairs };
+    let sampler = Sampler { robot: &Moving(robot), pairs };
     let zero = sampler.zero(Ask::Any)?;
     measured.default = [zero.collides(), gaps(std::slice::from_ref(&zero))[0] <= 0.0];
     let mut wrong: Vec<Sample> = Vec::new();

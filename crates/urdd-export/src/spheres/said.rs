@@ -2,13 +2,15 @@
 
 use serde_json::{Value, json};
 
-use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
-use super::measure::{Measured, Numbers};
-use super::model::{Sphere, distance};
+use super::measure::Measured;
+
 use super::{Model, Point};
 use crate::{Note, Subject};
 use urdd_format::escape;
 use urdd_format::rate::interval;
+use urdd_spheres::fitted::Numbers;
+use urdd_spheres::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
+use urdd_spheres::model::{Sphere, distance};
 
 /// Maximum number of pairs of links that are named.
 const NAMED: usize = 10;
@@ -92,13 +94,13 @@ impl Measured {
             rates.colliding + rates.free,
             Numbers::MEASURE
         )];
-        lines.extend(rates.said());
+        lines.extend(said_of(rates));
         if let Some(rates) = &self.near_default {
             lines.push(format!(
                 "So few configurations are free that the spheres are fitted near the default configuration, and measured there too: in {} samples, each moved toward it by an even part of the way.",
                 rates.colliding + rates.free
             ));
-            lines.extend(rates.said());
+            lines.extend(said_of(rates));
         }
         let default = match self.default {
             [true, true] => "in contact, as the exact shapes are",
@@ -135,13 +137,11 @@ impl Measured {
     }
 }
 
-impl SphereRates {
-    fn said(&self) -> [String; 2] {
-        [
-            rate("missed collisions", self.missed, self.colliding, "collisions"),
-            rate("false contacts", self.false_contacts, self.free, "free configurations"),
-        ]
-    }
+fn said_of(rates: &SphereRates) -> [String; 2] {
+    [
+        rate("missed collisions", rates.missed, rates.colliding, "collisions"),
+        rate("false contacts", rates.false_contacts, rates.free, "free configurations"),
+    ]
 }
 
 fn rate(what: &str, hits: usize, of: usize, all: &str) -> String {

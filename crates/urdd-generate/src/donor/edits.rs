@@ -12,6 +12,7 @@ use serde_json::Value;
 
 use super::Donor;
 use super::decided::{Decided, Fault, names};
+use super::spheres;
 use crate::error::{EditsFault, Result};
 use crate::selection::Selection;
 use urdd_directory::root::Root;
@@ -19,6 +20,7 @@ use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_format::registry::ModuleKind;
+use urdd_spheres::list::SphereList;
 
 const EDITS: &str = "edits";
 const SKIPPED_REASONS: &str = "skipped_reasons";
@@ -29,6 +31,8 @@ pub(crate) struct Decisions {
     pub skipped_reasons: Vec<SkippedReason>,
     pub edits: Vec<SkipEdit>,
     pub configurations: Vec<ConfigurationEdit>,
+    /// Spheres that were given.
+    pub spheres: Vec<SphereList>,
 }
 
 impl Default for Decisions {
@@ -38,6 +42,7 @@ impl Default for Decisions {
             skipped_reasons: SkippedReason::USUAL.to_vec(),
             edits: Vec::new(),
             configurations: Vec::new(),
+            spheres: Vec::new(),
         }
     }
 }
@@ -104,7 +109,8 @@ impl Decisions {
             let fault = EditsFault::NotAskedFor(decisions.edits.len());
             return Err(decided.refused(&decided.path("module.json"), None, fault));
         }
-        Ok(Decisions { configurations: configurations.unwrap_or_default(), ..decisions })
+        let spheres = spheres::given(folder, selection, replaced)?;
+        Ok(Decisions { configurations: configurations.unwrap_or_default(), spheres, ..decisions })
     }
 }
 
@@ -152,7 +158,7 @@ fn parse_edits(document: &Value) -> Result<Decisions, Fault> {
         SkipEdit::deserialize(edit).map_err(|error| unusable(pointer, error.to_string()))
     });
     let edits = edits.collect::<Result<_, _>>()?;
-    Ok(Decisions { skipped_reasons, edits, configurations: Vec::new() })
+    Ok(Decisions { skipped_reasons, edits, configurations: Vec::new(), spheres: Vec::new() })
 }
 
 fn unusable(pointer: String, why: String) -> Fault {

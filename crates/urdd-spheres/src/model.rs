@@ -2,18 +2,18 @@
 
 use super::frame::{Point, Pose, add, dot, norm, scaled, sub};
 use super::samples::Sample;
-pub(super) use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
+pub use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
 
 /// Signed distance of a point to a sphere in its link's frame; negative inside.
 #[inline]
-pub(super) fn distance(sphere: &Sphere, p: Point) -> f64 {
+pub fn distance(sphere: &Sphere, p: Point) -> f64 {
     norm(sub(p, sphere.centre)) - sphere.radius
 }
 
 /// The spheres of each link that has shapes.
-pub(super) type Spheres = Vec<Vec<Sphere>>;
+pub type Spheres = Vec<Vec<Sphere>>;
 
-pub(super) fn count(spheres: &Spheres) -> usize {
+pub fn count(spheres: &Spheres) -> usize {
     spheres.iter().map(Vec::len).sum()
 }
 
@@ -33,14 +33,14 @@ fn about(own: &[Sphere]) -> Option<Sphere> {
 }
 
 /// Spheres, with bounding spheres for fast rejection of distant pairs.
-pub(super) struct Placeable<'a> {
+pub struct Placeable<'a> {
     spheres: &'a Spheres,
     about: Vec<Option<Sphere>>,
 }
 
 /// The spheres placed in one configuration. Reusable for the next configuration.
 #[derive(Default)]
-pub(super) struct Placed {
+pub struct Placed {
     about: Vec<Option<Point>>,
     centres: Vec<Vec<Point>>,
 }
@@ -121,7 +121,7 @@ fn is_nearer(p: Point, q: Point, than: f64) -> bool {
 }
 
 /// Shrinks the spheres of pairs of links that are nearer than `apart` in a sample, so that they are that far apart.
-pub(super) fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample, apart: f64) {
+pub fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample, apart: f64) {
     for [a, b] in pairs.iter().copied() {
         for i in 0..spheres[a].len() {
             for j in 0..spheres[b].len() {

@@ -7,14 +7,14 @@
 //! links approach each other. The algorithm is deterministic, with a fixed order of summation.
 
 use super::frame::{Point, add, norm, scaled, sub};
-pub(super) use super::loss::Goal;
+pub use super::loss::Goal;
 use super::loss::{Looked, middle, nearest, sum_up};
 use super::model::{Sphere, Spheres, count, distance};
 use super::samples::Sample;
 
 /// Limits on the number of spheres.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Limits {
+pub struct Limits {
     pub total: usize,
     pub per_link: usize,
 }
@@ -49,13 +49,13 @@ const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
 /// Step sizes in rounds of splitting by contacts. The result of a fit depends on them: the second is tried if the first
 /// does not reach the goals.
-pub(super) const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
+pub const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
 
 /// Minimum radius, in units of `Goal::size`.
 const SMALLEST: f64 = 0.02;
 
 /// Fits spheres. `ignored` marks the pairs to ignore; the fit adds those that need no check.
-pub(super) fn fit(
+pub fn fit(
     surface: &[Vec<Point>],
     samples: &[Sample],
     pairs: &[[usize; 2]],

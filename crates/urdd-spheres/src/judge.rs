@@ -33,7 +33,7 @@ impl SphereRates {
     }
 
     /// The greater of the upper ends of the intervals of both rates, each relative to its goal.
-    pub(super) fn worse(&self) -> f64 {
+    pub fn worse(&self) -> f64 {
         (interval(self.missed, self.colliding)[1] / MAX_MISSED)
             .max(interval(self.false_contacts, self.free)[1] / MAX_FALSE)
     }
@@ -41,13 +41,13 @@ impl SphereRates {
 
 /// Number of samples in which a pair of links caused a wrong result for the robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct PairFaults {
+pub struct PairFaults {
     pub missed: usize,
     pub false_contacts: usize,
 }
 
 /// The minimum signed distance of spheres in each sample, over the pairs that are not ignored, capped at `limit`.
-pub(super) fn gaps(
+pub fn gaps(
     spheres: &Spheres,
     pairs: &[[usize; 2]],
     ignored: &[bool],
@@ -67,6 +67,24 @@ pub(super) fn gaps(
         least
     };
     samples.par_iter().map_init(Placed::default, gap).collect()
+}
+
+/// Of each sample, the indices of the pairs in contact by spheres, ascending.
+pub fn touching(spheres: &Spheres, pairs: &[[usize; 2]], samples: &[Sample]) -> Vec<Vec<u32>> {
+    let model = Placeable::new(spheres);
+    let touching = |placed: &mut Placed, sample: &Sample| {
+        model.place(sample, placed);
+        let mut found = Vec::new();
+        for (number, pair) in (0u32..).zip(pairs) {
+            if model.may_be_near(placed, *pair, 0.0)
+                && model.gap(sample, placed, *pair, f64::MIN_POSITIVE) <= 0.0
+            {
+                found.push(number);
+            }
+        }
+        found
+    };
+    samples.par_iter().map_init(Placed::default, touching).collect()
 }
 
 fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
@@ -90,7 +108,7 @@ pub fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
 }
 
 /// The pairs that cause wrong results. `samples` list the pairs in contact.
-pub(super) fn faults(
+pub fn faults(
     spheres: &Spheres,
     pairs: &[[usize; 2]],
     ignored: &[bool],

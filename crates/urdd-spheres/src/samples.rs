@@ -1,18 +1,33 @@
 //! Sampled configurations, and the pairs of links in contact in them according to the exact shapes.
 
+use nalgebra::Isometry3;
 use rayon::prelude::*;
 
 use super::frame::Pose;
 use super::pairs::Pairs;
-use urdd_robot::{Configurations, Robot, RobotError};
 
 /// Step of the fractions of the way from the default configuration: the additive golden-ratio sequence fills [0, 1)
 /// evenly.
 const STEP: f64 = 0.618_033_988_749_894_9;
 
+/// A robot that moves.
+pub trait Moves: Sync {
+    /// Why it cannot.
+    type Error: Send;
+
+    /// The default configuration (SPEC 9.4).
+    fn default_configuration(&self) -> Result<Vec<f64>, Self::Error>;
+
+    /// Sampled configuration `k` (SPEC 9.3).
+    fn sampled(&self, k: u64) -> Result<Vec<f64>, Self::Error>;
+
+    /// The poses of all links, in the root link's frame.
+    fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, Self::Error>;
+}
+
 /// The region that configurations are sampled from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Region {
+pub enum Region {
     /// Throughout the bounds: sample `k` is sample `k` of SPEC 9.3.
     Bounds,
     /// Each sample is moved towards the default configuration by a fraction of the way; the fractions are uniform in 0
@@ -31,6 +46,7 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// Whether a pair is in contact.
     pub fn collides(&self) -> bool {
         !self.touching.is_empty()
     }
@@ -38,7 +54,7 @@ impl Sample {
 
 /// What to compute for each sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ask {
+pub enum Ask {
     /// The pairs in contact.
     Pairs,
     /// Whether any pair is in contact.
@@ -46,13 +62,23 @@ pub(super) enum Ask {
 }
 
 /// Computes samples of a robot.
-#[derive(Clone, Copy)]
-pub(super) struct Sampler<'a> {
-    pub robot: &'a Robot,
+#[derive(Debug)]
+pub struct Sampler<'a, R> {
+    /// The robot.
+    pub robot: &'a R,
+    /// Its pairs.
     pub pairs: &'a Pairs,
 }
 
-impl Sampler<'_> {
+impl<R> Clone for Sampler<'_, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R> Copy for Sampler<'_, R> {}
+
+impl<R: Moves> Sampler<'_, R> {
     /// `count` samples from index `first` on.
     pub fn samples(
         self,
@@ -60,23 +86,22 @@ impl Sampler<'_> {
         first: u64,
         count: usize,
         ask: Ask,
-    ) -> Result<Vec<Sample>, RobotError> {
+    ) -> Result<Vec<Sample>, R::Error> {
         let one = |k: usize| self.nth(region, first, k, ask);
         (0..count).into_par_iter().map(one).collect()
     }
 
     /// Sample `k` of those from index `first` on.
-    pub fn nth(self, region: Region, first: u64, k: usize, ask: Ask) -> Result<Sample, RobotError> {
-        let configurations = self.robot.configurations()?;
-        self.sample(&configuration(configurations, region, first + k as u64, k), ask)
+    pub fn nth(self, region: Region, first: u64, k: usize, ask: Ask) -> Result<Sample, R::Error> {
+        self.sample(&self.configuration(region, first + k as u64, k)?, ask)
     }
 
     /// The sample of the default configuration.
-    pub fn zero(self, ask: Ask) -> Result<Sample, RobotError> {
-        self.sample(&self.robot.configurations()?.zero(), ask)
+    pub fn zero(self, ask: Ask) -> Result<Sample, R::Error> {
+        self.sample(&self.robot.default_configuration()?, ask)
     }
 
-    fn sample(self, configuration: &[f64], ask: Ask) -> Result<Sample, RobotError> {
+    fn sample(self, configuration: &[f64], ask: Ask) -> Result<Sample, R::Error> {
         let poses = self.robot.link_poses(configuration)?;
         let touching = match ask {
             Ask::Pairs => self.pairs.touching(&poses),
@@ -85,20 +110,15 @@ impl Sampler<'_> {
         let poses = self.pairs.links.iter().map(|link| Pose::from(&poses[*link]));
         Ok(Sample { poses: poses.collect(), touching })
     }
-}
 
-fn configuration(
-    configurations: &Configurations,
-    region: Region,
-    number: u64,
-    k: usize,
-) -> Vec<f64> {
-    let mut q = configurations.random(number);
-    if region == Region::NearDefault {
-        let part = (0.5 + STEP * k as f64) % 1.0;
-        for (value, start) in q.iter_mut().zip(configurations.zero()) {
-            *value = start + part * (*value - start);
+    fn configuration(self, region: Region, number: u64, k: usize) -> Result<Vec<f64>, R::Error> {
+        let mut q = self.robot.sampled(number)?;
+        if region == Region::NearDefault {
+            let part = (0.5 + STEP * k as f64) % 1.0;
+            for (value, start) in q.iter_mut().zip(self.robot.default_configuration()?) {
+                *value = start + part * (*value - start);
+            }
         }
+        Ok(q)
     }
-    q
 }

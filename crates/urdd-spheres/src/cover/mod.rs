@@ -24,7 +24,7 @@ const AUTO: usize = 8;
 
 /// At most so many spheres of each link, or of all, in link order, from the vertices of its pieces; none for a link without
 /// pieces.
-pub(super) fn cover(
+pub fn cover(
     links: &[Vec<Vec<[f64; 3]>>],
     per_link: Option<usize>,
     total: Option<usize>,
@@ -86,7 +86,7 @@ impl Cover {
 
     /// Cuts the worst cell. Returns whether to continue, with at most `most` spheres.
     fn cut(&mut self, most: usize) -> bool {
-        if !cut(&mut self.cells) {
+        if cut(&mut self.cells).is_none() {
             return false;
         }
         let spheres = held(&self.cells);
@@ -118,16 +118,17 @@ fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     spheres
 }
 
-/// Cuts the cell with the most waste that can be cut. Returns whether there was one.
-pub fn cut(cells: &mut Vec<Cell>) -> bool {
+/// Cuts the cell with the most waste that can be cut. One half takes its place, the other is the last. Returns its index;
+/// `None` if none can be cut.
+pub fn cut(cells: &mut Vec<Cell>) -> Option<usize> {
     let mut order: Vec<usize> = (0..cells.len()).collect();
     order.sort_by(|a, b| cells[*b].waste().total_cmp(&cells[*a].waste()));
     for idx in order {
         if let Some([one, other]) = cells[idx].cut() {
             cells[idx] = one;
             cells.push(other);
-            return true;
+            return Some(idx);
         }
     }
-    false
+    None
 }

@@ -16,7 +16,7 @@ use super::samples::Sample;
 const BLOCK: usize = 256;
 
 /// The target of the fit.
-pub(super) struct Goal<'a> {
+pub struct Goal<'a> {
     /// Points on the surface of each link.
     pub surface: &'a [Vec<Point>],
     /// The sampled configurations; the first has the weight of [`FIRST`] others.
@@ -40,20 +40,20 @@ const MARGIN: f64 = 0.01;
 
 /// A configuration that may contribute to the loss, and its pairs of links that may.
 #[derive(Clone)]
-pub(super) struct Looked {
+pub struct Looked {
     pub sample: usize,
     pub pairs: Vec<u32>,
 }
 
 /// A configuration that contributes to the loss, and its pairs of spheres that may: link and index of each.
-pub(super) struct Active {
+pub struct Active {
     sample: usize,
     near: Vec<[(usize, usize); 2]>,
     weight: f64,
 }
 
 /// The gradient of the loss, 4 numbers per sphere (centre, radius), and each sphere's share of the loss.
-pub(super) struct Slope {
+pub struct Slope {
     pub by: Vec<[f64; 4]>,
     pub blame: Vec<f64>,
 }
@@ -78,7 +78,7 @@ impl Slope {
     }
 }
 
-pub(super) fn sum_up(to: &mut [f64], from: &[f64]) {
+pub fn sum_up(to: &mut [f64], from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to += from;
     }
@@ -296,12 +296,12 @@ impl Goal<'_> {
 
 /// The sphere with the smallest signed distance to a point, and that distance: negative inside.
 #[inline]
-pub(super) fn nearest(own: &[Sphere], p: Point) -> Option<(usize, f64)> {
+pub fn nearest(own: &[Sphere], p: Point) -> Option<(usize, f64)> {
     own.iter().map(|sphere| distance(sphere, p)).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The mean of points; `None` if there are none.
-pub(super) fn middle(points: &[Point]) -> Option<Point> {
+pub fn middle(points: &[Point]) -> Option<Point> {
     let sum = points.iter().copied().reduce(add)?;
     Some(scaled(sum, 1.0 / points.len() as f64))
 }

@@ -1,9 +1,9 @@
 //! Points on the surface of a link, the target of its spheres' surface.
 
-use urdd_export::spheres::frame::Point;
-use urdd_export::spheres::surface::*;
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
+use urdd_spheres::frame::Point;
+use urdd_spheres::surface::*;
 
 fn cube(at: f64, size: f64) -> Mesh {
     let corner = |k: usize| [0, 1, 2].map(|axis| at + size * ((k >> axis & 1) as f64));

@@ -2,18 +2,18 @@
 
 use nalgebra::Isometry3;
 
-pub(super) use urdd_geometry::vector::{cross, dot, norm, sub};
+pub use urdd_geometry::vector::{cross, dot, norm, sub};
 
 /// A point or a vector, in metres.
 pub type Point = [f64; 3];
 
 #[inline]
-pub(super) fn add(a: Point, b: Point) -> Point {
+pub fn add(a: Point, b: Point) -> Point {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 #[inline]
-pub(super) fn scaled(a: Point, by: f64) -> Point {
+pub fn scaled(a: Point, by: f64) -> Point {
     [a[0] * by, a[1] * by, a[2] * by]
 }
 

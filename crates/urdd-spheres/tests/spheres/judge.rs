@@ -1,7 +1,7 @@
 //! Compares spheres with the exact shapes: missed collisions and false contacts.
 
-use urdd_export::spheres::judge::*;
-use urdd_export::spheres::samples::Sample;
+use urdd_spheres::judge::*;
+use urdd_spheres::samples::Sample;
 
 fn samples(collide: &[bool]) -> Vec<Sample> {
     let one = |collides: &bool| Sample {

@@ -1,0 +1,265 @@
+//! Makes `link_shapes_spheres_module` (SPEC 8.9), with figures, contacts and counts.
+
+use rayon::prelude::*;
+
+use super::figures::Pieces;
+use super::fit::Limits;
+use super::fitted::{Numbers, auto_limits, fitted, surfaces};
+use super::judge::touching;
+use super::levels::{COUNTS, Level, covering};
+use super::model::{Sphere, Spheres};
+use super::pairs::Pairs;
+use super::samples::{Ask, Moves, Region, Sampler};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::index::{Count, LevelIdx, LinkIdx, SphereIdx};
+use urdd_format::link_shapes_spheres::{
+    LinkShapesSpheresModule, LinkSphere, SPHERES_FIRST, SphereEvaluation, SphereLevel, SphereOrigin,
+};
+use urdd_format::self_collision_model::LinkPair;
+use urdd_geometry::convex::ShapeError;
+
+/// Changes whenever the same robot gets other spheres.
+pub const VERSION: &str = "1";
+
+/// Sampled configurations that contacts and counts are of.
+pub const SAMPLES: usize = 10_000;
+
+/// Most checks of pairs of links in all of these: of a robot with more pairs there are fewer configurations.
+const CHECKS: usize = 50_000_000;
+
+/// Spheres that a person gave: those of each link of the robot.
+pub type Given = Vec<Vec<Sphere>>;
+
+/// Why there is no module.
+#[derive(Debug)]
+pub enum NoSpheres<E> {
+    /// The robot cannot be posed.
+    Robot(E),
+    /// A piece of this link cannot be measured.
+    Piece(usize, ShapeError),
+    /// It was cancelled.
+    Cancelled(Cancelled),
+}
+
+impl<E> From<Cancelled> for NoSpheres<E> {
+    fn from(cancelled: Cancelled) -> Self {
+        NoSpheres::Cancelled(cancelled)
+    }
+}
+
+/// The robot whose module is made.
+#[derive(Debug)]
+pub struct Subject<'a, R> {
+    /// How it moves.
+    pub robot: &'a R,
+    /// Its pieces, and the pairs of links that are not skipped (SPEC 8.8.5).
+    pub pairs: &'a Pairs,
+    /// How many links it has.
+    pub num_links: usize,
+    /// Levels that a person gave, from coarse to fine; without them spheres are fitted.
+    pub given: &'a [Given],
+}
+
+/// A level as it is made. Links are those of [`Pairs::links`].
+struct Made {
+    origin: SphereOrigin,
+    covers: bool,
+    outer: Option<usize>,
+    links: Vec<Level>,
+    /// By pair of [`Pairs::checked`].
+    ignored: Vec<bool>,
+}
+
+/// Makes the module. `progress` receives finished and all steps.
+///
+/// # Errors
+/// If the robot has no poses, a piece cannot be measured, or it is cancelled.
+pub fn module<R: Moves>(
+    subject: &Subject<R>,
+    cancellation: &Cancellation,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<LinkShapesSpheresModule, NoSpheres<R::Error>> {
+    let pairs = subject.pairs;
+    let samples = samples(pairs);
+    let steps = 3;
+    progress(0, steps);
+    let fine = match subject.given {
+        [] => vec![computed(subject, samples)?],
+        given => given.iter().map(|own| of_person(own, pairs)).collect(),
+    };
+    cancellation.check()?;
+    progress(1, steps);
+    let mut levels = cover(pairs, &fine);
+    levels.extend(fine);
+    let pieces = (pairs.pieces.par_iter().zip(&pairs.links))
+        .map(|(meshes, link)| Pieces::new(meshes).map_err(|error| NoSpheres::Piece(*link, error)))
+        .collect::<Result<Vec<Pieces>, _>>()?;
+    cancellation.check()?;
+    progress(2, steps);
+    let contacts = contacts(subject, &levels, samples).map_err(NoSpheres::Robot)?;
+    cancellation.check()?;
+    let levels = levels.iter().zip(contacts);
+    let levels = levels.map(|(level, found)| written(subject, level, &pieces, &found)).collect();
+    progress(steps, steps);
+    Ok(LinkShapesSpheresModule { levels, num_samples: Count::saturating(samples) })
+}
+
+/// How many configurations are looked at.
+fn samples(pairs: &Pairs) -> usize {
+    let links = pairs.links.len();
+    let all = links * links.saturating_sub(1) / 2;
+    SAMPLES.min(CHECKS / all.max(1)).max(100)
+}
+
+/// The spheres that are fitted, as a level inside of the first.
+fn computed<R: Moves>(subject: &Subject<R>, samples: usize) -> Result<Made, NoSpheres<R::Error>> {
+    let pairs = subject.pairs;
+    let limits: Limits = auto_limits(pairs.links.len());
+    let per_link = limits.total / pairs.links.len().max(1);
+    let numbers = Numbers::new(samples, pairs, per_link);
+    let surface = surfaces(pairs, per_link);
+    let mut ignored = vec![false; pairs.checked.len()];
+    let (spheres, _) = fitted(subject.robot, pairs, &surface, &numbers, &mut ignored, limits)
+        .map_err(NoSpheres::Robot)?;
+    let links = spheres.into_iter().map(|own| own.into_iter().map(|one| (one, 0)).collect());
+    Ok(Made {
+        origin: SphereOrigin::Computed,
+        covers: false,
+        outer: Some(0),
+        links: links.collect(),
+        ignored,
+    })
+}
+
+/// Spheres that a person gave, as a level inside of the first. Those of links without pieces are not among them.
+fn of_person(own: &Given, pairs: &Pairs) -> Made {
+    let of = |link: &usize| own.get(*link).map_or(&[][..], Vec::as_slice);
+    let links = pairs.links.iter().map(|link| of(link).iter().map(|one| (*one, 0)).collect());
+    Made {
+        origin: SphereOrigin::Given,
+        covers: false,
+        outer: Some(0),
+        links: links.collect(),
+        ignored: vec![false; pairs.checked.len()],
+    }
+}
+
+/// The levels that cover; the first holds all finer ones.
+fn cover(pairs: &Pairs, fine: &[Made]) -> Vec<Made> {
+    let each = pairs.pieces.par_iter().enumerate().map(|(link, pieces)| {
+        let more = fine.iter().flat_map(|level| &level.links[link]);
+        let more: Vec<Sphere> = more.map(|(sphere, _)| *sphere).collect();
+        covering(pieces, &more)
+    });
+    let each: Vec<[Level; COUNTS.len()]> = each.collect();
+    let level = |number: usize| Made {
+        origin: SphereOrigin::Computed,
+        covers: true,
+        outer: number.checked_sub(1),
+        links: each.iter().map(|levels| levels[number].clone()).collect(),
+        ignored: vec![false; pairs.checked.len()],
+    };
+    (0..COUNTS.len()).map(level).collect()
+}
+
+/// What sampled configurations say of a level.
+struct Found {
+    /// Of each pair of links with pieces, in how many configurations it is in contact.
+    contacts: Vec<usize>,
+    evaluation: [usize; 4],
+}
+
+/// All pairs of links with pieces, ascending.
+fn all_pairs(links: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..links).flat_map(move |a| (a + 1..links).map(move |b| [a, b]))
+}
+
+fn contacts<R: Moves>(
+    subject: &Subject<R>,
+    levels: &[Made],
+    samples: usize,
+) -> Result<Vec<Found>, R::Error> {
+    let pairs = subject.pairs;
+    let all: Vec<[usize; 2]> = all_pairs(pairs.links.len()).collect();
+    let sampler = Sampler { robot: subject.robot, pairs };
+    let known = sampler.samples(Region::Bounds, u64::from(SPHERES_FIRST), samples, Ask::Any)?;
+    let found = levels.iter().map(|level| {
+        let spheres: Spheres = (level.links.iter())
+            .map(|own| own.iter().map(|(sphere, _)| *sphere).collect())
+            .collect();
+        // By pair of all: whether a check asks it.
+        let asked: Vec<bool> = (all.iter())
+            .map(|pair| {
+                let checked = pairs.checked.binary_search(pair);
+                checked.is_ok_and(|number| !level.ignored[number])
+            })
+            .collect();
+        let touching = touching(&spheres, &all, &known);
+        let mut found = Found { contacts: vec![0; all.len()], evaluation: [0; 4] };
+        for (sample, touching) in known.iter().zip(touching) {
+            let touches = touching.iter().any(|pair| asked[*pair as usize]);
+            let [colliding, missed, free, false_contacts] = &mut found.evaluation;
+            if sample.collides() {
+                *colliding += 1;
+                *missed += usize::from(!touches);
+            } else {
+                *free += 1;
+                *false_contacts += usize::from(touches);
+            }
+            for pair in touching {
+                found.contacts[pair as usize] += 1;
+            }
+        }
+        found
+    });
+    Ok(found.collect())
+}
+
+/// The level as the module has it.
+fn written<R>(subject: &Subject<R>, level: &Made, pieces: &[Pieces], found: &Found) -> SphereLevel {
+    let pairs = subject.pairs;
+    let samples = found.evaluation[0] + found.evaluation[2];
+    let mut spheres = vec![Vec::new(); subject.num_links];
+    let mut fits = vec![None; subject.num_links];
+    let figures: Vec<_> = (level.links.par_iter().zip(pieces))
+        .map(|(own, pieces)| {
+            let own: Vec<Sphere> = own.iter().map(|(sphere, _)| *sphere).collect();
+            (!own.is_empty()).then(|| pieces.fit(&own))
+        })
+        .collect();
+    for ((link, own), fit) in pairs.links.iter().zip(&level.links).zip(figures) {
+        let one = |(sphere, outer): &(Sphere, usize)| LinkSphere {
+            radius: sphere.radius,
+            offset_xyz: sphere.centre,
+            outer_sphere_idx: level.outer.map(|_| SphereIdx(index(*outer))),
+        };
+        spheres[*link] = own.iter().map(one).collect();
+        fits[*link] = fit;
+    }
+    let of = |[a, b]: [usize; 2]| LinkPair {
+        link_a_idx: LinkIdx(index(pairs.links[a])),
+        link_b_idx: LinkIdx(index(pairs.links[b])),
+    };
+    let with = |is: &dyn Fn(usize) -> bool| {
+        let all = all_pairs(pairs.links.len()).zip(&found.contacts);
+        all.filter(|(_, count)| is(**count)).map(|(pair, _)| of(pair)).collect()
+    };
+    let ignored = pairs.checked.iter().zip(&level.ignored);
+    let [num_colliding, num_missed, num_free, num_false_contacts] =
+        found.evaluation.map(Count::saturating);
+    SphereLevel {
+        origin: level.origin,
+        covers: level.covers,
+        outer_level_idx: level.outer.map(|outer| LevelIdx(index(outer))),
+        spheres,
+        fits,
+        ignored_pairs: ignored.filter(|(_, is)| **is).map(|(pair, _)| of(*pair)).collect(),
+        always_pairs: with(&|count| count == samples),
+        sometimes_pairs: with(&|count| count > 0 && count < samples),
+        evaluation: SphereEvaluation { num_colliding, num_missed, num_free, num_false_contacts },
+    }
+}
+
+fn index(of: usize) -> u32 {
+    u32::try_from(of).unwrap_or(u32::MAX)
+}
