@@ -22,6 +22,7 @@ mod schema;
 mod signals;
 mod skips;
 mod sources;
+mod spheres;
 mod validate;
 mod view;
 mod words;
@@ -82,6 +83,9 @@ enum Command {
     /// Import edits of the skips from an SRDF.
     #[command(subcommand)]
     Skips(skips::SkipsCommand),
+    /// Import spheres of links: cuRobo's YAML, Foam's JSON, a URDF with spheres.
+    #[command(subcommand)]
+    Spheres(spheres::SpheresCommand),
     /// List, set and remove named configurations: home, ready.
     #[command(subcommand)]
     Configurations(named_configurations::ConfigurationsCommand),
@@ -129,6 +133,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Skips(command) => skips::run(&command),
+        Command::Spheres(command) => spheres::run(&command),
         Command::Configurations(command) => named_configurations::run(&command),
         Command::Explain(arguments) => printed(explain::run(&arguments)),
         Command::Info(arguments) => printed(info::run(&arguments)),

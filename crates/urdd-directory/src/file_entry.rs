@@ -94,6 +94,17 @@ pub fn insert_module<'a>(
     modules.insert(place.unwrap_or(modules.len()), entry);
 }
 
+/// States the version of the specification that has this module first, where the one that is stated is older.
+pub fn raise_version(metadata: &mut Value, kind: ModuleKind) {
+    let numbers = |version: &str| -> Vec<u64> {
+        version.split('.').map(|number| number.parse().unwrap_or_default()).collect()
+    };
+    let stated = metadata.get("urdd_version").and_then(Value::as_str);
+    if stated.is_some_and(|stated| numbers(stated) < numbers(kind.since())) {
+        metadata["urdd_version"] = kind.since().into();
+    }
+}
+
 /// Orders modules by their names.
 fn rank(name: &str) -> (usize, &str) {
     let mut kinds = ModuleKind::ALL.iter();

@@ -82,10 +82,7 @@ impl<'a> Context<'a> {
         let beginning = reference.as_ref().map(|reference| &*reference.configuration);
         let (loops, loop_notes) = found.module(beginning)?;
         let reference = reference.or_else(|| loops.as_ref().and_then(closed));
-        let spheres = match &settings.spheres {
-            Some(given) => vec![given.clone()],
-            None => decisions.spheres.clone(),
-        };
+        let spheres = decisions.spheres.clone();
         let decisions = match settings.reference.is_some() || loops.is_some() {
             true => without_reference(decisions, reference.is_some()),
             false => decisions,

@@ -10,7 +10,6 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_learned::train::Effort;
-use urdd_spheres::list::SphereList;
 
 /// [`Pieces::most`].
 pub const PIECES: Range = Range::whole("pieces", 1, 64);
@@ -54,9 +53,6 @@ pub struct Settings {
     /// except for the last digits of distances, and takes less time. Donors are trusted: pass only URDDs that a
     /// validator accepts.
     pub donors: Vec<Root>,
-    /// Spheres that a person gives, in place of those that are fitted, and of those that were given before. `None` keeps
-    /// those of the URDD that is replaced.
-    pub spheres: Option<SphereList>,
     /// The effort for training a self-collision model.
     pub model_effort: Effort,
     /// Cancellation, checked before each module and mesh. A cancelled run returns [`GenerateError::Cancelled`] and
@@ -128,7 +124,6 @@ impl Default for Settings {
             drop_edits: false,
             force: false,
             donors: Vec::new(),
-            spheres: None,
             model_effort: Effort::default(),
             cancellation: Cancellation::default(),
         }

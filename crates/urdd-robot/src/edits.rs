@@ -61,6 +61,7 @@ impl Robot {
             let (name, folder) = (kind.name(), kind.folder());
             file_entry::insert_module(modules, name, VERSION, folder, kind.depends_on(), own);
         }
+        file_entry::raise_version(&mut metadata, kind);
         file_entry::reseal(&mut metadata, |path| files.get(path).map(Vec::as_slice));
         let metadata = canonical::json_string(&metadata).into_bytes();
         files.insert(ROOT_METADATA.to_owned(), metadata);

@@ -7,14 +7,16 @@ use super::model::Sphere;
 pub struct SphereList {
     /// Links by name, each with its spheres.
     pub links: Vec<(String, Vec<Sphere>)>,
+    /// What of the list was left out, each with the reason.
+    pub left_out: Vec<String>,
 }
 
 impl SphereList {
     /// For each link of a robot, its spheres. A link that stands twice has those of both.
-    pub fn by_link(&self, names: &[&str]) -> Vec<Vec<Sphere>> {
+    pub fn by_link<T: AsRef<str>>(&self, names: &[T]) -> Vec<Vec<Sphere>> {
         let mut found = vec![Vec::new(); names.len()];
         for (name, spheres) in &self.links {
-            if let Some(link) = names.iter().position(|link| link == name) {
+            if let Some(link) = names.iter().position(|link| link.as_ref() == name) {
                 found[link].extend(spheres.iter().copied());
             }
         }

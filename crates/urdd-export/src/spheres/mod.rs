@@ -6,6 +6,8 @@
 
 pub(super) mod curobo;
 pub(super) mod foam;
+pub(super) mod import;
+mod kept;
 mod measure;
 mod pairs;
 mod said;
@@ -35,6 +37,8 @@ struct Model {
     /// The number of these that were never in contact, although the URDD does not skip them.
     ignored_as_never: usize,
     measured: Measured,
+    /// The level of `link_shapes_spheres_module` that the spheres are; `None` where they were made now.
+    level: Option<kept::Level>,
 }
 
 impl Model {
@@ -44,13 +48,17 @@ impl Model {
             Shapes::Kind(kind @ (ShapeKind::Pieces | ShapeKind::Hulls)) => kind,
             other => return Err(ExportError::SpheresOf(other)),
         };
-        let pairs = pairs::of(subject, kind, options.reasons.as_deref())?;
+        let pairs = pairs::of(subject.robot, &subject.links, kind, options.reasons.as_deref())?;
         let limits = limits(options, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let surface = surfaces(&pairs, per_link);
         let numbers = Numbers::new(options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
-        let (spheres, near) = if options.cover {
+        let level = kept::level(subject.robot, options)?;
+        let (spheres, near) = if let Some(level) = &level {
+            level.mark_ignored(&pairs, &mut ignored);
+            (level.spheres(&pairs.links), false)
+        } else if options.cover {
             (covering(options, &pairs), false)
         } else {
             fitted(&Moving(subject.robot), &pairs, &surface, &numbers, &mut ignored, limits)?
@@ -71,6 +79,7 @@ impl Model {
             ignored: written,
             ignored_as_never: ignored.iter().filter(|ignored| **ignored).count(),
             measured,
+            level,
         })
     }
 }

@@ -2,28 +2,29 @@
 
 use std::collections::HashMap;
 
+use crate::ExportError;
 use crate::pairs::Decision;
-use crate::{ExportError, Subject};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
-use urdd_robot::{LinkShape, RobotError, ShapeKind, Solid};
+use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind, Solid};
 use urdd_spheres::pairs::Pairs;
 
 /// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 pub(super) fn of(
-    subject: &Subject,
+    robot: &Robot,
+    names: &[String],
     kind: ShapeKind,
     reasons: Option<&[SkippedReason]>,
 ) -> Result<Pairs, ExportError> {
-    let shapes = subject.robot.shapes(kind)?;
-    let count = subject.links.len();
+    let shapes = robot.shapes(kind)?;
+    let count = names.len();
     if let Some(index) = shapes.iter().map(|shape| shape.link).find(|link| *link >= count) {
         let what = "link";
         return Err(RobotError::OutOfRange { what, index, count }.into());
     }
-    let skips = subject.robot.skips(kind)?;
-    let decision = Decision::new(&skips, &subject.links, reasons);
+    let skips = robot.skips(kind)?;
+    let decision = Decision::new(&skips, names, reasons);
     let rows: HashMap<(usize, usize), usize> =
         skips.places().iter().enumerate().map(|(row, place)| (*place, row)).collect();
     let row = |shape: &LinkShape| rows.get(&(shape.link, shape.piece)).copied();

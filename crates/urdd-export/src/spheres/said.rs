@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::measure::Measured;
 
-use super::{Model, Point};
+use super::{Model, Point, kept};
 use crate::{Note, Subject};
 use urdd_format::escape;
 use urdd_format::rate::interval;
@@ -52,6 +52,7 @@ impl Model {
             lines.push("No link has shapes, so there are no spheres.".to_owned());
             return lines;
         }
+        lines.extend(self.level.as_ref().map(kept::Level::said));
         let stands = self.links.iter().zip(&self.surface);
         let stands: Vec<Stand> = stands.map(|((_, own), at)| Stand::new(own, at)).collect();
         let outside = stands.iter().map(|stand| stand.outside).fold(0.0, f64::max);
@@ -61,7 +62,8 @@ impl Model {
             "The spheres of a link hold all of its convex pieces.".to_owned()
         } else {
             format!(
-                "The spheres are fitted and do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
+                "The spheres {}do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
+                if self.level.as_ref().is_some_and(kept::Level::is_given) { "" } else { "are fitted and " },
                 100.0 * held as f64 / points.max(1) as f64,
                 1000.0 * outside
             )

@@ -68,7 +68,7 @@ fn lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault> {
                 .map(|sphere| BoundingSphere { centre: sphere.offset_xyz, radius: sphere.radius });
             (name, one.collect())
         });
-        lists.push(SphereList { links: links.collect() });
+        lists.push(SphereList { links: links.collect(), left_out: Vec::new() });
     }
     Ok(lists)
 }

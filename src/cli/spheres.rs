@@ -1,0 +1,109 @@
+//! `urdd spheres`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Subcommand;
+
+use super::inputs::{Edited, edited, left_out};
+use super::output::{self, Failure, about, one_line, shown};
+use super::signals;
+use super::sources::around;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::file_type::FileType;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
+use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
+use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::Geometry;
+
+/// The commands of `urdd spheres`.
+#[derive(Subcommand)]
+pub enum SpheresCommand {
+    /// Import a list of spheres into a URDD: cuRobo's YAML, Foam's JSON, or a URDF with spheres.
+    #[command(
+        after_help = "The list becomes the last level of link_shapes_spheres_module, in place of fitted spheres; levels that cover the links are \
+        made around it. How well it fits, and how often it is right, is measured. `urdd generate` with `--modules all,link_shapes_spheres` \
+        keeps it.\n\n\
+        Of a URDF, spheres are the spheres of its collision elements. Spheres of links that the robot does not have, or that have no shape, \
+        are named and left out.\n\n\
+        Exit status: 0 imported; 2 nothing was written."
+    )]
+    Import {
+        /// The list.
+        #[arg(value_name = "LIST")]
+        list: PathBuf,
+
+        /// The URDD: a folder.
+        #[arg(value_name = "DIR")]
+        urdd: PathBuf,
+    },
+}
+
+/// Runs `urdd spheres`.
+pub fn run(command: &SpheresCommand) -> Result<u8, Failure> {
+    let SpheresCommand::Import { list, urdd } = command;
+    signals::run(None, |signals| {
+        let cancellation = signals.cancellation();
+        let spheres = read(list, &cancellation)?;
+        let told = edited(urdd, ModuleKind::LinkShapesSpheres, |robot| {
+            let imported = import_spheres(robot, &spheres, &cancellation).map_err(about(list))?;
+            let last = imported.module.levels.last();
+            let mut told = format!(
+                "{}: {} imported\n",
+                shown(urdd),
+                output::counted(imported.taken, "sphere")
+            );
+            if let Some(level) = last {
+                let of = &level.evaluation;
+                told += &format!(
+                    "  in {} sampled configurations: missed collisions {}; false contacts {}\n",
+                    imported.module.num_samples,
+                    of.miss_rate(),
+                    of.false_contact_rate()
+                );
+            }
+            told += &left_out(&imported.left_out);
+            Ok(Edited { files: imported.files, told })
+        })?;
+        output::print(&told)?;
+        Ok(0)
+    })
+}
+
+fn read(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
+    if matches!(FileType::of(file), Some(FileType::Urdf | FileType::Xacro)) {
+        return of_urdf(file, cancellation);
+    }
+    let unread = |error| about(file)(format!("cannot be read: {error}"));
+    let bytes = regular::read(file, MAX_DOCUMENT_BYTES).map_err(unread)?;
+    let text = String::from_utf8(bytes).map_err(|_| about(file)("it is not UTF-8"))?;
+    Ok(read_spheres(&text).map_err(about(file))?)
+}
+
+/// The spheres of a URDF's collision elements.
+fn of_urdf(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
+    let source = urdd_source::load(file, &around(), cancellation).map_err(one_line)?;
+    let mut list = SphereList::default();
+    for link in &source.reading.robot.links {
+        let mut spheres = Vec::new();
+        for element in &link.collision {
+            match &element.geometry {
+                Some(Geometry::Sphere(sphere)) => spheres.push(Sphere {
+                    centre: element.origin.as_ref().and_then(|of| of.xyz).unwrap_or_default(),
+                    radius: sphere.radius,
+                }),
+                _ => list.left_out.push(format!(
+                    "link `{}` has a collision element that is no sphere",
+                    link.name.escape_debug()
+                )),
+            }
+        }
+        if !spheres.is_empty() {
+            list.links.push((link.name.clone(), spheres));
+        }
+    }
+    if list.links.is_empty() {
+        Err(about(file)("none of its collision elements is a sphere"))?;
+    }
+    Ok(list)
+}
