@@ -7,6 +7,8 @@ use super::described::{Described, UrdfText};
 use super::memo::Memos;
 use super::reference::distances::Distances;
 use super::reference::learned::counts::Judge;
+use super::reference::spheres;
+use super::reference::spheres::contacts::LevelFound;
 use super::reference::urdf_text;
 use super::solids::Solids;
 use super::solids::placed::{self, Placed};
@@ -33,7 +35,7 @@ use urdd_format::root_metadata::ConformanceClass;
 pub struct Context {
     urdd: Urdd,
     class: Option<ConformanceClass>,
-    deep: bool,
+    pub(super) deep: bool,
     /// Once cancelled, no further rule starts.
     pub(super) cancellation: Cancellation,
     urdf_text: Arc<UrdfText>,
@@ -43,6 +45,7 @@ pub struct Context {
     distances: OnceLock<Result<Distances, SkipReason>>,
     placed: OnceLock<Placed>,
     model_judge: OnceLock<Result<Judge, SkipReason>>,
+    sphere_contacts: OnceLock<Result<Vec<LevelFound>, SkipReason>>,
 }
 
 impl Deref for Context {
@@ -67,6 +70,7 @@ impl Context {
             distances: OnceLock::new(),
             placed: OnceLock::new(),
             model_judge: OnceLock::new(),
+            sphere_contacts: OnceLock::new(),
         }
     }
 
@@ -148,6 +152,15 @@ impl Context {
             _ => Err(SkipReason::absent(kind)),
         };
         self.model_judge.get_or_init(make).as_ref().map_err(Clone::clone)
+    }
+
+    /// The contacts of links by their spheres, level by level, computed on first use. For rules that need SPH009 passed.
+    ///
+    /// # Errors
+    /// Why they cannot be computed.
+    pub fn sphere_contacts(&self) -> Result<&[LevelFound], SkipReason> {
+        let make = || spheres::contacts::of_urdd(&self.urdd, self.deep);
+        self.sphere_contacts.get_or_init(make).as_deref().map_err(Clone::clone)
     }
 
     /// The plain meshes compared with the robot's geometry.

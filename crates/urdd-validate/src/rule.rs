@@ -102,7 +102,7 @@ pub const fn of_family(code: &str) -> Consequence {
         | [b'C', b'N', b'F', ..]
         | [b'L', b'O', b'P', ..] => Consequence::WrongMotion,
         [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
-        [b'S', b'H', b'P', ..] => Consequence::Collisions,
+        [b'S', b'H', b'P', ..] | [b'S', b'P', b'H', ..] => Consequence::Collisions,
         [b'S', b'R', b'C', ..] => Consequence::Looseness,
         _ => Consequence::Format,
     }

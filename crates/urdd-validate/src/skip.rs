@@ -73,3 +73,13 @@ pub fn too_much_work(deep: bool) -> SkipReason {
         true => "counting its collisions again takes more work than even --deep allows",
     })
 }
+
+/// Judging spheres of links (SPEC 8.9) takes more work than allowed; `--deep` allows more.
+pub fn spheres_take_too_long(deep: bool) -> SkipReason {
+    left_out(match deep {
+        false => {
+            "computing again what the spheres say takes more work than a validation does; use --deep, which allows more"
+        }
+        true => "computing again what the spheres say takes more work than even --deep allows",
+    })
+}

@@ -179,3 +179,16 @@ pub const LEAST_SUM: f64 = 1e-12;
 
 /// A loop that closes only within more than this fraction of the reach, or this angle, rad, is loose.
 pub const LOOSE: f64 = 1e-6;
+
+/// A sphere of a link may stick out of its outer one by this fraction of the outer radius: as positions.
+pub const SPHERE_IN_SPHERE: f64 = 1e-9;
+
+/// A point of a piece may be outside of spheres that cover it by this fraction of the distance of the piece's farthest vertex
+/// from the link's origin: eight steps of binary32, as for bounding spheres.
+pub const SPHERES_COVER: f64 = 1e-6;
+
+/// Lengths of the fit of spheres agree within this fraction of the diagonal of the box around the link's pieces.
+pub const FIT_LENGTH: f64 = 1e-6;
+
+/// Fractions of the surface outside of spheres agree within this: a point or two of very many may be on either side.
+pub const FIT_FRACTION: f64 = 1e-4;

@@ -1,6 +1,6 @@
 //! What the validator computes by itself, from SPEC.md alone, where the generator computes it too (CONTRIBUTING.md has the
 //! list): the URDF's text as data (`urdf_text`), link poses, distances and their statistics (`distances`), the
-//! learned model with its counts (`learned`), and what kinematic loops hold (`loops`).
+//! learned model with its counts (`learned`), spheres of links (`spheres`), and what kinematic loops hold (`loops`).
 //!
 //! Here are the link poses, computed from the text of the carried URDF (multiplied by nalgebra). They share nothing with
 //! the modules or with `urdd_kinematics`, which they verify. Nothing recurses, because a chain may be as long as the file.
@@ -9,6 +9,7 @@ pub mod distances;
 pub mod learned;
 pub mod loops;
 pub mod motion;
+pub mod spheres;
 pub mod urdf_text;
 
 use std::collections::HashMap;

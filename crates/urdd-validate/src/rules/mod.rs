@@ -16,6 +16,7 @@ pub mod named_configurations;
 mod prelude;
 pub mod shapes;
 pub mod source;
+pub mod spheres;
 pub mod testing;
 pub mod text;
 pub mod urdf;
@@ -38,6 +39,7 @@ pub fn all() -> Vec<&'static Rule> {
         meshes::rules(),
         shapes::rules(),
         learned::rules(),
+        spheres::rules(),
         kinematics::rules(),
         named_configurations::rules(),
         loops::rules(),

@@ -22,8 +22,10 @@ use urdd_geometry::convex::BodyPairs;
 const DEFAULT: u64 = 200_000;
 /// The same with `--deep`: about 7 minutes.
 const DEEP: u64 = 4_000_000;
-/// Work of comparing two pieces whose bounding spheres intersect.
-const COMPARISON: u64 = 150;
+/// Work of comparing two pieces whose bounding spheres intersect, of the unit that `DEFAULT` has.
+pub const COMPARISON: u64 = 150;
+/// A count may differ by one per this many configurations that it is counted among.
+pub const PER_TOLERANCE: u32 = 10_000;
 
 /// Compares a model with exact geometry.
 pub struct Judge {

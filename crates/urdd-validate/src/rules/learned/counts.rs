@@ -1,3 +1,4 @@
+use crate::reference::learned::counts::PER_TOLERANCE;
 use crate::reference::learned::network;
 use crate::rules::prelude::*;
 use urdd_format::rate::Rate;
@@ -122,9 +123,6 @@ fn counts_few(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     Some(())
 }
-
-/// A count may differ by one per this many configurations that it is counted among.
-const PER_TOLERANCE: u32 = 10_000;
 
 fn counts_differ(context: &Context, findings: &mut Findings) -> Option<()> {
     let model = document!(context, SelfCollisionModel)?;
