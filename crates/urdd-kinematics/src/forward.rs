@@ -61,11 +61,16 @@ pub struct ForwardKinematics {
     pub(super) step_of: Vec<Option<usize>>,
 }
 
+/// A joint: the pose of its child link's frame in that of its parent link is `origin`, then what `motion` says.
 #[derive(Debug, Clone)]
-pub(super) struct Step {
+pub struct Step {
+    /// The parent link.
     pub parent: usize,
+    /// The child link.
     pub child: usize,
+    /// The pose of the joint's frame in that of the parent link.
     pub origin: Isometry3<f64>,
+    /// How it moves.
     pub motion: Motion,
 }
 
@@ -101,6 +106,11 @@ impl ForwardKinematics {
             root: chain.root_idx.get(),
             steps,
         })
+    }
+
+    /// The joints, each after the one that moves its parent link.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
     }
 
     /// Number of DOFs, which is the length of a configuration.
@@ -153,7 +163,7 @@ impl ForwardKinematics {
     ///
     /// # Errors
     /// If it does not.
-    pub(super) fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
+    pub fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
         ConfigurationError::check(configuration, self.num_dofs)
     }
 

@@ -10,17 +10,21 @@ use urdd_format::dof::DofModule;
 use urdd_format::index::DofIdx;
 use urdd_format::urdf::JointType;
 
-type Axis = Unit<Vector3<f64>>;
+/// A unit vector.
+pub type Axis = Unit<Vector3<f64>>;
 
 const DOFS: &str = "joint_idx_to_dof_idxs_mapping";
 const MIMICS: &str = "joint_idx_to_mimic_mapping";
 
 /// The scalar position of a joint: `multiplier * q[dof] + offset`.
 #[derive(Debug, Clone)]
-pub(super) struct Position {
+pub struct Position {
+    /// The DOF that it follows; `None` if it never changes.
     pub dof: Option<usize>,
+    /// What the DOF is multiplied by.
     pub multiplier: f64,
-    offset: f64,
+    /// What is added, rad or m.
+    pub offset: f64,
 }
 
 impl Position {
@@ -29,6 +33,7 @@ impl Position {
         Position { dof: dofs.first().copied(), multiplier: 1.0, offset: 0.0 }
     }
 
+    /// The position in a configuration, rad or m.
     pub fn at(&self, q: &[f64]) -> f64 {
         match self.dof {
             Some(dof) => self.multiplier * q[dof] + self.offset,
@@ -40,13 +45,42 @@ impl Position {
 /// The motion of a joint, with the indices of its DOFs. They are checked, so [`Motion::at`] cannot fail on a
 /// configuration of the right length.
 #[derive(Debug, Clone)]
-pub(super) enum Motion {
+pub enum Motion {
+    /// None.
     Fixed,
-    Turn { axis: Axis, position: Position },
-    Slide { axis: Axis, position: Position },
-    Plane { axis: Axis, basis: [Vector3<f64>; 2], dofs: [usize; 3] },
-    Float { dofs: [usize; 6] },
-    Ball { dofs: [usize; 3] },
+    /// A rotation about an axis.
+    Turn {
+        /// The axis.
+        axis: Axis,
+        /// The angle, rad.
+        position: Position,
+    },
+    /// A translation along an axis.
+    Slide {
+        /// The axis.
+        axis: Axis,
+        /// The length, m.
+        position: Position,
+    },
+    /// A translation in a plane, then a rotation about its normal.
+    Plane {
+        /// The normal.
+        axis: Axis,
+        /// The directions of the first two DOFs.
+        basis: [Vector3<f64>; 2],
+        /// Two lengths, m, and the angle, rad.
+        dofs: [usize; 3],
+    },
+    /// A translation, then a rotation.
+    Float {
+        /// The translation, m, and the rotation vector, rad.
+        dofs: [usize; 6],
+    },
+    /// A rotation.
+    Ball {
+        /// The rotation vector, rad.
+        dofs: [usize; 3],
+    },
 }
 
 impl Motion {
@@ -86,7 +120,7 @@ impl Motion {
     }
 
     /// Pose of the child link's frame in the joint frame.
-    pub(super) fn at(&self, q: &[f64]) -> Isometry3<f64> {
+    pub fn at(&self, q: &[f64]) -> Isometry3<f64> {
         match self {
             Motion::Fixed => Isometry3::identity(),
             Motion::Turn { axis, position } => Isometry3::from_parts(

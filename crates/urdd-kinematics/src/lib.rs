@@ -22,8 +22,8 @@ mod travel;
 
 pub use configurations::{ConfigurationSpace, fill, unit};
 pub use error::{ConfigurationError, KinematicsError};
-pub use forward::ForwardKinematics;
+pub use forward::{ForwardKinematics, Step};
 pub use jacobian::{Branch, Load, Place, gather};
-pub use joint::{has_axis, joint_motion, num_dofs};
+pub use joint::{Axis, Motion, Position, has_axis, joint_motion, num_dofs};
 pub use reach::reach;
 pub use travel::Travel;

@@ -164,6 +164,26 @@ pub enum RobotError {
         /// What is wrong with it.
         reason: String,
     },
+    /// An invalid sphere of a link.
+    #[error("sphere {sphere} of link {link}: {reason}")]
+    Sphere {
+        /// The link.
+        link: usize,
+        /// The index of the sphere among those of the link.
+        sphere: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A value of a configuration that is too large for spheres.
+    #[error(
+        "value {dof_idx} of the configuration is {value}: spheres are checked up to 1e9 rad and 1e9 m"
+    )]
+    Far {
+        /// Index of the DOF.
+        dof_idx: usize,
+        /// Its value, rad or m.
+        value: f64,
+    },
     /// The computation was cancelled: [`Queries::in_collision_batch_into`](super::Queries::in_collision_batch_into).
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -51,6 +51,7 @@ mod robot;
 mod shapes;
 mod skips;
 mod source_elements;
+pub mod spheres;
 mod workspace;
 pub mod world;
 

@@ -1,0 +1,277 @@
+//! Queries on the spheres of a robot.
+
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+use super::answer::{Approximating, Coverage, Covering};
+use super::block::{Scene, with_memory};
+use super::lanes::LANES;
+use super::level::SphereLevel;
+use super::model::Model;
+use super::obstacles::Obstacles;
+use crate::Robot;
+use crate::batch::{check_room, room};
+use crate::checked::check_margin;
+use crate::edge::{EdgeSettings, FirstContact, halving, steps};
+use crate::error::RobotError;
+use crate::kept::{Closure, Motion, Rows};
+use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::fill;
+
+/// The spheres of a robot, prepared for yes or no: whether any touch, in configurations and along straight motions.
+#[derive(Debug, Clone)]
+pub struct SphereChecker<C> {
+    pub(super) motion: Arc<Motion>,
+    closure: Result<Option<Arc<Closure>>, RobotError>,
+    pub(super) model: Arc<Model>,
+    pub(super) obstacles: Obstacles,
+    coverage: PhantomData<C>,
+}
+
+/// Blocks of eight configurations in one piece of work for a thread.
+const BLOCKS: usize = 32;
+
+/// Edges in one piece of work.
+const EDGES: usize = 32;
+
+impl<C: Coverage> SphereChecker<C> {
+    fn of(robot: &Robot, levels: &[SphereLevel], pairs: &[[usize; 2]]) -> Result<Self, RobotError> {
+        let motion = Arc::clone(robot.shared_motion()?);
+        Ok(SphereChecker {
+            model: Arc::new(Model::new(&motion, levels, pairs, C::IS_CERTAIN)?),
+            closure: robot.closure().map(Option::<&Arc<_>>::cloned),
+            motion,
+            obstacles: Obstacles::default(),
+            coverage: PhantomData,
+        })
+    }
+
+    /// Number of DOFs: the length of a configuration.
+    pub fn num_dofs(&self) -> usize {
+        self.motion.kinematics.num_dofs()
+    }
+
+    /// What is said of a configuration.
+    pub fn in_collision(&self, configuration: &[f64]) -> Result<C::Answer, RobotError> {
+        self.is_within(configuration, 0.0)
+    }
+
+    /// As [`SphereChecker::in_collision`], of spheres that are at most `margin` apart, m.
+    pub fn is_within(&self, configuration: &[f64], margin: f64) -> Result<C::Answer, RobotError> {
+        let scene = self.scene(margin)?;
+        self.check(configuration)?;
+        let touching =
+            with_memory(&self.model, |memory| scene.rows(memory, std::iter::once(configuration)));
+        Ok(C::answer(touching != 0))
+    }
+
+    /// As [`SphereChecker::in_collision`] for each of the configurations, which are stored one after another.
+    pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<C::Answer>, RobotError> {
+        let mut answers = room(self.motion.rows(configurations)?.count, 1)?;
+        self.in_collision_batch_into(configurations, &Cancellation::default(), &mut answers)?;
+        Ok(answers)
+    }
+
+    /// As [`SphereChecker::in_collision_batch`], into `out`.
+    pub fn in_collision_batch_into(
+        &self,
+        configurations: &[f64],
+        cancellation: &Cancellation,
+        out: &mut [C::Answer],
+    ) -> Result<(), RobotError> {
+        let (scene, rows) = (self.scene(0.0)?, self.motion.rows(configurations)?);
+        check_room(out.len(), rows.count, 1)?;
+        fill(out, LANES, BLOCKS, |(): &mut (), block, out| {
+            cancellation.check()?;
+            let rows = (0..out.len()).map(|lane| rows.row(block * LANES + lane));
+            rows.clone().try_for_each(|row| self.check(row))?;
+            let touching = with_memory(&self.model, |memory| scene.rows(memory, rows));
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = C::answer(touching >> lane & 1 != 0);
+            }
+            Ok(())
+        })
+    }
+
+    /// A part of the straight motion from `start` to `end` in which spheres touch; `None` if there is none.
+    pub fn blocked_edge(
+        &self,
+        start: &[f64],
+        end: &[f64],
+        settings: &EdgeSettings,
+    ) -> Result<Option<f64>, RobotError> {
+        let (scene, steps) = self.motion_of([start, end], settings)?;
+        Ok(blocked(&scene, [start, end], steps))
+    }
+
+    /// As [`SphereChecker::blocked_edge`], in this many parts of the same length.
+    pub fn blocked_in_steps(
+        &self,
+        start: &[f64],
+        end: &[f64],
+        steps: u64,
+    ) -> Result<Option<f64>, RobotError> {
+        self.check(start)?;
+        self.check(end)?;
+        Ok(blocked(&self.scene(0.0)?, [start, end], steps.max(1)))
+    }
+
+    /// How far the spheres are free on the straight motion from `start` to `end`, and where they touch first.
+    pub fn first_contact(
+        &self,
+        start: &[f64],
+        end: &[f64],
+        settings: &EdgeSettings,
+    ) -> Result<Option<FirstContact>, RobotError> {
+        let (scene, steps) = self.motion_of([start, end], settings)?;
+        Ok(first(&scene, [start, end], steps))
+    }
+
+    /// As [`SphereChecker::blocked_edge`] from each configuration of the first batch to that of the second, into `out`: NaN
+    /// where the motion is free.
+    pub fn blocked_edge_batch_into(
+        &self,
+        edges: [&[f64]; 2],
+        settings: &EdgeSettings,
+        cancellation: &Cancellation,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.edges(edges, cancellation, out, |start, end| {
+            Ok([self.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
+        })
+    }
+
+    /// As [`SphereChecker::first_contact`] from each configuration of the first batch to that of the second, into `out`: the
+    /// last part that is free and the first that is blocked, NaN where the motion is free.
+    pub fn first_contact_batch_into(
+        &self,
+        edges: [&[f64]; 2],
+        settings: &EdgeSettings,
+        cancellation: &Cancellation,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.edges(edges, cancellation, out, |start, end| {
+            let contact = self.first_contact(start, end, settings)?;
+            Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
+        })
+    }
+
+    fn edges<const N: usize>(
+        &self,
+        [starts, ends]: [&[f64]; 2],
+        cancellation: &Cancellation,
+        out: &mut [f64],
+        ask: impl Fn(&[f64], &[f64]) -> Result<[f64; N], RobotError> + Sync,
+    ) -> Result<(), RobotError> {
+        let ends: Rows = self.motion.rows(ends)?;
+        check_room(starts.len(), ends.count, self.num_dofs())?;
+        let starts = self.motion.rows(starts)?;
+        check_room(out.len(), ends.count, N)?;
+        fill(out, N, EDGES, |(): &mut (), k, out| {
+            cancellation.check()?;
+            out.copy_from_slice(&ask(starts.row(k), ends.row(k))?);
+            Ok(())
+        })
+    }
+
+    fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+        self.motion.kinematics.check(configuration)?;
+        self.model.check(configuration)
+    }
+
+    fn scene(&self, margin: f64) -> Result<Scene<'_>, RobotError> {
+        let margin = check_margin(margin)?.min(1e9);
+        let margin = if C::IS_CERTAIN { margin * (1.0 + 1e-6) } else { margin } as f32;
+        Ok(Scene { model: &self.model, obstacles: &self.obstacles, margin })
+    }
+
+    /// What a motion is checked for, and in how many parts.
+    fn motion_of(
+        &self,
+        ends: [&[f64]; 2],
+        settings: &EdgeSettings,
+    ) -> Result<(Scene<'_>, u64), RobotError> {
+        if !settings.open_loops && self.closure.as_ref().map_err(Clone::clone)?.is_some() {
+            let why = "spheres follow no motion in which loops stay closed: ask the shapes, or for open loops";
+            return Err(RobotError::Setting(why));
+        }
+        let scene = self.scene(settings.margin)?;
+        let Some(resolution) = settings.resolution else {
+            return Err(RobotError::Setting(
+                "spheres have no proof of a motion: give a resolution",
+            ));
+        };
+        for end in ends {
+            self.check(end)?;
+        }
+        let length =
+            with_memory(&self.model, |memory| self.model.farthest(ends, &mut memory.travel));
+        Ok((scene, steps(length, resolution)?))
+    }
+}
+
+impl SphereChecker<Covering> {
+    /// Prepares levels of spheres that cover the shapes.
+    pub fn covering(
+        robot: &Robot,
+        levels: &[SphereLevel],
+        pairs: &[[usize; 2]],
+    ) -> Result<Self, RobotError> {
+        match levels.iter().all(|level| level.covers) {
+            true => Self::of(robot, levels, pairs),
+            false => Err(RobotError::Setting("a level of spheres does not cover the shapes")),
+        }
+    }
+}
+
+impl SphereChecker<Approximating> {
+    /// Prepares levels of spheres that need not cover the shapes.
+    pub fn approximating(
+        robot: &Robot,
+        levels: &[SphereLevel],
+        pairs: &[[usize; 2]],
+    ) -> Result<Self, RobotError> {
+        Self::of(robot, levels, pairs)
+    }
+}
+
+/// One of the ends of this many parts of a motion at which spheres touch. Each block is spread over the whole motion; its end
+/// is in the first one.
+fn blocked(scene: &Scene, ends: [&[f64]; 2], steps: u64) -> Option<f64> {
+    let blocks = steps / LANES as u64 + 1;
+    let scale = steps as f64;
+    with_memory(scene.model, |memory| {
+        halving(blocks).find_map(|block| {
+            let part =
+                |lane: usize| steps.saturating_sub(lane as u64 * blocks + block) as f64 / scale;
+            let parts: [f64; LANES] = std::array::from_fn(part);
+            let touching = scene.parts(memory, ends, &parts, true);
+            (touching != 0).then(|| parts[touching.trailing_zeros() as usize])
+        })
+    })
+}
+
+/// The first of this many parts that is blocked, with the part before it divided by eight four times.
+fn first(scene: &Scene, ends: [&[f64]; 2], steps: u64) -> Option<FirstContact> {
+    with_memory(scene.model, |memory| {
+        let at = |k: u64| k.min(steps) as f64 / steps as f64;
+        let mut contact = (0..=steps).step_by(LANES).find_map(|from| {
+            let parts: [f64; LANES] = std::array::from_fn(|lane| at(from + lane as u64));
+            let touching = scene.parts(memory, ends, &parts, false);
+            let k = from + u64::from(touching.trailing_zeros());
+            (touching != 0).then(|| FirstContact::new(at(k.saturating_sub(1)), at(k)))
+        })?;
+        for _ in 0..if contact.blocked == 0.0 { 0 } else { 4 } {
+            let FirstContact { free, blocked, .. } = contact;
+            let at = |k: usize| {
+                if k == LANES { blocked } else { free + (blocked - free) * k as f64 / LANES as f64 }
+            };
+            let parts: [f64; LANES] = std::array::from_fn(|lane| at(lane + 1));
+            // The last one is blocked.
+            let touching = scene.parts(memory, ends, &parts, false) | 1 << (LANES - 1);
+            let k = touching.trailing_zeros() as usize;
+            contact = FirstContact::new(at(k), at(k + 1));
+        }
+        Some(contact)
+    })
+}

@@ -1,0 +1,67 @@
+//! Spheres of links, level by level.
+
+use crate::error::RobotError;
+
+/// The largest coordinate and radius, m.
+pub const MOST: f64 = 1e9;
+
+/// A sphere in the frame of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    /// The centre, m.
+    pub centre: [f64; 3],
+    /// The radius, m.
+    pub radius: f64,
+}
+
+/// The spheres of a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkSpheres {
+    /// The link.
+    pub link_idx: usize,
+    /// Its spheres; at least one.
+    pub spheres: Vec<Sphere>,
+}
+
+/// One level of spheres of a robot: a set of spheres for each link that has geometry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereLevel {
+    /// The links, each once.
+    pub links: Vec<LinkSpheres>,
+    /// Whether every shape of each link is inside the union of the link's spheres.
+    pub covers: bool,
+}
+
+impl SphereLevel {
+    /// The spheres of a link; none if it has none.
+    pub(super) fn of(&self, link: usize) -> &[Sphere] {
+        let own = self.links.iter().find(|own| own.link_idx == link);
+        own.map_or(&[], |own| &own.spheres)
+    }
+
+    /// # Errors
+    /// [`RobotError::Sphere`], [`RobotError::OutOfRange`].
+    pub(super) fn check(&self, num_links: usize) -> Result<(), RobotError> {
+        let mut known = vec![false; num_links];
+        for LinkSpheres { link_idx, spheres } in &self.links {
+            let fail = |sphere, reason| Err(RobotError::Sphere { link: *link_idx, sphere, reason });
+            match known.get_mut(*link_idx) {
+                None => {
+                    let (index, count) = (*link_idx, num_links);
+                    return Err(RobotError::OutOfRange { what: "link", index, count });
+                }
+                Some(true) => return fail(0, "its link is in the level twice"),
+                Some(known) => *known = true,
+            }
+            for (k, Sphere { centre, radius }) in spheres.iter().enumerate() {
+                if !centre.iter().all(|x| x.abs() <= MOST) {
+                    return fail(k, "its centre is not finite, or farther than 1e9 m");
+                }
+                if !(*radius > 0.0 && *radius <= MOST) {
+                    return fail(k, "its radius is not above 0, or larger than 1e9 m");
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,16 @@
+//! Spheres in the place of a robot's shapes.
+
+mod answer;
+mod block;
+mod check;
+mod checker;
+mod lanes;
+mod level;
+mod model;
+mod obstacles;
+mod run;
+mod tape;
+
+pub use answer::{ApproximateAnswer, Approximating, Coverage, Covering, CoveringAnswer};
+pub use checker::SphereChecker;
+pub use level::{LinkSpheres, Sphere, SphereLevel};

@@ -1,0 +1,166 @@
+//! A block of configurations through the steps of a robot: where its frames are.
+
+use fearless_simd::{Simd, f64x8, prelude::*};
+
+use super::lanes::{LANES, MOST_ANGLE, Row, Vec3, WideRow, narrow, sin_cos, splat};
+use super::tape::{Frame, Input, StepMotion, Tape};
+use urdd_kinematics::rotation::from_rotation_vector;
+
+/// The values of the DOFs: one row for each.
+pub type Values<'a> = &'a [WideRow];
+
+/// Where the frames are, for each lane; kept from one block to the next.
+#[derive(Debug, Default)]
+pub struct Frames {
+    /// The sine and the cosine of each angle.
+    angles: Vec<[Row; 2]>,
+    lengths: Vec<Row>,
+    balls: Vec<[[Row; 3]; 3]>,
+    /// Columns.
+    rotations: Vec<[[Row; 3]; 3]>,
+    origins: Vec<[Row; 3]>,
+    /// The sum of the lengths of all slides, in the lane in which it is largest, m.
+    pub slides: f32,
+}
+
+impl Frames {
+    /// Makes room for a robot; the root's frame is the identity.
+    pub fn fit(&mut self, tape: &Tape) {
+        self.angles.resize(tape.angles.len(), Default::default());
+        self.lengths.resize(tape.lengths.len(), Default::default());
+        self.balls.resize(tape.balls.len(), Default::default());
+        self.rotations.resize(tape.num_rotations, Default::default());
+        self.origins.resize(tape.num_origins, Default::default());
+        let [one, zero] = [Row([1.0; LANES]), Row::default()];
+        self.rotations[0] = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        self.origins[0] = [zero; 3];
+    }
+
+    #[inline(always)]
+    pub fn run<S: Simd>(&mut self, simd: S, tape: &Tape, values: Values) {
+        self.read(simd, tape, values);
+        for step in &tape.steps {
+            let columns =
+                self.rotations[step.from.rotation].map(|column| Vec3::load(simd, &column));
+            let origin = Vec3::load(simd, &self.origins[step.from.origin]);
+            let mut origin = along(simd, origin, &columns, step.shift);
+            let turned = match &step.motion {
+                StepMotion::Turn { columns: [a, b, c], is_reversed, angle } => {
+                    let z = columns[*c];
+                    let z = if *is_reversed { z.negated() } else { z };
+                    Some(self.turned(simd, columns[*a], columns[*b], z, *angle))
+                }
+                StepMotion::TurnAny { rotation, angle } => {
+                    let [x, y, z] = rotation.map(|column| rotated(simd, &columns, column));
+                    Some(self.turned(simd, x, y, z, *angle))
+                }
+                StepMotion::Slide { axis, length } => {
+                    let length = self.lengths[*length].load(simd);
+                    origin = origin.plus(rotated(simd, &columns, *axis).scale(length));
+                    None
+                }
+                StepMotion::Ball { rotation, ball } => {
+                    let constant = rotation.map(|column| rotated(simd, &columns, column));
+                    let ball = self.balls[*ball];
+                    Some(ball.map(|column| {
+                        let [x, y, z] = column.map(|row| row.load(simd));
+                        constant[0].scale(x).plus(constant[1].scale(y)).plus(constant[2].scale(z))
+                    }))
+                }
+            };
+            if let Some(columns) = turned {
+                self.rotations[step.to.rotation] = columns.map(Vec3::store);
+            }
+            self.origins[step.to.origin] = origin.store();
+        }
+    }
+
+    /// Two columns, turned about the third.
+    #[inline(always)]
+    fn turned<S: Simd>(
+        &self,
+        simd: S,
+        x: Vec3<S>,
+        y: Vec3<S>,
+        z: Vec3<S>,
+        angle: usize,
+    ) -> [Vec3<S>; 3] {
+        let [sin, cos] = self.angles[angle].map(|row| row.load(simd));
+        [x.scale(cos).plus(y.scale(sin)), y.scale(cos).minus(x.scale(sin)), z]
+    }
+
+    #[inline(always)]
+    fn read<S: Simd>(&mut self, simd: S, tape: &Tape, values: Values) {
+        for (to, input) in self.angles.iter_mut().zip(&tape.angles) {
+            let mut angle = value(simd, input, values);
+            if !angle.abs().simd_le(MOST_ANGLE).all_true() {
+                angle = reduced(simd, angle);
+            }
+            *to = sin_cos(simd, angle).map(Row::of);
+        }
+        self.slides = 0.0;
+        if !tape.lengths.is_empty() {
+            let mut sum = splat(simd, 0.0);
+            for (to, input) in self.lengths.iter_mut().zip(&tape.lengths) {
+                let length = narrow(value(simd, input, values));
+                sum = sum + length.abs();
+                *to = Row::of(length);
+            }
+            self.slides = sum.reduce_max_precise();
+        }
+        for (to, dofs) in self.balls.iter_mut().zip(&tape.balls) {
+            for lane in 0..LANES {
+                let rotation = from_rotation_vector(dofs.map(|dof| values[dof].0[lane]));
+                let rotation = rotation.to_rotation_matrix();
+                for (k, column) in to.iter_mut().enumerate() {
+                    for (j, row) in column.iter_mut().enumerate() {
+                        row.0[lane] = rotation[(j, k)] as f32;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where a point of a frame is.
+    #[inline(always)]
+    pub fn point<S: Simd>(&self, simd: S, frame: Frame, point: [f32; 3]) -> Vec3<S> {
+        let columns = &self.rotations[frame.rotation];
+        let columns = [0, 1, 2].map(|k| Vec3::load(simd, &columns[k]));
+        let turned = rotated(simd, &columns, point);
+        Vec3::load(simd, &self.origins[frame.origin]).plus(turned)
+    }
+}
+
+#[inline(always)]
+fn value<S: Simd>(simd: S, input: &Input, values: Values) -> f64x8<S> {
+    f64x8::load_array_ref(simd, &values[input.dof].0) * input.multiplier + input.offset
+}
+
+/// The same angles, between minus and plus half a turn.
+#[inline(never)]
+fn reduced<S: Simd>(simd: S, angle: f64x8<S>) -> f64x8<S> {
+    let angles = angle.to_array().map(|angle| {
+        let (sin, cos) = angle.sin_cos();
+        sin.atan2(cos)
+    });
+    f64x8::load_array(simd, angles)
+}
+
+/// A constant vector of a frame, in the root's.
+#[inline(always)]
+fn rotated<S: Simd>(simd: S, columns: &[Vec3<S>; 3], v: [f32; 3]) -> Vec3<S> {
+    let [x, y, z] = v.map(|x| splat(simd, x));
+    columns[0].scale(x).plus(columns[1].scale(y)).plus(columns[2].scale(z))
+}
+
+/// A point moved by a constant vector of a frame.
+#[inline(always)]
+fn along<S: Simd>(simd: S, from: Vec3<S>, columns: &[Vec3<S>; 3], shift: [f32; 3]) -> Vec3<S> {
+    let mut to = from;
+    for (column, by) in columns.iter().zip(shift) {
+        if by != 0.0 {
+            to = to.plus(column.scale(splat(simd, by)));
+        }
+    }
+    to
+}
