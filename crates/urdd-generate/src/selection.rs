@@ -27,8 +27,12 @@ impl UnknownModule {
     }
 }
 
+/// A shorter word for a module that people ask for.
+const SPHERES: &str = "spheres";
+
 fn is_named(kind: ModuleKind, word: &str) -> bool {
-    word == kind.name() || word == kind.short_name()
+    let is_short = kind == ModuleKind::LinkShapesSpheres && word == SPHERES;
+    is_short || word == kind.name() || word == kind.short_name()
 }
 
 fn known() -> String {

@@ -13,3 +13,4 @@ mod loops_left_out;
 mod meshes_names;
 mod shape_documents;
 mod shapes_rounding;
+mod spheres;
