@@ -1,9 +1,13 @@
 //! The spheres of links that a URDD has.
 
+use std::collections::BTreeSet;
+
 use super::Robot;
 use super::edits::Files;
 use super::error::RobotError;
 use super::robot::usable;
+use super::shapes::ShapeKind;
+use super::spheres::{self, Approximating, Covering, SphereChecker};
 use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SphereLevel};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
@@ -60,4 +64,90 @@ fn fault(level: &SphereLevel, number: usize, links: usize) -> Option<String> {
     let mut spheres = level.spheres.iter().flatten();
     let bad = spheres.find(|sphere| !(sphere.radius > 0.0))?;
     Some(format!("a sphere of level {number} has the radius {}", bad.radius))
+}
+
+/// How a robot is checked by the spheres of its URDD.
+impl Robot {
+    /// A checker by the finest level that covers, with the coarser ones around it: where it says
+    /// [`Free`](crate::spheres::CoveringAnswer::Free), no checked pair of pieces is in contact.
+    ///
+    /// # Errors
+    /// [`RobotError::Missing`] without `link_shapes_spheres_module`, or without a level that covers; as
+    /// [`Robot::spheres_module`], and if skips or kinematics are missing or unusable.
+    pub fn covering_checker(&self) -> Result<SphereChecker<Covering>, RobotError> {
+        let (levels, pairs) = self.levels_of(true)?;
+        SphereChecker::covering(self, &levels, &pairs)
+    }
+
+    /// A checker by the last level that does not cover: fitted spheres, or those that a person gave. How often it is wrong
+    /// stands in the level's [`evaluation`](SphereLevel::evaluation).
+    ///
+    /// # Errors
+    /// [`RobotError::Missing`] without `link_shapes_spheres_module`, or without such a level; as
+    /// [`Robot::covering_checker`].
+    pub fn approximating_checker(&self) -> Result<SphereChecker<Approximating>, RobotError> {
+        let (levels, pairs) = self.levels_of(false)?;
+        SphereChecker::approximating(self, &levels, &pairs)
+    }
+
+    /// The last level that covers, or that does not, after those that it is inside of; and the pairs that it checks.
+    fn levels_of(
+        &self,
+        covers: bool,
+    ) -> Result<(Vec<spheres::SphereLevel>, Vec<[usize; 2]>), RobotError> {
+        let missing = RobotError::Missing(ModuleKind::LinkShapesSpheres);
+        let Some(module) = self.spheres_module()? else { return Err(missing) };
+        let last = module.levels.iter().rposition(|level| level.covers == covers);
+        let mut at = last.ok_or(missing)?;
+        let pairs = self.checked_links(&module.levels[at])?;
+        let mut levels = vec![level(&module.levels[at])];
+        while let Some(outer) = module.levels[at].outer_level_idx {
+            // A level that is no earlier one is a fault that a validator names.
+            if outer.get() >= at {
+                break;
+            }
+            at = outer.get();
+            levels.push(level(&module.levels[at]));
+        }
+        levels.reverse();
+        Ok((levels, pairs))
+    }
+
+    /// The pairs of links with spheres that are neither skipped (SPEC 8.8.5) nor ignored by a level.
+    fn checked_links(&self, level: &SphereLevel) -> Result<Vec<[usize; 2]>, RobotError> {
+        let skips = self.skips(ShapeKind::Pieces)?;
+        let mut shapes = vec![Vec::new(); level.spheres.len()];
+        for (shape, (link, _)) in skips.places().iter().enumerate() {
+            if let Some(of) = shapes.get_mut(*link) {
+                of.push(shape);
+            }
+        }
+        let ignored: BTreeSet<[usize; 2]> = (level.ignored_pairs.iter())
+            .map(|pair| [pair.link_a_idx.get(), pair.link_b_idx.get()])
+            .collect();
+        let links: Vec<usize> =
+            (0..shapes.len()).filter(|link| !level.spheres[*link].is_empty()).collect();
+        let mut pairs = Vec::new();
+        for (place, a) in links.iter().enumerate() {
+            for b in &links[place + 1..] {
+                let mut between =
+                    shapes[*a].iter().flat_map(|i| shapes[*b].iter().map(move |j| [*i, *j]));
+                if !ignored.contains(&[*a, *b]) && between.any(|[i, j]| !skips.is_skipped(i, j)) {
+                    pairs.push([*a, *b]);
+                }
+            }
+        }
+        Ok(pairs)
+    }
+}
+
+fn level(level: &SphereLevel) -> spheres::SphereLevel {
+    let links = level.spheres.iter().enumerate().filter(|(_, own)| !own.is_empty());
+    let links = links.map(|(link_idx, own)| spheres::LinkSpheres {
+        link_idx,
+        spheres: (own.iter())
+            .map(|of| spheres::Sphere { centre: of.offset_xyz, radius: of.radius })
+            .collect(),
+    });
+    spheres::SphereLevel { links: links.collect(), covers: level.covers }
 }

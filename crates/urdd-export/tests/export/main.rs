@@ -41,6 +41,7 @@ mod setup_words;
 mod simplify;
 mod source_shapes;
 mod spheres;
+mod spheres_kept;
 mod srdf;
 mod srdf_import;
 mod states;

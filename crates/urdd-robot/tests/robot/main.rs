@@ -9,6 +9,7 @@ mod changing;
 mod closed_ways;
 mod gravity;
 mod inverse;
+mod link_spheres;
 mod loops;
 mod motion;
 mod nearness;

@@ -1,0 +1,197 @@
+//! Spheres that the URDD has: exports write them, and lists of people become them.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use testkit::temporary;
+use urdd_directory::cancellation::Cancellation;
+use urdd_export::{
+    Choices, Format, ListError, SphereFault, SphereList, SpheresError, import_spheres, read_spheres,
+};
+use urdd_format::link_shapes_spheres::SphereOrigin;
+use urdd_generate::{Selection, Settings, generate};
+use urdd_robot::Robot;
+
+use crate::made::export;
+
+/// Two bars that a hinge connects, and a third that swings past the first.
+const ROBOT: &str = r#"<robot name="bars">
+<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="frame"/>
+<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.45 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="cf" type="fixed"><parent link="c"/><child link="frame"/></joint>
+</robot>"#;
+
+fn with_spheres(folder: &Path) -> Robot {
+    let (source, target) = (folder.join("bars.urdf"), folder.join("bars"));
+    std::fs::write(&source, ROBOT).expect("a URDF");
+    let selection = Selection::parse(["all", "spheres"]).expect("modules");
+    let settings = Settings { selection, num_samples: 100, ..Settings::default() };
+    generate(&source, &target, &settings, &()).expect("a URDD");
+    Robot::open(&target).expect("a robot")
+}
+
+/// Writes the changed files of a URDD, and opens it again.
+fn edited(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Robot {
+    for (path, bytes) in files {
+        std::fs::write(folder.join("bars").join(path), bytes).expect("a file");
+    }
+    Robot::open(folder.join("bars")).expect("a robot")
+}
+
+fn foam(robot: &Robot, choices: &Choices) -> Value {
+    let choices = Choices { samples: 100, ..choices.clone() };
+    serde_json::from_str(&export(robot, Format::Foam, &choices).expect("an export").text)
+        .expect("JSON")
+}
+
+fn spheres(document: &Value, link: &str) -> Vec<([f64; 3], f64)> {
+    let one = |of: &Value| {
+        let centre = serde_json::from_value(of["origin"].clone()).expect("a point");
+        (centre, of["radius"].as_f64().expect("a number"))
+    };
+    document["links"][link]["spheres"].as_array().expect("a list").iter().map(one).collect()
+}
+
+#[test]
+fn exports_write_the_level_that_the_urdd_has() {
+    let folder = temporary::folder();
+    let robot = with_spheres(folder.path());
+    let module = robot.spheres_module().expect("readable").expect("a module");
+    for (choices, level) in
+        [(Choices::default(), 3), (Choices { cover: true, ..Choices::default() }, 2)]
+    {
+        let document = foam(&robot, &choices);
+        let own = module.levels[level].spheres[1].iter();
+        let own: Vec<_> = own.map(|of| (of.offset_xyz, of.radius)).collect();
+        assert_eq!(spheres(&document, "b"), own);
+        let said = document["about"].to_string();
+        assert!(said.contains(&format!("level {level} of link_shapes_spheres_module")), "{said}");
+    }
+    // Another number is another fit.
+    let few = foam(&robot, &Choices { spheres: Some(2), ..Choices::default() });
+    assert_eq!(spheres(&few, "b").len(), 2);
+    assert!(!few["about"].to_string().contains("link_shapes_spheres_module"));
+}
+
+#[test]
+fn a_list_becomes_the_last_level_in_each_form() {
+    let folder = temporary::folder();
+    let mut robot = with_spheres(folder.path());
+    let curobo = "robot_cfg:\n  kinematics:\n    collision_sphere_buffer: 0.005\n    collision_spheres:\n      b:\n        - {center: [0.1, 0.0, 0.0], radius: 0.04}\n        - {center: [0.3, 0, 0], radius: 0.05}\n      c:\n        - {center: [0.2, 0.0, 0.0], radius: -0.01}\n      hand:\n        - {center: [0, 0, 0], radius: 1}\n";
+    let foam = json!({ "links": { "b": { "mean": 0.0, "spheres": [
+        { "origin": [0.1, 0.0, 0.0], "radius": 0.04 }, { "origin": [0.3, 0.0, 0.0], "radius": 0.05 },
+    ] } } });
+    let cancellation = Cancellation::default();
+    for (text, left_out) in [(curobo.to_owned(), 3), (foam.to_string(), 0)] {
+        let list = read_spheres(&text).expect("a list");
+        let imported = import_spheres(&robot, &list, &cancellation).expect("spheres");
+        assert_eq!(
+            (imported.taken, imported.left_out.len()),
+            (2, left_out),
+            "{:?}",
+            imported.left_out
+        );
+        let last = imported.module.levels.last().expect("a level");
+        assert_eq!(last.origin, SphereOrigin::Given);
+        let own: Vec<_> =
+            last.spheres.iter().flatten().map(|of| (of.offset_xyz, of.radius)).collect();
+        assert_eq!(own, [([0.1, 0.0, 0.0], 0.04), ([0.3, 0.0, 0.0], 0.05)]);
+        // A sphere of 0.05 m on the axis of a bar whose half sides are 0.025 m.
+        let fit = last.fits[1].as_ref().expect("of b");
+        assert!(fit.max_standoff < 0.025 && fit.max_standoff > 0.022, "{fit:?}");
+        robot = edited(folder.path(), &imported.files);
+        let document = self::foam(&robot, &Choices::default());
+        assert!(document["about"].to_string().contains("which a person gave"));
+        assert_eq!(spheres(&document, "b").len(), 2);
+        let metadata = std::fs::read(folder.path().join("bars/urdd.json")).expect("metadata");
+        let metadata: Value = serde_json::from_slice(&metadata).expect("JSON");
+        assert_eq!(metadata["urdd_version"], "1.1.0");
+    }
+}
+
+#[test]
+fn a_urdd_without_the_module_gets_it_and_its_version() {
+    let folder = temporary::folder();
+    let source = folder.path().join("bars.urdf");
+    std::fs::write(&source, ROBOT).expect("a URDF");
+    let settings = Settings { num_samples: 100, ..Settings::default() };
+    generate(&source, &folder.path().join("bars"), &settings, &()).expect("a URDD");
+    let robot = Robot::open(folder.path().join("bars")).expect("a robot");
+    let list = SphereList {
+        links: vec![(
+            "c".to_owned(),
+            vec![urdd_export::Sphere { centre: [0.2, 0.0, 0.0], radius: 0.1 }],
+        )],
+        left_out: Vec::new(),
+    };
+    let imported = import_spheres(&robot, &list, &Cancellation::default()).expect("spheres");
+    let metadata: Value = serde_json::from_slice(&imported.files["urdd.json"]).expect("JSON");
+    assert_eq!(metadata["urdd_version"], "1.1.0");
+    let names = metadata["modules"].as_array().expect("modules").iter();
+    assert!(names.clone().any(|of| of["name"] == "link_shapes_spheres_module"));
+    let report = {
+        let files = &imported.files;
+        for (path, bytes) in files {
+            let path = folder.path().join("bars").join(path);
+            std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+            std::fs::write(path, bytes).expect("a file");
+        }
+        Robot::open(folder.path().join("bars")).expect("a robot").spheres_module()
+    };
+    assert_eq!(report.expect("readable").expect("a module").levels.len(), 4);
+}
+
+#[test]
+fn what_is_no_list_of_this_robot_is_refused() {
+    let list = |radius: &str, centre: &str| {
+        format!("collision_spheres: {{b: [{{center: {centre}, radius: {radius}}}]}}")
+    };
+    let of_foam = |radius: &str| {
+        read_spheres(&format!(
+            "{{\"b\": {{\"spheres\": [{{\"origin\": [0, 0, 0], \"radius\": {radius}}}]}}}}"
+        ))
+    };
+    let fault = |found: Result<SphereList, ListError>| match found {
+        Err(ListError::Sphere { fault, .. }) => fault,
+        other => panic!("{other:?}"),
+    };
+    for radius in ["0", "-1"] {
+        assert!(matches!(fault(of_foam(radius)), SphereFault::Radius(_)));
+    }
+    assert_eq!(fault(of_foam("1e300")), SphereFault::Range(1e300));
+    assert_eq!(fault(read_spheres(&list("1", "[0, 0]"))), SphereFault::Key("center"));
+    assert_eq!(fault(read_spheres(&list(".nan", "[0, 0, 0]"))), SphereFault::Key("radius"));
+    assert_eq!(fault(read_spheres(&list("1", "[2e9, 0, 0]"))), SphereFault::Range(2e9));
+    for text in ["", "[]", "links: 3", "{}", "collision_spheres: 3", "a: {spheres: 3}"] {
+        assert_eq!(read_spheres(text), Err(ListError::NoSpheres), "{text}");
+    }
+    assert!(matches!(
+        read_spheres("collision_spheres: spheres/a.yml"),
+        Err(ListError::Elsewhere(_))
+    ));
+    assert!(matches!(read_spheres("a: [unclosed"), Err(ListError::Text(_))));
+    let one = "{\"origin\": [0, 0, 0], \"radius\": 1},";
+    let many =
+        format!("{{\"b\": {{\"spheres\": [{}]}}}}", one.repeat(65_537).trim_end_matches(','));
+    assert_eq!(read_spheres(&many), Err(ListError::TooMany));
+    // Aliases that would make gigabytes of a kilobyte.
+    let bomb: String =
+        (1..30).map(|k| format!("k{k}: &k{k} [*k{p}, *k{p}, *k{p}, *k{p}]\n", p = k - 1)).collect();
+    assert!(matches!(read_spheres(&format!("k0: &k0 [1]\n{bomb}")), Err(ListError::Text(_))));
+
+    let folder = temporary::folder();
+    let robot = with_spheres(folder.path());
+    let other = read_spheres(
+        "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}], frame: [{center: [0, 0, 0], radius: 1}]}",
+    );
+    let refused = import_spheres(&robot, &other.expect("a list"), &Cancellation::default());
+    let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
+    assert!(said.contains("`hand`") && said.contains("`frame` has no shape"), "{said}");
+}
