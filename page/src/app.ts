@@ -26,6 +26,7 @@ const MAX_TRIES = 5;
 /** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
 const MAX_STEPS = 200;
 const REST = 300;
+const SPHERES = "link_shapes_modules/link_shapes_spheres_module/module.json";
 
 export class App {
   readonly store = new StateStore();
@@ -121,8 +122,11 @@ export class App {
       this.back = [];
       this.forth = [];
       const { making, failure, stopped } = entry;
-      this.store.set({ ...view, robot, q, poses, loops, loading: null, making: { making, failure, stopped } });
+      const sphereLevels = null;
+      const now = { robot, q, poses, loops, sphereLevels };
+      this.store.set({ ...view, ...now, loading: null, making: { making, failure, stopped } });
       void this.findAbsent(robot);
+      void this.findSpheres(robot);
       return robot;
     } catch (error) {
       if (turn === this.opening) this.store.set({ loading: null, failure: message(error) });
@@ -174,6 +178,7 @@ export class App {
       q: [],
       poses: null,
       loops: null,
+      sphereLevels: null,
       pair: null,
       contacts: null,
       absent: [],
@@ -265,6 +270,14 @@ export class App {
   setUnits(units: Units): void {
     keepUnits(units);
     this.store.set({ units });
+  }
+
+  /** Reads the levels of spheres, if the robot has some. */
+  private async findSpheres(robot: RobotModel): Promise<void> {
+    if (!robot.files.some(({ path }) => path === SPHERES)) return;
+    // A module that cannot be read is a finding.
+    const sphereLevels = await this.engine.ask("sphereLevels", {}).catch(() => null);
+    if (this.store.now.robot === robot) this.store.set({ sphereLevels });
   }
 
   private async findAbsent(robot: RobotModel): Promise<void> {

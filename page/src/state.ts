@@ -1,7 +1,15 @@
 /** The state of the page, and listeners for its changes. */
 
 import { SHAPE_KINDS } from "./engine/protocol";
-import type { LoopErrors, ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+import type {
+  LoopErrors,
+  ProximityAnswer,
+  Report,
+  ShapeKind,
+  SkipEdit,
+  SkipsAnswer,
+  SphereLevel,
+} from "./engine/protocol";
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
@@ -10,8 +18,29 @@ import type { Entry, Part, RobotModel } from "./model";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
-/** Layers: the URDF's own geometry, the plain meshes, and the collision shapes. */
-export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS] as const;
+/** The levels of spheres that can be drawn; a URDD has at most these (SPEC 8.9.2). */
+export const SPHERE_LEVELS = [
+  "level-0",
+  "level-1",
+  "level-2",
+  "level-3",
+  "level-4",
+  "level-5",
+  "level-6",
+  "level-7",
+  "level-8",
+  "level-9",
+  "level-10",
+  "level-11",
+  "level-12",
+  "level-13",
+  "level-14",
+  "level-15",
+] as const;
+export type SphereLayer = (typeof SPHERE_LEVELS)[number];
+
+/** Layers: the URDF's own geometry, the plain meshes, the collision shapes, and the levels of spheres. */
+export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS, ...SPHERE_LEVELS] as const;
 export type LayerKind = (typeof LAYERS)[number];
 
 export const LAYER_NAMES: Record<LayerKind, string> = {
@@ -24,7 +53,17 @@ export const LAYER_NAMES: Record<LayerKind, string> = {
   spheres: "Spheres",
   "piece-boxes": "Boxes of pieces",
   "piece-spheres": "Spheres of pieces",
+  ...(Object.fromEntries(SPHERE_LEVELS.map((layer, level) => [layer, `Level ${level}`])) as Record<
+    SphereLayer,
+    string
+  >),
 };
+
+/** The number of a level of spheres; null for other layers. */
+export function sphereLevel(layer: LayerKind): number | null {
+  const level = (SPHERE_LEVELS as readonly string[]).indexOf(layer);
+  return level < 0 ? null : level;
+}
 
 export interface Layer {
   on: boolean;
@@ -83,6 +122,8 @@ export interface State {
   q: number[];
   /** x, y, z and the quaternion w, x, y, z of each link. */
   poses: Float64Array | null;
+  /** The levels of its spheres; null for a robot without, or until they are read. */
+  sphereLevels: SphereLevel[] | null;
   /** How far the loops of the robot are from closed; null for a tree. */
   loops: LoopErrors | null;
   /** Whether DOFs that follow do so where a person moves others. */
@@ -174,6 +215,7 @@ export function initial(): State {
     faults: new Map(),
     q: [],
     poses: null,
+    sphereLevels: null,
     loops: null,
     keepClosed: true,
     selected: null,

@@ -1,12 +1,13 @@
 /** Layers with their opacity, overlays, and the visible links. */
 
 import type { AbsentMesh } from "../absent";
+import type { Rate, SphereLevel } from "../engine/protocol";
 import type { App } from "../app";
 import type { RobotModel } from "../model";
 import { partColor } from "../parts";
 import type { RobotPart } from "../parts";
 import type { LayerKind } from "../state";
-import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
+import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES, sphereLevel } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name } from "../ui/format";
 
@@ -26,15 +27,28 @@ export function shapes(app: App): HTMLElement {
     const faults = h("span", { class: "fault" });
     box.addEventListener("change", () => app.setLayer(layer, { on: box.checked }));
     opacity.addEventListener("input", () => app.setLayer(layer, { opacity: Number(opacity.value), on: true }));
-    const row = h(
-      "div",
-      { class: "layer" },
-      box,
-      h("label", { for: box.id, title: LAYER_HINTS[layer] }, LAYER_NAMES[layer]),
-      opacity,
-      faults,
-    );
-    return { layer, box, opacity, faults, row };
+    const label = h("label", { for: box.id, title: LAYER_HINTS[layer] }, LAYER_NAMES[layer]);
+    const row = h("div", { class: "layer" }, box, label, opacity, faults);
+    return { layer, box, label, opacity, faults, row };
+  });
+  const ofShapes = layers.filter(({ layer }) => sphereLevel(layer) === null);
+  const ofSpheres = layers.filter(({ layer }) => sphereLevel(layer) !== null);
+  const spheres = h(
+    "div",
+    { hidden: true },
+    h("h2", {}, "Spheres of links"),
+    h("p", { class: "hint" }, "Levels of link_shapes_spheres_module, from coarse to fine."),
+    ...ofSpheres.map(({ row }) => row),
+  );
+  app.store.on(["sphereLevels"], ({ sphereLevels: levels }) => {
+    spheres.hidden = levels === null;
+    ofSpheres.forEach(({ row, label }, number) => {
+      const level = levels?.[number];
+      row.hidden = !level;
+      if (!level) return;
+      label.textContent = `Level ${number}: ${count(level.count, "sphere")}, ${fit(level)}`;
+      label.title = rates(level);
+    });
   });
   const overlays = OVERLAYS.map((kind) => {
     const box = h("input", { type: "checkbox", id: `overlay-${kind}` });
@@ -74,7 +88,8 @@ export function shapes(app: App): HTMLElement {
     { class: "panel" },
     h("h2", {}, "Shapes"),
     h("p", { class: "hint" }, "Several at once, each with its opacity."),
-    ...layers.map(({ row }) => row),
+    ...ofShapes.map(({ row }) => row),
+    spheres,
     parts,
     h("h2", {}, "Overlays"),
     h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
@@ -147,6 +162,20 @@ export function shapes(app: App): HTMLElement {
     },
   );
   return panel;
+}
+
+/** How the spheres of a level fit the links. */
+function fit(level: SphereLevel): string {
+  const far = length(level.max_standoff);
+  if (level.covers) return `cover the links, up to ${far} off`;
+  const from = level.is_given ? "given" : "fitted";
+  return `${from}, up to ${far} off, ${length(level.max_uncovered)} of links outside`;
+}
+
+/** How often a check by a level is right. */
+function rates({ miss, false_contact: wrong }: SphereLevel): string {
+  const of = (rate: Rate, what: string): string => `${rate.count} of ${rate.of} ${what}`;
+  return `Missed: ${of(miss, "collisions")}. Contacts that are none: in ${of(wrong, "free configurations")}.`;
 }
 
 /** The missing meshes of a layer. */

@@ -18,7 +18,7 @@ import type { Progress } from "../engine/link";
 import type { ShapeKind, SourceShape, Shape } from "../engine/protocol";
 import type { LinkMesh } from "../engine/calls";
 import type { RobotModel } from "../model";
-import { LAYERS } from "../state";
+import { LAYERS, sphereLevel } from "../state";
 import type { LayerKind } from "../state";
 import { rimmed } from "./rim";
 import type { MeshData, RobotScene } from "./robot";
@@ -56,12 +56,26 @@ export async function load(
       return meshes.flatMap((mesh) => solid(layer, scene, mesh) ?? []);
     }
     default: {
-      const shapes = await engine.ask("shapes", { kind: layer satisfies ShapeKind });
+      const level = sphereLevel(layer);
+      if (level !== null) return levelOf(layer, level, scene, engine);
+      const shapes = await engine.ask("shapes", { kind: layer as ShapeKind });
       scene.begin(layer);
       for (const shape of shapes) scene.add(layer, shape.link, about(layer, shape));
       return [];
     }
   }
+}
+
+/** A level of the spheres of links. */
+async function levelOf(layer: LayerKind, level: number, scene: RobotScene, engine: Engine): Promise<string[]> {
+  const levels = await engine.ask("sphereLevels", {});
+  scene.begin(layer);
+  const found = levels?.[level];
+  if (!found) return ["this robot has no such level of spheres"];
+  found.spheres.forEach(({ link, centre, radius }, piece) => {
+    scene.add(layer, link, about(layer, { link, piece, solid: { position: centre, radius } }));
+  });
+  return [];
 }
 
 /** The URDF's collision elements, each in a colour. */
