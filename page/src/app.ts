@@ -11,6 +11,7 @@ import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import { namedOf } from "./configurations";
 import { partsOf } from "./parts";
+import { spheresOf } from "./spheres";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
 import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore } from "./state";
@@ -26,7 +27,6 @@ const MAX_TRIES = 5;
 /** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
 const MAX_STEPS = 200;
 const REST = 300;
-const SPHERES = "link_shapes_modules/link_shapes_spheres_module/module.json";
 
 export class App {
   readonly store = new StateStore();
@@ -112,7 +112,8 @@ export class App {
       this.revision = source.kind === "url" ? source.revision : null;
       const parts = await partsOf(this.engine, files);
       const named = await namedOf(this.engine, files, about.dofs?.length ?? 0);
-      const robot = new RobotModel(entry, source, about, files, parts, named);
+      const spheres = await spheresOf(this.engine, files);
+      const robot = new RobotModel(entry, source, about, files, parts, named, spheres);
       if (robot.links.length === 0) throw new Error(why(robot));
       const view = old ? carried(old, robot, before) : null;
       const q = view?.q ?? robot.start ?? robot.dofs.map(() => 0);
@@ -122,11 +123,8 @@ export class App {
       this.back = [];
       this.forth = [];
       const { making, failure, stopped } = entry;
-      const sphereLevels = null;
-      const now = { robot, q, poses, loops, sphereLevels };
-      this.store.set({ ...view, ...now, loading: null, making: { making, failure, stopped } });
+      this.store.set({ ...view, robot, q, poses, loops, loading: null, making: { making, failure, stopped } });
       void this.findAbsent(robot);
-      void this.findSpheres(robot);
       return robot;
     } catch (error) {
       if (turn === this.opening) this.store.set({ loading: null, failure: message(error) });
@@ -178,7 +176,6 @@ export class App {
       q: [],
       poses: null,
       loops: null,
-      sphereLevels: null,
       pair: null,
       contacts: null,
       absent: [],
@@ -270,14 +267,6 @@ export class App {
   setUnits(units: Units): void {
     keepUnits(units);
     this.store.set({ units });
-  }
-
-  /** Reads the levels of spheres, if the robot has some. */
-  private async findSpheres(robot: RobotModel): Promise<void> {
-    if (!robot.files.some(({ path }) => path === SPHERES)) return;
-    // A module that cannot be read is a finding.
-    const sphereLevels = await this.engine.ask("sphereLevels", {}).catch(() => null);
-    if (this.store.now.robot === robot) this.store.set({ sphereLevels });
   }
 
   private async findAbsent(robot: RobotModel): Promise<void> {

@@ -4,6 +4,7 @@ import type { About, Dof, FileEntry, Joint, Link } from "./engine/protocol";
 import type { RobotSource } from "./engine/calls";
 import type { NamedConfiguration } from "./configurations";
 import type { RobotPart } from "./parts";
+import type { SphereLevel } from "./spheres";
 
 /** An entry of `robots.json`. */
 export interface Entry {
@@ -81,6 +82,8 @@ export class RobotModel {
     readonly parts: RobotPart[] = [],
     /** The configurations that a person named. */
     readonly named: NamedConfiguration[] = [],
+    /** The levels of its spheres. */
+    readonly spheres: SphereLevel[] = [],
   ) {
     this.links = about.links;
     this.joints = about.joints;

@@ -1,15 +1,7 @@
 /** The state of the page, and listeners for its changes. */
 
 import { SHAPE_KINDS } from "./engine/protocol";
-import type {
-  LoopErrors,
-  ProximityAnswer,
-  Report,
-  ShapeKind,
-  SkipEdit,
-  SkipsAnswer,
-  SphereLevel,
-} from "./engine/protocol";
+import type { LoopErrors, ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
@@ -122,8 +114,6 @@ export interface State {
   q: number[];
   /** x, y, z and the quaternion w, x, y, z of each link. */
   poses: Float64Array | null;
-  /** The levels of its spheres; null for a robot without, or until they are read. */
-  sphereLevels: SphereLevel[] | null;
   /** How far the loops of the robot are from closed; null for a tree. */
   loops: LoopErrors | null;
   /** Whether DOFs that follow do so where a person moves others. */
@@ -215,7 +205,6 @@ export function initial(): State {
     faults: new Map(),
     q: [],
     poses: null,
-    sphereLevels: null,
     loops: null,
     keepClosed: true,
     selected: null,

@@ -43,7 +43,5 @@ mod random;
 mod robot;
 #[cfg(feature = "robot")]
 mod sources;
-#[cfg(feature = "robot")]
-mod spheres;
 #[cfg(feature = "validate")]
 mod validate;

@@ -19,7 +19,6 @@ use crate::inverse::InverseQuestion;
 use crate::loops::LoopQuestion;
 use crate::pairs::Pairs;
 use crate::sources::sources;
-use crate::spheres::levels;
 use crate::{answer, memory, model};
 
 /// A robot, and its cached data.
@@ -117,8 +116,6 @@ enum Question {
         #[serde(default)]
         kind: Kind,
     },
-    /// [`crate::spheres`].
-    SphereLevels,
     /// The distance and the closest points of each pair that is not skipped.
     ClosestPoints {
         q: Vec<f64>,
@@ -240,7 +237,6 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
         Question::Loops { about } => about.answer(&handle.robot).map_err(said),
         Question::Sources => sources(&handle.robot),
         Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
-        Question::SphereLevels => levels(&handle.robot).map_err(said),
         Question::ClosestPoints { q, kind } => {
             let pairs = proximity(handle, kind)?.closest_points(&q).map_err(said)?;
             Ok(pairs.iter().map(pair).collect())

@@ -16,7 +16,6 @@ import type {
   SkipEdit,
   SkipsAnswer,
   SourceShape,
-  SphereLevel,
 } from "./protocol";
 
 /** The triangles of a mesh, or an error. */
@@ -51,8 +50,6 @@ export interface Calls {
   /** The way from one configuration toward another with closed loops, as far as it goes: DOFs that follow give way. */
   followLoops: [{ from: number[]; to: number[] }, ClosedLoops];
   shapes: [{ kind: ShapeKind }, Shape[]];
-  /** The levels of spheres; null for a URDD without. */
-  sphereLevels: [Record<string, never>, SphereLevel[] | null];
   /** The `k` nearest pairs, or all contacts if there are more. */
   proximity: [{ q: number[]; kind: ShapeKind; k: number }, ProximityAnswer];
   skips: [{ kind: ShapeKind }, SkipsAnswer];

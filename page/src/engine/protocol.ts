@@ -171,24 +171,6 @@ export interface ProximityAnswer {
   ms: number;
 }
 
-/** A level of the spheres of a URDD: see `wasm/src/spheres.rs`. */
-export interface SphereLevel {
-  /** Whether the spheres hold all pieces of the links. */
-  covers: boolean;
-  /** Whether a person gave them. */
-  is_given: boolean;
-  count: number;
-  /** How far the spheres are from the pieces at most, metres. */
-  max_standoff: number;
-  /** How far a point of the pieces is outside of all spheres at most, metres. */
-  max_uncovered: number;
-  /** Of collisions, those in which no spheres touch; of free configurations, those in which some do. */
-  miss: Rate;
-  false_contact: Rate;
-  /** In the link's frame, metres. */
-  spheres: { link: number; centre: Vector; radius: number }[];
-}
-
 /** The learned self-collision model: see `wasm/src/model.rs`. */
 export interface CollisionModel {
   /** Number of pairs of links that it has a clearance for. */

@@ -28,7 +28,6 @@ const MODULES = {
   pairs: PAIRS,
   model: ["self_collision_model"],
   samples: ["kinematics_samples"],
-  spheres: ["link_shapes_spheres"],
 };
 
 export class Store {

@@ -112,11 +112,6 @@ const handlers: Handlers<Calls> = {
     return engine().ask(open(), { ask: "shapes", kind }) as Calls["shapes"][1];
   },
 
-  async sphereLevels() {
-    await opened().store.ensure(opened().store.needed("spheres"));
-    return engine().ask(open(), { ask: "sphere_levels" }) as Calls["sphereLevels"][1];
-  },
-
   async proximity({ q, kind, k }, onProgress) {
     await ensureShapes(kind, onProgress);
     engine().ask(open(), { ask: "prepare", kind });

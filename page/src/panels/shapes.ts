@@ -1,7 +1,7 @@
 /** Layers with their opacity, overlays, and the visible links. */
 
 import type { AbsentMesh } from "../absent";
-import type { Rate, SphereLevel } from "../engine/protocol";
+import type { SphereLevel } from "../spheres";
 import type { App } from "../app";
 import type { RobotModel } from "../model";
 import { partColor } from "../parts";
@@ -40,13 +40,14 @@ export function shapes(app: App): HTMLElement {
     h("p", { class: "hint" }, "Levels of link_shapes_spheres_module, from coarse to fine."),
     ...ofSpheres.map(({ row }) => row),
   );
-  app.store.on(["sphereLevels"], ({ sphereLevels: levels }) => {
-    spheres.hidden = levels === null;
+  app.store.on(["robot"], ({ robot }) => {
+    const levels = robot?.spheres ?? [];
+    spheres.hidden = levels.length === 0;
     ofSpheres.forEach(({ row, label }, number) => {
-      const level = levels?.[number];
+      const level = levels[number];
       row.hidden = !level;
       if (!level) return;
-      label.textContent = `Level ${number}: ${count(level.count, "sphere")}, ${fit(level)}`;
+      label.textContent = `Level ${number}: ${count(level.spheres.length, "sphere")}, ${fit(level)}`;
       label.title = rates(level);
     });
   });
@@ -166,16 +167,15 @@ export function shapes(app: App): HTMLElement {
 
 /** How the spheres of a level fit the links. */
 function fit(level: SphereLevel): string {
-  const far = length(level.max_standoff);
+  const far = length(level.standoff);
   if (level.covers) return `cover the links, up to ${far} off`;
-  const from = level.is_given ? "given" : "fitted";
-  return `${from}, up to ${far} off, ${length(level.max_uncovered)} of links outside`;
+  const from = level.isGiven ? "given" : "fitted";
+  return `${from}, up to ${far} off, ${length(level.uncovered)} of links outside`;
 }
 
 /** How often a check by a level is right. */
-function rates({ miss, false_contact: wrong }: SphereLevel): string {
-  const of = (rate: Rate, what: string): string => `${rate.count} of ${rate.of} ${what}`;
-  return `Missed: ${of(miss, "collisions")}. Contacts that are none: in ${of(wrong, "free configurations")}.`;
+function rates({ missed, colliding, wrong, free }: SphereLevel): string {
+  return `Missed: ${missed} of ${colliding} collisions. Contacts that are none: in ${wrong} of ${free} free configurations.`;
 }
 
 /** The missing meshes of a layer. */

@@ -25,6 +25,8 @@ import type { MeshData, RobotScene } from "./robot";
 import { bare, dressed, isTextured } from "./sources";
 
 const PLAIN = new Color(0x9aa3b2);
+/** Spheres of a level that are drawn. */
+const MOST_SPHERES = 5000;
 /** Number of images fetched at once. */
 const AT_ONCE = 6;
 
@@ -57,7 +59,7 @@ export async function load(
     }
     default: {
       const level = sphereLevel(layer);
-      if (level !== null) return levelOf(layer, level, scene, engine);
+      if (level !== null) return levelOf(layer, level, scene, model);
       const shapes = await engine.ask("shapes", { kind: layer as ShapeKind });
       scene.begin(layer);
       for (const shape of shapes) scene.add(layer, shape.link, about(layer, shape));
@@ -67,15 +69,21 @@ export async function load(
 }
 
 /** A level of the spheres of links. */
-async function levelOf(layer: LayerKind, level: number, scene: RobotScene, engine: Engine): Promise<string[]> {
-  const levels = await engine.ask("sphereLevels", {});
+function levelOf(layer: LayerKind, level: number, scene: RobotScene, model: RobotModel): string[] {
   scene.begin(layer);
-  const found = levels?.[level];
+  const found = model.spheres[level];
   if (!found) return ["this robot has no such level of spheres"];
-  found.spheres.forEach(({ link, centre, radius }, piece) => {
-    scene.add(layer, link, about(layer, { link, piece, solid: { position: centre, radius } }));
+  // One geometry for all: there may be very many.
+  const unit = new SphereGeometry(1, 24, 16);
+  found.spheres.slice(0, MOST_SPHERES).forEach(({ link, centre, radius }, piece) => {
+    const color = pieceColor(link, piece);
+    const mesh = new Mesh(unit, material(color));
+    mesh.position.set(...centre);
+    mesh.scale.setScalar(radius);
+    scene.add(layer, link, tagged(mesh, layer, link, piece, color, 0.55));
   });
-  return [];
+  const left = found.spheres.length - MOST_SPHERES;
+  return left > 0 ? [`${left} of the spheres are not drawn`] : [];
 }
 
 /** The URDF's collision elements, each in a colour. */
