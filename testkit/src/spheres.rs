@@ -227,41 +227,48 @@ pub fn fit(solids: &[Solid], balls: &[Ball]) -> [f64; 4] {
     }
     let (mut out, mut all, mut max_uncovered) = (0.0, 0.0, 0.0_f64);
     for (own, solid) in solids.iter().enumerate() {
-        for triangle in TRIANGLES {
-            let [a, b, c] = triangle.map(|corner| solid.corners[usize::from(corner)]);
-            let [u, v] = [minus(b, a), minus(c, a)];
-            let longest = norm(u).max(norm(v)).max(norm(minus(c, b)));
-            let n = (15.7 * longest / diagonal).ceil();
-            let weight = norm(cross(u, v)) / 2.0 / (n * n);
-            // By thirds of a part: of all places whose coordinates are 1 or 2 thirds more than a whole number of parts,
-            // those within the triangle.
-            for i in 0..n as u32 {
-                for j in 0..n as u32 {
-                    for thirds in [1, 2] {
-                        let [x, y] = [i, j].map(|k| f64::from(3 * k + thirds) / (3.0 * n));
-                        if x + y >= 1.0 {
-                            continue;
-                        }
-                        let point = [0, 1, 2].map(|k| a[k] + x * u[k] + y * v[k]);
-                        let mut others =
-                            boxes.iter().enumerate().filter(|(other, _)| *other != own);
-                        if others.any(|(_, of)| of.depth(point) > 1e-6 * diagonal) {
-                            continue;
-                        }
-                        all += weight;
-                        let outside = balls.iter().map(|of| norm(minus(point, of.at)) - of.radius);
-                        let outside = outside.fold(f64::INFINITY, f64::min);
-                        if outside > 1e-6 * diagonal {
-                            out += weight;
-                            max_uncovered = max_uncovered.max(outside);
-                        }
-                    }
-                }
+        for (point, weight) in centroids(solid, diagonal) {
+            let mut others = boxes.iter().enumerate().filter(|(other, _)| *other != own);
+            if others.any(|(_, of)| of.depth(point) > 1e-6 * diagonal) {
+                continue;
+            }
+            all += weight;
+            let outside = balls.iter().map(|of| norm(minus(point, of.at)) - of.radius);
+            let outside = outside.fold(f64::INFINITY, f64::min);
+            if outside > 1e-6 * diagonal {
+                out += weight;
+                max_uncovered = max_uncovered.max(outside);
             }
         }
     }
     let mean = if weights > 0.0 { sum / weights } else { 0.0 };
     [max_standoff, mean, out / all, max_uncovered]
+}
+
+/// The centroids of the parts of a box's triangles (8.9.5), each with the area of its part.
+pub fn centroids(solid: &Solid, diagonal: f64) -> Vec<(Point, f64)> {
+    let mut found = Vec::new();
+    for triangle in TRIANGLES {
+        let [a, b, c] = triangle.map(|corner| solid.corners[usize::from(corner)]);
+        let [u, v] = [minus(b, a), minus(c, a)];
+        let longest = norm(u).max(norm(v)).max(norm(minus(c, b)));
+        let n = (15.7 * longest / diagonal).ceil();
+        let weight = norm(cross(u, v)) / 2.0 / (n * n);
+        // Of all places whose coordinates are 1 or 2 thirds of a part more than a whole number of parts, those within the
+        // triangle.
+        for i in 0..n as u32 {
+            for j in 0..n as u32 {
+                for thirds in [1, 2] {
+                    let [x, y] = [i, j].map(|k| f64::from(3 * k + thirds));
+                    if x + y < 3.0 * n {
+                        let at = |k: usize| a[k] + (x * u[k] + y * v[k]) / (3.0 * n);
+                        found.push(([at(0), at(1), at(2)], weight));
+                    }
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The pairs of links that are not skipped, listed by hand: of the others, one moves or holds the other.
@@ -369,15 +376,14 @@ pub fn document(robot: &Robot, levels: &[Level], samples: u32) -> Value {
 
 /// The robot with the spheres of [`levels`].
 pub fn fixture() -> Fixture {
-    fixture_with(&levels(), SAMPLES)
+    fixture_of(&robot(), &levels(), SAMPLES)
 }
 
-/// The robot with these spheres, and what is true of them.
-pub fn fixture_with(levels: &[Level], samples: u32) -> Fixture {
-    let robot = robot();
-    let mut fixture = Fixture::full_with_edits(&robot, Vec::new());
+/// A robot with these spheres, and what is true of them.
+pub fn fixture_of(robot: &Robot, levels: &[Level], samples: u32) -> Fixture {
+    let mut fixture = Fixture::full_with_edits(robot, Vec::new());
     let kind = ModuleKind::LinkShapesSpheres;
-    fixture.add_module(kind.folder(), document(&robot, levels, samples));
+    fixture.add_module(kind.folder(), document(robot, levels, samples));
     let root = fixture.doc_mut("urdd.json");
     root["urdd_version"] = json!(kind.since());
     let own = root["modules"].as_array_mut().and_then(|modules| modules.last_mut());

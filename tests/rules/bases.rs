@@ -23,7 +23,6 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("lone_box", base(fits::lone_box)),
         ("named_configurations", base(configured)),
         ("no_shapes", base(meshes::without_shapes)),
-        ("spheres", base(testkit::spheres::fixture)),
         ("placed_scenes", base(mesh_files::placed_scenes::base)),
         ("two_boxes", base(two_boxes)),
     ];
