@@ -5,7 +5,7 @@ use rayon::ThreadPoolBuilder;
 use serde_json::{Value, json};
 use testkit::fixture::Fixture;
 use testkit::meshes::{Solid as Cuboid, TRIANGLES};
-use testkit::spheres::{SPHERES, diagonal, fit, fixture};
+use testkit::spheres::{SPHERES, diagonal, fixture};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
@@ -14,7 +14,8 @@ use urdd_validate::reference::distances::poses::Poses;
 use urdd_validate::reference::spheres::budget::Budget;
 use urdd_validate::reference::spheres::cells::uncovered;
 use urdd_validate::reference::spheres::contacts::contacts;
-use urdd_validate::reference::spheres::link_pieces::Ball;
+use urdd_validate::reference::spheres::fit::{self, standoff};
+use urdd_validate::reference::spheres::link_pieces::{Ball, LinkPieces};
 use urdd_validate::reference::spheres::polyhedron::Polyhedron;
 use urdd_validate::reference::spheres::solid::{Solid, to_triangle};
 use urdd_validate::rules;
@@ -251,26 +252,29 @@ fn the_most_samples_and_spheres() {
     assert_eq!(found_by(SPH001, &crowded(65_537)), ["SPH001"]);
 }
 
-/// As many spheres as there may be, all in each other: what says nothing false takes bounded work, and says so.
+/// As many spheres as there may be, all in each other: a budget ends what would take hours.
 #[test]
-fn too_much_work_is_said() {
-    let mut crowded = crowded(65_536);
-    crowded.set(SPHERES, "/levels/2/covers", json!(true));
-    crowded.set(SPHERES, "/levels/2/ignored_pairs", json!([]));
-    crowded.seal();
-    let folder = testkit::temporary::folder();
-    crowded.write_to(folder.path());
-    let run = validate_with(&[folder.path()], &Settings::default(), &rules::all());
-    let run = run.expect("a URDD");
-    let checks = &run.report.urdds[0].checks;
-    let reason = |code: &str| {
-        let check = checks.iter().find(|check| check.code == code);
-        check.and_then(|check| check.reason.clone())
+fn too_many_spheres_spend_the_budget() {
+    let mesh = cuboid([0.1; 3]);
+    let solid = Solid::new(&mesh).expect("a hull");
+    let ball = |k: u32| {
+        let centre = Vector3::new(1e-7 * f64::from(k), 0.0, 0.0);
+        Ball { centre, radius: 0.15 }
     };
-    let too_much = urdd_validate::skip::spheres_take_too_long(false).to_string();
-    for code in ["SPH005", "SPH006"] {
-        assert_eq!(reason(code), Some(too_much.clone()), "{code}");
-    }
+    let balls: Vec<Ball> = (0..65_536).map(ball).collect();
+    let little = || Budget::of(10_000_000, false);
+    let expected = urdd_validate::skip::spheres_take_too_long(false);
+    assert_eq!(uncovered(&solid, &balls, 1e-7, &little()).err(), Some(expected.clone()));
+    let pieces = LinkPieces::of(vec![&mesh]).expect("a hull");
+    assert_eq!(standoff(&pieces, &balls, &little()).err(), Some(expected.clone()));
+    let small: Vec<Ball> = balls.iter().map(|ball| Ball { radius: 0.01, ..*ball }).collect();
+    let outside = fit::uncovered(&pieces, &[small], &Budget::of(1_000_000, false));
+    assert_eq!(outside.err(), Some(expected));
+    // Of few spheres, the same work is enough.
+    let few = &balls[..8];
+    assert!(uncovered(&solid, few, 1e-7, &little()).is_ok_and(|found| found.is_some()));
+    assert!(standoff(&pieces, few, &little()).is_ok());
+    assert!(fit::uncovered(&pieces, &[few.to_vec()], &little()).is_ok());
 }
 
 #[test]
@@ -322,7 +326,7 @@ fn figures_of_the_base_are_those_of_boxes() {
     let meshes = testkit::meshes::Meshes::new(&testkit::spheres::robot());
     let tip: &[Cuboid] = &meshes.solids[2].as_ref().expect("a tip").pieces;
     let balls = &testkit::spheres::levels()[2].balls[2];
-    let [max, mean, fraction, farthest] = fit(tip, balls);
+    let [max, mean, fraction, farthest] = testkit::spheres::fit(tip, balls);
     assert!(max > 0.0 && mean > 0.0 && farthest > 0.0 && diagonal(tip) > 0.3);
     assert!((0.5..1.0).contains(&fraction));
 }
