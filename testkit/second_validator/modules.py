@@ -101,13 +101,24 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
             "link_shapes_skips_module",
         ),
     ),
+    "link_shapes_spheres_module": (
+        SHAPE + "link_shapes_spheres_module",
+        "",
+        (
+            "dof_module",
+            "chain_module",
+            "bounds_module",
+            "convex_decomposition_meshes_module",
+            "link_shapes_skips_module",
+        ),
+    ),
     "loops_module": (
         "loops_module",
         "",
         ("urdf_module", "dof_module", "chain_module", "bounds_module"),
     ),
 }
-LATER = ("loops_module",)  # modules that versions after 1.0 added
+LATER = ("link_shapes_spheres_module", "loops_module")  # modules that versions after 1.0 added
 ORDER = [name for name in TABLE if name not in LATER]  # 2.6: the others are sorted by name
 EXTENSION = re.compile(r"x_[a-z0-9]+_[a-z0-9_]+_module")  # 11.1
 VERSION = re.compile(r"(0|[1-9][0-9]{0,8})\.(0|[1-9][0-9]{0,8})\.(0|[1-9][0-9]{0,8})")  # 2.5

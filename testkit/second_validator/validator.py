@@ -19,6 +19,7 @@ from .modules import TABLE, Urdd
 from .original_rules import check_originals
 from .report import Report, Unreadable
 from .shape_rules import check_shapes
+from .spheres import check_spheres
 from .tree import Tree, read_archive, read_folder, subtree
 from .urdf_rules import check_urdf
 
@@ -67,6 +68,7 @@ def judge_tree(tree: Tree) -> Report:
         if robot and shapes and urdd.report.clean("DOF", "CHN", "BND", "KIN001"):
             check_all_matrices(urdd, robot, shapes)
             check_model(urdd, robot, shapes)
+            check_spheres(urdd, robot, shapes)
     return urdd.report
 
 

@@ -45,6 +45,7 @@ pub mod robot;
 pub mod robots;
 pub mod shapes;
 pub mod site;
+pub mod spheres;
 pub mod temporary;
 pub mod transform;
 pub mod trials;

@@ -270,8 +270,8 @@ fn link_solids(robot: &Robot, idx: usize) -> Option<LinkSolids> {
         vec![whole.clone()]
     } else {
         vec![
-            Solid::new(xyz, rpy, low, [middle, high[1], high[2]]),
-            Solid::new(xyz, rpy, [middle, low[1], low[2]], high),
+            Solid::new(xyz, rpy, low, [middle + robot.overlap, high[1], high[2]]),
+            Solid::new(xyz, rpy, [middle - robot.overlap, low[1], low[2]], high),
         ]
     };
     let color = link.visual.first().and_then(|visual| color(robot, visual));

@@ -18,6 +18,8 @@ pub struct Robot {
     /// The available meshes: file name in the URDF -> side lengths of the box in the mesh file, which is centred at its
     /// origin. Other mesh references have no file.
     pub meshes: BTreeMap<String, [f64; 3]>,
+    /// How far each half of a link, where it has two pieces, reaches beyond the middle, m.
+    pub overlap: f64,
 }
 
 /// The order of links and joints in the file.
@@ -42,6 +44,7 @@ impl Robot {
             },
             layout: Layout::LinksFirst,
             meshes: BTreeMap::new(),
+            overlap: 0.0,
         }
     }
 
@@ -419,7 +422,7 @@ fn robots(
             let (links, joints) = assemble(links, joints);
             let urdf = UrdfModule { name, version, links, joints, materials, unknown_elements };
             let meshes = FOUND.iter().map(|(f, s)| ((*f).to_owned(), *s)).collect();
-            Robot { urdf, layout, meshes }
+            Robot { urdf, layout, meshes, overlap: 0.0 }
         })
 }
 

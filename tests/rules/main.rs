@@ -27,6 +27,7 @@ mod one_case;
 mod schemas;
 mod shapes;
 mod source;
+mod spheres;
 mod two_faults;
 mod urdf;
 mod usable;
@@ -121,6 +122,7 @@ fn cases() -> Vec<Case> {
         shapes::cases(),
         kinematics::cases(),
         learned::cases(),
+        spheres::cases(),
         schemas::cases(),
         numbers::cases(),
     ]

@@ -12,6 +12,7 @@ mod not_limits;
 mod primitives;
 mod shapes;
 mod spec;
+mod spheres;
 
 use std::collections::BTreeMap;
 
@@ -116,6 +117,7 @@ pub fn list() -> Vec<Number> {
     list.extend(documents::numbers());
     list.extend(limits_of_files::numbers());
     list.extend(loops::numbers());
+    list.extend(spheres::numbers());
     list.extend(geometry::numbers());
     list.extend(primitives::numbers());
     list.extend(shapes::numbers());

@@ -79,6 +79,12 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     // Definitions of what is computed. Cases whose values are right hold them.
     ("8.8.3", "sin 2q, cos 2q"),
     ("8.8.11", "Its 95 % interval"),
+    (
+        "8.9.5",
+        "take 64 points, the centre plus the radius times a unit vector (s cos a, s sin a, z), for k from 0 to 63, with z = 1 - (2k + 1) / 64, s = sqrt(1 - z^2), and a = 2 pi times the fractional part of 0.6180339887498949 k",
+    ),
+    ("8.9.5", "n is 15.7 times"),
+    ("8.9.6", "sampled configurations 2^31 to 2^31 + `num_samples` - 1"),
     ("9.3", "64-bit unsigned"),
     ("9.3", "below 2^32"),
     ("11.4", "sampled configurations (9.3) | 2^32"),

@@ -22,6 +22,7 @@ pub fn shared() -> Vec<(&'static str, Make)> {
         ("loops", base(crate::loops::linkage)),
         ("mesh_and_box", base(mesh_and_box)),
         ("learned", base(testkit::model::fixture)),
+        ("spheres", base(testkit::spheres::fixture)),
     ]
 }
 

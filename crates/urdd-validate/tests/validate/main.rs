@@ -44,6 +44,7 @@ mod solids_polytope;
 mod solids_primitive;
 mod solids_stl_records;
 mod soundness;
+mod spheres;
 mod undeclared_need;
 mod urdf_text;
 mod urdf_text_compare;

@@ -47,7 +47,11 @@ impl<'a> LinkPieces<'a> {
     pub fn new(solids: &'a Solids, link: usize, count: usize) -> Option<Self> {
         let kind = ModuleKind::ConvexDecompositionMeshes;
         let meshes = (0..count).map(|piece| solids.sound(kind, link, piece));
-        let meshes: Vec<&Mesh> = meshes.collect::<Option<_>>()?;
+        Self::of(meshes.collect::<Option<_>>()?)
+    }
+
+    /// The same, of their meshes.
+    pub fn of(meshes: Vec<&'a Mesh>) -> Option<Self> {
         let solids: Vec<Solid> = meshes.iter().copied().map(Solid::new).collect::<Option<_>>()?;
         let vertices = || solids.iter().flat_map(|solid| &solid.vertices);
         let first = *vertices().next()?;

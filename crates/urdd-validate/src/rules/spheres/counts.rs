@@ -12,7 +12,7 @@ declare_rule! {
     ///
     /// Count again: each of the sampled configurations is in collision or free.
     SPH011 "sphere-counts-impossible", Error, clause "8.9.7", since "1.4.0",
-    phase References, needs [ModuleV1(Kind::LinkShapesSpheres)], check counts_impossible,
+    phase References, needs [ModuleV1(Kind::LinkShapesSpheres), Passed(SPH001)], check counts_impossible,
 
     /// The counts of a level are not those of the sampled configurations.
     ///
