@@ -175,8 +175,16 @@ impl<C: Coverage> SphereChecker<C> {
     }
 
     fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+        let most = &self.model.most;
+        let mut each = configuration.iter().zip(most);
+        // Not a comparison the other way, for what is not a number.
+        let far = each.position(|(q, most)| !(q.abs() <= *most));
+        if far.is_none() && configuration.len() == most.len() {
+            return Ok(());
+        }
         self.motion.kinematics.check(configuration)?;
-        self.model.check(configuration)
+        let dof_idx = far.unwrap_or(0);
+        Err(RobotError::Far { dof_idx, value: configuration[dof_idx] })
     }
 
     fn scene(&self, margin: f64) -> Result<Scene<'_>, RobotError> {
