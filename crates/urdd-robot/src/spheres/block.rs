@@ -5,9 +5,9 @@ use std::cell::Cell;
 use fearless_simd::{Simd, dispatch, f64x8, prelude::*};
 
 use super::check::Asked;
-use super::lanes::{LANES, WideRow};
 use super::model::{Model, Placed};
 use super::obstacles::Obstacles;
+use crate::lanes::{LANES, WideRow};
 
 /// What is checked in each configuration.
 #[derive(Clone, Copy)]
@@ -96,7 +96,7 @@ impl Scene<'_> {
         if asked.is_done(found) {
             return found;
         }
-        found | self.obstacles.touching(simd, placed, self.model, self.margin, asked, found)
+        self.obstacles.touching(simd, placed, self.model, self.margin, asked, found)
     }
 }
 

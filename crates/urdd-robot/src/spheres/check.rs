@@ -2,9 +2,9 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::{Mask, Vec3, bits, splat};
 use super::model::{Ball, Body, Group, Model, Placed};
 use super::run::Values;
+use crate::lanes::{Mask, Vec3, bits, splat};
 
 /// Which lanes are asked for, and when it is enough.
 #[derive(Debug, Clone, Copy)]

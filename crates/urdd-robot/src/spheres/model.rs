@@ -4,12 +4,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::Point3;
 
-use super::lanes::Point;
 use super::level::{MOST, Sphere, SphereLevel};
 use super::run::Frames;
 use super::tape::{Frame, Place, ROUNDING, Step, StepMotion, Tape};
 use crate::error::RobotError;
 use crate::kept::Motion;
+use crate::lanes::Point;
 use crate::names::check_link;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about_spheres};
 use urdd_geometry::convex::Level;
@@ -69,6 +69,8 @@ pub struct Model {
     /// From coarse to fine.
     pub levels: Vec<Balls>,
     pub clusters: Vec<Cluster>,
+    /// The bodies of each cluster.
+    pub members: Vec<Vec<usize>>,
     pub groups: Vec<Group>,
     /// What is added to radii for each metre of the slides.
     pub of_slides: f32,
@@ -107,6 +109,7 @@ impl Model {
             bodies: Vec::new(),
             levels: vec![Balls::default(); finer(levels).len()],
             clusters: Vec::new(),
+            members: Vec::new(),
             groups: Vec::new(),
             of_slides: 0.0,
             reach: 0.0,
@@ -140,6 +143,10 @@ impl Model {
         }
         for balls in &mut model.levels {
             balls.first.push(balls.balls.len());
+        }
+        model.members = vec![Vec::new(); model.clusters.len()];
+        for (k, body) in model.bodies.iter().enumerate() {
+            model.members[body.cluster].push(k);
         }
         for k in 0..model.clusters.len() {
             model.clusters[k].around = model.around_all(k);

@@ -2,8 +2,8 @@
 
 use fearless_simd::{Simd, f64x8, prelude::*};
 
-use super::lanes::{LANES, MOST_ANGLE, Row, Vec3, WideRow, narrow, sin_cos, splat};
 use super::tape::{Frame, Input, StepMotion, Tape};
+use crate::lanes::{LANES, MOST_ANGLE, Row, Vec3, WideRow, narrow, sin_cos, splat};
 use urdd_kinematics::rotation::from_rotation_vector;
 
 /// The values of the DOFs: one row for each.

@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::lanes::SIN_COS_ERROR;
+use crate::lanes::SIN_COS_ERROR;
 use urdd_kinematics::{ForwardKinematics, Motion, Position};
 
 /// A direction that is this near an axis is that axis, and a length below it is zero, m: files have angles with as many digits.
