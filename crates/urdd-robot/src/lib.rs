@@ -32,6 +32,7 @@
 mod batch;
 mod checked;
 mod collision_model;
+mod copies;
 mod description;
 mod edge;
 mod edits;
@@ -40,6 +41,7 @@ mod follow;
 mod inverse;
 mod kept;
 mod kinematics;
+mod lanes;
 mod link_spheres;
 mod loop_equations;
 mod loops;

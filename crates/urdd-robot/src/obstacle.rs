@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Isometry3, Point3, Translation3};
 
+use crate::copies::Copies;
 use crate::error::RobotError;
 use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about};
@@ -22,19 +23,37 @@ pub struct Obstacle {
     /// Of its frame.
     pub(crate) pose: Isometry3<f64>,
     pub(crate) parts: Arc<[Part]>,
+    pub(crate) form: Form,
     /// Names of links and attached objects that may touch it.
     pub(crate) ignored: Arc<Vec<String>>,
 }
 
-/// A convex shape swept by a sphere: all points within `radius` of the shape, in the frame of its obstacle.
+/// What an obstacle is, where its parts are not exactly that, or not simply.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Form {
+    /// Its half extents, m.
+    Box([f64; 3]),
+    /// Its radius, m.
+    Sphere(f64),
+    /// Along z, m.
+    Capsule { radius: f64, half: f64 },
+    /// Along z, m.
+    Cylinder { radius: f64, half: f64 },
+    /// Its parts.
+    Parts,
+}
+
+/// A convex shape swept by a sphere, or copies of one: all points within `radius` of the shape, in the frame of its obstacle.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
     pub core: Arc<ConvexShape>,
     pub radius: f64,
+    /// Where the shape is, if it is at many places.
+    pub copies: Option<Arc<Copies>>,
     /// The points of the shape.
     points: Arc<[[f64; 3]]>,
     /// Of the points, in metres.
-    bounds: Bounds,
+    pub bounds: Bounds,
     /// Around the part.
     pub sphere: BoundingSphere,
 }
@@ -45,13 +64,36 @@ impl Part {
         let bounds = Bounds::of(points.iter().copied());
         let mut sphere = about(core.centre(), &points);
         sphere.radius += radius;
-        Ok(Part { core, radius, bounds, points, sphere })
+        Ok(Part { core, radius, copies: None, bounds, points, sphere })
+    }
+
+    /// Copies of a box about the origin, swept by a sphere.
+    fn of_copies(half: [f64; 3], radius: f64, centres: Vec<[f64; 3]>) -> Result<Self, ShapeError> {
+        // The same limits as for other shapes.
+        let Bounds { min, max } = Bounds::of(centres.iter().copied());
+        ConvexShape::of_points(&[min, max])?;
+        let core = match half {
+            [0.0, 0.0, 0.0] => ConvexShape::of_points(&[[0.0; 3]])?,
+            half => ConvexShape::of_points(&corners(half))?,
+        };
+        let copies = Arc::new(Copies::new(core, half, centres));
+        let Bounds { min, max } = copies.bounds;
+        let points: Arc<[[f64; 3]]> = [min, max].into();
+        let middle = [0, 1, 2].map(|k| 0.5 * (min[k] + max[k]));
+        let mut sphere = about(middle, &points);
+        sphere.radius += radius;
+        let (core, bounds) = (Arc::clone(&copies.core), copies.bounds);
+        Ok(Part { core, radius, copies: Some(copies), bounds, points, sphere })
     }
 
     /// A lower bound of the distance of the part from a sphere in its frame, in metres; not positive if they may touch.
     pub fn bound(&self, sphere: &BoundingSphere) -> f64 {
         let Bounds { min: least, max: most } = self.bounds;
         let p = sphere.centre;
+        if let Some(copies) = &self.copies {
+            let apart = copies.nearest(p).1.sqrt();
+            return apart * (1.0 - 1e-12) - sphere.radius - self.radius;
+        }
         let apart = [0, 1, 2].map(|k| (least[k] - p[k]).max(p[k] - most[k]).max(0.0));
         // Less by more than any rounding error.
         norm(apart) * (1.0 - 1e-12) - sphere.radius - self.radius
@@ -98,6 +140,20 @@ impl World {
         }
     }
 
+    /// Adds a cloud of points, or replaces the first obstacle of its name: [`Obstacle::points`] in the root link's frame.
+    ///
+    /// # Errors
+    /// [`RobotError::Obstacle`].
+    pub fn add_points(
+        &mut self,
+        name: &str,
+        points: &[[f64; 3]],
+        radius: f64,
+    ) -> Result<(), RobotError> {
+        self.put(Obstacle::points(name, Isometry3::identity(), points, radius)?);
+        Ok(())
+    }
+
     /// Removes the first obstacle of this name, and returns it.
     pub fn remove(&mut self, name: &str) -> Option<Obstacle> {
         let place = self.obstacles.iter().position(|one| *one.name == *name)?;
@@ -118,11 +174,13 @@ impl Obstacle {
             check_size(name, size)?;
         }
         Self::swept(name, pose, &corners(half_extents), 0.0)
+            .map(|one| one.of(Form::Box(half_extents)))
     }
 
     /// A sphere: its centre and radius, in metres.
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
-        Self::swept(name, Translation3::from(centre).into(), &[[0.0; 3]], radius)
+        let made = Self::swept(name, Translation3::from(centre).into(), &[[0.0; 3]], radius);
+        made.map(|one| one.of(Form::Sphere(radius)))
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
@@ -135,11 +193,13 @@ impl Obstacle {
     ) -> Result<Self, RobotError> {
         check_size(name, half_length)?;
         let ends = [-half_length, half_length].map(|z| [0.0, 0.0, z]);
-        Self::swept(name, pose, &ends, radius)
+        let form = Form::Capsule { radius, half: half_length };
+        Self::swept(name, pose, &ends, radius).map(|one| one.of(form))
     }
 
     /// A cylinder along the z axis of its frame, from `-half_length` to `half_length`. It is approximated by a
-    /// circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
+    /// circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %; a [`SphereChecker`](crate::spheres::SphereChecker) has
+    /// the cylinder itself.
     pub fn cylinder(
         name: &str,
         pose: Isometry3<f64>,
@@ -149,7 +209,8 @@ impl Obstacle {
         check_size(name, radius)?;
         check_size(name, half_length)?;
         let cylinder = Primitive::Cylinder { radius, half: half_length };
-        Self::swept(name, pose, &cylinder.core(Prism::Around).0, 0.0)
+        let form = Form::Cylinder { radius, half: half_length };
+        Self::swept(name, pose, &cylinder.core(Prism::Around).0, 0.0).map(|one| one.of(form))
     }
 
     /// The convex hull of points, in metres.
@@ -170,6 +231,47 @@ impl Obstacle {
         let parts: Result<Arc<[Part]>, ShapeError> = parts.collect();
         whole.parts = parts.map_err(|error| fault(name, &error))?;
         Ok(whole)
+    }
+
+    /// A cloud of points, in metres: all points that are at most `radius` (m, 0 allowed) from one of them. It is one part, in
+    /// which a tree finds the points near a shape: 100,000 are fine.
+    pub fn points(
+        name: &str,
+        pose: Isometry3<f64>,
+        points: &[[f64; 3]],
+        radius: f64,
+    ) -> Result<Self, RobotError> {
+        Self::copied(name, pose, [0.0; 3], radius, points.to_vec())
+    }
+
+    /// A field of heights over the x-y plane of its frame. Cell (`row`, `column`) is a column with the sizes `cell` (m) along x
+    /// and y, its centre at x = `column` * `cell[0]`, y = `row` * `cell[1]`. It reaches from its height, which is
+    /// `heights[row * columns + column]` (m), `thickness` (m) down. There are no slopes between cells.
+    ///
+    /// # Errors
+    /// Also if the number of heights is not a multiple of `columns`.
+    pub fn height_field(
+        name: &str,
+        pose: Isometry3<f64>,
+        heights: &[f64],
+        columns: usize,
+        cell: [f64; 2],
+        thickness: f64,
+    ) -> Result<Self, RobotError> {
+        for size in [cell[0], cell[1], thickness] {
+            check_size(name, size)?;
+        }
+        if columns == 0 || !heights.len().is_multiple_of(columns) {
+            let reason = format!("{} heights do not divide into {columns} columns", heights.len());
+            return Err(RobotError::Obstacle { name: name.to_owned(), reason });
+        }
+        let half = [cell[0], cell[1], thickness].map(|size| 0.5 * size);
+        let centre = |(k, height): (usize, &f64)| {
+            let (row, column) = (k / columns, k % columns);
+            [column as f64 * cell[0], row as f64 * cell[1], height - half[2]]
+        };
+        let centres = heights.iter().enumerate().map(centre).collect();
+        Self::copied(name, pose, half, 0.0, centres)
     }
 
     /// The same body with its frame at another pose. Nothing is prepared again: the two share their shapes. The frame of
@@ -214,7 +316,37 @@ impl Obstacle {
         check_size(name, radius)?;
         check_pose(name, &pose)?;
         let part = Part::new(points.into(), radius).map_err(|error| fault(name, &error))?;
-        Ok(Self { name: Arc::from(name), pose, parts: [part].into(), ignored: Arc::default() })
+        Ok(Self::whole(name, pose, part))
+    }
+
+    fn copied(
+        name: &str,
+        pose: Isometry3<f64>,
+        half: [f64; 3],
+        radius: f64,
+        centres: Vec<[f64; 3]>,
+    ) -> Result<Self, RobotError> {
+        check_size(name, radius)?;
+        check_pose(name, &pose)?;
+        let fail = |error: ShapeError| fault(name, &error);
+        if centres.is_empty() {
+            return Err(fail(ShapeError::Empty));
+        }
+        let is_far = |p: &[f64; 3]| !p.iter().all(|x| x.abs() <= 1e9);
+        if let Some(vertex) = centres.iter().position(is_far) {
+            return Err(fail(ShapeError::OutOfRange { vertex }));
+        }
+        let part = Part::of_copies(half, radius, centres).map_err(fail)?;
+        Ok(Self::whole(name, pose, part))
+    }
+
+    fn whole(name: &str, pose: Isometry3<f64>, part: Part) -> Self {
+        let (name, parts, ignored) = (Arc::from(name), [part].into(), Arc::default());
+        Self { name, pose, parts, form: Form::Parts, ignored }
+    }
+
+    fn of(self, form: Form) -> Self {
+        Self { form, ..self }
     }
 }
 

@@ -127,13 +127,18 @@ impl PlacedPart {
         self.sphere = BoundingSphere { centre, radius: radius + self.rounding };
     }
 
-    /// A lower bound of the distance from a sphere, m; not positive if they may touch.
-    fn bound(&self, centre: [f64; 3], radius: f64) -> f64 {
-        let from = sub(centre, self.frame[3]);
-        let centre = match self.is_turned {
+    /// A point of the root link's frame in its frame.
+    fn local(&self, point: [f64; 3]) -> [f64; 3] {
+        let from = sub(point, self.frame[3]);
+        match self.is_turned {
             true => [0, 1, 2].map(|k| dot(self.frame[k], from)),
             false => from,
-        };
+        }
+    }
+
+    /// A lower bound of the distance from a sphere, m; not positive if they may touch.
+    fn bound(&self, centre: [f64; 3], radius: f64) -> f64 {
+        let centre = self.local(centre);
         self.part.bound(&BoundingSphere { centre, radius: radius + self.rounding })
     }
 
@@ -239,11 +244,75 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
         (&self.proximity.shapes[shape], &self.parts[part])
     }
 
-    /// The two in the frame of the shape's link.
-    fn cores(&self, placed: &Placed, pair: usize) -> PlacedPair<'_> {
+    /// The two in the frame of the shape's link. Of an obstacle that is many copies, one of them.
+    fn cores(&self, placed: &Placed, pair: usize, copy: usize) -> PlacedPair<'_> {
         let (own, other) = self.both(pair);
-        let b_in_a = relative(&placed.links[own.link], &other.frame);
+        let mut frame = other.frame;
+        if let Some(copies) = &other.part.copies {
+            frame[3] = to_root(&frame, copies.centres[copy]);
+        }
+        let b_in_a = relative(&placed.links[own.link], &frame);
         PlacedPair { a: &own.core, b: &other.part.core, b_in_a }
+    }
+
+    /// Asks copies near the shape of a pair, at first those at most `within` (m) from its bounding sphere; `each` gets some of
+    /// them with the distances of the cores, and says within what distance the next ones count.
+    fn near_copies(
+        &self,
+        placed: &Placed,
+        pair: usize,
+        within: f64,
+        mut each: impl FnMut(usize, f64) -> f64,
+    ) {
+        let (own, other) = self.both(pair);
+        let Some(copies) = &other.part.copies else { return };
+        let centre = other.local(placed.centres[self.pairs[pair][0] as usize]);
+        let radius = own.sphere.radius + other.rounding;
+        let squared = |within: f64| match within >= 0.0 {
+            true => (within + radius) * (within + radius) * (1.0 + 1e-12),
+            false => -1.0,
+        };
+        let mut within = squared(within);
+        let mut some: ArrayVec<usize, AT_ONCE> = ArrayVec::new();
+        let mut ask = |some: &mut ArrayVec<usize, AT_ONCE>, within: f64| {
+            let cores = some.iter().map(|copy| self.cores(placed, pair, *copy));
+            let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
+            let mut values = [0.0; AT_ONCE];
+            across::distances(self.proximity.level, &cores, &mut values[..cores.len()]);
+            let found = some.drain(..).zip(values);
+            found.fold(within, |within, (copy, value)| within.min(squared(each(copy, value))))
+        };
+        copies.near(centre, within, |copy, _| {
+            some.push(copy);
+            if some.is_full() {
+                within = ask(&mut some, within);
+            }
+            within
+        });
+        ask(&mut some, within);
+    }
+
+    /// The nearest copy of the obstacle of a pair, and the distance of the cores, m.
+    fn nearest_copy(&self, placed: &Placed, pair: usize) -> (usize, f64) {
+        let mut best = (usize::MAX, f64::INFINITY);
+        self.near_copies(placed, pair, f64::INFINITY, |copy, distance| {
+            if (distance, copy) < (best.1, best.0) {
+                best = (copy, distance);
+            }
+            best.1
+        });
+        best
+    }
+
+    /// Whether any copy of the obstacle of a pair touches the shape.
+    fn any_copy_touches(&self, placed: &Placed, pair: usize) -> bool {
+        let radii = self.radii(pair).iter().sum::<f64>();
+        let mut touches = false;
+        self.near_copies(placed, pair, radii, |_, distance| {
+            touches |= distance <= radii;
+            if touches { -1.0 } else { radii }
+        });
+        touches
     }
 
     fn radii(&self, pair: usize) -> [f64; 2] {
@@ -289,10 +358,13 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
     }
 
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
-        let cores = pairs.iter().map(|pair| self.cores(placed, *pair));
+        let cores = pairs.iter().map(|pair| self.cores(placed, *pair, 0));
         let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
         across::distances(self.proximity.level, &cores, values);
         for (value, pair) in values.iter_mut().zip(pairs) {
+            if self.both(*pair).1.part.copies.is_some() {
+                *value = self.nearest_copy(placed, *pair).1;
+            }
             *value = (*value - self.radii(*pair).iter().sum::<f64>()).max(0.0);
         }
     }
@@ -300,13 +372,21 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
     fn touches(&self, placed: &Placed) -> bool {
         let mut waiting = Waiting::new(self.proximity.level);
         let mut near = (0..self.pairs.len()).filter(|pair| !self.is_beyond(placed, *pair, 0.0));
-        near.any(|pair| {
-            waiting.touches_with(self.cores(placed, pair), self.radii(pair).iter().sum())
+        near.any(|pair| match self.both(pair).1.part.copies.is_some() {
+            true => self.any_copy_touches(placed, pair),
+            false => {
+                let radii = self.radii(pair).iter().sum();
+                waiting.touches_with(self.cores(placed, pair, 0), radii)
+            }
         }) || waiting.any_touches()
     }
 
     fn swept(&self, placed: &Placed, pair: usize) -> SweptPair<'_> {
-        SweptPair { cores: self.cores(placed, pair), radii: self.radii(pair) }
+        let copy = match self.both(pair).1.part.copies.is_some() {
+            true => self.nearest_copy(placed, pair).0,
+            false => 0,
+        };
+        SweptPair { cores: self.cores(placed, pair, copy), radii: self.radii(pair) }
     }
 
     fn links(&self, pair: usize) -> (usize, Option<usize>) {

@@ -57,6 +57,12 @@ impl Proximity {
         };
         let others: Vec<usize> = (0..self.shapes.len()).filter(meets).collect();
         for (piece, part) in object.parts.iter().enumerate() {
+            if part.copies.is_some() {
+                return Err(RobotError::Obstacle {
+                    name: object.name().to_owned(),
+                    reason: "a cloud of points or a field of heights cannot be attached".to_owned(),
+                });
+            }
             let place = with.shapes.len();
             let placed = part.placed(object.pose());
             let (core, sphere) = placed.map_err(|reason| fault(object.name(), &reason))?;

@@ -1,17 +1,13 @@
 //! Blocks of configurations: rows of a batch, or parts of a straight motion.
 
-use std::cell::RefCell;
+use std::cell::Cell;
 
 use fearless_simd::{Simd, dispatch, f64x8, prelude::*};
 
 use super::check::Asked;
-use super::lanes::{LANES, WideRow};
 use super::model::{Model, Placed};
 use super::obstacles::Obstacles;
-use crate::error::RobotError;
-
-/// The largest value of a DOF, and the farthest slide, rad or m.
-const MOST: f64 = 1e9;
+use crate::lanes::{LANES, WideRow};
 
 /// What is checked in each configuration.
 #[derive(Clone, Copy)]
@@ -25,41 +21,28 @@ pub struct Scene<'a> {
 /// What a thread keeps.
 #[derive(Debug, Default)]
 pub struct Memory {
+    /// For which model it is.
+    model: u64,
     pub placed: Placed,
     pub values: Vec<WideRow>,
     pub travel: Vec<[f64; 2]>,
 }
 
 thread_local! {
-    static MEMORY: RefCell<Memory> = RefCell::default();
+    static MEMORY: Cell<Option<Box<Memory>>> = const { Cell::new(None) };
 }
 
 /// Runs with this thread's memory, which fits the robot.
 pub fn with_memory<T>(model: &Model, act: impl FnOnce(&mut Memory) -> T) -> T {
-    let mut memory = MEMORY.try_with(RefCell::take).unwrap_or_default();
-    memory.placed.fit(model);
-    let found = act(&mut memory);
-    let _ = MEMORY.try_with(|kept| kept.replace(memory));
-    found
-}
-
-impl Model {
-    /// # Errors
-    /// [`RobotError::Far`].
-    pub fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
-        let far = |dof: usize, value: f64| Err(RobotError::Far { dof_idx: dof, value });
-        if let Some(dof) = configuration.iter().position(|q| q.abs() > MOST) {
-            return far(dof, configuration[dof]);
-        }
-        for input in self.tape.angles.iter().chain(&self.tape.lengths) {
-            let value = input.multiplier * configuration[input.dof] + input.offset;
-            // Not a comparison the other way, for what is not a number.
-            if !(value.abs() <= MOST) {
-                return far(input.dof, configuration[input.dof]);
-            }
-        }
-        Ok(())
+    let mut memory = MEMORY.try_with(Cell::take).ok().flatten().unwrap_or_default();
+    if memory.model != model.number {
+        memory.placed.fit(model);
+        memory.values.resize(model.most.len(), WideRow::default());
+        memory.model = model.number;
     }
+    let found = act(&mut memory);
+    let _ = MEMORY.try_with(|kept| kept.set(Some(memory)));
+    found
 }
 
 impl Scene<'_> {
@@ -70,17 +53,18 @@ impl Scene<'_> {
         rows: impl ExactSizeIterator<Item = &'a [f64]>,
     ) -> u8 {
         let count = rows.len();
-        let dofs = rows.enumerate().fold(0, |_, (lane, row)| {
-            memory.values.resize(row.len(), WideRow::default());
-            for (to, value) in memory.values.iter_mut().zip(row) {
-                to.0[lane..].fill(*value);
-            }
-            row.len()
-        });
-        let lanes = ((1u16 << count) - 1) as u8;
         let Memory { placed, values, .. } = memory;
+        for (lane, row) in rows.enumerate() {
+            for (to, value) in values.iter_mut().zip(row) {
+                match lane {
+                    0 => *to = WideRow([*value; LANES]),
+                    _ => to.0[lane] = *value,
+                }
+            }
+        }
+        let lanes = ((1u16 << count) - 1) as u8;
         let asked = Asked { lanes, any: count == 1 };
-        dispatch!(self.model.level, simd => self.touching(simd, placed, &values[..dofs], asked))
+        dispatch!(self.model.level, simd => self.touching(simd, placed, values, asked))
     }
 
     /// The lanes that touch, of these parts of a straight motion.
@@ -92,7 +76,6 @@ impl Scene<'_> {
         any: bool,
     ) -> u8 {
         let Memory { placed, values, .. } = memory;
-        values.resize(ends[0].len(), WideRow::default());
         let asked = Asked { lanes: u8::MAX, any };
         dispatch!(self.model.level, simd => {
             between(simd, values, ends, parts);
@@ -113,7 +96,7 @@ impl Scene<'_> {
         if asked.is_done(found) {
             return found;
         }
-        found | self.obstacles.touching(simd, placed, self.model, self.margin, asked, found)
+        self.obstacles.touching(simd, placed, self.model, self.margin, asked, found)
     }
 }
 

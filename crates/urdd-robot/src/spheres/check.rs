@@ -2,9 +2,9 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::{Mask, Vec3, bits, splat};
-use super::model::{Ball, Model, Placed};
+use super::model::{Ball, Body, Group, Model, Placed};
 use super::run::Values;
+use crate::lanes::{Mask, Vec3, bits, splat};
 
 /// Which lanes are asked for, and when it is enough.
 #[derive(Debug, Clone, Copy)]
@@ -24,16 +24,30 @@ impl Asked {
 }
 
 impl Placed {
-    /// Places the frames and the spheres around the links.
+    /// Places the frames and the spheres around clusters.
     #[inline(always)]
     pub fn place<S: Simd>(&mut self, simd: S, model: &Model, values: Values) {
         self.frames.run(simd, &model.tape, values);
-        for (to, body) in self.around.iter_mut().zip(&model.bodies) {
-            *to = self.frames.point(simd, body.frame, centre(&body.around)).store();
+        for (to, cluster) in self.clusters.iter_mut().zip(&model.clusters) {
+            *to = self.frames.point(simd, cluster.frame, centre(&cluster.around)).store();
         }
+        self.is_around.fill(false);
         for is_placed in &mut self.is_placed {
             is_placed.fill(false);
         }
+    }
+
+    /// The centre of the sphere around a body.
+    #[inline(always)]
+    pub fn around<S: Simd>(&mut self, simd: S, model: &Model, body: usize) -> Vec3<S> {
+        if self.is_around[body] {
+            return Vec3::load(simd, &self.around[body]);
+        }
+        self.is_around[body] = true;
+        let Body { frame, around, .. } = &model.bodies[body];
+        let found = self.frames.point(simd, *frame, centre(around));
+        self.around[body] = found.store();
+        found
     }
 
     /// Places the spheres of a body at a level.
@@ -63,7 +77,8 @@ impl Placed {
         asked: Asked,
     ) -> u8 {
         let [around_a, around_b] = [&model.bodies[a].around, &model.bodies[b].around];
-        let [p, q] = [a, b].map(|body| Vec3::load(simd, &self.around[body]));
+        let p = self.around(simd, model, a);
+        let q = self.around(simd, model, b);
         let near = touch(simd, p, q, around_a[3] + around_b[3] + grown);
         let mut found = bits(near) & asked.lanes;
         for level in 0..model.levels.len() {
@@ -98,7 +113,7 @@ impl Placed {
         let asked = Asked { any: asked.any && level + 1 == model.levels.len(), ..asked };
         let balls = &model.levels[level];
         let (own, others) = (balls.of(a), balls.of(b));
-        let around = Vec3::load(simd, &self.around[b]);
+        let around = self.around(simd, model, b);
         let reach = model.bodies[b].around[3] + grown;
         let mut found = 0;
         for k in own {
@@ -131,14 +146,28 @@ impl Placed {
     ) -> u8 {
         let grown = 2.0 * self.slack(model) + margin;
         let mut found = 0;
-        for pair in &model.pairs {
-            if margin > 0.0 && !pair.moves {
+        for Group { clusters: [a, b], pairs } in &model.groups {
+            if margin > 0.0 && a == b {
                 continue;
             }
-            let lanes = asked.lanes & !found;
-            found |= self.pair_touches(simd, model, pair.bodies, grown, Asked { lanes, ..asked });
-            if asked.is_done(found) {
-                break;
+            let mut lanes = asked.lanes & !found;
+            if let [_, _, ..] = pairs[..] {
+                let p = Vec3::load(simd, &self.clusters[*a]);
+                let q = Vec3::load(simd, &self.clusters[*b]);
+                let reach = model.clusters[*a].around[3] + model.clusters[*b].around[3] + grown;
+                lanes &= bits(touch(simd, p, q, reach));
+            }
+            for pair in pairs {
+                if lanes == 0 {
+                    break;
+                }
+                let touching =
+                    self.pair_touches(simd, model, *pair, grown, Asked { lanes, ..asked });
+                found |= touching;
+                lanes &= !touching;
+                if asked.is_done(found) {
+                    return found;
+                }
             }
         }
         found

@@ -3,9 +3,10 @@
 use std::marker::PhantomData;
 use std::sync::Arc;
 
+use nalgebra::Isometry3;
+
 use super::answer::{Approximating, Coverage, Covering};
 use super::block::{Scene, with_memory};
-use super::lanes::LANES;
 use super::level::SphereLevel;
 use super::model::Model;
 use super::obstacles::Obstacles;
@@ -15,17 +16,31 @@ use crate::checked::check_margin;
 use crate::edge::{EdgeSettings, FirstContact, halving, steps};
 use crate::error::RobotError;
 use crate::kept::{Closure, Motion, Rows};
+use crate::lanes::LANES;
+use crate::obstacle::World;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::fill;
 
 /// The spheres of a robot, prepared for yes or no: whether any touch, in configurations and along straight motions.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct SphereChecker<C> {
     pub(super) motion: Arc<Motion>,
     closure: Result<Option<Arc<Closure>>, RobotError>,
     pub(super) model: Arc<Model>,
     pub(super) obstacles: Obstacles,
     coverage: PhantomData<C>,
+}
+
+impl<C> Clone for SphereChecker<C> {
+    fn clone(&self) -> Self {
+        SphereChecker {
+            motion: Arc::clone(&self.motion),
+            closure: self.closure.clone(),
+            model: Arc::clone(&self.model),
+            obstacles: self.obstacles.clone(),
+            coverage: PhantomData,
+        }
+    }
 }
 
 /// Blocks of eight configurations in one piece of work for a thread.
@@ -44,6 +59,27 @@ impl<C: Coverage> SphereChecker<C> {
             obstacles: Obstacles::default(),
             coverage: PhantomData,
         })
+    }
+
+    /// The same spheres, and obstacles around the robot: each query then asks for both.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`] if an obstacle ignores a link that does not exist.
+    pub fn around(&self, world: &World) -> Result<Self, RobotError> {
+        let obstacles = Obstacles::new(&self.model, &self.motion.links, world, C::IS_CERTAIN)?;
+        Ok(SphereChecker { obstacles, ..self.clone() })
+    }
+
+    /// Moves the obstacles from `first` on to these poses. It does not allocate. After an error, none has moved.
+    ///
+    /// # Errors
+    /// As [`WorldProximity::move_obstacles`](crate::WorldProximity::move_obstacles).
+    pub fn move_obstacles(
+        &mut self,
+        first: usize,
+        poses: &[Isometry3<f64>],
+    ) -> Result<(), RobotError> {
+        self.obstacles.place(&self.model, first, poses)
     }
 
     /// Number of DOFs: the length of a configuration.
@@ -175,8 +211,16 @@ impl<C: Coverage> SphereChecker<C> {
     }
 
     fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+        let most = &self.model.most;
+        let mut each = configuration.iter().zip(most);
+        // Not a comparison the other way, for what is not a number.
+        let far = each.position(|(q, most)| !(q.abs() <= *most));
+        if far.is_none() && configuration.len() == most.len() {
+            return Ok(());
+        }
         self.motion.kinematics.check(configuration)?;
-        self.model.check(configuration)
+        let dof_idx = far.unwrap_or(0);
+        Err(RobotError::Far { dof_idx, value: configuration[dof_idx] })
     }
 
     fn scene(&self, margin: f64) -> Result<Scene<'_>, RobotError> {

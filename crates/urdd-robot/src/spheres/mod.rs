@@ -4,7 +4,6 @@ mod answer;
 mod block;
 mod check;
 mod checker;
-mod lanes;
 mod level;
 mod model;
 mod obstacles;

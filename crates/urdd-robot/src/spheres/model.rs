@@ -1,13 +1,15 @@
 //! The spheres of a robot on the frames of its joints, in 32 bits.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use nalgebra::Point3;
 
-use super::lanes::Point;
-use super::level::{Sphere, SphereLevel};
+use super::level::{MOST, Sphere, SphereLevel};
 use super::run::Frames;
 use super::tape::{Frame, Place, ROUNDING, Step, StepMotion, Tape};
 use crate::error::RobotError;
 use crate::kept::Motion;
+use crate::lanes::Point;
 use crate::names::check_link;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about_spheres};
 use urdd_geometry::convex::Level;
@@ -23,8 +25,16 @@ pub struct Body {
     pub frame: Frame,
     /// Around all spheres.
     pub around: Ball,
-    /// The link's rigid body: what no joint moves.
-    pub rigid: usize,
+    /// The bodies that are on the same frame.
+    pub cluster: usize,
+}
+
+/// The bodies of one frame.
+#[derive(Debug, Clone)]
+pub struct Cluster {
+    pub frame: Frame,
+    /// Around the spheres of all its bodies.
+    pub around: Ball,
 }
 
 /// The spheres of one level, by body.
@@ -41,27 +51,35 @@ impl Balls {
     }
 }
 
-/// Two bodies.
-#[derive(Debug, Clone, Copy)]
-pub struct Pair {
-    pub bodies: [usize; 2],
-    /// Whether a joint moves one against the other.
-    pub moves: bool,
+/// The pairs of bodies of two clusters.
+#[derive(Debug, Clone)]
+pub struct Group {
+    pub clusters: [usize; 2],
+    pub pairs: Vec<[usize; 2]>,
 }
 
-#[derive(Debug, Clone)]
+static NUMBER: AtomicU64 = AtomicU64::new(1);
+
+#[derive(Debug)]
 pub struct Model {
+    /// Another one for each model; not 0.
+    pub number: u64,
     pub tape: Tape,
     pub bodies: Vec<Body>,
     /// From coarse to fine.
     pub levels: Vec<Balls>,
-    pub pairs: Vec<Pair>,
+    pub clusters: Vec<Cluster>,
+    /// The bodies of each cluster.
+    pub members: Vec<Vec<usize>>,
+    pub groups: Vec<Group>,
     /// What is added to radii for each metre of the slides.
     pub of_slides: f32,
     /// How far a point of a sphere is from the root's origin, at most, but for slides, m.
     pub reach: f64,
     /// For each step, how far a point of a sphere on its frame is from the frame's origin, at most, m.
     pub radii: Vec<f64>,
+    /// The largest value of each DOF, rad or m.
+    pub most: Vec<f64>,
     pub level: Level,
 }
 
@@ -83,13 +101,16 @@ impl Model {
             wanted[own.link_idx] = true;
         }
         let (tape, places) = Tape::new(kinematics, &wanted);
-        let rigid = kinematics.rigid_bodies();
         let mut model = Model {
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
             radii: vec![0.0; tape.steps.len()],
+            most: most(&tape, kinematics.num_dofs()),
             tape,
             bodies: Vec::new(),
             levels: vec![Balls::default(); finer(levels).len()],
-            pairs: Vec::new(),
+            clusters: Vec::new(),
+            members: Vec::new(),
+            groups: Vec::new(),
             of_slides: 0.0,
             reach: 0.0,
             level: Level::new(),
@@ -113,11 +134,22 @@ impl Model {
             if let Some(step) = place.step {
                 model.radii[step] = model.radii[step].max(farthest);
             }
-            let (frame, rigid) = (place.frame, rigid[link]);
-            model.bodies.push(Body { link, frame, around: ball, rigid });
+            let cluster = model.clusters.iter().position(|one| one.frame == place.frame);
+            let cluster = cluster.unwrap_or(model.clusters.len());
+            if cluster == model.clusters.len() {
+                model.clusters.push(Cluster { frame: place.frame, around: ball });
+            }
+            model.bodies.push(Body { link, frame: place.frame, around: ball, cluster });
         }
         for balls in &mut model.levels {
             balls.first.push(balls.balls.len());
+        }
+        model.members = vec![Vec::new(); model.clusters.len()];
+        for (k, body) in model.bodies.iter().enumerate() {
+            model.members[body.cluster].push(k);
+        }
+        for k in 0..model.clusters.len() {
+            model.clusters[k].around = model.around_all(k);
         }
         model.pair(pairs, kinematics.num_links())?;
         Ok(model)
@@ -134,12 +166,40 @@ impl Model {
             if a == b {
                 return Err(RobotError::Setting("a pair of spheres is of two links"));
             }
-            if known.insert([a.min(b), a.max(b)]) {
-                let moves = self.bodies[a].rigid != self.bodies[b].rigid;
-                self.pairs.push(Pair { bodies: [a, b], moves });
+            if !known.insert([a.min(b), a.max(b)]) {
+                continue;
+            }
+            let clusters = [a, b].map(|body| self.bodies[body].cluster);
+            let (clusters, pair) = match clusters[0] <= clusters[1] {
+                true => (clusters, [a, b]),
+                false => ([clusters[1], clusters[0]], [b, a]),
+            };
+            match self.groups.iter_mut().find(|group| group.clusters == clusters) {
+                Some(group) => group.pairs.push(pair),
+                None => self.groups.push(Group { clusters, pairs: vec![pair] }),
             }
         }
         Ok(())
+    }
+
+    /// A sphere around those of all bodies of a cluster.
+    fn around_all(&self, cluster: usize) -> Ball {
+        let own = || self.bodies.iter().filter(|body| body.cluster == cluster);
+        let mut only = own().map(|body| body.around);
+        if let (Some(one), None) = (only.next(), only.next()) {
+            return one;
+        }
+        let wide = |ball: &Ball| BoundingSphere {
+            centre: [0, 1, 2].map(|k| f64::from(ball[k])),
+            radius: f64::from(ball[3]),
+        };
+        let bounds: Vec<BoundingSphere> = own().map(|body| wide(&body.around)).collect();
+        let found = about_spheres(bounds.iter());
+        let BoundingSphere { centre, radius } =
+            found.unwrap_or(BoundingSphere { centre: [0.0; 3], radius: 0.0 });
+        // More than what is rounded here, and than what the frame's origin adds for the farther centres.
+        let radius = radius + (radius + norm(centre) + self.reach) * 64.0 * ROUNDING;
+        [centre[0] as f32, centre[1] as f32, centre[2] as f32, radius as f32]
     }
 
     /// The farthest that a point of a sphere travels on the straight line between two configurations, at most, m.
@@ -178,6 +238,17 @@ impl Model {
         }
         farthest
     }
+}
+
+/// What each DOF may be, so that no angle and no slide is beyond [`MOST`].
+fn most(tape: &Tape, num_dofs: usize) -> Vec<f64> {
+    let mut most = vec![MOST; num_dofs];
+    for input in tape.angles.iter().chain(&tape.lengths) {
+        let own = (MOST - input.offset.abs()) / input.multiplier.abs();
+        // Zero times anything is zero.
+        most[input.dof] = most[input.dof].min(own);
+    }
+    most
 }
 
 /// The levels that are checked after the spheres around links: level 0 is those if it has one sphere for each link.
@@ -221,8 +292,11 @@ fn model_ball(place: &Place, sphere: &Sphere, is_certain: bool) -> (Ball, f32) {
 #[derive(Debug, Default)]
 pub struct Placed {
     pub frames: Frames,
-    /// The centres of the spheres around links.
+    /// The centres of the spheres around clusters.
+    pub clusters: Vec<Point>,
+    /// The centres of the spheres around bodies, and whether they are there.
     pub around: Vec<Point>,
+    pub is_around: Vec<bool>,
     /// The centres of the spheres of each level.
     pub centres: Vec<Vec<Point>>,
     /// Whether those of each body are there.
@@ -232,7 +306,9 @@ pub struct Placed {
 impl Placed {
     pub fn fit(&mut self, model: &Model) {
         self.frames.fit(&model.tape);
+        self.clusters.resize(model.clusters.len(), Point::default());
         self.around.resize(model.bodies.len(), Point::default());
+        self.is_around.resize(model.bodies.len(), false);
         self.centres.resize_with(model.levels.len(), Vec::new);
         self.is_placed.resize_with(model.levels.len(), Vec::new);
         for ((centres, is_placed), level) in

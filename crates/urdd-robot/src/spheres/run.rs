@@ -2,8 +2,8 @@
 
 use fearless_simd::{Simd, f64x8, prelude::*};
 
-use super::lanes::{LANES, MOST_ANGLE, Row, Vec3, WideRow, narrow, sin_cos, splat};
 use super::tape::{Frame, Input, StepMotion, Tape};
+use crate::lanes::{LANES, MOST_ANGLE, Row, Vec3, WideRow, narrow, sin_cos, splat};
 use urdd_kinematics::rotation::from_rotation_vector;
 
 /// The values of the DOFs: one row for each.
@@ -40,36 +40,36 @@ impl Frames {
     pub fn run<S: Simd>(&mut self, simd: S, tape: &Tape, values: Values) {
         self.read(simd, tape, values);
         for step in &tape.steps {
-            let columns =
-                self.rotations[step.from.rotation].map(|column| Vec3::load(simd, &column));
+            let before = &self.rotations[step.from.rotation];
             let origin = Vec3::load(simd, &self.origins[step.from.origin]);
-            let mut origin = along(simd, origin, &columns, step.shift);
+            let mut origin = along(simd, origin, before, step.shift);
             let turned = match &step.motion {
                 StepMotion::Turn { columns: [a, b, c], is_reversed, angle } => {
-                    let z = columns[*c];
+                    let x = Vec3::load(simd, &before[*a]);
+                    let y = Vec3::load(simd, &before[*b]);
+                    let z = Vec3::load(simd, &before[*c]);
                     let z = if *is_reversed { z.negated() } else { z };
-                    Some(self.turned(simd, columns[*a], columns[*b], z, *angle))
+                    Some(self.turned(simd, x, y, z, *angle))
                 }
                 StepMotion::TurnAny { rotation, angle } => {
-                    let [x, y, z] = rotation.map(|column| rotated(simd, &columns, column));
+                    let [x, y, z] = product(simd, &loaded(simd, before), rotation);
                     Some(self.turned(simd, x, y, z, *angle))
                 }
                 StepMotion::Slide { axis, length } => {
                     let length = self.lengths[*length].load(simd);
-                    origin = origin.plus(rotated(simd, &columns, *axis).scale(length));
+                    let axis = rotated(simd, &loaded(simd, before), *axis);
+                    origin = origin.plus(axis.scale(length));
                     None
                 }
                 StepMotion::Ball { rotation, ball } => {
-                    let constant = rotation.map(|column| rotated(simd, &columns, column));
-                    let ball = self.balls[*ball];
-                    Some(ball.map(|column| {
-                        let [x, y, z] = column.map(|row| row.load(simd));
-                        constant[0].scale(x).plus(constant[1].scale(y)).plus(constant[2].scale(z))
-                    }))
+                    let constant = product(simd, &loaded(simd, before), rotation);
+                    let [x, y, z] = loaded(simd, &self.balls[*ball]);
+                    Some([within(&constant, x), within(&constant, y), within(&constant, z)])
                 }
             };
             if let Some(columns) = turned {
-                self.rotations[step.to.rotation] = columns.map(Vec3::store);
+                let [x, y, z] = columns;
+                self.rotations[step.to.rotation] = [x.store(), y.store(), z.store()];
             }
             self.origins[step.to.origin] = origin.store();
         }
@@ -85,7 +85,8 @@ impl Frames {
         z: Vec3<S>,
         angle: usize,
     ) -> [Vec3<S>; 3] {
-        let [sin, cos] = self.angles[angle].map(|row| row.load(simd));
+        let [sin, cos] = &self.angles[angle];
+        let (sin, cos) = (sin.load(simd), cos.load(simd));
         [x.scale(cos).plus(y.scale(sin)), y.scale(cos).minus(x.scale(sin)), z]
     }
 
@@ -96,7 +97,8 @@ impl Frames {
             if !angle.abs().simd_le(MOST_ANGLE).all_true() {
                 angle = reduced(simd, angle);
             }
-            *to = sin_cos(simd, angle).map(Row::of);
+            let [sin, cos] = sin_cos(simd, angle);
+            *to = [Row::of(sin), Row::of(cos)];
         }
         self.slides = 0.0;
         if !tape.lengths.is_empty() {
@@ -124,8 +126,7 @@ impl Frames {
     /// Where a point of a frame is.
     #[inline(always)]
     pub fn point<S: Simd>(&self, simd: S, frame: Frame, point: [f32; 3]) -> Vec3<S> {
-        let columns = &self.rotations[frame.rotation];
-        let columns = [0, 1, 2].map(|k| Vec3::load(simd, &columns[k]));
+        let columns = loaded(simd, &self.rotations[frame.rotation]);
         let turned = rotated(simd, &columns, point);
         Vec3::load(simd, &self.origins[frame.origin]).plus(turned)
     }
@@ -146,20 +147,39 @@ fn reduced<S: Simd>(simd: S, angle: f64x8<S>) -> f64x8<S> {
     f64x8::load_array(simd, angles)
 }
 
+// No closures from here on: what `map` calls is not compiled for the processor's instructions.
+
+#[inline(always)]
+fn loaded<S: Simd>(simd: S, columns: &[[Row; 3]; 3]) -> [Vec3<S>; 3] {
+    let [x, y, z] = columns;
+    [Vec3::load(simd, x), Vec3::load(simd, y), Vec3::load(simd, z)]
+}
+
+/// A vector of a frame, in the root's.
+#[inline(always)]
+fn within<S: Simd>(columns: &[Vec3<S>; 3], v: Vec3<S>) -> Vec3<S> {
+    columns[0].scale(v.x).plus(columns[1].scale(v.y)).plus(columns[2].scale(v.z))
+}
+
 /// A constant vector of a frame, in the root's.
 #[inline(always)]
 fn rotated<S: Simd>(simd: S, columns: &[Vec3<S>; 3], v: [f32; 3]) -> Vec3<S> {
-    let [x, y, z] = v.map(|x| splat(simd, x));
-    columns[0].scale(x).plus(columns[1].scale(y)).plus(columns[2].scale(z))
+    within(columns, Vec3::splat(simd, v))
+}
+
+/// The columns of a constant rotation of a frame, in the root's.
+#[inline(always)]
+fn product<S: Simd>(simd: S, columns: &[Vec3<S>; 3], by: &[[f32; 3]; 3]) -> [Vec3<S>; 3] {
+    [rotated(simd, columns, by[0]), rotated(simd, columns, by[1]), rotated(simd, columns, by[2])]
 }
 
 /// A point moved by a constant vector of a frame.
 #[inline(always)]
-fn along<S: Simd>(simd: S, from: Vec3<S>, columns: &[Vec3<S>; 3], shift: [f32; 3]) -> Vec3<S> {
+fn along<S: Simd>(simd: S, from: Vec3<S>, columns: &[[Row; 3]; 3], shift: [f32; 3]) -> Vec3<S> {
     let mut to = from;
     for (column, by) in columns.iter().zip(shift) {
         if by != 0.0 {
-            to = to.plus(column.scale(splat(simd, by)));
+            to = to.plus(Vec3::load(simd, column).scale(splat(simd, by)));
         }
     }
     to

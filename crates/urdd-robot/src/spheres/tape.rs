@@ -5,8 +5,11 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::lanes::SIN_COS_ERROR;
+use crate::lanes::SIN_COS_ERROR;
 use urdd_kinematics::{ForwardKinematics, Motion, Position};
+
+/// A direction that is this near an axis is that axis, and a length below it is zero, m: files have angles with as many digits.
+const SNAP: f64 = 1e-9;
 
 /// Half of the distance of 1 and the next 32-bit number.
 pub const ROUNDING: f64 = 5.960_464_5e-8;
@@ -71,11 +74,12 @@ impl Bound {
             self.rotation * length + ROUNDING * (6.0 * length + 7.0 * reach)
         };
         let [c, d] = self.origin;
-        Bound { origin: [c + by(reach[0], length), d + by(reach[1], slide)], reach, ..self }
+        let origin = [c + by(reach[0], length) + 2.0 * SNAP, d + by(reach[1], slide)];
+        Bound { origin, reach, ..self }
     }
 
     fn turned(self, is_any: bool) -> Self {
-        let constant = if is_any { ROUNDING * 11.0 } else { 1e-11 };
+        let constant = if is_any { ROUNDING * 11.0 } else { 2.0 * SNAP };
         let turn = 1.5 * SIN_COS_ERROR + 4.1 * ROUNDING;
         Bound { rotation: (self.rotation + constant + turn) * (1.0 + 1e-6), ..self }
     }
@@ -229,7 +233,8 @@ impl Tape {
         self.num_rotations = self.num_rotations.max(rotation + 1);
         let frame = Frame { rotation, origin: self.num_origins };
         self.num_origins += 1;
-        let shift = narrow(place.pose.translation.vector);
+        let shift = place.pose.translation.vector;
+        let shift = narrow(shift.map(|x| if x.abs() < SNAP { 0.0 } else { x }));
         self.steps.push(Step { from: place.frame, to: frame, shift, motion, parent: place.step });
         let pose = Isometry3::from_parts(Default::default(), after);
         Place { frame, pose, bound, step: Some(self.steps.len() - 1) }
@@ -255,7 +260,7 @@ fn narrow(v: Vector3<f64>) -> [f32; 3] {
 /// A direction that is almost an axis is that axis.
 fn snapped(v: Vector3<f64>) -> Vector3<f64> {
     let largest = v.iamax();
-    let is_axis = (0..3).all(|k| k == largest || v[k].abs() < 1e-12);
+    let is_axis = (0..3).all(|k| k == largest || v[k].abs() < SNAP);
     match is_axis {
         true => Vector3::ith(largest, v[largest].signum()),
         false => v,
