@@ -68,7 +68,7 @@ class Interpreter:
         self.tracks = "unevaluated" in json.dumps(root)
         self.active: set[tuple[int, int]] = set()
         self.counts: Any = None
-        self.keyword = ""
+        self.keyword: Any = None  # of 11.5, where `counts` is there
 
     def valid(self, value: Any) -> bool:
         return self.judge(self.root, value, None, Seen())
