@@ -9,7 +9,6 @@ from typing import Any
 from .kinematics import ORIGIN, Pose, Robot, compose, in_plane, joint_position, moved
 from .numeric import (
     IDENTITY,
-    Matrix,
     Vector,
     add,
     cross,
