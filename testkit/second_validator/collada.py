@@ -18,7 +18,7 @@ from .faces import (
     then,
 )
 from .numeric import cross, dot, from_axis_angle, norm, number, scaled, sub
-from .xmltree import Builder, Element, Limits, NotXml
+from .xmltree import Builder, Element, NotXml
 
 MAX_XML_NODES = 4_000_000  # 13.2
 MAX_OFFSET = 1024
@@ -35,8 +35,8 @@ def plain_name(name: str) -> str:
 class ColladaBuilder(Builder):
     """Elements by their names without prefix; no DOCTYPE, and at most so many nodes."""
 
-    def __init__(self, data: bytes, limits: Limits) -> None:
-        super().__init__(data, limits)
+    def __init__(self, data: bytes) -> None:
+        super().__init__(data, MAX_XML_NODES)
         self.nodes = 0
         self.parser.StartDoctypeDeclHandler = self.refuse
         self.parser.CommentHandler = self.count_node
@@ -336,7 +336,7 @@ def parse_collada(data: bytes) -> Element:
         text = data.decode("utf-8", "replace")
     text = DECLARATION.sub(" ", text.removeprefix("\ufeff").strip())
     encoded = text.encode("utf-8", "replace")
-    builder = ColladaBuilder(encoded, Limits(elements=MAX_XML_NODES))
+    builder = ColladaBuilder(encoded)
     try:
         builder.parser.Parse(encoded, True)
     except (expat.ExpatError, NotXml) as fault:

@@ -197,7 +197,7 @@ def check_dependencies(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:
         urdd.report.error("DIR018", META, pointer)
         return
     for name in named:
-        if not carried(urdd, name) and not in_class(urdd, name):
+        if not carried(urdd, name):
             urdd.report.error("DIR017", META, pointer)
 
 
@@ -216,8 +216,7 @@ def check_class(urdd: Urdd) -> None:
 
 def check_names(urdd: Urdd) -> None:
     """2.9: names in UTF-8, and none that differ by case alone."""
-    modules = {entry["path"] for entry in urdd.entries()} | {row[0] for row in TABLE.values()}
-    modules = {path for path in modules if path in urdd.tree.folders}
+    modules = {entry["path"] for entry in urdd.entries() if entry["path"] in urdd.tree.folders}
     special = {META, *PARENTS, *modules}
     if urdd.meta["source"]:
         special.add(urdd.meta["source"]["Urdf"]["path"])
@@ -247,7 +246,6 @@ def check_directory(urdd: Urdd) -> bool:
     check_class(urdd)
     for place, entry in enumerate(urdd.entries()):
         check_dependencies(urdd, place, entry)
-        if well_formed(entry["path"]) and urdd.tree.kind(entry["path"]) == "folder":
-            check_version_file(urdd, entry)
-            check_module_files(urdd, place, entry)
+        check_version_file(urdd, entry)
+        check_module_files(urdd, place, entry)
     return True

@@ -57,7 +57,7 @@ def follows_draft(name: str, document: Any, depends_on: list[str]) -> bool:
         return False
     if name == "link_shapes_skips_module" and "skipped_reasons" not in document:
         return fits(name, {**document, "skipped_reasons": []})
-    if name == "self_collision_model_module" and "held_out" in document:
+    if "held_out" in document:
         known = {key: value for key, value in document.items() if key != "held_out"}
         counts = ("num_colliding", "num_missed", "num_near_contact", "num_near_contact_missed")
         evaluation = dict.fromkeys((*counts, "num_free", "num_cleared"), 0)
@@ -88,9 +88,6 @@ def named_files(name: str, document: Any) -> list[tuple[str, str]]:
     """The files that a document names, with the place that names each."""
     found = []
     if name == "original_meshes_module":
-        for place, reference in enumerate(document["references"]):
-            if reference["path"] is not None:
-                found.append((reference["path"], f"/references/{place}/path"))
         for place, file in enumerate(document["files"]):
             found.append((file["path"], f"/files/{place}/path"))
             for number, path in enumerate(file["side_files"]):
@@ -125,8 +122,7 @@ def check_named(urdd: Urdd, entry: dict[str, Any]) -> None:
         return
     listed = {file["path"] for file in entry["files"]}
     for path, pointer in named_files(name, urdd.documents[name]):
-        if not check_path(urdd, path, file_of(name), pointer):
-            continue
+        check_path(urdd, path, file_of(name), pointer)
         kind = urdd.tree.kind(path)
         if kind == "missing" and path not in listed:
             urdd.report.error("MSH002", file_of(name), pointer)

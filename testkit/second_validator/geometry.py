@@ -48,7 +48,7 @@ def normal(triangle: Triangle) -> Point:
 def diagonal(points: Iterable[Point]) -> float:
     """The diagonal of the axis-aligned box around points."""
     columns = list(zip(*points))
-    return math.hypot(*(max(column) - min(column) for column in columns)) if columns else 0.0
+    return math.hypot(*(max(column) - min(column) for column in columns))
 
 
 def rotations(triangle: Triangle) -> tuple[Triangle, Triangle, Triangle]:
@@ -132,21 +132,6 @@ def is_closed(triangles: list[Triangle]) -> bool:
     for a, b, c in triangles:
         edges.update([(a, b), (b, c), (c, a)])
     return all(count == edges[end, start] for (start, end), count in list(edges.items()))
-
-
-def closest_on_triangle(triangle: Triangle, p: Vector) -> Point:
-    """The point of a triangle that is nearest to a point."""
-    a, b, c = triangle
-    ab, ac, ap = sub(b, a), sub(c, a), sub(p, a)
-    n = cross(ab, ac)
-    square = dot(n, n)
-    if square > 0:
-        v = dot(cross(ap, ac), n) / square
-        w = dot(cross(ab, ap), n) / square
-        if v >= 0 and w >= 0 and v + w <= 1:
-            return add(a, add(scaled(ab, v), scaled(ac, w)))
-    ends = [(a, b), (b, c), (c, a)]
-    return min((closest_on_segment(s, e, p) for s, e in ends), key=lambda q: distance(q, p))
 
 
 def closest_on_segment(start: Point, end: Point, p: Vector) -> Point:

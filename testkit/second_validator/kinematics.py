@@ -65,7 +65,7 @@ def in_plane(n: Vector) -> tuple[Vector, Vector]:
     flat = n[0] * n[0] + n[1] * n[1]
     if math.sqrt(flat) < NEARLY_Z:
         return (1.0, 0.0, 0.0), (0.0, math.copysign(1.0, n[2]), 0.0)
-    k = 1 / (1 + n[2]) if n[2] > 0 else (1 - n[2]) / flat
+    k = (1 - n[2]) / flat
     x = (1 - k * n[0] * n[0], -k * n[0] * n[1], -n[0])
     return x, (-k * n[0] * n[1], 1 - k * n[1] * n[1], -n[1])
 
@@ -148,7 +148,7 @@ class Robot:
         """The first DOF of each rotation vector."""
         found = []
         for joint, dofs in zip(self.joints, self.dofs_of):
-            if joint["joint_type"] in ("Floating", "Spherical") and dofs:
+            if joint["joint_type"] in ("Floating", "Spherical"):
                 found.append(dofs[-3])
         return found
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from .core_rules import signed
 from .derived_rules import is_within
-from .kinematics import Pose, Robot, compose, joint_position, moved, sampled
+from .kinematics import ORIGIN, Pose, Robot, compose, joint_position, moved, sampled
 from .loops_matrix import independence
 from .modules import Urdd, file_of
 from .numeric import (
@@ -28,9 +28,7 @@ from .numeric import (
 
 FILE = file_of("loops_module")
 BEFORE = ("urdf_module", "dof_module", "chain_module", "bounds_module")
-MAX_WORK = 200_000  # 13.5: joints and DOFs that are looked at, over all configurations
 LONGEST = math.pi * (1 + RELATIVE)  # 6.8.6: of a rotation vector
-EZ = (0.0, 0.0, 1.0)
 # 6.8.3: of each kind, the held components of the position, and what it holds of the rotation
 HELD: dict[str, tuple[tuple[int, ...], str]] = {
     "Fixed": ((0, 1, 2), "all"),
@@ -44,24 +42,21 @@ HELD: dict[str, tuple[tuple[int, ...], str]] = {
 
 
 class Loop:
-    """A loop, with the joints that move one of its frames and not the other."""
+    """A loop, with the joints from the root to each of its frames."""
 
     def __init__(self, robot: Robot, stated: dict[str, Any]) -> None:
-        path_a, path_b = robot.path(stated["link_a_idx"]), robot.path(stated["link_b_idx"])
-        shared = 0
-        while path_a[shared : shared + 1] == path_b[shared : shared + 1] != []:
-            shared += 1
-        self.joints_a, self.joints_b = path_a[shared:], path_b[shared:]
+        self.joints_a = robot.path(stated["link_a_idx"])
+        self.joints_b = robot.path(stated["link_b_idx"])
         self.frame_a, self.frame_b = pose_of(stated["frame_a"]), pose_of(stated["frame_b"])
         self.position_tolerance = float(stated["position_tolerance"])
         self.rotation_tolerance = float(stated["rotation_tolerance"])
         self.components, self.rotation = HELD[stated["kind"]]
 
     def frames(self, robot: Robot, q: list[float]) -> tuple[Pose, Pose]:
-        """The poses of frames A and B in the last link that both root paths share."""
+        """The poses of frames A and B in the root."""
         found = []
         for joints, frame in ((self.joints_a, self.frame_a), (self.joints_b, self.frame_b)):
-            at: Pose = (IDENTITY, (0.0, 0.0, 0.0))
+            at: Pose = ORIGIN
             for joint in joints:
                 at = moved(robot, joint, at, joint_position(robot, joint, q))
             found.append(compose(at, frame))
@@ -72,10 +67,10 @@ class Loop:
         a, b = self.frames(robot, q)
         rotation, position = compose((transposed(a[0]), (0.0, 0.0, 0.0)), (b[0], sub(b[1], a[1])))
         apart = norm([position[component] for component in self.components])
-        z = turned(rotation, EZ)
+        z = turned(rotation, IDENTITY[2])
         turns = {
             "all": rotation_distance(rotation, IDENTITY),
-            "direction": distance(z, EZ),
+            "direction": distance(z, IDENTITY[2]),
             "right angle": abs(z[2]),
         }
         return apart, turns.get(self.rotation, 0.0)
@@ -190,14 +185,10 @@ def check_configurations(urdd: Urdd, robot: Robot, document: dict[str, Any]) -> 
     known_dofs = report.clean("LOP005")
     can_close = report.clean("LOP001", "LOP003", "LOP004", "LOP011")
     loops = [Loop(robot, loop) for loop in document["loops"]] if can_close else []
-    work = sum(2 + len(loop.joints_a) + len(loop.joints_b) for loop in loops)
-    most = max(2, MAX_WORK // (work + len(robot.dof_joint) + 1))  # 13.5
-    for number, (k, values, pointer) in enumerate(stated):
+    for k, values, pointer in stated:
         q = [float(value) for value in values]
         if len(q) != len(robot.dof_joint):
             report.error("LOP006", FILE, pointer)  # 6.8.6
-        elif number >= most:
-            continue
         elif k is not None and known_dofs and not follows_sample(robot, independent, k, q):
             report.error("LOP013", FILE, pointer)  # 6.8.8
         elif not all(is_within(robot, dof, value) for dof, value in enumerate(q)):

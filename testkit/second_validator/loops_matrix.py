@@ -9,7 +9,6 @@ from typing import Any
 from .kinematics import ORIGIN, Pose, Robot, compose, in_plane, joint_position, moved
 from .numeric import (
     IDENTITY,
-    Matrix,
     Vector,
     add,
     cross,
@@ -21,33 +20,24 @@ from .numeric import (
     turned,
 )
 
-Row = dict[int, float]
+Row = dict[int | None, float]
 EDGES = (1e-6, 1e-4)  # 6.8.7: a singular value between these may be counted or not
 LEAST = 1e-9  # 6.8.7: singular values that are not above this do not count
-SMALL_ANGLE = 0.02
-NEARLY_ORTHOGONAL = 1e-14
-NEGLIGIBLE = 1e-28
-MAX_SWEEPS = 60
-MAX_WORK = 20_000_000  # 13.5: columns squared times rows of what is decomposed
-UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+SWEEPS = 12
 
 
-def turning(vector: Vector) -> Matrix:
-    """The angular velocity, by the derivative of a rotation vector, in the frame before it."""
+def turning(vector: Vector) -> list[Vector]:
+    """The angular velocities, in the frame before it, by the numbers of a rotation vector."""
     angle = norm(vector)
-    square = angle * angle
-    if angle < SMALL_ANGLE:
-        first = 1 / 2 - square / 24 + square * square / 720
-        second = 1 / 6 - square / 120 + square * square / 5040
-    else:
-        first = (1 - math.cos(angle)) / square
-        second = (angle - math.sin(angle)) / (square * angle)
-    columns = []
-    for unit in UNITS:
-        once = cross(vector, unit)
-        twice = cross(vector, once)
+    if angle == 0:
+        return list(IDENTITY)
+    columns: list[Vector] = []
+    for unit in IDENTITY:
+        once = cross(scaled(vector, 1 / angle), unit)
+        twice = cross(scaled(vector, 1 / angle), once)
+        first, second = (1 - math.cos(angle)) / angle, 1 - math.sin(angle) / angle
         columns.append(add(unit, add(scaled(once, first), scaled(twice, second))))
-    return transposed(tuple(columns))
+    return columns
 
 
 def twists(robot: Robot, joint: int, q: Vector) -> list[tuple[Vector, Vector]]:
@@ -61,24 +51,22 @@ def twists(robot: Robot, joint: int, q: Vector) -> list[tuple[Vector, Vector]]:
     if kind == "Planar":
         x, y = in_plane(axis)
         return [(x, still), (y, still), (still, axis)]
-    slides = [(unit, still) for unit in UNITS] if kind == "Floating" else []
-    if kind in ("Floating", "Spherical"):
-        return slides + [(still, column) for column in transposed(turning(q[-3:]))]
-    return []
+    slides = [(unit, still) for unit in IDENTITY] if kind == "Floating" else []
+    return slides + [(still, column) for column in turning(q[-3:])]
 
 
-def add_movement(found: Any, robot: Robot, loop: Any, q: list[float], b: Pose, sign: int) -> None:
+def add_movement(
+    found: Any, robot: Robot, joints: list[int], q: list[float], b: Pose, sign: float
+) -> None:
     """Adds how frame B moves and turns relative to frame A, by the joints above one of them."""
-    at: Pose = (IDENTITY, ORIGIN[1])
-    for joint in loop.joints_b if sign > 0 else loop.joints_a:
+    at: Pose = ORIGIN
+    for joint in joints:
         position = joint_position(robot, joint, q)
         before = compose(at, robot.origins[joint])
         at = moved(robot, joint, at, position)
         mimic = robot.mimics[joint]
-        dofs = robot.dofs_of[joint]
-        factor = float(sign)
-        if mimic:
-            dofs, factor = ([] if mimic[0] is None else [mimic[0]]), sign * mimic[1]
+        dofs: Any = [mimic[0]] if mimic else robot.dofs_of[joint]
+        factor = sign * mimic[1] if mimic else sign
         for dof, (slide, turn) in zip(dofs, twists(robot, joint, position)):
             turn = scaled(turned(before[0], turn), factor)
             slide = scaled(turned(before[0], slide), factor)
@@ -90,97 +78,65 @@ def add_movement(found: Any, robot: Robot, loop: Any, q: list[float], b: Pose, s
 def rows_of_loop(robot: Robot, loop: Any, q: list[float], reach: float) -> list[Row]:
     """The rows of a loop; columns of lengths are not multiplied yet."""
     a, b = loop.frames(robot, q)
-    found: dict[int, tuple[Vector, Vector]] = {}
-    add_movement(found, robot, loop, q, b, 1)
-    add_movement(found, robot, loop, q, b, -1)
+    found: dict[int | None, tuple[Vector, Vector]] = {}  # None: of no DOF
+    add_movement(found, robot, loop.joints_b, q, b, 1.0)
+    add_movement(found, robot, loop.joints_a, q, b, -1.0)
     back = transposed(a[0])
-    z = turned(back, turned(b[0], UNITS[2]))
-    rows: list[Row] = [{} for _ in range(6)]
+    z = turned(back, turned(b[0], IDENTITY[2]))
+    columns: dict[int | None, Vector] = {}
     for dof, (speed, turn) in found.items():
         speed, turn = scaled(turned(back, speed), 1 / reach), turned(back, turn)
         if loop.rotation in ("direction", "right angle"):
             turn = cross(turn, z)
-        for part in range(3):
-            rows[part][dof] = speed[part]
-            rows[3 + part][dof] = turn[part]
+        columns[dof] = (*speed, *turn)
     turns = {"all": [3, 4, 5], "direction": [3, 4, 5], "right angle": [5], "": []}
-    return [rows[place] for place in (*loop.components, *turns[loop.rotation])]
+    places = (*loop.components, *turns[loop.rotation])
+    return [{dof: column[place] for dof, column in columns.items()} for place in places]
 
 
-def matrix(robot: Robot, loops: list[Any], couplings: list[Any], q: list[float]) -> list[Row]:
+def matrix(robot: Robot, loops: list[Any], couplings: list[Any], q: list[float]) -> list[Vector]:
     """6.8.7: the rows of M."""
     reach = robot.reach()
     unit = [reach if robot.is_length(dof) else 1.0 for dof in range(len(q))]
-    rows = [row for loop in loops for row in rows_of_loop(robot, loop, q, reach)]
-    rows = [{dof: value * unit[dof] for dof, value in row.items()} for row in rows]
+    rows: list[Vector] = [
+        [row.get(dof, 0.0) * unit[dof] for dof in range(len(q))]
+        for loop in loops
+        for row in rows_of_loop(robot, loop, q, reach)
+    ]
     for coupling in couplings:
-        row, size = {}, 0.0
+        row, size = [0.0] * len(q), 0.0
         for term in coupling["terms"]:
             dof = term["dof_idx"]
             power = unit[dof]
-            row[dof] = 0.0
             for number, coefficient in enumerate(term["coefficients"]):
                 summand = (number + 1) * float(coefficient) * power
                 row[dof] += summand
                 size = max(size, abs(summand))
                 power *= q[dof]
-        rows.append({dof: value / size if size > 0 else 0.0 for dof, value in row.items()})
+        if size > 0:
+            rows.append([value / size for value in row])
     return rows
 
 
-def parts_of(rows: list[Row]) -> list[list[Row]]:
-    """The rows, parted so that no column has numbers other than 0 in two parts."""
-    groups: list[tuple[set[int], list[Row]]] = []
-    for row in rows:
-        used = {dof: value for dof, value in row.items() if value != 0}
-        if not used:
-            continue
-        columns, members = set(used), [used]
-        apart = []
-        for group in groups:
-            if columns.isdisjoint(group[0]):
-                apart.append(group)
-            else:
-                columns |= group[0]
-                members = group[1] + members
-        groups = [*apart, (columns, members)]
-    return [members for _, members in groups]
-
-
-def dense(part: list[Row]) -> list[list[float]]:
-    """The rows or the columns of a part, whichever are fewer."""
-    columns = sorted({dof for row in part for dof in row})
-    if len(part) <= len(columns):
-        return [[row.get(dof, 0.0) for dof in columns] for row in part]
-    return [[row.get(dof, 0.0) for row in part] for dof in columns]
-
-
-def singular_values(vectors: list[list[float]]) -> list[float]:
-    """Jacobi's method on one side: turns pairs of vectors until all are orthogonal."""
-    vectors = list(vectors)
-    squares = [sum(map(mul, one, one)) for one in vectors]
-    negligible = NEGLIGIBLE * sum(squares)
-    for _ in range(MAX_SWEEPS):
-        turned_any = False
-        for i in range(len(vectors) - 1):
-            for j in range(i + 1, len(vectors)):
-                one, other = vectors[i], vectors[j]
+def singular_values(rows: list[Vector]) -> list[float]:
+    """Jacobi's method on one side: turns pairs of rows until all are orthogonal."""
+    rows = list(rows)
+    for _ in range(SWEEPS):
+        for i in range(len(rows)):
+            for j in range(i):
+                one, other = rows[i], rows[j]
                 inner = sum(map(mul, one, other))
-                limit = NEARLY_ORTHOGONAL * math.sqrt(squares[i] * squares[j])
-                if abs(inner) <= max(limit, negligible):
-                    continue
-                turned_any = True
-                half = (squares[j] - squares[i]) / (2 * inner)
-                t = math.copysign(1.0, half) / (abs(half) + math.hypot(1.0, half))
-                c = 1 / math.hypot(1.0, t)
-                s = c * t
-                vectors[i] = [c * x - s * y for x, y in zip(one, other)]
-                vectors[j] = [s * x + c * y for x, y in zip(one, other)]
-                squares[i] = sum(map(mul, vectors[i], vectors[i]))
-                squares[j] = sum(map(mul, vectors[j], vectors[j]))
-        if not turned_any:
-            break
-    return [math.sqrt(square) for square in squares]
+                squares = sum(map(mul, one, one)), sum(map(mul, other, other))
+                angle = math.atan2(2 * inner, squares[0] - squares[1]) / 2
+                c, s = math.cos(angle), math.sin(angle)
+                rows[i] = [c * x + s * y for x, y in zip(one, other)]
+                rows[j] = [c * y - s * x for x, y in zip(one, other)]
+    return [norm(row) for row in rows]
+
+
+def rank(values: list[float], largest: float, edge: float) -> int:
+    """How many singular values are above an edge, by the largest one."""
+    return len([value for value in values if value > max(LEAST, edge * largest)])
 
 
 def independence(
@@ -188,28 +144,12 @@ def independence(
 ) -> str:
     """LOP009 or LOP010, where the independent DOFs break one of them, or nothing."""
     rows = matrix(robot, loops, couplings, q)
-    numbers = [value for row in rows for value in row.values()]
-    if not finite([sum(map(mul, numbers, numbers))]):
+    values = singular_values(rows)
+    if not finite(values):
         return ""
-    others = set(range(len(q))) - set(independent)
-    rest = [{dof: value for dof, value in row.items() if dof in others} for row in rows]
-    whole = [dense(part) for part in parts_of(rows)]
-    without = [dense(part) for part in parts_of(rest)]
-    if sum(len(part) ** 2 * len(part[0]) for part in whole) > MAX_WORK:
-        return "LOP009" if len(others) > sum(len(part) for part in whole) else ""
-    values = [value for part in whole for value in singular_values(part)]
+    others = [dof for dof in range(len(q)) if dof not in independent]
     largest = max(values, default=0.0)
-    if not least_rank(values, largest) <= len(others) <= most_rank(values, largest):
+    if not rank(values, largest, EDGES[1]) <= len(others) <= rank(values, largest, EDGES[0]):
         return "LOP009"
-    values = [value for part in without for value in singular_values(part)]
-    return "LOP010" if most_rank(values, largest) < len(others) else ""
-
-
-def least_rank(values: list[float], largest: float) -> int:
-    """The fewest singular values that may be counted."""
-    return len([value for value in values if value > max(LEAST, EDGES[1] * largest)])
-
-
-def most_rank(values: list[float], largest: float) -> int:
-    """The most singular values that may be counted."""
-    return len([value for value in values if value > LEAST and value >= EDGES[0] * largest])
+    rest = singular_values([[row[dof] for dof in others] for row in rows])
+    return "LOP010" if rank(rest, largest, EDGES[0]) < len(others) else ""

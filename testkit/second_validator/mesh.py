@@ -110,8 +110,7 @@ def read_stl_text(data: bytes) -> list[Face]:
                 if match:
                     words.append(match[0].decode("latin-1"))
                     at = match.end()
-            if len(words) == 3:
-                corners.append(vertex(words))
+            corners.append(vertex(words))
         elif word in (b"endloop", b"endfacet"):
             if len(corners) >= 3:
                 faces.append(Face(corners))

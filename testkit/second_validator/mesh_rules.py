@@ -90,9 +90,8 @@ class Elements:
             for shape, inside in (element["geometry"] or {}).items():
                 path = self.paths.get((link, kind, place))
                 if shape == "Mesh":
-                    scale = inside["scale"] or (1.0, 1.0, 1.0)
-                    large = len([factor for factor in scale if factor != 0]) >= 2
-                    if path in self.usable_paths and large:
+                    is_thin = (inside["scale"] or []).count(0) > 1
+                    if path in self.usable_paths and not is_thin:
                         found.append((element, path))
                 elif not shape.startswith("x_") and shape_is_usable(shape, inside):
                     found.append((element, None))

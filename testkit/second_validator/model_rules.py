@@ -149,7 +149,6 @@ def digest(urdd: Urdd) -> str:
 def unskipped(urdd: Urdd, shapes: Shapes) -> set[tuple[int, int]]:
     """8.8.5: the pairs of links that are not skipped."""
     document = urdd.documents["link_shapes_skips_module"]
-    with_piece = {link for link, _ in shapes.pieces}
     skips = document["decomposition_convex_hulls_skips"]
     links = [link for link, _ in shapes.pieces]
     if skips is None:
@@ -157,7 +156,7 @@ def unskipped(urdd: Urdd, shapes: Shapes) -> set[tuple[int, int]]:
     found = set()
     for i, a in enumerate(links):
         for j, b in enumerate(links):
-            if a < b and not skips[i][j] and a in with_piece and b in with_piece:
+            if a < b and not skips[i][j]:
                 found.add((a, b))
     return found
 

@@ -100,16 +100,17 @@ def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
     signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
-        if CHANGED.mask and not case.may_differ():
-            return case.says
-        codes = loaded["validator"].module.validate(case.place).codes()
-        return bool(codes), case.code in codes
+        try:
+            if CHANGED.mask and not case.may_differ():
+                return case.says
+            codes = loaded["validator"].module.validate(case.place).codes()
+            return bool(codes), case.code in codes
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
     except TooSlow:
         return "too slow"
     except Exception as fault:
         return type(fault).__name__
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 def run_baseline(cases: list[Case], loaded: dict[str, Loaded]) -> None:

@@ -22,8 +22,7 @@ def read_original(urdd: Urdd, path: str) -> list[Face]:
     folder = path.rpartition("/")[0]
 
     def fetch(name: str) -> bytes | None:
-        found = normal(folder, unquote(name))
-        return urdd.tree.read(found) if found else None
+        return urdd.tree.read(normal(folder, unquote(name)))
 
     return read_mesh(data, path, fetch)
 
@@ -90,5 +89,4 @@ def check_originals(urdd: Urdd) -> None:
     check_lists(urdd, document)
     if urdd.report.clean("MSH012"):
         for place, file in enumerate(document["files"]):
-            if urdd.tree.kind(file["path"]) == "file":
-                check_file(urdd, place, file)
+            check_file(urdd, place, file)

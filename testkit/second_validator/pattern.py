@@ -7,8 +7,11 @@ import re
 import sys
 import unicodedata
 
-SPACE = r"\t\n\v\f\r \xa0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000\ufeff"
-CLASSES = {"d": "0-9", "w": "A-Za-z0-9_", "s": SPACE}
+DIGITS = [(48, 57)]
+WORD = [(48, 57), (65, 90), (95, 95), (97, 122)]
+SPACE = [(9, 13), (32, 32), (160, 160), (5760, 5760), (8192, 8202), (8232, 8233), (8239, 8239)]
+SPACE += [(8287, 8287), (12288, 12288), (65279, 65279)]
+CLASSES = {"d": DIGITS, "w": WORD, "s": SPACE}
 CONTROL = {"t": r"\t", "n": r"\n", "v": r"\v", "f": r"\f", "r": r"\r", "0": r"\x00"}
 SYNTAX = "^$\\.*+?()[]{}|/"
 HEX = re.compile(r"x([0-9a-fA-F]{2})|u([0-9a-fA-F]{4})|u\{0*([0-9a-fA-F]{1,6})\}")
@@ -70,15 +73,22 @@ class BadPattern(Exception):
 
 
 @functools.lru_cache(maxsize=64)
-def category(name: str) -> str:
-    """The inside of a class with all characters of a general category."""
-    ranges: list[list[int]] = []
+def category(name: str) -> list[tuple[int, int]]:
+    """The ranges of all characters of a general category."""
+    found: list[tuple[int, int]] = []
     for code in range(sys.maxunicode + 1):
         if unicodedata.category(chr(code)).startswith(name):
-            if ranges and ranges[-1][1] == code - 1:
-                ranges[-1][1] = code
-            else:
-                ranges.append([code, code])
+            first = found.pop()[0] if found and found[-1][1] == code - 1 else code
+            found.append((first, code))
+    return found
+
+
+def inside_of(ranges: list[tuple[int, int]], negated: bool) -> str:
+    """The inside of a class with all characters of some ranges, or with all others."""
+    if negated:
+        starts = [0, *(last + 1 for _, last in ranges)]
+        ends = [*(first - 1 for first, _ in ranges), sys.maxunicode]
+        ranges = [(first, last) for first, last in zip(starts, ends) if first <= last]
     return "".join(f"\\U{first:08x}-\\U{last:08x}" for first, last in ranges)
 
 
@@ -89,8 +99,8 @@ class Translator:
         self.text = text
         self.at = 0
 
-    def escape(self, in_class: bool) -> tuple[str, bool]:
-        """What stands after a backslash, and whether it is a set of characters."""
+    def escape(self, in_class: bool) -> str:
+        """What stands after a backslash."""
         rest = self.text[self.at + 1 :]
         sign = rest[:1]
         pair = PAIR.match(rest)
@@ -99,39 +109,32 @@ class Translator:
         if pair:
             self.at += 1 + pair.end()
             high, low = int(pair[1], 16), int(pair[2], 16)
-            return f"\\U{0x10000 + ((high - 0xD800) << 10) + low - 0xDC00:08x}", False
+            return f"\\U{0x10000 + ((high - 0xD800) << 10) + low - 0xDC00:08x}"
         if code:
             self.at += 1 + code.end()
-            value = int(code[1] or code[2] or code[3], 16)
-            if value > sys.maxunicode:
-                raise BadPattern
-            return f"\\U{value:08x}", False
+            return f"\\U{int(code[1] or code[2] or code[3], 16):08x}"
         if named:
             self.at += 1 + named.end()
             name = NAMES.get(named[1], named[1])
             if name not in CATEGORIES:
                 raise BadPattern
-            inside = category(name)
-            if sign == "P" and in_class:
-                raise BadPattern
-            return inside if in_class else f"[{'^' if sign == 'P' else ''}{inside}]", True
+            inside = inside_of(category(name), sign == "P")
+            return inside if in_class else f"[{inside}]"
         self.at += 2
         if sign and sign.lower() in CLASSES:
-            inside = CLASSES[sign.lower()]
-            if in_class:
-                return inside if sign.islower() else "\\" + sign, True
-            return f"[{'^' if sign.isupper() else ''}{inside}]", True
+            inside = inside_of(CLASSES[sign.lower()], sign.isupper())
+            return inside if in_class else f"[{inside}]"
         if sign in CONTROL and not (sign == "0" and rest[1:2].isdigit()):
-            return CONTROL[sign], False
+            return CONTROL[sign]
         if sign == "c" and re.match(r"[A-Za-z]", rest[1:]):
             self.at += 1
-            return f"\\x{ord(rest[1]) % 32:02x}", False
+            return f"\\x{ord(rest[1]) % 32:02x}"
         if sign and (sign in SYNTAX or (in_class and sign == "-")):
-            return "\\" + sign, False
+            return "\\" + sign
         if in_class and sign == "b":
-            return r"\x08", False
+            return r"\x08"
         if not in_class and sign in ("b", "B"):
-            return f"(?a:\\{sign})", False
+            return f"(?a:\\{sign})"
         raise BadPattern
 
     def set_of_characters(self) -> str:
@@ -146,7 +149,7 @@ class Translator:
             if not one:
                 raise BadPattern
             if one == "\\":
-                inside += self.escape(True)[0]
+                inside += self.escape(True)
             else:
                 self.at += 1
                 inside += "\\" + one if one in "[&~|" else one
@@ -162,7 +165,7 @@ class Translator:
             group = GROUP.match(self.text, self.at)
             count = COUNT.match(self.text, self.at)
             if one == "\\":
-                found += self.escape(False)[0]
+                found += self.escape(False)
             elif one == "[":
                 found += self.set_of_characters()
             elif group:

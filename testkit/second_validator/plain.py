@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -38,21 +39,15 @@ def newell(corners: list[Point]) -> Point:
 
 def is_convex(corners: list[Point]) -> bool:
     """7.8: at no corner it turns back, and it goes round once."""
-    if len(corners) <= 3:
-        return True
     n = newell(corners)
     length = norm(n)
-    if length == 0:
-        return False
     turns = 0.0
     for place in range(len(corners)):
         before = sub(corners[place - 1], corners[place - 2])
         after = sub(corners[place], corners[place - 1])
         sides = norm(before) * norm(after)
-        if sides == 0:
-            continue
         product = cross(before, after)
-        if dot(product, n) / length / sides < TURNS_BACK:
+        if dot(product, n) < TURNS_BACK * length * sides:
             return False
         turns += math.atan2(norm(product), dot(before, after))
     return len(corners) == 4 or turns < ONCE_ROUND
@@ -63,17 +58,15 @@ def crosses_itself(corners: list[Point]) -> bool:
     n = newell(corners)
     axis = max(range(3), key=lambda k: abs(n[k]))
     flat = [tuple(part for k, part in enumerate(p) if k != axis) for p in corners]
-    count = len(flat)
+    sides = [(a, b) for a, b in zip(flat, flat[1:] + flat[:1]) if a != b]
 
     def side(a: Any, b: Any, c: Any) -> float:
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
-    for i in range(count):
-        for j in range(i + 2, count - (1 if i == 0 else 0)):
-            a, b, c, d = flat[i], flat[(i + 1) % count], flat[j], flat[(j + 1) % count]
-            if side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0:
-                return True
-    return norm(n) == 0
+    return norm(n) == 0 or any(
+        side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+        for (a, b), (c, d) in itertools.combinations(sides, 2)
+    )
 
 
 class MeshElement:
@@ -131,7 +124,7 @@ def is_cut(polygon: list[Point], found: list[Triangle], tolerance: float) -> boo
     edges: dict[tuple[int, int], int] = {}
     for triangle in found:
         places = [
-            next((k for k, p in enumerate(polygon) if close(p, corner, tolerance)), -1)
+            next(k for k, p in enumerate(polygon) if close(p, corner, tolerance))
             for corner in triangle
         ]
         if dot(normal(triangle), n) <= 0:

@@ -68,7 +68,7 @@ class Interpreter:
         self.tracks = "unevaluated" in json.dumps(root)
         self.active: set[tuple[int, int]] = set()
         self.counts: Any = None
-        self.keyword = ""
+        self.keyword: Any = None  # of 11.5, where `counts` is there
 
     def valid(self, value: Any) -> bool:
         return self.judge(self.root, value, None, Seen())
@@ -114,7 +114,7 @@ class Interpreter:
 
     def annotated(self, schema: dict[str, Any], value: Any, link: int | None) -> bool:
         """11.5: `x-index` and `x-length`."""
-        if self.counts is None or self.keyword not in schema:
+        if self.keyword not in schema:
             return True
         words = schema[self.keyword].split(" or ")
         if self.keyword == "x-index":
@@ -189,8 +189,7 @@ class Interpreter:
             link = place if over_links and place >= len(first) else None
             if not self.judge(one, inner, link, Seen()):
                 return False
-        if self.tracks:
-            seen.places |= set(range(len(value) if "items" in schema else len(first)))
+        seen.places |= set(range(len(value) if "items" in schema else len(first)))
         if "contains" in schema:
             contained = schema["contains"]
             found = [

@@ -112,12 +112,11 @@ def check_approximations(urdd: Urdd, shapes: Shapes) -> None:
     document = urdd.documents[APPROXIMATIONS]
     for (link, piece), points in shapes.points.items():
         part = "full" if piece is None else "decomposition"
-        suffix = f"/{link}" if piece is None else f"/{link}/{piece}"
         for kind, check in (("obbs", check_box), ("bounding_spheres", check_sphere)):
             key = f"{part}_{kind}"
             stated = document[key][link]
             shape = stated if piece is None else stated[piece]
-            check(urdd, shape, points, f"/{key}{suffix}")
+            check(urdd, shape, points, f"/{key}/{link}")
 
 
 def check_distances(urdd: Urdd, shapes: Shapes) -> None:
@@ -157,6 +156,6 @@ def check_shapes(urdd: Urdd) -> Shapes | None:
         return None
     if urdd.have(APPROXIMATIONS):
         check_approximations(urdd, shapes)
-        if urdd.have(DISTANCES) and urdd.report.clean("SHP003"):
+        if urdd.have(DISTANCES):
             check_distances(urdd, shapes)
     return shapes

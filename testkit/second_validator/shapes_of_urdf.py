@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .geometry import Point, Triangle, closest_on_segment, closest_on_triangle, normal
-from .kinematics import position_of, rotation_of
-from .numeric import add, distance, dot, norm, scaled, sub, transposed, turned
+from .bodies import Body, distance_of
+from .geometry import Point, Triangle, closest_on_segment, normal
+from .kinematics import ORIGIN, position_of, rotation_of
+from .numeric import distance, dot, norm, sub, transposed, turned
 
 MAX_SAG = 0.02  # 7.8
-STEPS = 40
 
 
 class Shape:
@@ -25,6 +25,7 @@ class Shape:
         self.half = tuple(side / 2 for side in size)
         self.radius = inside.get("radius", 0.0)
         self.half_length = inside.get("length", 0.0) / 2
+        self.ends = ((0.0, 0.0, -self.half_length), (0.0, 0.0, self.half_length))
         x, y, z = size
         curved = 4 * math.pi * self.radius * self.half_length
         areas = {
@@ -43,6 +44,8 @@ class Shape:
         inside: Triangle = (a, b, c)
         if self.kind == "Box":
             return self.on_box(inside, tolerance)
+        if not all(self.is_on_surface(p, tolerance) for p in inside):
+            return False
         if self.kind == "Cylinder" and self.on_end(inside, tolerance):
             return True
         return self.on_round(inside, tolerance)
@@ -51,8 +54,6 @@ class Shape:
         """On one of the six sides, which are flat."""
         n = normal(triangle)
         for axis in range(3):
-            if n[axis] == 0:
-                continue
             level = math.copysign(self.half[axis], n[axis])
             on_side = all(abs(p[axis] - level) <= tolerance for p in triangle)
             if on_side and all(self.within_box(p, tolerance) for p in triangle):
@@ -62,30 +63,28 @@ class Shape:
     def within_box(self, p: Point, tolerance: float) -> bool:
         return all(abs(part) <= half + tolerance for part, half in zip(p, self.half))
 
+    def is_on_surface(self, p: Point, tolerance: float) -> bool:
+        """Whether a corner is on a cylinder, its ends included, a capsule or a sphere."""
+        off = distance(p, self.on_axis(p)) - self.radius
+        if self.kind != "Cylinder":
+            return abs(off) <= tolerance
+        out = abs(p[2]) - self.half_length
+        return max(off, out) <= tolerance and min(-off, -out) <= tolerance
+
     def on_end(self, triangle: Triangle, tolerance: float) -> bool:
-        """On one of the two ends of a cylinder."""
-        level = math.copysign(self.half_length, normal(triangle)[2])
-        return all(
-            abs(p[2] - level) <= tolerance and math.hypot(p[0], p[1]) <= self.radius + tolerance
-            for p in triangle
-        )
+        """At one of the two ends of a cylinder, and not too far inside."""
+        side = math.copysign(1.0, normal(triangle)[2])
+        deepest = self.half_length - min(side * p[2] for p in triangle)
+        return deepest <= MAX_SAG * self.radius + tolerance
 
     def on_round(self, triangle: Triangle, tolerance: float) -> bool:
-        """On a curved surface: at one distance from the axis, or from its ends."""
-        for p in triangle:
-            if self.kind == "Cylinder" and abs(p[2]) > self.half_length + tolerance:
-                return False
-            if abs(distance(p, self.on_axis(p)) - self.radius) > tolerance:
-                return False
-        middle = scaled(add(add(triangle[0], triangle[1]), triangle[2]), 1 / 3)
-        if dot(normal(triangle), sub(middle, self.on_axis(middle))) <= 0:
+        """Around the axis, or one of its ends, and not too far inside."""
+        corner = triangle[0]
+        if dot(normal(triangle), sub(corner, self.on_axis(corner))) <= 0:
             return False
-        near = middle
-        for _ in range(STEPS):
-            near = closest_on_triangle(triangle, self.on_axis(near))
-        sag = self.radius - distance(near, self.on_axis(near))
-        return sag <= MAX_SAG * self.radius + tolerance
+        deepest = distance_of(Body(0, triangle), Body(0, self.ends), ORIGIN)
+        return self.radius - deepest <= MAX_SAG * self.radius + tolerance
 
     def on_axis(self, p: Point) -> Point:
         """The nearest point of the axis."""
-        return closest_on_segment((0.0, 0.0, -self.half_length), (0.0, 0.0, self.half_length), p)
+        return closest_on_segment(*self.ends, p)

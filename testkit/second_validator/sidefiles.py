@@ -7,7 +7,6 @@ from typing import Any
 from urllib.parse import unquote
 
 from .collada import parse_collada
-from .faces import NotMesh
 from .gltf import document_of, split_glb
 from .mesh import format_of
 from .tree import Tree
@@ -16,13 +15,13 @@ CONTROL = re.compile(r"[:\x00-\x1f\x7f-\x9f]")
 MTL_WORDS = ("bump", "disp", "decal", "norm", "refl")
 
 
-def normal(folder: str, name: str) -> str | None:
-    """The path that a name leads to from a folder, or None where it leads out of the URDD."""
+def normal(folder: str, name: str) -> str:
+    """The path that a name leads to from a folder; that of the root where it leads out of it."""
     parts = folder.split("/")
     for part in CONTROL.sub("_", name.replace("\\", "/")).split("/"):
         if part == "..":
             if not parts:
-                return None
+                return ""
             parts.pop()
         elif part not in ("", "."):
             parts.append(part)
@@ -47,12 +46,11 @@ def libraries_of(tree: Tree, folder: str, data: bytes) -> list[str]:
         if line.split()[:1] != ["mtllib"] or not rest_of(line):
             continue
         rest = rest_of(line)
-        whole = normal(folder, rest)
         names = rest.split()
-        there = whole is not None and tree.kind(whole) == "file"
+        there = tree.kind(normal(folder, rest)) == "file"
         if there or not all(name.lower().endswith(".mtl") for name in names):
             names = [rest]
-        found += [path for path in (normal(folder, name) for name in names) if path]
+        found += [normal(folder, name) for name in names]
     return found
 
 
@@ -66,11 +64,10 @@ def maps_of(tree: Tree, mesh_folder: str, library: str) -> list[str]:
         word = (line.split() or [""])[0].lower()
         in_material = in_material or word == "newmtl"
         rest = rest_of(line)
-        if not in_material or not rest or not (word in MTL_WORDS or word.startswith("map_")):
+        if not in_material or not (word in MTL_WORDS or word.startswith("map_")):
             continue
         name = rest.split()[-1] if rest.startswith("-") else rest
-        path = normal(mesh_folder if name.startswith("/") else folder, name)
-        found += [path] if path else []
+        found.append(normal(mesh_folder if name.startswith("/") else folder, name))
     return found
 
 
@@ -93,12 +90,12 @@ def uris_of(document: Any) -> list[str]:
 
 
 def side_files(tree: Tree, path: str) -> list[str]:
-    """7.5: the files that a mesh names and that are there, the mesh left out. Raises NotMesh."""
+    """7.5: the files that a mesh names and that are there, the mesh left out."""
     data = tree.data(path)
     folder = path.rpartition("/")[0]
     kind = format_of(data, path)
     names: list[str] = []
-    found: list[str | None] = []
+    found: list[str] = []
     if kind == "obj":
         libraries = libraries_of(tree, folder, data)
         found += libraries
@@ -109,8 +106,6 @@ def side_files(tree: Tree, path: str) -> list[str]:
     elif kind in ("gltf", "glb"):
         document = document_of(data) if kind == "gltf" else split_glb(data)[0]
         names = uris_of(document)
-    elif not kind:
-        raise NotMesh
     found += [normal(folder, unquote(name)) for name in names]
-    there = {one for one in found if one and tree.kind(one) == "file" and one != path}
+    there = {one for one in found if tree.kind(one) == "file" and one != path}
     return sorted(there, key=str.encode)

@@ -37,7 +37,7 @@ def numbers(element: Element, name: str, count: int, needed: bool = False) -> An
     values = [number(word) for word in words]
     if len(values) != count or None in values:
         raise NotXml
-    if not all(math.isfinite(value or 0.0) for value in values):
+    if not all(math.isfinite(value) for value in values):
         if needed:
             raise NotXml
         return None

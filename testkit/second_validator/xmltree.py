@@ -33,7 +33,7 @@ class Element:
     name: str
     attributes: dict[str, str]
     start: int
-    end: int = 0
+    end: int
     children: list[Element] = field(default_factory=list)
     text: str = ""
 
@@ -46,16 +46,6 @@ class Element:
         return found[0] if found else None
 
 
-@dataclass
-class Limits:
-    """How much a file may have."""
-
-    depth: int = MAX_DEPTH
-    elements: int = MAX_ELEMENTS
-    attributes: int = MAX_ATTRIBUTES
-    prefixes: int = MAX_PREFIXES
-
-
 def check_name(name: str) -> None:
     """Namespaces in XML: at most one colon, with something on both sides."""
     if name.count(":") > 1 or name.startswith(":") or name.endswith(":"):
@@ -65,9 +55,9 @@ def check_name(name: str) -> None:
 class Builder:
     """Handlers of expat that build the tree."""
 
-    def __init__(self, data: bytes, limits: Limits) -> None:
+    def __init__(self, data: bytes, most_elements: int) -> None:
         self.data = data
-        self.limits = limits
+        self.most_elements = most_elements
         self.stack: list[Element] = []
         self.scopes: list[dict[str, str]] = [{"xml": XML_NAMESPACE}]
         self.prefixes: set[str] = set()
@@ -104,9 +94,9 @@ class Builder:
     def start(self, name: str, attributes: dict[str, str]) -> None:
         self.count += 1
         scope = self.declare(attributes)
-        too_many = self.count > self.limits.elements or len(self.prefixes) > self.limits.prefixes
-        too_large = len(attributes) > self.limits.attributes
-        if too_many or too_large or len(self.stack) >= self.limits.depth:
+        too_many = self.count > self.most_elements or len(self.prefixes) > MAX_PREFIXES
+        too_large = len(attributes) > MAX_ATTRIBUTES
+        if too_many or too_large or len(self.stack) >= MAX_DEPTH:
             raise NotXml
         expanded = set()
         for key in [name, *attributes]:
@@ -121,7 +111,7 @@ class Builder:
                     raise NotXml
                 expanded.add((scope[prefix], local))
         self.scopes.append(scope)
-        element = Element(name, attributes, self.parser.CurrentByteIndex)
+        element = Element(name, attributes, *[self.parser.CurrentByteIndex] * 2)
         if self.stack:
             self.stack[-1].children.append(element)
         else:
@@ -156,22 +146,17 @@ def blank_doctype(data: bytes) -> bytes:
     bracket = LITERAL.sub(b"", inside)
     if b"<!ENTITY" in bracket or PARAMETER.search(bracket):
         raise NotXml
-    subset = inside[inside.find(b"[") :] if b"[" in inside else b""
-    for literal in LITERAL.findall(subset):
+    for literal in LITERAL.findall(inside.partition(b"[")[2]):
         if literal[:1] in b"\"'" and b">" in literal:
             raise NotXml
     return data[:start] + b" " * len(inside) + data[end:]
 
 
-def parse(data: bytes, limits: Limits) -> Element:
-    """The root of the tree. Raises NotXml."""
-    builder = Builder(data, limits)
-    try:
-        builder.parser.Parse(data, True)
-    except expat.ExpatError as fault:
-        raise NotXml from fault
-    if builder.root is None:
-        raise NotXml
+def parse(data: bytes) -> Element:
+    """The root of the tree. Raises NotXml, or what expat raises."""
+    builder = Builder(data, MAX_ELEMENTS)
+    builder.parser.Parse(data, True)
+    assert builder.root is not None
     return builder.root
 
 
@@ -179,10 +164,6 @@ def read_xml(data: bytes) -> Element:
     """The tree of a URDF's text (6.1.8). Raises NotXml."""
     if len(data) > MAX_BYTES:
         raise NotXml
-    try:
-        data.decode("utf-8")
-    except UnicodeDecodeError as fault:
-        raise NotXml from fault
     start = len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
     declaration = DECLARATION.match(data, start)
     if declaration:
@@ -194,6 +175,6 @@ def read_xml(data: bytes) -> Element:
         unnamed = ENCODING.sub(lambda match: b" " * len(match[0]), declaration[0])
         data = data[:start] + unnamed + data[declaration.end() :]
     try:
-        return parse(blank_doctype(data), Limits())
+        return parse(blank_doctype(data))
     except expat.ExpatError as fault:
         raise NotXml from fault

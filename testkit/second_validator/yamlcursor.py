@@ -41,20 +41,16 @@ class Cursor:
         """Passes over spaces, line ends and comments; says whether a line ended (3.2.2)."""
         ended = False
         while True:
-            start = self.at
             while self.here() == " ":
                 self.at += 1
             if self.here() == "#" and (self.at == 0 or self.text[self.at - 1] in " \n"):
                 match = LINE.match(self.text, self.at)
                 self.at = match.end() if match else self.at
-            if self.here() == "\n":
-                self.at += 1
-                ended = True
-            elif self.at == start or self.here() not in ("#", " "):
+            if self.here() != "\n":
                 break
-        if self.here() == "\t":
-            self.fail()
-        if ended and floor >= 0 and self.here() and self.column() <= floor:
+            self.at += 1
+            ended = True
+        if self.column() <= floor:
             self.fail()
         return ended
 

@@ -32,8 +32,6 @@ class Parser(Cursor):
             self.skip()
         if self.here() == "%" and self.column() == 0:
             self.fail()
-        if self.marked():
-            raise TextFault("YML007")  # 3.2.1: an empty file holds no document
         value = self.block(-1, True)
         self.skip()
         if self.text.startswith("...", self.at) and self.marked():

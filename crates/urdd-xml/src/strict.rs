@@ -15,6 +15,8 @@ const RESERVED: &str =
 const TARGET: &str = "the target of a processing instruction contains a colon; remove it";
 const STANDALONE: &str = "`standalone` of the XML declaration is neither `yes` nor `no`; remove it";
 const NO_NAMESPACE: &str = "a prefix is declared with an empty namespace; name one";
+const OWN_PREFIX: &str =
+    "the prefix `xmlns` is declared; it declares others, and cannot be declared itself";
 const NO_CHARACTER: &str = "a reference `&#...;` names no character of XML; remove it";
 
 /// Checks what the parser accepts and XML 1.0 or its namespaces do not. What is broken otherwise is left to the parser.
@@ -98,6 +100,9 @@ fn tag(text: &str) -> Option<Found> {
         }
         if name.starts_with("xmlns:") && value.is_empty() {
             return Some((at(rest), NO_NAMESPACE));
+        }
+        if name == "xmlns:xmlns" {
+            return Some((at(rest), OWN_PREFIX));
         }
         if let Some(fault) = references(value, at(value)) {
             return Some(fault);

@@ -3,6 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use serde_json::json;
 use testkit::fixture::Fixture;
 use testkit::robot::limit;
 use urdd_format::urdf::{JointType, Mimic};
@@ -30,9 +31,7 @@ pub fn mixed() -> Fixture {
     hinge(&mut mixed, "driver", "base", at(0.0, 0.5), Z, Some([-1.0, 1.0]));
     hinge(&mut mixed, "coupler", "driver", at(CRANK, 0.0), Z, Some([-2.0, 2.0]));
     hinge(&mut mixed, "rocker", "base", at(BAR, 0.5), Z, Some([-1.0, 1.0]));
-    let mimic =
-        Mimic { joint: "driver_joint".to_owned(), multiplier: Some(1.0), offset: Some(0.0) };
-    mixed.joint_mut("rocker_joint").mimic = Some(mimic);
+    mixed.joint_mut("rocker_joint").mimic = Some(mimic("driver_joint", 1.0, 0.0));
     let tilted = ([0.0, 1.0, 0.0], [FRAC_PI_2, 0.0, 0.0]);
     moved(&mut mixed, "puck", JointType::Planar, "base", tilted, Some(Z));
     moved(&mut mixed, "ball", JointType::Spherical, "base", at(0.0, 1.5), None);
@@ -104,4 +103,39 @@ pub fn ball() -> Fixture {
     let lock = closing(&ball, "lock", "Fixed", [("base", [0.0, 1.0, 0.0]), ("turn", FLAT)]);
     let closed = |q: &[f64]| Some(vec![q[0], q[1], q[2], 0.0]);
     core_with_loops(&ball, [vec![lock], vec![]], &[0, 1, 2], closed, &[0.1, 0.2, 0.3, 0.0], 3)
+}
+
+/// Where the hinge stands that mimics a fixed joint, rad.
+const STILL: f64 = 0.25;
+
+/// Three slides, of which two mimic the first, so that the last stays where it is; a hinge on them that mimics a fixed
+/// joint; a wheel, and one that follows it.
+pub fn mimics() -> Fixture {
+    let mut mimics = robot("mimics", "base");
+    let here = (FLAT, FLAT);
+    let slides =
+        [("a", "base", X, None), ("b", "a", [-1.0, 0.0, 0.0], Some(2.0)), ("c", "b", X, Some(1.0))];
+    for (name, parent, axis, factor) in slides {
+        moved(&mut mimics, name, JointType::Prismatic, parent, here, Some(axis));
+        let far = 2.0 * factor.unwrap_or(1.0);
+        let slide = mimics.joint_mut(&format!("{name}_joint"));
+        slide.limit = limit(-far, far);
+        slide.mimic = factor.map(|factor| mimic("a_joint", factor, 0.0));
+    }
+    moved(&mut mimics, "mount", JointType::Fixed, "base", here, None);
+    hinge(&mut mimics, "still", "c", here, Z, Some([-1.0, 1.0]));
+    mimics.joint_mut("still_joint").mimic = Some(mimic("mount_joint", 3.0, STILL));
+    hinge(&mut mimics, "wheel", "base", here, Z, None);
+    hinge(&mut mimics, "follower", "wheel", here, Z, None);
+    mimics.joint_mut("follower_joint").mimic = Some(mimic("wheel_joint", 2.0, 0.0));
+    let mut held = closing(&mimics, "held", "Fixed", [("base", FLAT), ("still", FLAT)]);
+    let half = STILL / 2.0;
+    held["frame_a"]["quaternion_wxyz"] = json!([half.cos(), 0.0, 0.0, half.sin()]);
+    let centre = closing(&mimics, "centre", "Spherical", [("base", FLAT), ("follower", FLAT)]);
+    let closed = |q: &[f64]| Some(vec![q[0], q[1]]);
+    core_with_loops(&mimics, [vec![held, centre], vec![]], &[0, 1], closed, &[0.5, 0.75], 3)
+}
+
+fn mimic(joint: &str, multiplier: f64, offset: f64) -> Mimic {
+    Mimic { joint: joint.to_owned(), multiplier: Some(multiplier), offset: Some(offset) }
 }

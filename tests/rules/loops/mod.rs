@@ -21,6 +21,7 @@ pub fn shared() -> Vec<Base> {
         ("loops_five_bar", planar::five_bar),
         ("loops_free", linkage::free),
         ("loops_gripper", planar::gripper),
+        ("loops_mimics", mixed::mimics),
         ("loops_mixed", mixed::mixed),
         ("loops_wheels", planar::wheels),
     ]

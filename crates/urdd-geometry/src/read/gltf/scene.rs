@@ -230,6 +230,10 @@ impl Walker<'_, '_, '_, '_> {
             FAN => fan(&corners).collect(),
             _ => corners.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect(),
         };
+        if mode == TRIANGLES && !corners.len().is_multiple_of(3) {
+            let text = "one or two corners at the end, which are no whole triangle, were left out";
+            self.assembly.notes.add(NoteCode::CutOff, text);
+        }
         self.num_triangles += triangles.len();
         self.assembly.check_triangles(self.num_triangles)?;
         let used = self.used.entry(position).or_default();

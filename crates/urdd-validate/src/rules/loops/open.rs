@@ -1,7 +1,7 @@
 use super::configurations::configurations;
 use crate::reference::loops::{Gap, sum};
 use crate::rules::prelude::*;
-use urdd_kinematics::ForwardKinematics;
+use urdd_kinematics::{ConfigurationError, ForwardKinematics};
 
 /// Most loops, couplings and links that are looked at, over all configurations.
 const MOST_LOOKED_AT: usize = 20_000_000;
@@ -38,8 +38,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 Some(())
             };
         }
-        let poses = kinematics.link_poses(configuration).map_err(SkipReason::obstacle);
-        let poses = findings.or_skip(poses)?;
+        let poses = match kinematics.link_poses(configuration) {
+            Err(ConfigurationError::Overflow { link_idx }) if holds(context, link_idx)? => {
+                let message = format!(
+                    "a loop holds link {link_idx} or one below it, whose pose here is beyond the range of 64-bit numbers"
+                );
+                finding_in(Kind::Loops, pointer, message).report(findings);
+                continue;
+            }
+            poses => findings.or_skip(poses.map_err(SkipReason::obstacle))?,
+        };
         for (place, one) in loops.loops.iter().enumerate() {
             let gap = Gap::of(one, &poses, reach)?;
             if gap.is_closed() {
@@ -75,4 +83,12 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
     }
     Some(())
+}
+
+/// Whether an end of a loop is this link, or hangs from it.
+fn holds(context: &Context, link: usize) -> Option<bool> {
+    let tree = context.tree()?;
+    let loops = document!(context, Loops)?;
+    let mut ends = loops.loops.iter().flat_map(|one| [one.link_a_idx.get(), one.link_b_idx.get()]);
+    Some(ends.any(|end| tree.path(end).contains(&link)))
 }
