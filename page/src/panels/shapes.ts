@@ -32,23 +32,26 @@ export function shapes(app: App): HTMLElement {
     return { layer, box, label, opacity, faults, row };
   });
   const ofShapes = layers.filter(({ layer }) => sphereLevel(layer) === null);
-  const ofSpheres = layers.filter(({ layer }) => sphereLevel(layer) !== null);
+  const ofSpheres = layers
+    .filter(({ layer }) => sphereLevel(layer) !== null)
+    .map(({ row, label }) => ({ row, label, about: h("p", { class: "hint level" }) }));
   const spheres = h(
     "div",
     { hidden: true },
     h("h2", {}, "Spheres of links"),
     h("p", { class: "hint" }, "Levels of link_shapes_spheres_module, from coarse to fine."),
-    ...ofSpheres.map(({ row }) => row),
+    ...ofSpheres.flatMap(({ row, about }) => [row, about]),
   );
   app.store.on(["robot"], ({ robot }) => {
     const levels = robot?.spheres ?? [];
     spheres.hidden = levels.length === 0;
-    ofSpheres.forEach(({ row, label }, number) => {
+    ofSpheres.forEach(({ row, label, about }, number) => {
       const level = levels[number];
-      row.hidden = !level;
+      row.hidden = about.hidden = !level;
       if (!level) return;
-      label.textContent = `Level ${number}: ${count(level.spheres.length, "sphere")}, ${fit(level)}`;
+      label.textContent = `Level ${number}: ${level.spheres.length}`;
       label.title = rates(level);
+      about.textContent = fit(level);
     });
   });
   const overlays = OVERLAYS.map((kind) => {
@@ -168,9 +171,9 @@ export function shapes(app: App): HTMLElement {
 /** How the spheres of a level fit the links. */
 function fit(level: SphereLevel): string {
   const far = length(level.standoff);
-  if (level.covers) return `cover the links, up to ${far} off`;
-  const from = level.isGiven ? "given" : "fitted";
-  return `${from}, up to ${far} off, ${length(level.uncovered)} of links outside`;
+  if (level.covers) return `They cover the links, at most ${far} off.`;
+  const from = level.isGiven ? "Given" : "Fitted";
+  return `${from}: at most ${far} off, and links are at most ${length(level.uncovered)} outside.`;
 }
 
 /** How often a check by a level is right. */
