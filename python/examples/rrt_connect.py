@@ -29,6 +29,13 @@ def plan(robot, checks, start, goal, random, tries=20_000):
         parents.append(near)
         return new
 
+    for name, end in (("start", start), ("goal", goal)):
+        for check, margin in checks:
+            for pair in check.nearest(end, 1):
+                if pair.distance <= margin:
+                    one, other = getattr(pair, "links", None) or (pair.link, pair.obstacle)
+                    raise SystemExit(f"there is no path: at the {name}, {one} is {pair.distance:.4f} m from {other}")
+
     def path(nodes, parents):
         place, found = len(nodes) - 1, []
         while place is not None:

@@ -245,6 +245,10 @@ def test_inverse_kinematics_with_conditions(arm: urdd.Robot) -> None:
     refused = arm.inverse_kinematics("torch", targets[0], free_of=arm.world_proximity(world))
     assert refused.verdict == "refused"
     assert not refused.reached
+    by = refused.refused_by
+    assert isinstance(by, urdd.ObstacleDistance)
+    assert (by.obstacle, by.distance) == ("all", 0)
+    assert by.link in arm.link_names
     for wrong in ({"weights": [1, 1]}, {"weights": [-1] * 6}, {"posture": [0]}, {"free_of": [1]}):
         with pytest.raises(urdd.ConfigurationError):
             arm.inverse_kinematics("torch", far, **wrong)  # type: ignore[arg-type]
@@ -281,6 +285,17 @@ def test_inverse_kinematics_keeps_a_margin_from_obstacles(arm: urdd.Robot) -> No
     kept = (around.min_distance(free.q) > 0.03) & ~itself.in_collision(free.q)
     np.testing.assert_array_equal(free.reached, kept)
     assert {"reached", "refused"} <= set(free.verdict)
+    assert isinstance(free.refused_by, np.ndarray)
+    assert free.refused_by.shape == (30,)
+    named = np.array([by is not None for by in free.refused_by])
+    np.testing.assert_array_equal(named, free.verdict == "refused")
+    for by, q in zip(free.refused_by[named], free.q[named], strict=True):
+        if isinstance(by, urdd.ObstacleDistance):
+            assert by.distance <= 0.03
+            assert by.distance == around.min_distance(q)
+        else:
+            assert by.distance == 0
+            assert itself.in_collision(q)
 
 
 @pytest.mark.parametrize(

@@ -173,6 +173,9 @@ class InverseSolution:
     """(...): number of descents from random configurations."""
     iterations: Indices
     """(...): number of steps of all descents."""
+    refused_by: PairDistance | ObstacleDistance | NDArray[np.object_] | None = None
+    """Where the verdict is ``refused``, the nearest pair of the first of ``free_of`` that is too near in ``q``; None
+    elsewhere. One target gives a pair or None, many give an array of them."""
 
 
 @dataclass(frozen=True)

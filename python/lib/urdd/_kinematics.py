@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import InverseSolution
+from ._answers import InverseSolution, ObstacleDistance, PairDistance
 from ._arrays import (
     Bools,
     Floats,
@@ -40,6 +40,17 @@ _SEED_STRIDE = 0x9E3779B9
 _VERDICTS = np.array(["reached", "refused", "limits", "out of reach", "unknown", "loops"])
 
 Shapes: TypeAlias = Proximity | WorldProximity
+
+
+def _too_near(shapes: list[Shapes], q: Floats, margin: float) -> PairDistance | ObstacleDistance | None:
+    """The nearest pair of the first shapes that are not farther apart than they have to be."""
+    for one in shapes:
+        # Links among themselves keep no margin.
+        least = margin if isinstance(one, WorldProximity) else 0.0
+        nearest: list[PairDistance] | list[ObstacleDistance] = one.nearest(q, 1)
+        if nearest and nearest[0].distance <= least:
+            return nearest[0]
+    return None
 
 
 class RobotKinematics(RobotLoops):
@@ -334,12 +345,17 @@ class RobotKinematics(RobotLoops):
         rows = targets.reshape(-1, *((4, 4) if is_pose else (1, 3)))
         found = self._core.inverse_kinematics(self.link(link), rows, starts, options)
         configuration, rest = found[:, : self.num_dofs], found[:, self.num_dofs :].T.reshape(5, *batch)
+        verdict = _VERDICTS[rest[0].astype(np.intp)]
+        refused_by = np.full(batch, None, dtype=np.object_)
+        for place in np.argwhere(verdict == "refused"):
+            refused_by[tuple(place)] = _too_near(shapes, configuration.reshape(*batch, -1)[tuple(place)], margin)
         return InverseSolution(
             q=configuration.reshape(*batch, self.num_dofs),
             reached=scalar(rest[0] == 0),
-            verdict=_VERDICTS[rest[0].astype(np.intp)],
+            verdict=verdict,
             position_error=scalar(rest[1].copy()),
             rotation_error=scalar(rest[2].copy()),
             restarts=scalar(rest[3].astype(np.uintp)),
             iterations=scalar(rest[4].astype(np.uintp)),
+            refused_by=refused_by if batch else refused_by.item(),
         )
