@@ -14,4 +14,5 @@ mod motion;
 mod nearness;
 mod opening;
 mod planning;
+mod spheres;
 mod world;
