@@ -1,8 +1,11 @@
 //! Spheres in the place of shapes, compared with distances in 64 bits.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use urdd_robot::spheres::{
-    ApproximateAnswer, Coverage, CoveringAnswer, LinkSpheres, Sphere, SphereChecker, SphereLevel,
+    ApproximateAnswer, Coverage, CoveringAnswer, LinkSpheres, ScreenedProximity, Sphere,
+    SphereChecker, SphereLevel,
 };
 use urdd_robot::{EdgeSettings, Obstacle, Queries, Robot, RobotError, ShapeKind, World};
 
@@ -392,4 +395,30 @@ fn a_cloud_is_its_points_and_a_field_its_columns() {
     // What a link carries is not many things.
     let cloud = Obstacle::points("cloud", pose, &points, 0.0).expect("an obstacle");
     assert!(matches!(proximity.attach(1, &cloud), Err(RobotError::Obstacle { .. })));
+}
+
+/// Shapes behind their bounding spheres answer as they do alone.
+#[test]
+fn screened_shapes_answer_as_shapes() {
+    for name in ["six_axis_arm", "quadruped", "welding_arm", "hand"] {
+        let (_folder, robot) = robot_of(name);
+        let space = robot.configurations().expect("configurations");
+        let batch: Vec<f64> = (0..300).flat_map(|k| space.random(k)).collect();
+        for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
+            let proximity = Arc::new(robot.proximity_of(kind, |_| true).expect("shapes"));
+            let of_skips = Arc::new(robot.proximity(kind).expect("shapes"));
+            for proximity in [proximity, of_skips] {
+                let levels = [proximity.bounding_level()];
+                let screened = ScreenedProximity::new(&robot, Arc::clone(&proximity), &levels);
+                let screened = screened.expect("spheres");
+                let expected = proximity.in_collision_batch(&batch).expect("answers");
+                assert_eq!(screened.in_collision_batch(&batch), Ok(expected.clone()), "{name}");
+                let one = screened.in_collision(&space.random(7));
+                assert_eq!(one, Ok(expected[7]));
+                let mut fewer = levels[0].clone();
+                fewer.links.pop();
+                assert!(ScreenedProximity::new(&robot, proximity, &[fewer]).is_err());
+            }
+        }
+    }
 }
