@@ -69,7 +69,7 @@ pub struct Proximity {
     /// For each link, the bounding sphere of all its shapes.
     spheres: Vec<Option<BoundingSphere>>,
     pairs: Vec<Pair>,
-    groups: Vec<Group>,
+    pub(super) groups: Vec<Group>,
     rounding: Rounding,
     pub(super) level: Level,
 }
@@ -92,8 +92,8 @@ struct Pair {
 
 /// The pairs between two links: the range `first..end` of all pairs.
 #[derive(Debug, Clone, Copy)]
-struct Group {
-    links: [usize; 2],
+pub(super) struct Group {
+    pub links: [usize; 2],
     /// Whether a DOF moves one link against the other.
     moves: bool,
     first: usize,

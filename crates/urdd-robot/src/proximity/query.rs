@@ -70,7 +70,7 @@ impl Proximity {
     }
 
     /// Whether any pair in these groups touches, for the given placement of the links.
-    fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
+    pub(crate) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
         let mut waiting = Waiting::new(self.level);
         for group in groups {
             if self.are_apart(placed, group.links) {

@@ -45,26 +45,48 @@ pub fn with_memory<T>(model: &Model, act: impl FnOnce(&mut Memory) -> T) -> T {
     found
 }
 
-impl Scene<'_> {
-    /// The lanes that touch, of up to eight configurations; the others are like the last one.
-    pub fn rows<'a>(
-        &self,
-        memory: &mut Memory,
-        rows: impl ExactSizeIterator<Item = &'a [f64]>,
-    ) -> u8 {
-        let count = rows.len();
-        let Memory { placed, values, .. } = memory;
-        for (lane, row) in rows.enumerate() {
-            for (to, value) in values.iter_mut().zip(row) {
+impl Memory {
+    /// Takes up to eight configurations; the other lanes are like the first one. Returns a bit for each lane that is one.
+    fn fill<'a>(&mut self, rows: impl ExactSizeIterator<Item = &'a [f64]>) -> u8 {
+        let count = rows.len().min(LANES);
+        for (lane, row) in rows.take(LANES).enumerate() {
+            for (to, value) in self.values.iter_mut().zip(row) {
                 match lane {
                     0 => *to = WideRow([*value; LANES]),
                     _ => to.0[lane] = *value,
                 }
             }
         }
-        let lanes = ((1u16 << count) - 1) as u8;
-        let asked = Asked { lanes, any: count == 1 };
+        ((1u16 << count) - 1) as u8
+    }
+}
+
+impl Scene<'_> {
+    /// The lanes that touch, of up to eight configurations; the others are like the first one.
+    pub fn rows<'a>(
+        &self,
+        memory: &mut Memory,
+        rows: impl ExactSizeIterator<Item = &'a [f64]>,
+    ) -> u8 {
+        let lanes = memory.fill(rows);
+        let Memory { placed, values, .. } = memory;
+        let asked = Asked { lanes, any: lanes == 1 };
         dispatch!(self.model.level, simd => self.touching(simd, placed, values, asked))
+    }
+
+    /// Calls `each` with the links of the pairs that touch in any of up to eight configurations, and the lanes in which they do.
+    pub fn each_touching<'a>(
+        &self,
+        memory: &mut Memory,
+        rows: impl ExactSizeIterator<Item = &'a [f64]>,
+        each: &mut dyn FnMut([usize; 2], u8),
+    ) {
+        let lanes = memory.fill(rows);
+        let Memory { placed, values, .. } = memory;
+        dispatch!(self.model.level, simd => {
+            placed.place(simd, self.model, values);
+            placed.each_touching(simd, self.model, lanes, &mut *each);
+        });
     }
 
     /// The lanes that touch, of these parts of a straight motion.

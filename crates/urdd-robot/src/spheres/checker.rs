@@ -210,7 +210,12 @@ impl<C: Coverage> SphereChecker<C> {
         })
     }
 
-    fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+    /// Without a margin.
+    pub(super) fn plain_scene(&self) -> Scene<'_> {
+        Scene { model: &self.model, obstacles: &self.obstacles, margin: 0.0 }
+    }
+
+    pub(super) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let most = &self.model.most;
         let mut each = configuration.iter().zip(most);
         // Not a comparison the other way, for what is not a number.

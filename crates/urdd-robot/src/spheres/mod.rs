@@ -8,8 +8,10 @@ mod level;
 mod model;
 mod obstacles;
 mod run;
+mod screened;
 mod tape;
 
 pub use answer::{ApproximateAnswer, Approximating, Coverage, Covering, CoveringAnswer};
 pub use checker::SphereChecker;
 pub use level::{LinkSpheres, Sphere, SphereLevel};
+pub use screened::ScreenedProximity;

@@ -15,4 +15,5 @@ mod motion;
 mod nearness;
 mod opening;
 mod planning;
+mod spheres;
 mod world;
