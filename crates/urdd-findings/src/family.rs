@@ -37,6 +37,7 @@ pub const FAMILIES: &[Family] = families! {
     MSH "meshes" "Mesh files, hulls and convex pieces, compared with what they stand for.";
     SHP "collision shapes" "Boxes, spheres, skipped pairs of links and distances between links.";
     LRN "learned model" "The learned model of self-collisions, and how often it is wrong.";
+    SPH "spheres of links" "Spheres that stand for links: whether they cover, how well they fit, and how often they are right.";
     KIN "kinematics" "Stored poses of links, computed again from the joints.";
     CNF "named configurations" "Configurations with a name, such as `home`.";
     LOP "loops" "Kinematic loops: what holds them, whether they close, and which DOFs move freely.";

@@ -19,7 +19,7 @@ pub fn column(family: &str) -> &str {
         "JSN" | "YML" | "SCH" | "EXT" => "TXT",
         "CMP" => "URD",
         "CNF" | "LOP" => "KIN",
-        "LRN" => "SHP",
+        "LRN" | "SPH" => "SHP",
         own => own,
     }
 }

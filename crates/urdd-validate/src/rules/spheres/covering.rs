@@ -15,7 +15,7 @@ declare_rule! {
     /// the first level covers always. Where pieces changed, make the module again:
     /// `urdd generate --modules all,link_shapes_spheres`.
     SPH005 "spheres-do-not-cover", Error, clause "8.9.4", since "1.4.0",
-    phase Geometry, needs [
+    phase Statistics, needs [
         ModuleV1(Kind::LinkShapesSpheres), Module(Kind::ConvexDecompositionMeshes), PIECES_LISTED, OWN_FILES, CONVEX_PIECE,
         Passed(SPH001), Passed(SPH002), Passed(SPH003), Passed(SPH004),
     ], check do_not_cover,

@@ -13,7 +13,7 @@ declare_rule! {
     /// SPEC 8.9.5 defines the points, so the validator computes them again. Where spheres were edited or pieces changed, do
     /// the same: `urdd generate --modules all,link_shapes_spheres` keeps spheres that are given.
     SPH006 "sphere-standoff-differs", Error, clause "8.9.5", since "1.4.0",
-    phase Geometry, needs [
+    phase Statistics, needs [
         ModuleV1(Kind::LinkShapesSpheres), Module(Kind::ConvexDecompositionMeshes), PIECES_LISTED, OWN_FILES, CONVEX_PIECE,
         Passed(SPH001), Passed(SPH002), Passed(SPH003), Passed(SPH004), NotFailed(SPH005),
     ], check standoff_differs,
@@ -25,7 +25,7 @@ declare_rule! {
     /// SPEC 8.9.5 defines the points, so the validator computes them again. Where spheres were edited or pieces changed, do
     /// the same: `urdd generate --modules all,link_shapes_spheres` keeps spheres that are given.
     SPH007 "sphere-uncovered-differs", Error, clause "8.9.5", since "1.4.0",
-    phase Geometry, needs [
+    phase Statistics, needs [
         ModuleV1(Kind::LinkShapesSpheres), Module(Kind::ConvexDecompositionMeshes), PIECES_LISTED, OWN_FILES, CONVEX_PIECE,
         Passed(SPH001), Passed(SPH002), Passed(SPH003), Passed(SPH004), NoneFailed(&[SPH005, SPH006]),
     ], check uncovered_differs,
