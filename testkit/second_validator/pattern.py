@@ -121,7 +121,7 @@ class Translator:
             inside = inside_of(category(name), sign == "P")
             return inside if in_class else f"[{inside}]"
         self.at += 2
-        if sign and sign.lower() in CLASSES:
+        if sign.lower() in CLASSES:
             inside = inside_of(CLASSES[sign.lower()], sign.isupper())
             return inside if in_class else f"[{inside}]"
         if sign in CONTROL and not (sign == "0" and rest[1:2].isdigit()):
@@ -152,7 +152,7 @@ class Translator:
                 inside += self.escape(True)
             else:
                 self.at += 1
-                inside += "\\" + one if one in "[&~|" else one
+                inside += one
         self.at += 1
         if not inside:
             return "(?!)" if start == "[" else r"[\s\S]"
