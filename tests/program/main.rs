@@ -43,6 +43,7 @@ mod scripts_doc;
 mod security_doc;
 mod snapshots;
 mod spec_agrees;
+mod spheres;
 mod support_is_sound;
 mod texts;
 mod vectors;

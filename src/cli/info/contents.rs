@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::loops::LoopsInfo;
 use super::parts::{self, PartInfo};
 use super::skipped::{self, SkippedContact};
+use super::spheres::{self, LevelInfo};
 use super::statics::Statics;
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
@@ -50,6 +51,9 @@ pub struct Info {
     /// What closes the loops of a robot that is no tree.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loops: Option<LoopsInfo>,
+    /// The levels of spheres of links.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub spheres: Vec<LevelInfo>,
     pub modules: Vec<ModuleInfo>,
     /// The joints in the order of each program, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -221,6 +225,7 @@ impl Info {
             skipped_contacts: (urdd.document(ModuleKind::LinkShapesSkips))
                 .and_then(|_| SkippedContact::all(path)),
             loops: LoopsInfo::of(&urdd),
+            spheres: LevelInfo::all(&urdd),
             modules: urdd
                 .modules()
                 .map(|module| {
@@ -303,6 +308,7 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     if let Some(model) = &info.collision_model {
         model.write(out)?;
     }
+    spheres::write(&info.spheres, out)?;
     if !info.parts.is_empty() {
         let base = info.base.as_deref().map(|base| format!("on {}", safe(base)));
         writeln!(out, "{}", format!("  parts     {}", base.unwrap_or_default()).trim_end())?;

@@ -5,6 +5,7 @@ mod loops;
 mod parts;
 mod robots;
 mod skipped;
+mod spheres;
 mod statics;
 
 use std::fmt::Display;

@@ -1,0 +1,71 @@
+//! Spheres of links, from outside: made, checked, told, exported, and a person's list in their place.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::program::urdd;
+
+/// Two bars that a hinge connects, and one that swings past the first.
+const ROBOT: &str = r#"<robot name="bars">
+<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.45 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>"#;
+
+fn run(folder: &Path, arguments: &[&str]) -> String {
+    let (status, out, said) = urdd(arguments, folder);
+    assert_eq!(status, 0, "{arguments:?}: {out}{said}");
+    out + &said
+}
+
+#[test]
+fn spheres_go_from_a_urdf_to_a_planner_and_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("bars.urdf"), ROBOT).expect("written");
+    let generate = ["generate", "bars.urdf", "-o", "bars", "--modules", "all,spheres"];
+    run(folder, &generate);
+    run(folder, &["validate", "bars", "--fail-on", "info"]);
+    let info = run(folder, &["info", "bars"]);
+    assert!(info.contains("levels of 3, 12, 48 that cover the links"), "{info}");
+    assert!(info.contains(" fitted; missed collisions "), "{info}");
+    for (format, file) in [("curobo", "s.yml"), ("foam", "s.json"), ("spherized", "s.urdf")] {
+        run(folder, &["export", format, "bars", "-o", file, "--samples", "100"]);
+        let before = fs::read_to_string(folder.join("bars/urdd.json")).expect("metadata");
+        let told = run(folder, &["spheres", "import", file, "bars"]);
+        assert!(told.contains("spheres imported") && told.contains("missed collisions"), "{told}");
+        run(folder, &["validate", "bars", "--fail-on", "info"]);
+        let info: Value = serde_json::from_str(&run(folder, &["info", "bars", "--format", "json"]))
+            .expect("JSON");
+        let last = &info[0]["spheres"][3];
+        assert_eq!((&last["origin"], &last["covers"]), (&"Given".into(), &false.into()));
+        let after = fs::read_to_string(folder.join("bars/urdd.json")).expect("metadata");
+        // The same spheres in another form are the same module.
+        assert_eq!(before == after, format != "curobo");
+    }
+    let (status, _, said) = urdd(&["generate", "bars.urdf", "-o", "bars"], folder);
+    assert_eq!(status, 1);
+    assert!(said.contains("given spheres") && said.contains("--drop-edits"), "{said}");
+    run(folder, &generate);
+    let info = run(folder, &["info", "bars"]);
+    assert!(info.contains(" given; missed collisions "), "{info}");
+    for (text, words) in [
+        ("collision_spheres: {z: [{center: [0, 0, 0], radius: 1}]}", "there is no link `z`"),
+        (
+            "{\"a\": {\"spheres\": [{\"origin\": [0, 0, 0], \"radius\": 0}]}}",
+            "sphere 0 of link `a`: the radius 0",
+        ),
+        ("a: b", "it has no spheres"),
+    ] {
+        fs::write(folder.join("bad.yml"), text).expect("written");
+        let (status, out, said) = urdd(&["spheres", "import", "bad.yml", "bars"], folder);
+        assert_eq!((status, out.as_str()), (2, ""));
+        assert!(said.contains("bad.yml") && said.contains(words), "{said}");
+    }
+}
