@@ -43,8 +43,13 @@ use urdd_source::{named, read_urdf};
 pub use error::{CombineError, Note, PartFault};
 pub use recipe::Recipe;
 
-/// The modules that a part has because of a person, or because of its source, and that are not computed.
-const OF_PEOPLE: [&str; 3] = ["composition_module", "named_configurations_module", "loops_module"];
+/// The modules that a part has because of a person, or because of its source, or on request, and that are not computed.
+const OF_PEOPLE: [&str; 4] = [
+    "composition_module",
+    "named_configurations_module",
+    "link_shapes_spheres_module",
+    "loops_module",
+];
 
 /// A combined robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -283,6 +288,13 @@ fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
         if has_loops && !["<loop", "<coupling"].iter().any(|tag| member.loaded.text.contains(tag)) {
             let text = "its loops are not in its URDF, so they are left out: say them in a file of the combined robot, `--loops FILE`";
             note("loops", text.to_owned());
+        }
+        if member.loaded.given_spheres > 0 {
+            let text = format!(
+                "its {} given spheres are left out: import them into the combined robot, `urdd spheres import`",
+                member.loaded.given_spheres
+            );
+            note("given-spheres", text);
         }
         if !member.is_urdd() {
             continue;

@@ -17,6 +17,7 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_directory::writer::sha256;
 use urdd_format::composition::{CompositionModule, PartSource};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SphereOrigin};
 use urdd_format::named_configurations::{ConfigurationEdit, NamedConfigurationsModule};
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::registry::ModuleKind;
@@ -47,6 +48,8 @@ pub(super) struct Loaded {
     /// Links with the plain mesh of a legacy URDD because the original is missing.
     pub plain_meshes: Vec<String>,
     pub modules: Vec<String>,
+    /// How many spheres a person gave to it.
+    pub given_spheres: usize,
 }
 
 /// The file of a mesh and the files that it references, as paths in the URDD.
@@ -122,11 +125,17 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
     let named: Option<(NamedConfigurationsModule, _)> =
         module(listed, ModuleKind::NamedConfigurations)?;
     let named = named.map_or_else(Vec::new, |(module, _)| module.configurations);
+    let spheres: Option<(LinkShapesSpheresModule, _)> =
+        module(listed, ModuleKind::LinkShapesSpheres)?;
+    let levels = spheres.map_or_else(Vec::new, |(module, _)| module.levels);
+    let given = levels.iter().filter(|level| level.origin == SphereOrigin::Given);
+    let given_spheres = given.flat_map(|level| &level.spheres).map(Vec::len).sum();
     let (composition, composition_length) = module(listed, ModuleKind::Composition)?.unzip();
     Ok(Loaded {
         meshes: original.map(|(module, _)| meshes(module)).unwrap_or_default(),
         skips,
         configurations: named.iter().map(ConfigurationEdit::from).collect(),
+        given_spheres,
         composition,
         composition_length: composition_length.unwrap_or_default(),
         source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),
