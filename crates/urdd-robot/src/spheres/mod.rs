@@ -48,6 +48,7 @@ mod answer;
 mod block;
 mod check;
 mod checker;
+mod exact;
 mod level;
 mod model;
 mod obstacles;
