@@ -62,6 +62,8 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         | RobotError::Batch { .. }
         | RobotError::Target(_)
         | RobotError::Setting(_)
+        | RobotError::Sphere { .. }
+        | RobotError::Far { .. }
         | RobotError::NotClosed { .. }
         | RobotError::NotCoupled { .. }
         | RobotError::Steps { .. } => raise(py, "ConfigurationError", error, &[]),

@@ -21,6 +21,7 @@ mod queries;
 mod robot;
 mod shapes;
 mod source;
+mod spheres;
 mod threads;
 mod validate;
 mod work;
@@ -75,6 +76,8 @@ mod _urdd {
     use crate::robot::Robot;
     #[pymodule_export]
     use crate::source::{find_urdfs, import_robot};
+    #[pymodule_export]
+    use crate::spheres::SphereChecker;
     #[pymodule_export]
     use crate::threads::{num_threads, set_num_threads};
     #[pymodule_export]

@@ -1,6 +1,6 @@
 //! Bodies that a robot should keep away from, or that its links carry.
 
-use numpy::PyReadonlyArray2;
+use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use urdd_geometry::Mesh;
 use urdd_kinematics::pose_matrix::unchecked_pose;
@@ -89,6 +89,40 @@ impl Obstacle {
         let points = rows(&points)?;
         check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
         let make = |pose| urdd_robot::Obstacle::hull(name, pose, &points);
+        obstacle(py, &pose, make)
+    }
+
+    /// A cloud of points (n, 3).
+    #[staticmethod]
+    fn points(
+        py: Python<'_>,
+        name: &str,
+        pose: PyReadonlyArray2<'_, f64>,
+        points: PyReadonlyArray2<'_, f64>,
+        radius: f64,
+    ) -> PyResult<Self> {
+        let points = rows(&points)?;
+        check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
+        let make = |pose| urdd_robot::Obstacle::points(name, pose, &points, radius);
+        obstacle(py, &pose, make)
+    }
+
+    /// Heights (rows, columns).
+    #[staticmethod]
+    fn height_field(
+        py: Python<'_>,
+        name: &str,
+        pose: PyReadonlyArray2<'_, f64>,
+        heights: PyReadonlyArray2<'_, f64>,
+        cell: [f64; 2],
+        thickness: f64,
+    ) -> PyResult<Self> {
+        let columns = heights.shape()[1];
+        let heights = copy(&heights)?;
+        check_memory(heights.len().saturating_mul(BYTES_A_VERTEX))?;
+        let make = |pose| {
+            urdd_robot::Obstacle::height_field(name, pose, &heights, columns, cell, thickness)
+        };
         obstacle(py, &pose, make)
     }
 

@@ -145,3 +145,56 @@ pub fn narrow<S: Simd>(value: f64x8<S>) -> Num<S> {
     let (low, high) = value.split();
     low.narrow(high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    /// All levels that this machine supports, including the baseline of its architecture.
+    fn levels() -> Vec<Level> {
+        let best = Level::new();
+        #[cfg(target_arch = "x86_64")]
+        let others = [
+            best.as_sse2().map(Level::Sse2),
+            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_avx2().map(Level::Avx2),
+        ];
+        #[cfg(not(target_arch = "x86_64"))]
+        let others = [None];
+        others.into_iter().flatten().chain([best]).collect()
+    }
+
+    fn of(level: Level, angles: &[f64; LANES]) -> [[f32; LANES]; 2] {
+        dispatch!(level, simd => {
+            let [sin, cos] = sin_cos(simd, f64x8::load_array_ref(simd, angles));
+            [sin.to_array(), cos.to_array()]
+        })
+    }
+
+    #[test]
+    fn sines_and_cosines_are_near_and_the_same_on_each_level() {
+        let mut angle = -MOST_ANGLE;
+        let mut worst = 0.0f64;
+        // Steps that are no part of a turn, finer near zero.
+        while angle < MOST_ANGLE {
+            let step = 0.000_731 + 1.7e-4 * angle.abs();
+            let angles: [f64; LANES] =
+                std::array::from_fn(|lane| (angle + step * lane as f64).min(MOST_ANGLE));
+            let found = of(Level::new(), &angles);
+            for level in levels() {
+                assert_eq!(
+                    of(level, &angles).map(|all| all.map(f32::to_bits)),
+                    found.map(|all| all.map(f32::to_bits))
+                );
+            }
+            for lane in 0..LANES {
+                let (sin, cos) = angles[lane].sin_cos();
+                worst = worst.max((f64::from(found[0][lane]) - sin).abs());
+                worst = worst.max((f64::from(found[1][lane]) - cos).abs());
+            }
+            angle += 8.0 * step;
+        }
+        assert!(worst < SIN_COS_ERROR && worst > 0.2 * SIN_COS_ERROR, "{worst}");
+    }
+}

@@ -47,6 +47,7 @@ mod loop_equations;
 mod loops;
 mod names;
 mod obstacle;
+mod placed_part;
 pub mod proximity;
 mod queries;
 mod robot;

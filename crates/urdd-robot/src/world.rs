@@ -1,6 +1,7 @@
 //! Obstacles around a robot, and its distances to them.
 //!
-//! A [`World`] is a list of [`Obstacle`](crate::Obstacle)s: boxes, spheres, capsules, cylinders and meshes.
+//! A [`World`] is a list of [`Obstacle`](crate::Obstacle)s: boxes, spheres, capsules, cylinders,
+//! hulls, meshes, clouds of points and fields of heights.
 //! [`Proximity::world_proximity`] combines a robot's shapes of one kind with a world. [`WorldProximity`] then has the
 //! same [`Queries`](crate::Queries) as [`Proximity`]. Skips do not apply: every shape of the robot is tested against every obstacle,
 //! except for links that the obstacle ignores.
@@ -46,16 +47,16 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
-use nalgebra::{Isometry3, UnitQuaternion};
+use nalgebra::Isometry3;
 
 use super::checked::Checked;
 use super::error::RobotError;
-use super::obstacle::{Part, World, check_pose};
+use super::obstacle::{World, check_pose};
+use super::placed_part::PlacedPart;
 use super::proximity::{Gradient, Proximity, Shape, SweptPair, Waiting, relative, to_root};
 use super::workspace::Placed;
-use urdd_geometry::bounding_sphere::BoundingSphere;
-use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair, columns};
-use urdd_geometry::vector::{dot, norm, sub};
+use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+use urdd_geometry::vector::norm;
 use urdd_kinematics::Travel;
 
 /// The distance between a shape of the robot and an obstacle, and their closest points.
@@ -93,61 +94,6 @@ pub struct WorldProximity<P> {
     parts: Vec<PlacedPart>,
     /// The shapes of the robot and the parts that are tested against each other, by shape, then by part.
     pairs: Vec<[u32; 2]>,
-}
-
-/// A part of an obstacle, at its pose.
-#[derive(Debug, Clone)]
-struct PlacedPart {
-    obstacle: usize,
-    part: Part,
-    /// The columns of the rotation of the obstacle's frame, then its translation.
-    frame: [[f64; 3]; 4],
-    /// Whether that is a rotation.
-    is_turned: bool,
-    /// More than what is rounded in its frame, m.
-    rounding: f64,
-    /// Around the part, in the root link's frame.
-    sphere: BoundingSphere,
-}
-
-impl PlacedPart {
-    fn new(obstacle: usize, part: Part, pose: &Isometry3<f64>) -> Self {
-        let (frame, is_turned, rounding, sphere) = ([[0.0; 3]; 4], false, 0.0, part.sphere);
-        let mut placed = PlacedPart { obstacle, part, frame, is_turned, rounding, sphere };
-        placed.place(pose);
-        placed
-    }
-
-    fn place(&mut self, pose: &Isometry3<f64>) {
-        self.frame = columns(pose);
-        self.is_turned = pose.rotation != UnitQuaternion::identity();
-        self.rounding = 1e-12 * norm(self.frame[3]);
-        let BoundingSphere { centre, radius } = self.part.sphere;
-        let centre = to_root(&self.frame, centre);
-        self.sphere = BoundingSphere { centre, radius: radius + self.rounding };
-    }
-
-    /// A point of the root link's frame in its frame.
-    fn local(&self, point: [f64; 3]) -> [f64; 3] {
-        let from = sub(point, self.frame[3]);
-        match self.is_turned {
-            true => [0, 1, 2].map(|k| dot(self.frame[k], from)),
-            false => from,
-        }
-    }
-
-    /// A lower bound of the distance from a sphere, m; not positive if they may touch.
-    fn bound(&self, centre: [f64; 3], radius: f64) -> f64 {
-        let centre = self.local(centre);
-        self.part.bound(&BoundingSphere { centre, radius: radius + self.rounding })
-    }
-
-    /// Whether it is certainly farther from a sphere than `distance`, m.
-    fn is_beyond(&self, centre: [f64; 3], radius: f64, distance: f64) -> bool {
-        let from = sub(centre, self.sphere.centre);
-        let reach = radius + self.sphere.radius + distance;
-        dot(from, from) * (1.0 - 1e-12) > reach * reach || self.bound(centre, radius) > distance
-    }
 }
 
 impl Proximity {

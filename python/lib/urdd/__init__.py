@@ -55,6 +55,7 @@ from ._import import Imported, import_robot
 from ._lint import lint
 from ._proximity import Proximity
 from ._robot import Robot, load
+from ._sphere_checker import SphereChecker
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
 from ._world import World
@@ -131,6 +132,7 @@ __all__ = [
     "ShownByViser",
     "SkipReason",
     "Skips",
+    "SphereChecker",
     "Spheres",
     "UnknownNameError",
     "UrddError",

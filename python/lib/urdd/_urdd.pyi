@@ -17,6 +17,7 @@ __all__ = [
     "Page",
     "Proximity",
     "Robot",
+    "SphereChecker",
     "WorldProximity",
     "__version__",
     "base_pose",
@@ -193,9 +194,47 @@ class Obstacle:
         name: str, pose: NDArray[np.float64], vertices: NDArray[np.float64], faces: NDArray[np.uint32]
     ) -> Obstacle: ...
     @staticmethod
+    def points(name: str, pose: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Obstacle: ...
+    @staticmethod
+    def height_field(
+        name: str,
+        pose: NDArray[np.float64],
+        heights: NDArray[np.float64],
+        cell: Sequence[float],
+        thickness: float,
+    ) -> Obstacle: ...
+    @staticmethod
     def at(obstacles: Sequence[Obstacle], poses: NDArray[np.float64]) -> list[Obstacle]: ...
     @property
     def num_parts(self) -> int: ...
+
+@final
+class SphereChecker:
+    def __new__(
+        cls,
+        robot: Robot,
+        levels: Sequence[Sequence[tuple[int, NDArray[np.float64]]]],
+        pairs: Sequence[Sequence[int]],
+        covers: bool,
+    ) -> SphereChecker: ...
+    def around(self, obstacles: Sequence[tuple[Obstacle, Sequence[str]]]) -> SphereChecker: ...
+    def is_within(self, configurations: NDArray[np.float64], margin: float) -> NDArray[np.bool_]: ...
+    def blocked_edge(
+        self,
+        starts: NDArray[np.float64],
+        ends: NDArray[np.float64],
+        margin: float,
+        resolution: float | None,
+        open_loops: bool,
+    ) -> NDArray[np.float64]: ...
+    def first_contact(
+        self,
+        starts: NDArray[np.float64],
+        ends: NDArray[np.float64],
+        margin: float,
+        resolution: float | None,
+        open_loops: bool,
+    ) -> NDArray[np.float64]: ...
 
 @final
 class WorldProximity:

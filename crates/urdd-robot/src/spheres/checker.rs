@@ -22,6 +22,15 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::fill;
 
 /// The spheres of a robot, prepared for yes or no: whether any touch, in configurations and along straight motions.
+///
+/// A configuration has one value for each DOF, rad or m; values beyond the bounds are allowed, up to 1e9. A query fails with
+/// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite, with
+/// [`RobotError::Far`] beyond 1e9; a batch, which runs on rayon's thread pool, also as those of
+/// [`Queries`](crate::Queries). Queries on one configuration or motion do not allocate after the first of a thread.
+///
+/// Motions are straight. They fail as [`Queries::first_contact`](crate::Queries::first_contact), and with
+/// [`RobotError::Setting`] without a resolution, as spheres have no proof, and for a robot with kinematic loops unless the
+/// settings allow open ones: spheres follow no closed motion.
 #[derive(Debug)]
 pub struct SphereChecker<C> {
     pub(super) motion: Arc<Motion>,
@@ -115,7 +124,30 @@ impl<C: Coverage> SphereChecker<C> {
         cancellation: &Cancellation,
         out: &mut [C::Answer],
     ) -> Result<(), RobotError> {
-        let (scene, rows) = (self.scene(0.0)?, self.motion.rows(configurations)?);
+        self.batch_into(configurations, 0.0, cancellation, out, C::answer)
+    }
+
+    /// Whether spheres are at most `margin` (m) apart in each of the configurations, into `out`: what is not free, whatever
+    /// that is worth.
+    pub fn touches_batch_into(
+        &self,
+        configurations: &[f64],
+        margin: f64,
+        cancellation: &Cancellation,
+        out: &mut [bool],
+    ) -> Result<(), RobotError> {
+        self.batch_into(configurations, margin, cancellation, out, |touches| touches)
+    }
+
+    fn batch_into<T: Send>(
+        &self,
+        configurations: &[f64],
+        margin: f64,
+        cancellation: &Cancellation,
+        out: &mut [T],
+        answer: impl Fn(bool) -> T + Sync,
+    ) -> Result<(), RobotError> {
+        let (scene, rows) = (self.scene(margin)?, self.motion.rows(configurations)?);
         check_room(out.len(), rows.count, 1)?;
         fill(out, LANES, BLOCKS, |(): &mut (), block, out| {
             cancellation.check()?;
@@ -123,13 +155,16 @@ impl<C: Coverage> SphereChecker<C> {
             rows.clone().try_for_each(|row| self.check(row))?;
             let touching = with_memory(&self.model, |memory| scene.rows(memory, rows));
             for (lane, out) in out.iter_mut().enumerate() {
-                *out = C::answer(touching >> lane & 1 != 0);
+                *out = answer(touching >> lane & 1 != 0);
             }
             Ok(())
         })
     }
 
-    /// A part of the straight motion from `start` to `end` in which spheres touch; `None` if there is none.
+    /// A part of the straight motion from `start` to `end`, from 0 to 1, at which spheres touch; `None` if none is found. As
+    /// [`Queries::blocked_edge`](crate::Queries::blocked_edge): it need not be the first. Eight configurations that are spread
+    /// over the whole motion are checked at once, the end among the first. Between two of all no point of a sphere travels
+    /// farther than the resolution.
     pub fn blocked_edge(
         &self,
         start: &[f64],
@@ -140,7 +175,8 @@ impl<C: Coverage> SphereChecker<C> {
         Ok(blocked(&scene, [start, end], steps))
     }
 
-    /// As [`SphereChecker::blocked_edge`], in this many parts of the same length.
+    /// As [`SphereChecker::blocked_edge`], at both ends and between this many parts of the same length, for planners that
+    /// have a resolution of their own. Loops may be open on the way.
     pub fn blocked_in_steps(
         &self,
         start: &[f64],
@@ -152,7 +188,9 @@ impl<C: Coverage> SphereChecker<C> {
         Ok(blocked(&self.scene(0.0)?, [start, end], steps.max(1)))
     }
 
-    /// How far the spheres are free on the straight motion from `start` to `end`, and where they touch first.
+    /// How far the spheres are free on the straight motion from `start` to `end`, and where they touch first; `None` if they do
+    /// not. As [`Queries::first_contact`](crate::Queries::first_contact): the part between two configurations is divided by
+    /// 4096.
     pub fn first_contact(
         &self,
         start: &[f64],
@@ -218,8 +256,9 @@ impl<C: Coverage> SphereChecker<C> {
     pub(super) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let most = &self.model.most;
         let mut each = configuration.iter().zip(most);
-        // Not a comparison the other way, for what is not a number.
-        let far = each.position(|(q, most)| !(q.abs() <= *most));
+        // What is not a number is not within.
+        let is_within = |q: f64, most: f64| (-most..=most).contains(&q);
+        let far = each.position(|(q, most)| !is_within(*q, *most));
         if far.is_none() && configuration.len() == most.len() {
             return Ok(());
         }
@@ -260,7 +299,13 @@ impl<C: Coverage> SphereChecker<C> {
 }
 
 impl SphereChecker<Covering> {
-    /// Prepares levels of spheres that cover the shapes.
+    /// Prepares levels of spheres that cover the shapes, and the pairs of links that are checked, such as those of
+    /// [`Proximity::link_pairs`](crate::Proximity::link_pairs). A link without spheres at the finest level is left out.
+    ///
+    /// # Errors
+    /// [`RobotError::Sphere`] for a centre that is not finite or farther than 1e9 m, or a radius that is not above 0 or larger;
+    /// [`RobotError::OutOfRange`] for an unknown link; [`RobotError::Setting`] without a level, for a level that does not cover,
+    /// or for a pair of a link with itself.
     pub fn covering(
         robot: &Robot,
         levels: &[SphereLevel],
@@ -274,7 +319,10 @@ impl SphereChecker<Covering> {
 }
 
 impl SphereChecker<Approximating> {
-    /// Prepares levels of spheres that need not cover the shapes.
+    /// As [`SphereChecker::covering`], for levels that need not cover the shapes.
+    ///
+    /// # Errors
+    /// As there.
     pub fn approximating(
         robot: &Robot,
         levels: &[SphereLevel],

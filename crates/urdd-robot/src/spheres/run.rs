@@ -105,7 +105,7 @@ impl Frames {
             let mut sum = splat(simd, 0.0);
             for (to, input) in self.lengths.iter_mut().zip(&tape.lengths) {
                 let length = narrow(value(simd, input, values));
-                sum = sum + length.abs();
+                sum += length.abs();
                 *to = Row::of(length);
             }
             self.slides = sum.reduce_max_precise();

@@ -124,8 +124,11 @@ fn covering_spheres_are_free_only_where_they_are_apart() {
     }
 }
 
-/// How far a point is from each kind of obstacle, and the obstacle.
-fn obstacles(numbers: &mut Numbers) -> Vec<(Obstacle, Box<dyn Fn(Point3<f64>) -> f64>)> {
+/// How far a point is from an obstacle, m.
+type Apart = Box<dyn Fn(Point3<f64>) -> f64>;
+
+/// Each kind of obstacle.
+fn obstacles(numbers: &mut Numbers) -> Vec<(Obstacle, Apart)> {
     let [pose, other, third, fourth, fifth] = [0; 5].map(|_| numbers.pose(0.5));
     let half = [0.1, 0.05, 0.2];
     let box_apart = move |p: Point3<f64>, half: [f64; 3]| {
