@@ -187,7 +187,9 @@ def check_contacts(
     """8.9.6: how often links are in contact; gives how far they are apart."""
     balls = [balls_of(spheres) for spheres in level["spheres"]]
     has = [link for link, of_link in enumerate(balls) if of_link]
-    found: dict[tuple[int, int], list[float]] = {pair: [] for pair in itertools.combinations(has, 2)}
+    found: dict[tuple[int, int], list[float]] = {
+        pair: [] for pair in itertools.combinations(has, 2)
+    }
     for of_links in at:
         moved = {link: placed(balls[link], of_links[link]) for link in has}
         for a, b in found:
@@ -248,7 +250,9 @@ def check_samples(urdd: Urdd, robot: Robot, shapes: Shapes, module: Any) -> None
         return
     in_collision = collisions(shapes, sorted(asked), at)
     for place, (level, gaps) in enumerate(zip(module["levels"], found)):
-        pairs = [gaps[pair] for pair in asked - set(pairs_of(level["ignored_pairs"])) if pair in gaps]
+        pairs = [
+            gaps[pair] for pair in asked - set(pairs_of(level["ignored_pairs"])) if pair in gaps
+        ]
         touch = [any(of[k] <= 0 for of in pairs) for k in range(count)]
         check_counts(urdd, level, place, in_collision, touch)
 

@@ -34,9 +34,7 @@ def distinct(planes: list[Plane], size: float) -> list[Plane]:
     """The planes without those that are one with another."""
     found: list[Plane] = []
     for n, level in planes:
-        near = (
-            norm(sub(n, other)) < 1e-7 and abs(level - at) < 1e-7 * size for other, at in found
-        )
+        near = (norm(sub(n, other)) < 1e-7 and abs(level - at) < 1e-7 * size for other, at in found)
         if not any(near):
             found.append((n, level))
     return found

@@ -162,10 +162,8 @@ impl Box3 {
             Box3 { centre: solid.centre, rows: solid.rotation(), low: [0.0; 3], high: [0.0; 3] };
         for corner in solid.corners {
             let local = of.local(corner);
-            for axis in 0..3 {
-                of.low[axis] = of.low[axis].min(local[axis]);
-                of.high[axis] = of.high[axis].max(local[axis]);
-            }
+            of.low = [0, 1, 2].map(|axis| of.low[axis].min(local[axis]));
+            of.high = [0, 1, 2].map(|axis| of.high[axis].max(local[axis]));
         }
         of
     }
@@ -274,11 +272,14 @@ pub fn centroids(solid: &Solid, diagonal: f64) -> Vec<(Point, f64)> {
 /// The pairs of links that are not skipped, listed by hand: of the others, one moves or holds the other.
 pub const ASKED: [[usize; 2]; 6] = [[0, 2], [1, 4], [1, 5], [2, 4], [2, 5], [4, 5]];
 
+/// Pairs of links with spheres, each with the configurations in which they are in contact.
+type Touching = Vec<([usize; 2], Vec<bool>)>;
+
 /// In which of the sampled configurations links are in contact, by pieces and by spheres.
 struct Contacts {
     collides: Vec<bool>,
-    /// For each level, each pair of links with spheres, and each configuration.
-    levels: Vec<Vec<([usize; 2], Vec<bool>)>>,
+    /// For each level.
+    levels: Vec<Touching>,
 }
 
 fn contacts(robot: &Robot, meshes: &Meshes, levels: &[Level], samples: u32) -> Contacts {
@@ -330,7 +331,7 @@ pub fn pairs(list: impl IntoIterator<Item = [usize; 2]>) -> Value {
 pub fn document(robot: &Robot, levels: &[Level], samples: u32) -> Value {
     let meshes = Meshes::new(robot);
     let found = contacts(robot, &meshes, levels, samples);
-    let of_level = |(level, contacts): (&Level, &Vec<([usize; 2], Vec<bool>)>)| {
+    let of_level = |(level, contacts): (&Level, &Touching)| {
         let fits = level.balls.iter().zip(&meshes.solids).map(|(balls, solids)| {
             let solids = solids.as_ref().filter(|_| !balls.is_empty())?;
             let [max, mean, fraction, uncovered] = fit(&solids.pieces, balls);
