@@ -152,7 +152,7 @@ class Translator:
                 inside += self.escape(True)
             else:
                 self.at += 1
-                inside += one
+                inside += "\\" + one if one in "[&~|" else one
         self.at += 1
         if not inside:
             return "(?!)" if start == "[" else r"[\s\S]"

@@ -63,7 +63,7 @@ def crosses_itself(corners: list[Point]) -> bool:
     def side(a: Any, b: Any, c: Any) -> float:
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
-    return norm(n) == 0 or any(
+    return any(
         side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
         for (a, b), (c, d) in itertools.combinations(sides, 2)
     )
@@ -121,7 +121,7 @@ class MeshElement:
 def is_cut(polygon: list[Point], found: list[Triangle], tolerance: float) -> bool:
     """7.8: whether triangles are a cut of a face into n - 2 triangles that do not overlap."""
     n = newell(polygon)
-    edges: dict[tuple[int, int], int] = {}
+    edges: set[tuple[int, int]] = set()
     for triangle in found:
         places = [
             next(k for k, p in enumerate(polygon) if close(p, corner, tolerance))
@@ -133,7 +133,7 @@ def is_cut(polygon: list[Point], found: list[Triangle], tolerance: float) -> boo
             edge = (places[k], places[(k + 1) % 3])
             if edge in edges:
                 return False
-            edges[edge] = 1
+            edges.add(edge)
     inner = [edge for edge in edges if (edge[0] + 1) % len(polygon) != edge[1]]
     matched = all((end, start) in edges for start, end in inner)
     slivers = len(polygon) - 2 - len(found)
@@ -192,8 +192,6 @@ class PlainCheck:
         """What is left are the triangles of boxes, cylinders, capsules and spheres."""
         left = [t for t, is_matched in zip(self.plain, matched) if not is_matched]
         fits = [[shape.has(t, self.tolerance) for t in self.plain] for shape in self.shapes]
-        if not self.shapes:
-            return not left
         for is_matched, on in zip(matched, zip(*fits)):
             if not is_matched and not any(on):
                 return False
