@@ -62,7 +62,7 @@ fn fault(level: &SphereLevel, number: usize, links: usize) -> Option<String> {
         ));
     }
     let mut spheres = level.spheres.iter().flatten();
-    let bad = spheres.find(|sphere| !(sphere.radius > 0.0))?;
+    let bad = spheres.find(|sphere| sphere.radius.is_nan() || sphere.radius <= 0.0)?;
     Some(format!("a sphere of level {number} has the radius {}", bad.radius))
 }
 

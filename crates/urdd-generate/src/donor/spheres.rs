@@ -29,7 +29,7 @@ pub(crate) fn given(
 ) -> Result<Vec<SphereList>> {
     let kind = ModuleKind::LinkShapesSpheres;
     let decided = Decided { folder, kind, what: "given spheres", keys: &[LEVELS] };
-    let lists = decided.read(replaced, |root, document| lists(root, document))?.unwrap_or_default();
+    let lists = decided.read(replaced, lists)?.unwrap_or_default();
     let count = lists.iter().map(SphereList::count).sum();
     if count > 0 && !selection.has(kind) {
         let fault = EditsFault::SpheresNotAskedFor(count);

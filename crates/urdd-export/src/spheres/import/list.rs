@@ -147,11 +147,11 @@ pub(super) fn check(link: &str, spheres: &[Sphere]) -> Result<(), ListError> {
 
 /// A sphere that can be.
 fn checked(centre: [f64; 3], radius: f64) -> Result<Sphere, SphereFault> {
-    if !(radius > 0.0) {
+    if radius.is_nan() || radius <= 0.0 {
         return Err(SphereFault::Radius(radius));
     }
     let mut numbers = centre.into_iter().chain([radius]);
-    match numbers.find(|x| !(x.abs() <= FARTHEST)) {
+    match numbers.find(|x| x.is_nan() || x.abs() > FARTHEST) {
         Some(far) => Err(SphereFault::Range(far)),
         None => Ok(Sphere { centre, radius }),
     }
