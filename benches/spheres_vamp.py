@@ -3,14 +3,16 @@
     git clone https://github.com/KavrakiLab/vamp /tmp/vamp && apt-get install clang libeigen3-dev
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install numpy
     cargo build --release --bench spheres
-    /tmp/peers/bin/python benches/spheres_vamp.py /tmp/vamp target/release/urdd target/release/deps/spheres-... [panda ur5 fetch]
+    /tmp/peers/bin/python benches/spheres_vamp.py /tmp/vamp target/release/urdd target/release/deps/spheres-... [panda
+    ur5 fetch]
 
-For each robot, a URDD is made of VAMP's spherized URDF, whose spheres and pairs (of the generated header) go to both programs.
-10,000 configurations are asked one after another, and 5,000 motions of 0.5 rad with 32 configurations for each radian: alone,
-among 20 boxes, and among 10,000 and 100,000 points on the faces of the boxes. Microseconds, the least of nine rounds. The answers
-of both must be the same but for those that are within 1e-5 m of a contact; among points, VAMP may miss contacts, as its tree misses
-contacts of spheres that are larger than its robot's largest. Baxter is left out: its two arms have the same spheres, so that its
-header does not tell which is which. Motions are checked in as many configurations, at other places of the way.
+For each robot, a URDD is made of VAMP's spherized URDF, whose spheres and pairs (of the generated header) go to both
+programs. 10,000 configurations are asked one after another, and 5,000 motions of 0.5 rad with 32 configurations for
+each radian: alone, among 20 boxes, and among 10,000 and 100,000 points on the faces of the boxes. Microseconds, the
+least of nine rounds. The answers of both must be the same but for those that are within 1e-5 m of a contact; among
+points, VAMP may miss contacts, as its tree misses contacts of spheres that are larger than its robot's largest. Baxter
+is left out: its two arms have the same spheres, so that its header does not tell which is which. Motions are checked in
+as many configurations, at other places of the way.
 """
 
 import json
@@ -38,7 +40,8 @@ def main() -> None:
         folder = pathlib.Path(name)
         (folder / "pdqsort.h").write_text(SORT)
         built = folder / "vamp"
-        flags = ["-std=c++17", "-O3", "-mavx2", "-DNDEBUG", f"-I{folder}", f"-I{vamp}/src/impl", "-I/usr/include/eigen3"]
+        flags = ["-std=c++17", "-O3", "-mavx2", "-DNDEBUG"]
+        flags += [f"-I{folder}", f"-I{vamp}/src/impl", "-I/usr/include/eigen3"]
         subprocess.run(["clang++", *flags, str(HERE / "spheres_vamp.cpp"), "-o", str(built)], check=True)
         generator = numpy.random.default_rng(1)
         boxes = make_boxes(generator)
@@ -57,7 +60,9 @@ def put(path: pathlib.Path, values: numpy.ndarray) -> None:
     values.astype(numpy.float32).astype(float).tofile(path)
 
 
-def prepare(folder: pathlib.Path, vamp: pathlib.Path, program: str, robot: str, generator: numpy.random.Generator) -> None:
+def prepare(
+    folder: pathlib.Path, vamp: pathlib.Path, program: str, robot: str, generator: numpy.random.Generator
+) -> None:
     urdf = vamp / "resources" / robot / f"{robot}_spherized.urdf"
     text = re.sub(r"<visual>.*?</visual>", "", urdf.read_text(), flags=re.S)
     (folder / f"{robot}.urdf").write_text(text)

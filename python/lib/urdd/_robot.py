@@ -135,14 +135,14 @@ class Robot(RobotKinematics):
     ) -> SphereChecker:
         """Spheres in the place of shapes, for yes or no in a fraction of a microsecond.
 
-        ``spheres`` has for each link, by name, its spheres (n, 4): centre in the link's frame and radius, metres. Or it is
-        a list of such levels, from coarse to fine, where each is inside the coarser one. ``covers`` says that every shape of
-        each link is inside the union of the link's spheres, at each level. ``pairs`` are the pairs of links that are checked;
-        by default those of ``proximity("pieces")``.
+        ``spheres`` has for each link, by name, its spheres (n, 4): centre in the link's frame and radius, metres. Or it
+        is a list of such levels, from coarse to fine, where each is inside the coarser one. ``covers`` says that every
+        shape of each link is inside the union of the link's spheres, at each level. ``pairs`` are the pairs of links
+        that are checked; by default those of ``proximity("pieces")``.
 
         >>> import urdd
         >>> robot = urdd.load("welding_arm")
-        >>> checker = robot.sphere_checker({"link_2": [[0, 0, 0.1, 0.1]], "link_5": [[0, 0, 0, 0.08]]})
+        >>> checker = robot.sphere_checker({"turret": [[0, 0, 0.1, 0.1]], "flange": [[0, 0, 0, 0.08]]})
         >>> checker.in_collision(robot.random(100)).shape
         (100,)
 
@@ -153,7 +153,7 @@ class Robot(RobotKinematics):
         levels = [spheres] if isinstance(spheres, Mapping) else list(spheres)
         if pairs is None:
             own = self.proximity("pieces").pairs
-            pairs = dict.fromkeys(pair.links for pair in own)
+            pairs = list(dict.fromkeys(pair.links for pair in own))
         return SphereChecker(self, levels, pairs, covers, world)
 
     def joint_groups(self, file: str | os.PathLike[str] | None = None) -> dict[str, Indices]:

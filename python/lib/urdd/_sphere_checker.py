@@ -21,11 +21,11 @@ __all__ = ["SphereChecker"]
 
 
 class SphereChecker:
-    """The spheres of a robot's links, prepared for yes or no: :meth:`Robot.sphere_checker`. Eight configurations are checked
-    at once, by the vector instructions of the processor.
+    """The spheres of a robot's links, prepared for yes or no: :meth:`Robot.sphere_checker`. Eight configurations are
+    checked at once, by the vector instructions of the processor.
 
-    If the spheres cover the shapes (``covers``), a configuration without a contact is certainly free, as what is rounded is
-    added to the radii; where spheres touch, the shapes may be apart. Otherwise nothing is certain.
+    If the spheres cover the shapes (``covers``), a configuration without a contact is certainly free, as what is
+    rounded is added to the radii; where spheres touch, the shapes may be apart. Otherwise nothing is certain.
 
     Pickled as its robot, spheres, pairs, and world.
     """
@@ -70,8 +70,8 @@ class SphereChecker:
         return list(self._pairs)
 
     def around(self, world: World) -> SphereChecker:
-        """The same spheres among the obstacles of a world. Each query then asks for both: contacts of links with each other
-        and with obstacles. Nothing else is prepared again. Later changes of the world have no effect.
+        """The same spheres among the obstacles of a world. Each query then asks for both: contacts of links with each
+        other and with obstacles. Nothing else is prepared again. Later changes of the world have no effect.
 
         Raises:
             UnknownNameError: if an obstacle ignores an unknown link, with the nearest known name.
@@ -86,8 +86,8 @@ class SphereChecker:
         return self.is_within(q, 0.0)
 
     def is_within(self, q: ArrayLike, margin: float) -> Bools:
-        """(...): whether spheres are at most ``margin`` metres apart. With a margin above 0, those pairs of links count that
-        can move against each other."""
+        """(...): whether spheres are at most ``margin`` metres apart. With a margin above 0, those pairs of links count
+        that can move against each other."""
         return batched(q, self._dof_names, lambda rows: self._core.is_within(rows, margin))
 
     def blocked_edge(
@@ -99,13 +99,13 @@ class SphereChecker:
         resolution: float = 0.01,
         open_loops: bool = False,
     ) -> Floats:
-        """(...): where spheres touch on the straight motion from ``start`` to ``end``, as a part of it from 0 to 1; NaN where
-        it is free. As :meth:`Proximity.blocked_edge` with a resolution, in metres: between two configurations that are checked
-        no sphere travels farther.
+        """(...): where spheres touch on the straight motion from ``start`` to ``end``, as a part of it from 0 to 1; NaN
+        where it is free. As :meth:`Proximity.blocked_edge` with a resolution, in metres: between two configurations
+        that are checked no sphere travels farther.
 
         Raises:
-            ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a million
-                configurations; for a robot with kinematic loops, without ``open_loops``: the shapes follow those.
+            ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a
+                million configurations; for a robot with kinematic loops, without ``open_loops``: the shapes follow those.
         """
         starts, ends, batch = edges(start, end, self._dof_names)
         return scalar(self._core.blocked_edge(starts, ends, margin, resolution, bool(open_loops)).reshape(batch))
@@ -119,8 +119,9 @@ class SphereChecker:
         resolution: float = 0.01,
         open_loops: bool = False,
     ) -> Floats:
-        """(..., 2): the last part of the straight motion from ``start`` to ``end`` in which no spheres touch (0 if they do at
-        the start), and the first in which some do; both NaN where the motion is free. As :meth:`Proximity.first_contact`.
+        """(..., 2): the last part of the straight motion from ``start`` to ``end`` in which no spheres touch (0 if they
+        do at the start), and the first in which some do; both NaN where the motion is free. As
+        :meth:`Proximity.first_contact`.
 
         Raises:
             ValueError: as :meth:`blocked_edge`.

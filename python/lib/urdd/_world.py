@@ -31,7 +31,8 @@ class _Obstacle:
 
 class World:
     """Obstacles around a robot, by name, in the frame of the root link: boxes, spheres, capsules, cylinders, hulls,
-    meshes, clouds of points and fields of heights. Lengths are metres. A world can also be what a link carries: :meth:`Proximity.attach`.
+    meshes, clouds of points and fields of heights. Lengths are metres. A world can also be what a link carries:
+    :meth:`Proximity.attach`.
 
     A ``pose`` is a matrix (4, 4), or a position (3,) without a rotation. Links that an obstacle should ``ignore`` may
     touch it, such as the base mounted on it or the gripper that holds it. To move the robot's base, apply the inverse
@@ -115,8 +116,8 @@ class World:
         *,
         ignore: Iterable[str] = (),
     ) -> None:
-        """Adds a cloud of points (n, 3), such as a depth camera sees: all that is within ``radius`` of one of them. A tree
-        finds those near a shape, so that 100,000 points are fine. It is one obstacle of one part."""
+        """Adds a cloud of points (n, 3), such as a depth camera sees: all that is within ``radius`` of one of them. A
+        tree finds those near a shape, so that 100,000 points are fine. It is one obstacle of one part."""
         self._add(name, "points", (self._pose(name, pose), self._rows(name, points, "points"), float(radius)), ignore)
 
     def add_height_field(
@@ -129,17 +130,17 @@ class World:
         *,
         ignore: Iterable[str] = (),
     ) -> None:
-        """Adds a field of ``heights`` (rows, columns) over the x-y plane of its frame. Cell (row, column) is a column with the
-        sizes ``cell`` (2,) along x and y, its centre at x = column * cell[0], y = row * cell[1]. It reaches from its height
-        ``thickness`` down. There are no slopes between cells."""
+        """Adds a field of ``heights`` (rows, columns) over the x-y plane of its frame. Cell (row, column) is a column
+        with the sizes ``cell`` (2,) along x and y, its centre at x = column * cell[0], y = row * cell[1]. It reaches
+        from its height ``thickness`` down. There are no slopes between cells."""
         try:
             field, sizes = numbers(heights, "heights"), numbers(cell, "a cell")
         except ConfigurationError as error:
             raise ObstacleError(f"obstacle `{name}`: {error}", name) from None
         if field.ndim != 2 or sizes.shape != (2,):
             raise ObstacleError(
-                f"obstacle `{name}`: heights must have the shape (rows, columns) and a cell (2,), not {field.shape} and "
-                f"{sizes.shape}",
+                f"obstacle `{name}`: heights must have the shape (rows, columns) and a cell (2,), not {field.shape} "
+                f"and {sizes.shape}",
                 name,
             )
         arguments = (self._pose(name, pose), np.array(field), tuple(sizes.tolist()), float(thickness))
