@@ -21,8 +21,6 @@ const STEP: f64 = 0.618_033_988_749_894_9;
 const WITHIN: f64 = 1e-6;
 /// The number of parts that an edge as long as the size is cut into.
 const PARTS: f64 = 15.7;
-/// The most parts that an edge is cut into.
-const MOST_PARTS: f64 = 64.0;
 
 /// The directions of the points on each sphere.
 fn directions() -> impl Iterator<Item = Point> {
@@ -162,8 +160,9 @@ fn points(corners: [Point; 3], size: f64, mut each: impl FnMut(Point, f64)) {
     let (along, beside) = (sub(b, a), sub(c, a));
     let area = 0.5 * norm(normal(corners));
     let longest = [along, beside, sub(c, b)].map(norm).into_iter().fold(0.0, f64::max);
-    let parts = (PARTS * longest / size).ceil().clamp(1.0, MOST_PARTS);
-    if !(area > 0.0 && parts.is_finite()) {
+    let parts = (PARTS * longest / size).ceil().max(1.0);
+    // No edge is longer than the size.
+    if !(area > 0.0 && parts <= PARTS + 1.0) {
         return;
     }
     let count = parts as u32;
