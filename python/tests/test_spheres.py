@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -118,3 +119,23 @@ def test_what_makes_no_sense_is_refused(arm: urdd.Robot) -> None:
         world.add_height_field("field", [[0.0, np.inf]], [0.1, 0.1], 0.1)
     world.add_points("cloud", [[0, 0, 0]])
     assert world.num_parts("cloud") == 1
+
+
+def test_the_spheres_of_a_urdd_make_a_checker(arm: urdd.Robot, tmp_path: Path) -> None:
+    """Covering spheres never call a collision free, and fitted ones are as good as the URDD says."""
+    with pytest.raises(urdd.UrddError):
+        arm.sphere_checker()
+    urdf = Path(__file__).parents[2] / "conformance/robots/six_axis_arm.urdf"
+    urdd.generate(urdf, tmp_path / "arm", modules=["all", "spheres"])
+    robot = urdd.load(tmp_path / "arm")
+    q = robot.random(4000)
+    collides = robot.proximity("pieces").in_collision(q)
+    covering, fitted = robot.sphere_checker(covers=True), robot.sphere_checker()
+    assert covering.covers
+    assert not fitted.covers
+    assert covering.in_collision(q)[collides].all()
+    level = robot.modules.link_shapes_spheres.levels[-1]
+    wrong = (fitted.in_collision(q) != collides).mean()
+    said = (level.evaluation.num_missed + level.evaluation.num_false_contacts) / 10_000
+    assert wrong < said + 0.02
+    assert 0.001 < collides.mean() < 0.999

@@ -15,6 +15,7 @@ from ._answers import Box, ConvexMesh, ExportShapes, MeshKind, ShapeKind, Skips,
 from ._arrays import Bools, Floats, Indices
 from ._collision_model import CollisionModel
 from ._kinematics import RobotKinematics
+from ._link_spheres import levels_of
 from ._proximity import Proximity
 from ._shapes import boxes, convex, shapes, skips, spheres, visuals
 from ._sphere_checker import SphereChecker
@@ -127,7 +128,7 @@ class Robot(RobotKinematics):
 
     def sphere_checker(
         self,
-        spheres: Mapping[str, ArrayLike] | Sequence[Mapping[str, ArrayLike]],
+        spheres: Mapping[str, ArrayLike] | Sequence[Mapping[str, ArrayLike]] | None = None,
         pairs: Iterable[tuple[str, str]] | None = None,
         *,
         covers: bool = False,
@@ -138,7 +139,9 @@ class Robot(RobotKinematics):
         ``spheres`` has for each link, by name, its spheres (n, 4): centre in the link's frame and radius, metres. Or it
         is a list of such levels, from coarse to fine, where each is inside the coarser one. ``covers`` says that every
         shape of each link is inside the union of the link's spheres, at each level. ``pairs`` are the pairs of links
-        that are checked; by default those of ``proximity("pieces")``.
+        that are checked; by default those of ``proximity("pieces")``. Without ``spheres``, they are those of
+        ``link_shapes_spheres_module``: the last level that does not cover the links, or with ``covers`` the finest that
+        does, without the pairs that the level ignores.
 
         >>> import urdd
         >>> robot = urdd.load("welding_arm")
@@ -148,12 +151,20 @@ class Robot(RobotKinematics):
 
         Raises:
             UnknownNameError: for an unknown link, with the nearest known name.
-            ConfigurationError: for a sphere whose centre is not finite, or whose radius is not above 0.
+            ConfigurationError: for a sphere whose centre is not finite, or whose radius is not above 0; without
+                ``spheres``, if the URDD has none of that kind.
         """
-        levels = [spheres] if isinstance(spheres, Mapping) else list(spheres)
+        ignored: set[tuple[str, str]] = set()
+        levels: Sequence[Mapping[str, ArrayLike]]
+        if spheres is None:
+            levels, ignored = levels_of(self, covers)
+        else:
+            levels = [spheres] if isinstance(spheres, Mapping) else list(spheres)
         if pairs is None:
             own = self.proximity("pieces").pairs
-            pairs = list(dict.fromkeys(pair.links for pair in own))
+            has = levels[-1] if levels else {}
+            named = dict.fromkeys(pair.links for pair in own)
+            pairs = [two for two in named if two not in ignored and (spheres is not None or set(two) <= set(has))]
         return SphereChecker(self, levels, pairs, covers, world)
 
     def joint_groups(self, file: str | os.PathLike[str] | None = None) -> dict[str, Indices]:
