@@ -10,7 +10,7 @@ use super::signals;
 use super::sources::around;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::FileType;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_directory::regular;
 use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
 use urdd_format::registry::ModuleKind;
@@ -75,7 +75,7 @@ fn read(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure>
         return of_urdf(file, cancellation);
     }
     let unread = |error| about(file)(format!("cannot be read: {error}"));
-    let bytes = regular::read(file, MAX_DOCUMENT_BYTES).map_err(unread)?;
+    let bytes = regular::read(file, MAX_SPHERES_BYTES).map_err(unread)?;
     let text = String::from_utf8(bytes).map_err(|_| about(file)("it is not UTF-8"))?;
     Ok(read_spheres(&text).map_err(about(file))?)
 }

@@ -97,6 +97,7 @@ const NOT_FRAMED: &[&str] = &[
     "named_configurations_module position",
     // The sphere's; its centre has a frame.
     "link_shapes_approximations_module radius",
+    "link_shapes_spheres_module radius",
 ];
 
 /// A field, as its schema describes it.
@@ -217,8 +218,9 @@ fn other_schemas_have_none() {
 
 /// The number of each thing that a place may name; `None` where any number is right.
 fn numbers(place: &Place, things: &[Thing], urdd: &Urdd) -> Option<Vec<usize>> {
+    // What the description alone names has no number.
     let numbers = things.iter().map(|thing| urdd.count(*thing, place.link));
-    numbers.collect()
+    numbers.collect::<Option<Vec<usize>>>().filter(|numbers| !numbers.is_empty())
 }
 
 /// The things that a place names. `other` is for what is inside a part's own composition.

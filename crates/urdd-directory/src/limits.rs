@@ -55,3 +55,6 @@ pub const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
 /// Largest SRDF, and largest xacro file that is searched for names, bytes.
 pub const MAX_SRDF_BYTES: u64 = 16 << 20;
+
+/// The most of a list of spheres, bytes.
+pub const MAX_SPHERES_BYTES: u64 = 16 << 20;

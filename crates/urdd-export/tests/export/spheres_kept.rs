@@ -181,6 +181,8 @@ fn what_is_no_list_of_this_robot_is_refused() {
     let many =
         format!("{{\"b\": {{\"spheres\": [{}]}}}}", one.repeat(65_537).trim_end_matches(','));
     assert_eq!(read_spheres(&many), Err(ListError::TooMany));
+    let long = " ".repeat((16 << 20) + 1);
+    assert_eq!(read_spheres(&long), Err(ListError::TooLong));
     // Aliases that would make gigabytes of a kilobyte.
     let bomb: String =
         (1..30).map(|k| format!("k{k}: &k{k} [*k{p}, *k{p}, *k{p}, *k{p}]\n", p = k - 1)).collect();

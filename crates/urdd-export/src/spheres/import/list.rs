@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 use thiserror::Error;
+use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_format::link_shapes_spheres::SPHERES_MAX_IN_LEVEL;
 use urdd_format::short::Short;
 use urdd_spheres::list::SphereList;
@@ -34,6 +35,9 @@ pub enum ListError {
         /// What is wrong.
         fault: SphereFault,
     },
+    /// The text is too long.
+    #[error("it is longer than {} MiB", MAX_SPHERES_BYTES >> 20)]
+    TooLong,
     /// There are too many.
     #[error("it has more than {SPHERES_MAX_IN_LEVEL} spheres")]
     TooMany,
@@ -58,6 +62,9 @@ pub enum SphereFault {
 /// # Errors
 /// If it is no list of spheres.
 pub fn read_spheres(text: &str) -> Result<SphereList, ListError> {
+    if text.len() as u64 > MAX_SPHERES_BYTES {
+        return Err(ListError::TooLong);
+    }
     let document: Value =
         serde_yaml::from_str(text).map_err(|error| ListError::Text(error.to_string()))?;
     let kinematics =
