@@ -74,6 +74,7 @@ PUBLIC = [
     "ShownByViser",
     "SkipReason",
     "Skips",
+    "SphereChecker",
     "Spheres",
     "UnknownNameError",
     "UrddError",

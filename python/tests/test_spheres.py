@@ -55,7 +55,7 @@ def test_spheres_touch_where_numpy_says(arm: urdd.Robot, covers: bool) -> None:
 
 def test_an_edge_is_blocked_where_a_configuration_is(arm: urdd.Robot) -> None:
     world = urdd.World()
-    world.add_points("seen", np.random.default_rng(1).uniform(-0.6, 0.6, (3000, 3)) + [0.9, 0, 0.6], 0.01)
+    world.add_points("seen", np.random.default_rng(1).uniform(-0.6, 0.6, (3000, 3)) + np.array([0.9, 0, 0.6]), 0.01)
     checker = arm.sphere_checker(level_of(arm), [], world=world)
     start, end = arm.random(200), arm.random(200, seed=9)
     blocked = checker.blocked_edge(start, end, resolution=0.02)
@@ -72,7 +72,7 @@ def test_an_edge_is_blocked_where_a_configuration_is(arm: urdd.Robot) -> None:
 
 def test_a_cloud_is_as_far_as_its_nearest_point(arm: urdd.Robot) -> None:
     rng = np.random.default_rng(2)
-    points = rng.uniform(-1.0, 1.0, (2000, 3)) + [1.2, 0, 0]
+    points = rng.uniform(-1.0, 1.0, (2000, 3)) + np.array([1.2, 0, 0])
     world = urdd.World()
     world.add_points("cloud", points, 0.01)
     around = arm.world_proximity(world, "spheres")
@@ -93,8 +93,8 @@ def test_a_field_has_a_column_for_each_height(arm: urdd.Robot) -> None:
         centre = [0.2 + 0.3 * column, -0.2 + 0.4 * row, height - 0.25]
         columns.add_box(f"{row} {column}", [0.3, 0.4, 0.5], centre)
     q = arm.random(50)
-    found = [arm.world_proximity(world).min_distance(q) for world in (field, columns)]
-    assert np.allclose(*found, atol=1e-8)
+    ours, boxes = (arm.world_proximity(world).min_distance(q) for world in (field, columns))
+    assert np.allclose(ours, boxes, atol=1e-8)
     field.move("field", [5.0, 0.0, 0.0])
     assert not arm.world_proximity(field).in_collision(q).any()
 

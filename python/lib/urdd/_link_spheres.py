@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ._arrays import Floats
+from ._description import RobotDescription
 from .errors import ConfigurationError
-
-if TYPE_CHECKING:
-    from ._robot import Robot
 
 Level = dict[str, Floats]
 
 
-def levels_of(robot: Robot, covers: bool) -> tuple[list[Level], set[tuple[str, str]]]:
+def levels_of(robot: RobotDescription, covers: bool) -> tuple[list[Level], set[tuple[str, str]]]:
     """The last level that covers the links, or that does not, after those that it is inside of; and the pairs that it
     ignores."""
     levels = robot.modules.link_shapes_spheres.levels

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _urdd
 from ._arrays import Bools, Floats, batched, edges, numbers, scalar
+from ._description import RobotDescription
 from ._world import World
 from .errors import ConfigurationError
-
-if TYPE_CHECKING:
-    from ._robot import Robot
 
 __all__ = ["SphereChecker"]
 
@@ -32,7 +29,7 @@ class SphereChecker:
 
     def __init__(
         self,
-        robot: Robot,
+        robot: RobotDescription,
         levels: Sequence[Mapping[str, ArrayLike]],
         pairs: Iterable[tuple[str, str]],
         covers: bool = False,
@@ -105,7 +102,7 @@ class SphereChecker:
 
         Raises:
             ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a
-                million configurations; for a robot with kinematic loops, without ``open_loops``: the shapes follow those.
+                million configurations; for a robot with kinematic loops, without ``open_loops``.
         """
         starts, ends, batch = edges(start, end, self._dof_names)
         return scalar(self._core.blocked_edge(starts, ends, margin, resolution, bool(open_loops)).reshape(batch))
@@ -133,7 +130,7 @@ class SphereChecker:
     def __reduce__(
         self,
     ) -> tuple[
-        type[SphereChecker], tuple[Robot, list[dict[str, Floats]], list[tuple[str, str]], bool, World]
+        type[SphereChecker], tuple[RobotDescription, list[dict[str, Floats]], list[tuple[str, str]], bool, World]
     ]:
         return type(self), (self._robot, self._levels, self._pairs, self._covers, self._world)
 
