@@ -19,7 +19,7 @@ const BLOCK: usize = 256;
 pub struct Goal<'a> {
     /// Points on the surface of each link.
     pub surface: &'a [Vec<Point>],
-    /// The sampled configurations; the first has the weight of [`FIRST`] others.
+    /// The sampled configurations; the first has the weight of `FIRST` others.
     pub samples: &'a [Sample],
     /// The pairs of links that are checked.
     pub pairs: &'a [[usize; 2]],

@@ -1,6 +1,6 @@
 //! Evaluates spheres in configurations that were not used for the fit.
 
-use super::Moving;
+use super::moving::Moving;
 use urdd_robot::{Robot, RobotError};
 use urdd_spheres::fitted::Numbers;
 use urdd_spheres::judge::{self, PairFaults, SphereRates};

@@ -1,22 +1,22 @@
 //! Sphere approximations of links, and the pairs of links that a planner ignores with them.
 //!
-//! `fit` fits spheres that give the same collision results as the exact shapes; [`cover`] covers each link
-//! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
-//! the fit. The counts are written with them.
+//! They are those of the URDD (`kept`), or new ones: fitted so that they give the same collision results as the exact
+//! shapes, or covering each link completely. `measure` evaluates the written spheres and pairs in configurations that were
+//! not used for the fit. The counts are written with them.
 
 pub(super) mod curobo;
 pub(super) mod foam;
 pub(super) mod import;
 mod kept;
 mod measure;
+mod moving;
 mod pairs;
 mod said;
 
-use nalgebra::Isometry3;
-
 use crate::{Choices, ExportError, Shapes, Subject};
 use measure::{Measured, measure};
-use urdd_robot::{Robot, RobotError, ShapeKind};
+use moving::Moving;
+use urdd_robot::{RobotError, ShapeKind};
 use urdd_spheres::cover;
 use urdd_spheres::fit::Limits;
 use urdd_spheres::fitted::{Numbers, auto_limits, fitted, surfaces};
@@ -24,7 +24,6 @@ use urdd_spheres::frame::Point;
 pub use urdd_spheres::judge::SphereRates;
 use urdd_spheres::model::{Sphere, Spheres};
 use urdd_spheres::pairs::Pairs;
-use urdd_spheres::samples::Moves;
 
 /// The data of the file.
 struct Model {
@@ -81,25 +80,6 @@ impl Model {
             measured,
             level,
         })
-    }
-}
-
-/// The robot, as its URDD moves.
-struct Moving<'a>(&'a Robot);
-
-impl Moves for Moving<'_> {
-    type Error = RobotError;
-
-    fn default_configuration(&self) -> Result<Vec<f64>, RobotError> {
-        Ok(self.0.configurations()?.zero())
-    }
-
-    fn sampled(&self, k: u64) -> Result<Vec<f64>, RobotError> {
-        Ok(self.0.configurations()?.random(k))
-    }
-
-    fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, RobotError> {
-        self.0.link_poses(configuration)
     }
 }
 

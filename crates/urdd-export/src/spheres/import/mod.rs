@@ -2,7 +2,8 @@
 
 mod list;
 
-use super::{Moving, pairs};
+use super::moving::Moving;
+use super::pairs;
 use crate::ExportError;
 use crate::error::unknown;
 pub use list::{ListError, SphereFault, read_spheres};
