@@ -16,7 +16,7 @@ mod said;
 use crate::{Choices, ExportError, Shapes, Subject};
 use measure::{Measured, measure};
 use moving::Moving;
-use urdd_robot::{RobotError, ShapeKind};
+use urdd_robot::ShapeKind;
 use urdd_spheres::cover;
 use urdd_spheres::fit::Limits;
 use urdd_spheres::fitted::{Numbers, auto_limits, fitted, surfaces};
