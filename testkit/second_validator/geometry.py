@@ -134,6 +134,21 @@ def is_closed(triangles: list[Triangle]) -> bool:
     return all(count == edges[end, start] for (start, end), count in list(edges.items()))
 
 
+def closest_on_triangle(triangle: Triangle, p: Vector) -> Point:
+    """The point of a triangle that is nearest to a point."""
+    a, b, c = triangle
+    ab, ac, ap = sub(b, a), sub(c, a), sub(p, a)
+    n = cross(ab, ac)
+    square = dot(n, n)
+    if square > 0:
+        v = dot(cross(ap, ac), n) / square
+        w = dot(cross(ab, ap), n) / square
+        if v >= 0 and w >= 0 and v + w <= 1:
+            return add(a, add(scaled(ab, v), scaled(ac, w)))
+    ends = [(a, b), (b, c), (c, a)]
+    return min((closest_on_segment(s, e, p) for s, e in ends), key=lambda q: distance(q, p))
+
+
 def closest_on_segment(start: Point, end: Point, p: Vector) -> Point:
     along = sub(end, start)
     square = dot(along, along)
