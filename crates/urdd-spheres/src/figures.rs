@@ -4,13 +4,15 @@ use std::f64::consts::TAU;
 
 use nalgebra::Isometry3;
 
-use super::frame::{Point, add, cross, dot, norm, scaled, sub};
+use super::frame::{Point, add, dot, norm, scaled, sub};
 use super::model::{Sphere, distance};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about};
 use urdd_geometry::convex::{ConvexShape, ShapeError, distance as apart};
 use urdd_geometry::mesh::Bounds;
+use urdd_geometry::vector::normal;
 
 /// Points on each sphere.
 const DIRECTIONS: usize = 64;
@@ -75,10 +77,18 @@ impl Pieces {
         Ok(Pieces { pieces, size, surface })
     }
 
-    /// The figures of spheres of this link.
-    pub fn fit(&self, spheres: &[Sphere]) -> SphereFit {
+    /// The figures of spheres of this link. With very many spheres this takes long.
+    ///
+    /// # Errors
+    /// If it is cancelled.
+    pub fn fit(
+        &self,
+        spheres: &[Sphere],
+        cancellation: &Cancellation,
+    ) -> Result<SphereFit, Cancelled> {
         let (mut most, mut sum, mut weights) = (0.0f64, 0.0, 0.0);
         for (own, sphere) in spheres.iter().enumerate() {
+            cancellation.check()?;
             for direction in directions() {
                 let point = add(sphere.centre, scaled(direction, sphere.radius));
                 let holds = |(other, of): (usize, &Sphere)| {
@@ -96,6 +106,7 @@ impl Pieces {
         }
         let (mut uncovered, mut area, mut farthest) = (0.0, 0.0, 0.0f64);
         for (point, weight) in &self.surface {
+            cancellation.check()?;
             let off = spheres.iter().map(|s| distance(s, *point)).fold(f64::INFINITY, f64::min);
             area += weight;
             if off > WITHIN * self.size {
@@ -104,12 +115,12 @@ impl Pieces {
             }
         }
         let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
-        SphereFit {
+        Ok(SphereFit {
             max_standoff: most,
             mean_standoff: part(sum, weights),
             uncovered_fraction: part(uncovered, area),
             max_uncovered: farthest,
-        }
+        })
     }
 
     /// The distance of a point from the nearest piece, m; 0 inside.
@@ -148,10 +159,6 @@ impl Piece {
     fn holds(&self, point: Point, by: f64) -> bool {
         !self.planes.is_empty() && self.planes.iter().all(|(n, at)| dot(*n, point) < at - by)
     }
-}
-
-fn normal(corners: [Point; 3]) -> Point {
-    cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
 }
 
 /// The centroids of the equal parts of a triangle, with the area of each.

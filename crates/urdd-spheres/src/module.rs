@@ -99,7 +99,9 @@ pub fn module<R: Moves>(
     let contacts = contacts(subject, &levels, samples).map_err(NoSpheres::Robot)?;
     cancellation.check()?;
     let levels = levels.iter().zip(contacts);
-    let levels = levels.map(|(level, found)| written(subject, level, &pieces, &found)).collect();
+    let levels =
+        levels.map(|(level, found)| written(subject, level, &pieces, &found, cancellation));
+    let levels = levels.collect::<Result<_, Cancelled>>()?;
     progress(steps, steps);
     Ok(LinkShapesSpheresModule { levels, num_samples: Count::saturating(samples) })
 }
@@ -216,7 +218,13 @@ fn contacts<R: Moves>(
 }
 
 /// The level as the module has it.
-fn written<R>(subject: &Subject<R>, level: &Made, pieces: &[Pieces], found: &Found) -> SphereLevel {
+fn written<R>(
+    subject: &Subject<R>,
+    level: &Made,
+    pieces: &[Pieces],
+    found: &Found,
+    cancellation: &Cancellation,
+) -> Result<SphereLevel, Cancelled> {
     let pairs = subject.pairs;
     let samples = found.evaluation[0] + found.evaluation[2];
     let mut spheres = vec![Vec::new(); subject.num_links];
@@ -224,9 +232,9 @@ fn written<R>(subject: &Subject<R>, level: &Made, pieces: &[Pieces], found: &Fou
     let figures: Vec<_> = (level.links.par_iter().zip(pieces))
         .map(|(own, pieces)| {
             let own: Vec<Sphere> = own.iter().map(|(sphere, _)| *sphere).collect();
-            (!own.is_empty()).then(|| pieces.fit(&own))
+            (!own.is_empty()).then(|| pieces.fit(&own, cancellation)).transpose()
         })
-        .collect();
+        .collect::<Result<_, Cancelled>>()?;
     for ((link, own), fit) in pairs.links.iter().zip(&level.links).zip(figures) {
         let one = |(sphere, outer): &(Sphere, usize)| LinkSphere {
             radius: sphere.radius,
@@ -247,7 +255,7 @@ fn written<R>(subject: &Subject<R>, level: &Made, pieces: &[Pieces], found: &Fou
     let ignored = pairs.checked.iter().zip(&level.ignored);
     let [num_colliding, num_missed, num_free, num_false_contacts] =
         found.evaluation.map(Count::saturating);
-    SphereLevel {
+    Ok(SphereLevel {
         origin: level.origin,
         covers: level.covers,
         outer_level_idx: level.outer.map(|outer| LevelIdx(index(outer))),
@@ -257,7 +265,7 @@ fn written<R>(subject: &Subject<R>, level: &Made, pieces: &[Pieces], found: &Fou
         always_pairs: with(&|count| count == samples),
         sometimes_pairs: with(&|count| count > 0 && count < samples),
         evaluation: SphereEvaluation { num_colliding, num_missed, num_free, num_false_contacts },
-    }
+    })
 }
 
 fn index(of: usize) -> u32 {

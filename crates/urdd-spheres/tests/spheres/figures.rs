@@ -1,21 +1,20 @@
 //! How far spheres are from pieces, compared with closed forms.
 
-use urdd_geometry::Mesh;
-use urdd_geometry::hull::ConvexHull;
+use crate::cuboid;
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_spheres::figures::Pieces;
 use urdd_spheres::model::Sphere;
 
-fn cuboid(low: [f64; 3], high: [f64; 3]) -> Mesh {
-    let corner =
-        |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { high[axis] } else { low[axis] });
-    ConvexHull::new(&(0..8).map(corner).collect::<Vec<_>>()).expect("a hull").into_mesh()
+fn fit(pieces: &Pieces, spheres: &[Sphere]) -> SphereFit {
+    pieces.fit(spheres, &Cancellation::default()).expect("not cancelled")
 }
 
 #[test]
 fn a_sphere_around_a_cube_stands_off_by_what_its_points_are_beyond_the_faces() {
     let pieces = Pieces::new(&[cuboid([-1.0; 3], [1.0; 3])]).expect("pieces");
     let radius = 3f64.sqrt();
-    let found = pieces.fit(&[Sphere { centre: [0.0; 3], radius }]);
+    let found = fit(&pieces, &[Sphere { centre: [0.0; 3], radius }]);
     // The points of SPEC 8.9.5, and the distance from a cube, written again.
     let mut all = Vec::new();
     for k in 0..64u32 {
@@ -38,7 +37,7 @@ fn a_sphere_around_a_cube_stands_off_by_what_its_points_are_beyond_the_faces() {
 #[test]
 fn half_of_a_long_bar_is_uncovered() {
     let pieces = Pieces::new(&[cuboid([-2.0, -0.1, -0.1], [2.0, 0.1, 0.1])]).expect("pieces");
-    let found = pieces.fit(&[Sphere { centre: [-1.0, 0.0, 0.0], radius: 1.01 }]);
+    let found = fit(&pieces, &[Sphere { centre: [-1.0, 0.0, 0.0], radius: 1.01 }]);
     // From x = 0.01 less what the sphere bends back, to 2: half of the long sides, and one end.
     assert!((found.uncovered_fraction - 0.5).abs() < 0.03, "{}", found.uncovered_fraction);
     // The farthest centroids are next to the corners of that end.
@@ -55,7 +54,7 @@ fn what_is_within_another_sphere_or_piece_does_not_count() {
     );
     let own = Sphere { centre: [0.0; 3], radius: 1.5 };
     let inner = Sphere { centre: [0.1, 0.0, 0.0], radius: 0.5 };
-    let [two, one] = [&halves, &whole].map(|of| of.fit(&[own]));
+    let [two, one] = [&halves, &whole].map(|of| fit(of, &[own]));
     // The standoff is from both together; faces within the other half are no surface.
     assert!((two.max_standoff - one.max_standoff).abs() < 1e-9);
     assert!((two.uncovered_fraction - one.uncovered_fraction).abs() < 0.01);
@@ -63,5 +62,14 @@ fn what_is_within_another_sphere_or_piece_does_not_count() {
     assert!((one.uncovered_fraction - 0.0978).abs() < 0.012, "{}", one.uncovered_fraction);
     assert!(one.max_uncovered > 0.1 && one.max_uncovered < 0.233);
     // A sphere within another changes nothing.
-    assert_eq!(whole.fit(&[own, inner]), one);
+    assert_eq!(fit(&whole, &[own, inner]), one);
+}
+
+#[test]
+fn very_many_spheres_end_where_it_is_cancelled() {
+    let pieces = Pieces::new(&[cuboid([-1.0; 3], [1.0; 3])]).expect("pieces");
+    let cancellation = Cancellation::default();
+    cancellation.cancel();
+    let spheres = vec![Sphere { centre: [0.0; 3], radius: 1.0 }; 65_536];
+    assert!(pieces.fit(&spheres, &cancellation).is_err());
 }

@@ -1,16 +1,9 @@
 //! Levels that cover: each inside the one before, and every point of the pieces inside each.
 
-use urdd_geometry::Mesh;
-use urdd_geometry::hull::ConvexHull;
+use crate::cuboid;
 use urdd_geometry::vector::{norm, sub};
 use urdd_spheres::levels::{COUNTS, around, covering};
 use urdd_spheres::model::Sphere;
-
-fn cuboid(low: [f64; 3], high: [f64; 3]) -> Mesh {
-    let corner =
-        |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { high[axis] } else { low[axis] });
-    ConvexHull::new(&(0..8).map(corner).collect::<Vec<_>>()).expect("a hull").into_mesh()
-}
 
 #[test]
 fn each_level_is_inside_the_one_before_and_holds_every_point() {

@@ -10,6 +10,7 @@ pub use list::{ListError, SphereFault, read_spheres};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::link_shapes_spheres::LinkShapesSpheresModule;
 use urdd_format::registry::ModuleKind;
+use urdd_format::short::Short;
 use urdd_robot::{Files, Robot, RobotError, ShapeKind};
 use urdd_spheres::list::SphereList;
 use urdd_spheres::module::{NoSpheres, Subject, module};
@@ -63,21 +64,25 @@ pub fn import_spheres(
 ) -> Result<ImportedSpheres, SpheresError> {
     let names = robot.link_names()?;
     let pairs = pairs::of(robot, names, ShapeKind::Pieces, None)?;
-    let mut left_out = list.left_out.clone();
+    let mut left_out = LeftOut::default();
+    for reason in &list.left_out {
+        left_out.add(|| reason.clone());
+    }
     let mut taken = 0;
     for (name, spheres) in &list.links {
         list::check(name, spheres)?;
         let link = names.iter().position(|link| link == name);
         match link {
             None => {
-                left_out.push(unknown("link", name, names.iter().map(String::as_str)).to_string())
+                left_out.add(|| unknown("link", name, names.iter().map(String::as_str)).to_string())
             }
             Some(link) if pairs.links.binary_search(&link).is_err() => {
-                left_out.push(format!("link `{}` has no shape", name.escape_debug()));
+                left_out.add(|| format!("link `{}` has no shape", Short::of(name).escape_debug()));
             }
             Some(_) => taken += spheres.len(),
         }
     }
+    let left_out = left_out.said();
     if taken == 0 {
         return Err(SpheresError::OtherRobot(left_out.join("; ")));
     }
@@ -95,4 +100,30 @@ pub fn import_spheres(
     })?;
     let files = robot.with_spheres(&made)?;
     Ok(ImportedSpheres { module: made, files, taken, left_out })
+}
+
+/// What was left out. Of very many things, the first are named and the others counted.
+#[derive(Default)]
+struct LeftOut {
+    named: Vec<String>,
+    more: usize,
+}
+
+/// How many are named.
+const MOST_NAMED: usize = 20;
+
+impl LeftOut {
+    fn add(&mut self, reason: impl FnOnce() -> String) {
+        match self.named.len() < MOST_NAMED {
+            true => self.named.push(reason()),
+            false => self.more += 1,
+        }
+    }
+
+    fn said(mut self) -> Vec<String> {
+        if self.more > 0 {
+            self.named.push(format!("{} more of the list", self.more));
+        }
+        self.named
+    }
 }
