@@ -77,7 +77,7 @@ mod _urdd {
     #[pymodule_export]
     use crate::source::{find_urdfs, import_robot};
     #[pymodule_export]
-    use crate::spheres::SphereChecker;
+    use crate::spheres::{SphereChecker, sphere_levels};
     #[pymodule_export]
     use crate::threads::{num_threads, set_num_threads};
     #[pymodule_export]

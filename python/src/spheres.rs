@@ -131,5 +131,22 @@ impl SphereChecker {
     }
 }
 
+/// Levels as [`Levels`], as lists; and pairs of links.
+type Listed = (Vec<Vec<(usize, Vec<[f64; 4]>)>>, Vec<[usize; 2]>);
+
+/// The levels of the spheres of a URDD that cover the links, or the last that does not with those around it; and the pairs
+/// of links that are checked.
+#[pyfunction]
+pub fn sphere_levels(py: Python<'_>, robot: PyRef<'_, Robot>, covers: bool) -> PyResult<Listed> {
+    let (levels, pairs) = robot.ask(py, |robot, _| robot.sphere_levels(covers))?;
+    let row = |sphere: Sphere| {
+        let [x, y, z] = sphere.centre;
+        [x, y, z, sphere.radius]
+    };
+    let link = |own: LinkSpheres| (own.link_idx, own.spheres.into_iter().map(row).collect());
+    let levels = levels.into_iter().map(|level| level.links.into_iter().map(link).collect());
+    Ok((levels.collect(), pairs))
+}
+
 /// So few take no longer than starting threads.
 const FEW: usize = 64;

@@ -93,8 +93,13 @@ fn srdf_or_xacro(
 
 /// The text of an SRDF.
 pub fn srdf(file: &Path) -> Result<String, Failure> {
+    text(file, MAX_SRDF_BYTES)
+}
+
+/// The text of a file of at most `limit` bytes.
+pub fn text(file: &Path, limit: u64) -> Result<String, Failure> {
     let unread = |error| about(file)(format!("cannot be read: {error}"));
-    let bytes = regular::read(file, MAX_SRDF_BYTES).map_err(unread)?;
+    let bytes = regular::read(file, limit).map_err(unread)?;
     Ok(String::from_utf8(bytes).map_err(|_| about(file)("it is not UTF-8"))?)
 }
 

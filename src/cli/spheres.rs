@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 
-use super::inputs::{Edited, edited, left_out};
+use super::inputs::{Edited, edited, left_out, text};
 use super::output::{self, Failure, about, one_line, shown};
 use super::signals;
 use super::sources::around;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
-use urdd_directory::regular;
 use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::Geometry;
@@ -74,10 +73,7 @@ fn read(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure>
     if matches!(FileType::of(file), Some(FileType::Urdf | FileType::Xacro)) {
         return of_urdf(file, cancellation);
     }
-    let unread = |error| about(file)(format!("cannot be read: {error}"));
-    let bytes = regular::read(file, MAX_SPHERES_BYTES).map_err(unread)?;
-    let text = String::from_utf8(bytes).map_err(|_| about(file)("it is not UTF-8"))?;
-    Ok(read_spheres(&text).map_err(about(file))?)
+    Ok(read_spheres(&text(file, MAX_SPHERES_BYTES)?).map_err(about(file))?)
 }
 
 /// The spheres of a URDF's collision elements.

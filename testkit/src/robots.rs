@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::files;
 use urdd_generate::note::Note;
-use urdd_generate::{Settings, generate};
+use urdd_generate::{Selection, Settings, generate};
 
 /// The URDFs of the project's robots.
 pub fn our_robots() -> Vec<(String, PathBuf)> {
@@ -71,4 +71,27 @@ pub fn made_of(urdf: &str) -> (tempfile::TempDir, PathBuf) {
     let target = folder.path().join("robot");
     generate(&file, &target, &Settings::default(), &()).expect("a URDD");
     (folder, target)
+}
+
+/// Three bars in a row on two hinges, which swing past each other, and a link without a shape.
+pub const BARS: &str = r#"<robot name="bars">
+<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+<link name="frame"/>
+<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+<joint name="cf" type="fixed"><parent link="c"/><child link="frame"/></joint>
+</robot>"#;
+
+/// The URDD of [`BARS`] with these modules, in `folder/bars`.
+pub fn made_bars(folder: &Path, modules: &[&str]) -> PathBuf {
+    let (source, target) = (folder.join("bars.urdf"), folder.join("bars"));
+    std::fs::write(&source, BARS).expect("a URDF");
+    let selection = Selection::parse(modules.iter().copied()).expect("modules");
+    let settings = Settings { selection, num_samples: 100, ..Settings::default() };
+    generate(&source, &target, &settings, &()).expect("a URDD");
+    target
 }

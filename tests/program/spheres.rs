@@ -4,19 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+use testkit::robots::BARS;
 
 use crate::program::urdd;
-
-/// Two bars that a hinge connects, and one that swings past the first.
-const ROBOT: &str = r#"<robot name="bars">
-<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.45 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-</robot>"#;
 
 fn run(folder: &Path, arguments: &[&str]) -> String {
     let (status, out, said) = urdd(arguments, folder);
@@ -28,7 +18,7 @@ fn run(folder: &Path, arguments: &[&str]) -> String {
 fn spheres_go_from_a_urdf_to_a_planner_and_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    fs::write(folder.join("bars.urdf"), ROBOT).expect("written");
+    fs::write(folder.join("bars.urdf"), BARS).expect("written");
     let generate = ["generate", "bars.urdf", "-o", "bars", "--modules", "all,spheres"];
     run(folder, &generate);
     run(folder, &["validate", "bars", "--fail-on", "info"]);

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::checked::Checked;
 use super::error::RobotError;
+use super::kept::Motion;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::fill;
 
@@ -61,23 +62,23 @@ pub(super) fn answer<C: Checked, T: Send>(
     })
 }
 
-/// As [`answer`], for motions from each configuration of `starts` to that of `ends`.
+/// As [`answer`], for motions from each configuration of `starts` to that of `ends`. `block` configurations are one piece of
+/// work for a thread.
 ///
 /// # Errors
 /// As there.
-pub(super) fn answer_edges<C: Checked, T: Copy + Send, const N: usize>(
-    pairs: &C,
+pub(super) fn answer_edges<T: Copy + Send, const N: usize>(
+    (motion, block): (&Motion, usize),
     [starts, ends]: [&[f64]; 2],
     cancellation: &Cancellation,
     out: &mut [T],
     ask: impl Fn(&[f64], &[f64]) -> Result<[T; N], RobotError> + Sync,
 ) -> Result<(), RobotError> {
-    let motion = &pairs.shapes().motion;
     let ends = motion.rows(ends)?;
     check_room(starts.len(), ends.count, motion.kinematics.num_dofs())?;
     let starts = motion.rows(starts)?;
     check_room(out.len(), ends.count, N)?;
-    fill(out, N, C::BLOCK.div_ceil(MOTION), |(): &mut (), k, out| {
+    fill(out, N, block.div_ceil(MOTION), |(): &mut (), k, out| {
         cancellation.check()?;
         out.copy_from_slice(&ask(starts.row(k), ends.row(k))?);
         Ok(())

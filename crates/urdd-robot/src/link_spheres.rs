@@ -69,13 +69,14 @@ fn fault(level: &SphereLevel, number: usize, links: usize) -> Option<String> {
 /// How a robot is checked by the spheres of its URDD.
 impl Robot {
     /// A checker by the finest level that covers, with the coarser ones around it: where it says
-    /// [`Free`](crate::spheres::CoveringAnswer::Free), no checked pair of pieces is in contact.
+    /// [`Free`](crate::spheres::CoveringAnswer::Free), no checked pair of pieces is in contact. That is as true as the module:
+    /// `urdd validate` finds levels that do not cover by more than the 1e-6 of SPEC 8.9.4, or do not nest.
     ///
     /// # Errors
     /// [`RobotError::Missing`] without `link_shapes_spheres_module`, or without a level that covers; as
     /// [`Robot::spheres_module`], and if skips or kinematics are missing or unusable.
     pub fn covering_checker(&self) -> Result<SphereChecker<Covering>, RobotError> {
-        let (levels, pairs) = self.levels_of(true)?;
+        let (levels, pairs) = self.sphere_levels(true)?;
         SphereChecker::covering(self, &levels, &pairs)
     }
 
@@ -86,12 +87,16 @@ impl Robot {
     /// [`RobotError::Missing`] without `link_shapes_spheres_module`, or without such a level; as
     /// [`Robot::covering_checker`].
     pub fn approximating_checker(&self) -> Result<SphereChecker<Approximating>, RobotError> {
-        let (levels, pairs) = self.levels_of(false)?;
+        let (levels, pairs) = self.sphere_levels(false)?;
         SphereChecker::approximating(self, &levels, &pairs)
     }
 
-    /// The last level that covers, or that does not, after those that it is inside of; and the pairs that it checks.
-    fn levels_of(
+    /// What the two checkers are made of: the last level that covers, or that does not, after those that it is inside of; and
+    /// the pairs of links that it checks.
+    ///
+    /// # Errors
+    /// As [`Robot::covering_checker`].
+    pub fn sphere_levels(
         &self,
         covers: bool,
     ) -> Result<(Vec<spheres::SphereLevel>, Vec<[usize; 2]>), RobotError> {

@@ -365,6 +365,23 @@ pub(crate) fn check_pose(name: &str, pose: &Isometry3<f64>) -> Result<(), RobotE
     }
 }
 
+/// Checks poses of the obstacles from `first` on, of those of these names.
+///
+/// # Errors
+/// [`RobotError::OutOfRange`] if there are fewer obstacles; [`RobotError::Obstacle`] for a pose that is out of range.
+pub(crate) fn check_moves(
+    names: &[Arc<str>],
+    first: usize,
+    poses: &[Isometry3<f64>],
+) -> Result<(), RobotError> {
+    let moved = first.checked_add(poses.len()).and_then(|end| names.get(first..end));
+    let Some(moved) = moved else {
+        let index = first.saturating_add(poses.len().saturating_sub(1));
+        return Err(RobotError::OutOfRange { what: "obstacle", index, count: names.len() });
+    };
+    moved.iter().zip(poses).try_for_each(|(name, pose)| check_pose(name, pose))
+}
+
 pub(crate) fn fault(name: &str, reason: &ShapeError) -> RobotError {
     RobotError::Obstacle { name: name.to_owned(), reason: reason.to_string() }
 }

@@ -370,9 +370,13 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        answer_edges(self, edges, cancellation, out, |start, end| {
-            Ok([self.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
-        })
+        answer_edges(
+            (&self.shapes().motion, Self::BLOCK),
+            edges,
+            cancellation,
+            out,
+            |start, end| Ok([self.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)]),
+        )
     }
 
     /// As [`Queries::first_contact`] from each configuration of the first batch to that of the second, into `out`: the last part
@@ -384,10 +388,16 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        answer_edges(self, edges, cancellation, out, |start, end| {
-            let contact = self.first_contact(start, end, settings)?;
-            Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
-        })
+        answer_edges(
+            (&self.shapes().motion, Self::BLOCK),
+            edges,
+            cancellation,
+            out,
+            |start, end| {
+                let contact = self.first_contact(start, end, settings)?;
+                Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
+            },
+        )
     }
 
     /// As [`Queries::first_contact`] from each configuration of the first batch to that of the second, into `out`.
@@ -398,9 +408,13 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [Option<FirstContact>],
     ) -> Result<(), RobotError> {
-        answer_edges(self, edges, cancellation, out, |start, end| {
-            Ok([self.first_contact(start, end, settings)?])
-        })
+        answer_edges(
+            (&self.shapes().motion, Self::BLOCK),
+            edges,
+            cancellation,
+            out,
+            |start, end| Ok([self.first_contact(start, end, settings)?]),
+        )
     }
 }
 

@@ -51,7 +51,7 @@ use nalgebra::Isometry3;
 
 use super::checked::Checked;
 use super::error::RobotError;
-use super::obstacle::{World, check_pose};
+use super::obstacle::{World, check_moves};
 use super::placed_part::PlacedPart;
 use super::proximity::{Gradient, Proximity, Shape, SweptPair, Waiting, relative, to_root};
 use super::workspace::Placed;
@@ -137,15 +137,7 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
         first: usize,
         poses: &[Isometry3<f64>],
     ) -> Result<(), RobotError> {
-        let count = self.names.len();
-        let names = first.checked_add(poses.len()).and_then(|end| self.names.get(first..end));
-        let Some(names) = names else {
-            let index = first.saturating_add(poses.len().saturating_sub(1));
-            return Err(RobotError::OutOfRange { what: "obstacle", index, count });
-        };
-        for (name, pose) in names.iter().zip(poses) {
-            check_pose(name, pose)?;
-        }
+        check_moves(&self.names, first, poses)?;
         for part in &mut self.parts {
             if let Some(pose) = part.obstacle.checked_sub(first).and_then(|k| poses.get(k)) {
                 part.place(pose);

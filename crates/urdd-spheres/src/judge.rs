@@ -76,9 +76,7 @@ pub fn touching(spheres: &Spheres, pairs: &[[usize; 2]], samples: &[Sample]) -> 
         model.place(sample, placed);
         let mut found = Vec::new();
         for (number, pair) in (0u32..).zip(pairs) {
-            if model.may_be_near(placed, *pair, 0.0)
-                && model.gap(sample, placed, *pair, f64::MIN_POSITIVE) <= 0.0
-            {
+            if model.touches(sample, placed, *pair) {
                 found.push(number);
             }
         }
@@ -121,10 +119,7 @@ pub fn faults(
         model.place(sample, &mut placed);
         let touching: Vec<usize> = checked(pairs, ignored)
             .into_iter()
-            .filter(|(_, pair)| {
-                model.may_be_near(&placed, *pair, 0.0)
-                    && model.gap(sample, &mut placed, *pair, f64::MIN_POSITIVE) <= 0.0
-            })
+            .filter(|(_, pair)| model.touches(sample, &mut placed, *pair))
             .map(|(number, _)| number)
             .collect();
         match (sample.collides(), touching.is_empty()) {

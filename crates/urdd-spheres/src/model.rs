@@ -71,6 +71,12 @@ impl<'a> Placeable<'a> {
         reach > 0.0 && dot(between, between) <= reach * reach
     }
 
+    /// Whether spheres of two links touch.
+    pub fn touches(&self, sample: &Sample, placed: &mut Placed, links: [usize; 2]) -> bool {
+        self.may_be_near(placed, links, 0.0)
+            && self.gap(sample, placed, links, f64::MIN_POSITIVE) <= 0.0
+    }
+
     /// The minimum distance of two links' spheres, negative if they overlap; at most `limit`.
     pub fn gap(&self, sample: &Sample, placed: &mut Placed, links: [usize; 2], limit: f64) -> f64 {
         let mut least = limit;

@@ -15,7 +15,6 @@ from ._answers import Box, ConvexMesh, ExportShapes, MeshKind, ShapeKind, Skips,
 from ._arrays import Bools, Floats, Indices
 from ._collision_model import CollisionModel
 from ._kinematics import RobotKinematics
-from ._link_spheres import levels_of
 from ._proximity import Proximity
 from ._shapes import boxes, convex, shapes, skips, spheres, visuals
 from ._sphere_checker import SphereChecker
@@ -151,20 +150,20 @@ class Robot(RobotKinematics):
 
         Raises:
             UnknownNameError: for an unknown link, with the nearest known name.
-            ConfigurationError: for a sphere whose centre is not finite, or whose radius is not above 0; without
-                ``spheres``, if the URDD has none of that kind.
+            ConfigurationError: for a sphere whose centre is not finite, or whose radius is not above 0.
+            ModuleMissingError: without ``spheres``, if the URDD has no level of that kind.
         """
-        ignored: set[tuple[str, str]] = set()
         levels: Sequence[Mapping[str, ArrayLike]]
         if spheres is None:
-            levels, ignored = levels_of(self, covers)
+            name = self.link_names
+            found, checked = _urdd.sphere_levels(self._core, covers)
+            levels = [{name[link]: own for link, own in level} for level in found]
+            pairs = [(name[a], name[b]) for a, b in checked] if pairs is None else pairs
         else:
             levels = [spheres] if isinstance(spheres, Mapping) else list(spheres)
         if pairs is None:
             own = self.proximity("pieces").pairs
-            has = levels[-1] if levels else {}
-            named = dict.fromkeys(pair.links for pair in own)
-            pairs = [two for two in named if two not in ignored and (spheres is not None or set(two) <= set(has))]
+            pairs = list(dict.fromkeys(pair.links for pair in own))
         return SphereChecker(self, levels, pairs, covers, world)
 
     def joint_groups(self, file: str | os.PathLike[str] | None = None) -> dict[str, Indices]:

@@ -4,37 +4,19 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::{Value, json};
+use testkit::robots::made_bars;
 use testkit::temporary;
 use urdd_directory::cancellation::Cancellation;
 use urdd_export::{
     Choices, Format, ListError, SphereFault, SphereList, SpheresError, import_spheres, read_spheres,
 };
 use urdd_format::link_shapes_spheres::SphereOrigin;
-use urdd_generate::{Selection, Settings, generate};
 use urdd_robot::Robot;
 
 use crate::made::export;
 
-/// Two bars that a hinge connects, and a third that swings past the first.
-const ROBOT: &str = r#"<robot name="bars">
-<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="frame"/>
-<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.45 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-<joint name="cf" type="fixed"><parent link="c"/><child link="frame"/></joint>
-</robot>"#;
-
 fn with_spheres(folder: &Path) -> Robot {
-    let (source, target) = (folder.join("bars.urdf"), folder.join("bars"));
-    std::fs::write(&source, ROBOT).expect("a URDF");
-    let selection = Selection::parse(["all", "spheres"]).expect("modules");
-    let settings = Settings { selection, num_samples: 100, ..Settings::default() };
-    generate(&source, &target, &settings, &()).expect("a URDD");
-    Robot::open(&target).expect("a robot")
+    Robot::open(made_bars(folder, &["all", "spheres"])).expect("a robot")
 }
 
 /// Writes the changed files of a URDD, and opens it again.
@@ -119,11 +101,7 @@ fn a_list_becomes_the_last_level_in_each_form() {
 #[test]
 fn a_urdd_without_the_module_gets_it_and_its_version() {
     let folder = temporary::folder();
-    let source = folder.path().join("bars.urdf");
-    std::fs::write(&source, ROBOT).expect("a URDF");
-    let settings = Settings { num_samples: 100, ..Settings::default() };
-    generate(&source, &folder.path().join("bars"), &settings, &()).expect("a URDD");
-    let robot = Robot::open(folder.path().join("bars")).expect("a robot");
+    let robot = Robot::open(made_bars(folder.path(), &["all"])).expect("a robot");
     let list = SphereList {
         links: vec![(
             "c".to_owned(),
@@ -196,4 +174,11 @@ fn what_is_no_list_of_this_robot_is_refused() {
     let refused = import_spheres(&robot, &other.expect("a list"), &Cancellation::default());
     let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
     assert!(said.contains("`hand`") && said.contains("`frame` has no shape"), "{said}");
+    // Of very many, few are named.
+    let one = vec![urdd_export::Sphere { centre: [0.0; 3], radius: 0.1 }];
+    let links = (0..30_000).map(|k| (format!("link_{k}"), one.clone())).collect();
+    let many = SphereList { links, left_out: Vec::new() };
+    let refused = import_spheres(&robot, &many, &Cancellation::default());
+    let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
+    assert!(said.ends_with("; 29980 more of the list") && said.len() < 2000, "{said}");
 }

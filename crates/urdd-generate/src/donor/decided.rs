@@ -1,7 +1,6 @@
 //! A module of the replaced URDD that holds a user's decisions. If it cannot be read, generation fails: a syntax error must
 //! not discard a user's work.
 
-use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value;
@@ -138,8 +137,8 @@ fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
     files.find(|file| file.path == path).is_some_and(|file| replaced.is_intact(file))
 }
 
-/// The names in a list of a module of the URDD, if they can be read.
-pub(super) fn names(root: &Root, kind: ModuleKind, list: &str) -> Option<HashSet<String>> {
+/// The names in a list of a module of the URDD, in its order, if they can be read.
+pub(super) fn names(root: &Root, kind: ModuleKind, list: &str) -> Option<Vec<String>> {
     let path = format!("{}/module.json", kind.folder());
     let module = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
     let listed = module.value.get(list)?.as_array()?;

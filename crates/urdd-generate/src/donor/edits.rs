@@ -84,7 +84,7 @@ impl Decisions {
             keys: &[CONFIGURATIONS],
         };
         let configurations = decided.read(replaced, |root, document| {
-            let dofs = names(root, ModuleKind::Dof, "dofs");
+            let dofs = known(root, ModuleKind::Dof, "dofs");
             let configurations = parse_configurations(document).and_then(|edits| {
                 check_configurations(&edits, dofs.as_ref())?;
                 Ok(edits)
@@ -114,13 +114,17 @@ impl Decisions {
     }
 }
 
+fn known(root: &Root, kind: ModuleKind, list: &str) -> Option<HashSet<String>> {
+    Some(names(root, kind, list)?.into_iter().collect())
+}
+
 /// Refuses an edit with a link that the URDD's own robot lacks: a mistyped name. A link that only the new robot lacks is
 /// handled elsewhere.
 fn check_links(root: &Root, edits: &[SkipEdit]) -> Result<(), Fault> {
     if edits.is_empty() {
         return Ok(());
     }
-    let Some(links) = names(root, ModuleKind::Urdf, "links") else { return Ok(()) };
+    let Some(links) = known(root, ModuleKind::Urdf, "links") else { return Ok(()) };
     for (idx, edit) in edits.iter().enumerate() {
         let mut named = [&edit.link_a, &edit.link_b].into_iter();
         if let Some(unknown) = named.find(|name| !links.contains(*name)) {

@@ -6,10 +6,9 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Donor;
-use super::decided::{Decided, Fault};
+use super::decided::{Decided, Fault, names};
 use crate::error::{EditsFault, Result};
 use crate::selection::Selection;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_spheres::{SphereLevel, SphereOrigin};
 use urdd_format::registry::ModuleKind;
@@ -57,7 +56,7 @@ fn lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault> {
         if level.origin != SphereOrigin::Given {
             continue;
         }
-        let names = names(root).ok_or_else(|| {
+        let names = names(root, ModuleKind::Urdf, "links").ok_or_else(|| {
             let words = "the spheres of this level cannot be used: urdf_module, which names their links, cannot be read";
             (at(Some(number)), words.to_owned())
         })?;
@@ -71,12 +70,4 @@ fn lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault> {
         lists.push(SphereList { links: links.collect(), left_out: Vec::new() });
     }
     Ok(lists)
-}
-
-/// The names of links, in their order.
-fn names(root: &Root) -> Option<Vec<String>> {
-    let path = format!("{}/module.json", ModuleKind::Urdf.folder());
-    let module = urdd_directory::json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
-    let listed = module.value.get("links")?.as_array()?;
-    listed.iter().map(|of| Some(of.get("name")?.as_str()?.to_owned())).collect()
 }

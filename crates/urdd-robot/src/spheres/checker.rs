@@ -11,11 +11,11 @@ use super::level::SphereLevel;
 use super::model::Model;
 use super::obstacles::Obstacles;
 use crate::Robot;
-use crate::batch::{check_room, room};
+use crate::batch::{answer_edges, check_room, room};
 use crate::checked::check_margin;
 use crate::edge::{EdgeSettings, FirstContact, halving, steps};
 use crate::error::RobotError;
-use crate::kept::{Closure, Motion, Rows};
+use crate::kept::{Closure, Motion};
 use crate::lanes::LANES;
 use crate::obstacle::World;
 use urdd_directory::cancellation::Cancellation;
@@ -55,8 +55,8 @@ impl<C> Clone for SphereChecker<C> {
 /// Blocks of eight configurations in one piece of work for a thread.
 const BLOCKS: usize = 32;
 
-/// Edges in one piece of work.
-const EDGES: usize = 32;
+/// As many edges are one piece of work as there are motions in this many configurations.
+const EDGES: usize = 256;
 
 impl<C: Coverage> SphereChecker<C> {
     fn of(robot: &Robot, levels: &[SphereLevel], pairs: &[[usize; 2]]) -> Result<Self, RobotError> {
@@ -210,7 +210,7 @@ impl<C: Coverage> SphereChecker<C> {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        self.edges(edges, cancellation, out, |start, end| {
+        answer_edges((&self.motion, EDGES), edges, cancellation, out, |start, end| {
             Ok([self.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
         })
     }
@@ -224,27 +224,9 @@ impl<C: Coverage> SphereChecker<C> {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        self.edges(edges, cancellation, out, |start, end| {
+        answer_edges((&self.motion, EDGES), edges, cancellation, out, |start, end| {
             let contact = self.first_contact(start, end, settings)?;
             Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
-        })
-    }
-
-    fn edges<const N: usize>(
-        &self,
-        [starts, ends]: [&[f64]; 2],
-        cancellation: &Cancellation,
-        out: &mut [f64],
-        ask: impl Fn(&[f64], &[f64]) -> Result<[f64; N], RobotError> + Sync,
-    ) -> Result<(), RobotError> {
-        let ends: Rows = self.motion.rows(ends)?;
-        check_room(starts.len(), ends.count, self.num_dofs())?;
-        let starts = self.motion.rows(starts)?;
-        check_room(out.len(), ends.count, N)?;
-        fill(out, N, EDGES, |(): &mut (), k, out| {
-            cancellation.check()?;
-            out.copy_from_slice(&ask(starts.row(k), ends.row(k))?);
-            Ok(())
         })
     }
 

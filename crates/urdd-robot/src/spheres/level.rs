@@ -2,17 +2,11 @@
 
 use crate::error::RobotError;
 
+/// A sphere in the frame of a link, m.
+pub use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
+
 /// The largest coordinate and radius, m.
 pub const MOST: f64 = 1e9;
-
-/// A sphere in the frame of a link.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sphere {
-    /// The centre, m.
-    pub centre: [f64; 3],
-    /// The radius, m.
-    pub radius: f64,
-}
 
 /// The spheres of a link.
 #[derive(Debug, Clone, PartialEq)]

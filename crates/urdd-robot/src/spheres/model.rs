@@ -11,7 +11,7 @@ use crate::error::RobotError;
 use crate::kept::Motion;
 use crate::lanes::Point;
 use crate::names::check_link;
-use urdd_geometry::bounding_sphere::{BoundingSphere, about_spheres};
+use urdd_geometry::bounding_sphere::about_spheres;
 use urdd_geometry::convex::Level;
 use urdd_geometry::vector::{norm, sub};
 
@@ -57,6 +57,9 @@ pub struct Group {
     pub clusters: [usize; 2],
     pub pairs: Vec<[usize; 2]>,
 }
+
+/// Without spheres.
+const NOTHING: Sphere = Sphere { centre: [0.0; 3], radius: 0.0 };
 
 static NUMBER: AtomicU64 = AtomicU64::new(1);
 
@@ -189,14 +192,13 @@ impl Model {
         if let (Some(one), None) = (only.next(), only.next()) {
             return one;
         }
-        let wide = |ball: &Ball| BoundingSphere {
+        let wide = |ball: &Ball| Sphere {
             centre: [0, 1, 2].map(|k| f64::from(ball[k])),
             radius: f64::from(ball[3]),
         };
-        let bounds: Vec<BoundingSphere> = own().map(|body| wide(&body.around)).collect();
+        let bounds: Vec<Sphere> = own().map(|body| wide(&body.around)).collect();
         let found = about_spheres(bounds.iter());
-        let BoundingSphere { centre, radius } =
-            found.unwrap_or(BoundingSphere { centre: [0.0; 3], radius: 0.0 });
+        let Sphere { centre, radius } = found.unwrap_or(NOTHING);
         // More than what is rounded here, and than what the frame's origin adds for the farther centres.
         let radius = radius + (radius + norm(centre) + self.reach) * 64.0 * ROUNDING;
         [centre[0] as f32, centre[1] as f32, centre[2] as f32, radius as f32]
@@ -261,13 +263,10 @@ fn finer(levels: &[SphereLevel]) -> &[SphereLevel] {
 
 /// A sphere around all spheres of a link: the smaller of that of level 0, enlarged where it has to be, and one of ours.
 fn around(levels: &[SphereLevel], link: usize) -> Sphere {
-    let bounding = |own: &Sphere| BoundingSphere { centre: own.centre, radius: own.radius };
     let all = || levels.iter().flat_map(|level| level.of(link));
     let finer = || finer(levels).iter().flat_map(|level| level.of(link));
-    let bounds: Vec<BoundingSphere> = finer().map(bounding).collect();
-    let found =
-        about_spheres(bounds.iter()).unwrap_or(BoundingSphere { centre: [0.0; 3], radius: 0.0 });
-    let given = all().next().map_or(found, bounding);
+    let found = about_spheres(finer()).unwrap_or(NOTHING);
+    let given = all().next().copied().unwrap_or(found);
     let enlarged = |centre: [f64; 3]| {
         let to = finer().map(|own| norm(sub(own.centre, centre)) + own.radius);
         Sphere { centre, radius: to.fold(0.0, f64::max) * (1.0 + 1e-12) }

@@ -13,7 +13,7 @@ use crate::copies::Copies;
 use crate::error::RobotError;
 use crate::lanes::{Vec3, bits, splat};
 use crate::names::index;
-use crate::obstacle::{Form, Obstacle, Part, World, check_pose};
+use crate::obstacle::{Form, Obstacle, Part, World, check_moves};
 use urdd_geometry::convex::{ConvexShape, Level};
 use urdd_geometry::vector::norm;
 
@@ -96,15 +96,7 @@ impl Obstacles {
         first: usize,
         poses: &[Isometry3<f64>],
     ) -> Result<(), RobotError> {
-        let count = self.names.len();
-        let names = first.checked_add(poses.len()).and_then(|end| self.names.get(first..end));
-        let Some(names) = names else {
-            let index = first.saturating_add(poses.len().saturating_sub(1));
-            return Err(RobotError::OutOfRange { what: "obstacle", index, count });
-        };
-        for (name, pose) in names.iter().zip(poses) {
-            check_pose(name, pose)?;
-        }
+        check_moves(&self.names, first, poses)?;
         for solid in &mut self.bodies {
             if let Some(pose) = solid.obstacle.checked_sub(first).and_then(|k| poses.get(k)) {
                 solid.place(model, pose, self.is_certain);

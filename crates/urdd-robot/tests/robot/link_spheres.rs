@@ -1,38 +1,16 @@
 //! The spheres of a URDD, as programs use them: covering levels never call a collision free.
 
-use std::path::{Path, PathBuf};
-
 use serde_json::{Value, json};
-use urdd_generate::{Selection, Settings, generate};
+use testkit::robots::made_bars;
 use urdd_robot::spheres::{ApproximateAnswer, CoveringAnswer};
 use urdd_robot::{Queries, Robot, RobotError, ShapeKind};
 
-/// Three bars in a row.
-const ROBOT: &str = r#"<robot name="bars">
-<link name="a"><collision><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="b"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<link name="c"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
-<joint name="ab" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-<joint name="bc" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
-<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-</robot>"#;
-
 const MODULE: &str = "link_shapes_modules/link_shapes_spheres_module/module.json";
-
-fn made(folder: &Path, modules: &[&str]) -> PathBuf {
-    let (source, target) = (folder.join("bars.urdf"), folder.join("bars"));
-    std::fs::write(&source, ROBOT).expect("a URDF");
-    let selection = Selection::parse(modules.iter().copied()).expect("modules");
-    let settings = Settings { selection, num_samples: 100, ..Settings::default() };
-    generate(&source, &target, &settings, &()).expect("a URDD");
-    target
-}
 
 #[test]
 fn what_covering_spheres_call_free_is_free_and_fitted_ones_are_as_good_as_they_say() {
     let folder = tempfile::tempdir().expect("a folder");
-    let robot = Robot::open(made(folder.path(), &["all", "spheres"])).expect("a robot");
+    let robot = Robot::open(made_bars(folder.path(), &["all", "spheres"])).expect("a robot");
     let pieces = robot.proximity(ShapeKind::Pieces).expect("pieces");
     let (covering, fitted) = (robot.covering_checker(), robot.approximating_checker());
     let (covering, fitted) = (covering.expect("a checker"), fitted.expect("a checker"));
@@ -61,11 +39,11 @@ fn what_covering_spheres_call_free_is_free_and_fitted_ones_are_as_good_as_they_s
 #[test]
 fn without_spheres_or_with_those_of_another_robot_there_is_no_checker() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = made(folder.path(), &["all"]);
+    let path = made_bars(folder.path(), &["all"]);
     let robot = Robot::open(&path).expect("a robot");
     assert!(robot.spheres_module().expect("readable").is_none());
     assert!(matches!(robot.covering_checker(), Err(RobotError::Missing(_))));
-    made(folder.path(), &["all", "spheres"]);
+    made_bars(folder.path(), &["all", "spheres"]);
     let text = std::fs::read(path.join(MODULE)).expect("a module");
     let good: Value = serde_json::from_slice(&text).expect("JSON");
     let bad = |change: &dyn Fn(&mut Value)| {
