@@ -39,16 +39,16 @@ fn import(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Fail
         let imported = import_srdf(robot, text, force).map_err(about(srdf))?;
         some_read(imported.added + imported.already, &imported.wrong).map_err(about(srdf))?;
         if imported.added == 0 {
-            return Ok(Edited::unchanged(told(&shown(urdd), &imported, false)));
+            return Ok(Edited::unchanged(told(&shown(urdd), &imported, &[])));
         }
         let edited = robot.with_skip_edits(imported.edits.clone(), None);
         let edited = edited.map_err(about(urdd))?;
-        let told = told(&shown(urdd), &imported, edited.model_is_stale);
+        let told = told(&shown(urdd), &imported, &edited.stale);
         Ok(Edited { files: edited.files, told })
     })
 }
 
-fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
+fn told(urdd: &str, imported: &ImportedSkips, stale: &[ModuleKind]) -> String {
     let mut told = format!(
         "{urdd}: {} added; {} of the SRDF unchanged\n",
         output::counted(imported.added, "edit"),
@@ -61,8 +61,11 @@ fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
             output::counted(imported.unlisted, "pair")
         );
     }
-    if model_is_stale {
+    if stale.contains(&ModuleKind::SelfCollisionModel) {
         told += "  the self-collision model was trained with the previous skips: `urdd generate` with `--modules all,self_collision_model` trains it again\n";
+    }
+    if stale.contains(&ModuleKind::LinkShapesSpheres) {
+        told += "  what spheres say of collisions is by the previous skips: `urdd generate` with `--modules all,spheres` counts again\n";
     }
     told
 }

@@ -45,6 +45,16 @@ fn spheres_go_from_a_urdf_to_a_planner_and_back() {
     run(folder, &generate);
     let info = run(folder, &["info", "bars"]);
     assert!(info.contains(" given; missed collisions "), "{info}");
+    // What rests on skips follows them when the URDD is made again.
+    let srdf =
+        "<robot name=\"bars\"><disable_collisions link1=\"a\" link2=\"c\" reason=\"x\"/></robot>";
+    fs::write(folder.join("bars.srdf"), srdf).expect("written");
+    let told = run(folder, &["skips", "import", "bars.srdf", "bars"]);
+    assert!(told.contains("`--modules all,spheres` counts again"), "{told}");
+    let (status, out, said) = urdd(&["validate", "bars"], folder);
+    assert!(status == 1 && out.contains("SPH012"), "{out}{said}");
+    run(folder, &generate);
+    run(folder, &["validate", "bars", "--fail-on", "info"]);
     for (text, words) in [
         ("collision_spheres: {z: [{center: [0, 0, 0], radius: 1}]}", "there is no link `z`"),
         (

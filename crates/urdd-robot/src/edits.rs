@@ -179,6 +179,8 @@ pub struct EditedSkips {
     pub files: Files,
     /// Whether the URDD has a self-collision model. It was trained with the previous skips and must be regenerated.
     pub model_is_stale: bool,
+    /// The modules of the URDD that rest on the skips, that model among them: they must be generated again.
+    pub stale: Vec<ModuleKind>,
 }
 
 impl EditedSkips {
@@ -224,7 +226,11 @@ impl Robot {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let module = skips_module(simple, reasons, edits, &names);
         let files = self.edited_files(SKIPS, serde_json::to_value(&module))?;
-        let model_is_stale = part.listing().has_folder(ModuleKind::SelfCollisionModel.folder());
-        Ok(EditedSkips { module, files, model_is_stale })
+        let rests_on_skips = |kind: &ModuleKind| kind.depends_on().contains(&SKIPS);
+        let kinds = ModuleKind::ALL.iter().copied().filter(rests_on_skips);
+        let stale: Vec<ModuleKind> =
+            kinds.filter(|kind| part.listing().has_folder(kind.folder())).collect();
+        let model_is_stale = stale.contains(&ModuleKind::SelfCollisionModel);
+        Ok(EditedSkips { module, files, model_is_stale, stale })
     }
 }
