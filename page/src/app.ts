@@ -14,7 +14,7 @@ import { partsOf } from "./parts";
 import { spheresOf } from "./spheres";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore, UNSEEN } from "./state";
 import type { Layer, LayerKind, Pair, State } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -94,7 +94,7 @@ export class App {
       making: NOT_MADE,
       faults: new Map(),
       loading: { what: "modules", done: 0, of: 0 },
-      ...(old ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null, compareWith: null }),
+      ...(old ? {} : UNSEEN),
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],

@@ -4,6 +4,7 @@ import { inflateSync } from "fflate";
 import type { Explanation, Report } from "./engine/protocol";
 import type { RobotSource } from "./engine/calls";
 import type { Entry } from "./model";
+import type { Showing } from "./showing";
 
 function text(name: string): string {
   const carried = document.getElementById(name)?.textContent;
@@ -39,6 +40,11 @@ export function robots(): Entry[] {
 
 export function source(entry: Entry): RobotSource {
   return { kind: "zip", name: entry.name, bytes: bytes("robot.zip") };
+}
+
+/** What the program that wrote the page shows; null for the robot alone. */
+export function showing(): Showing | null {
+  return document.getElementById("showing.json") ? (json("showing.json") as Showing) : null;
 }
 
 export function report(): Report {

@@ -26,6 +26,7 @@ import { said, status } from "./panels/status";
 import { text } from "./panels/text";
 import { Timeline, trajectoryIn } from "./panels/timeline";
 import { tree } from "./panels/tree";
+import { misfit, take } from "./shown";
 import { Site } from "./site";
 import type { Mode } from "./site";
 import { Stage } from "./stage";
@@ -175,6 +176,10 @@ function start(): void {
   Object.assign(window, { urdd: { app, stage } });
   void address.follow().finally(() => {
     if (mode === "live") follow(app);
+    const { robot } = app.store.now;
+    const showing = mode === "inline" ? inline.showing() : null;
+    const wrong = robot && showing ? take(app, robot, showing) : null;
+    if (robot && wrong !== null) app.note(misfit(robot, wrong));
   });
 }
 

@@ -13,6 +13,7 @@ import { Ghosts } from "./scene/ghosts";
 import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
 import { load } from "./scene/layers";
+import { Obstacles } from "./scene/obstacles";
 import { Overlays } from "./scene/overlays";
 import { Measure } from "./scene/measure";
 import { prepare } from "./scene/pick";
@@ -60,6 +61,7 @@ export class Stage {
   scene: RobotScene | null = null;
   private readonly ground = new Ground();
   private readonly overlays = new Overlays();
+  readonly obstacles = new Obstacles();
   private readonly names: Names;
   private readonly closings: Closings;
   private readonly witness: Segment;
@@ -151,7 +153,7 @@ export class Stage {
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
     this.view.scene.add(this.ground.group, this.overlays.group, this.closings.group, this.ghosts.group);
-    this.view.scene.add(this.witness.group, this.measure.segment.group);
+    this.view.scene.add(this.witness.group, this.measure.segment.group, this.obstacles.group);
     this.listen();
   }
 
@@ -159,7 +161,7 @@ export class Stage {
     const { selected } = this.app.store.now;
     const only = key === "fit" && selected?.kind === "link" ? new Set([selected.index]) : undefined;
     const box = this.scene?.bounds(only);
-    if (box && !only) box.union(this.beside.bounds());
+    if (box && !only) box.union(this.beside.bounds()).union(this.obstacles.bounds(box, this.size));
     if (box) this.view.fit(box, DIRECTIONS[key] ?? undefined);
     if (box && !only) this.view.lightUp(box);
   }
@@ -169,6 +171,7 @@ export class Stage {
     const theme = (): void => {
       this.view.background(color("--stage"));
       this.ground.color(color("--grid"), color("--grid-strong"));
+      this.obstacles.color(color("--obstacle"));
       rimColor(color("--rim"));
       this.dress(store.now);
     };
@@ -186,6 +189,12 @@ export class Stage {
     });
     store.on(["ghosts", "layers", "hidden", "faults"], ({ ghosts }) => {
       this.ghosts.show(this.scene, ghosts, [color("--accent"), color("--mark")]);
+      this.view.invalidate();
+    });
+    store.on(["world"], ({ world }) => {
+      this.obstacles.show(world);
+      if (this.settledOn && world.length > 0) this.look("fit");
+      this.view.castShadows();
       this.view.invalidate();
     });
     store.on(["layers", "pair", "shapes", "tab"], () => void this.fill());
@@ -320,7 +329,7 @@ export class Stage {
     this.ground.under(box);
     this.view.lightUp(box);
     this.over(this.app.store.now);
-    this.view.fit(box, START);
+    this.view.fit(box.clone().union(this.obstacles.bounds(box, this.size)), START);
     if (this.from) this.place(this.from);
     this.from = null;
     requestAnimationFrame(() => {

@@ -7,6 +7,8 @@ import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
 import type { Draft } from "./here/draft";
 import type { Entry, Part, RobotModel } from "./model";
+import type { Obstacle } from "./showing";
+import type { Trajectory } from "./trajectory";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
@@ -156,6 +158,9 @@ export interface State {
   sample: { at: number; of: number; position: number; angle: number } | null;
   /** Poses of all links that are drawn beside the present ones: where a trajectory begins and ends. */
   ghosts: readonly Float64Array[];
+  /** What a program shows around the robot, and the path that it shows. */
+  world: readonly Obstacle[];
+  path: Trajectory | null;
   /** The id of the robot that this one is to be compared with, and that robot once it is read. */
   compareWith: string | null;
   compared: Compared | null;
@@ -173,6 +178,17 @@ export interface State {
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
 
 export const NOT_MADE: State["making"] = { making: null, failure: null };
+
+/** A robot that nobody has looked at: nothing is selected or hidden, and no program shows anything. */
+export const UNSEEN = {
+  selected: null,
+  hovered: null,
+  hidden: new Set<number>(),
+  pair: null,
+  compareWith: null,
+  world: [],
+  path: null,
+} satisfies Partial<State>;
 
 /** What panels say of a robot that has only what its picture needs. */
 export const PARTIAL = "this robot is still being generated.";
@@ -240,6 +256,8 @@ export function initial(): State {
     byPart: true,
     sample: null,
     ghosts: [],
+    world: [],
+    path: null,
     compareWith: null,
     compared: null,
     note: null,

@@ -1,8 +1,9 @@
-/** Shows the configurations that a program sends: `urdd view --follow`, `shown.set(q)` in Python, or any other. */
+/** Shows the configurations, paths and obstacles that a program sends: `urdd view --follow`, Python, or any other. */
 
 import type { App } from "./app";
 import type { RobotModel } from "./model";
-import { count } from "./ui/format";
+import { misfit, take } from "./shown";
+import type { Showing } from "./showing";
 
 /** Pause before another attempt to connect, ms. */
 const PAUSE = 1000;
@@ -45,12 +46,10 @@ export class States {
       try {
         for await (const line of app.site.states(robot.entry, signal)) {
           if (app.store.now.robot !== robot) break;
-          const { q } = JSON.parse(line) as { q: number[] };
-          if (q.length === robot.dofs.length) app.follow(q);
-          else if (q.length !== refused) {
-            refused = q.length;
-            const has = count(robot.dofs.length, "DOF");
-            app.note(`A program sends ${count(q.length, "value")}; this robot has ${has}.`);
+          const wrong = take(app, robot, JSON.parse(line) as Showing);
+          if (wrong !== null && wrong !== refused) {
+            refused = wrong;
+            app.note(misfit(robot, wrong));
           }
         }
       } catch {

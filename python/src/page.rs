@@ -66,6 +66,13 @@ impl Page {
         }
     }
 
+    /// Shows what is around the robot: JSON as [`urdd_view::States::show`] takes it.
+    fn show(&self, around: &str) {
+        for robot in &self.robots {
+            robot.states.show(around);
+        }
+    }
+
     /// Stops serving.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.cancellation.cancel();
@@ -85,13 +92,14 @@ impl Drop for Page {
     }
 }
 
-/// The page with one embedded robot, as HTML.
+/// The page with one embedded robot, as HTML, and what it shows of it: JSON as [`urdd_view::page_with`] takes it.
 #[pyfunction]
-pub fn page_html(py: Python<'_>, robot: &Robot) -> PyResult<String> {
+#[pyo3(signature = (robot, showing=None))]
+pub fn page_html(py: Python<'_>, robot: &Robot, showing: Option<String>) -> PyResult<String> {
     let root = robot.robot.root();
     let made = work::run(py, move |_| {
         let shown = Collection::default().add_root(root).map_err(|error| error.to_string())?;
-        urdd_view::page_with(&shown).map_err(|error| error.to_string())
+        urdd_view::page_with(&shown, showing.as_deref()).map_err(|error| error.to_string())
     })?;
     made.map_err(|error| raise(py, "OpenError", error, &[]))
 }

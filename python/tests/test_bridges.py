@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import re
 import subprocess
 import sys
+import urllib.request
+import zlib
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -316,6 +321,70 @@ def test_a_notebook_gets_the_page_in_a_frame(arm: urdd.Robot) -> None:
     assert '"robot.zip"' in frame.text
     # The frame has an origin of its own: its scripts reach neither the notebook nor its server.
     assert 'sandbox="allow-scripts allow-downloads"' in text
+
+
+def _carried(text: str) -> Any:
+    """What a page shows beside its robot."""
+    found = re.search(r'id="showing.json">([^<]*)<', text)
+    return None if found is None else json.loads(zlib.decompress(base64.b64decode(found[1]), -zlib.MAX_WBITS))
+
+
+def test_a_frame_shows_a_path_and_a_world(arm: urdd.Robot) -> None:
+    """The page's own test (`page/test/showing.test.mjs`) draws each kind."""
+    world = urdd.World()
+    world.add_box("table", size=[2, 4, 6], pose=[1, 2, 3])
+    world.add_sphere("ball", 0.5, [7, 8, 9])
+    world.add_points("seen", [[1, 2, 3], [4, 5, 6]], 0.25)
+    world.add_mesh("wedge", np.eye(4)[:, :3] + 1, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+    world.add_height_field("hills", [[1, 2, 3]], [0.5, 0.25], 0.1)
+    world.move("table", [4, 5, 6])
+    path = np.zeros((3, arm.num_dofs))
+    path[1, 2] = -0.5
+    path[2, 0] = 0.25
+    shown = _carried(arm.frame(path[0], path, world).text)
+    assert shown["q"] == path[0].tolist()
+    # 1 rad/s for the DOF that moves most.
+    assert shown["path"] == {"times": [0.0, 0.5, 1.0], "rows": path.tolist()}
+    table, ball, seen, wedge, hills = shown["world"]
+    assert table["name"] == "table"
+    assert table["shape"] == {"kind": "cuboid", "half_extents": [1, 2, 3]}
+    assert table["pose"] == [1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 0, 0, 0, 1]
+    assert ball["shape"] == {"kind": "sphere", "radius": 0.5}
+    assert [ball["pose"][k] for k in (3, 7, 11)] == [7, 8, 9]
+    assert np.frombuffer(base64.b64decode(seen["shape"]["points"]), "<f4").tolist() == [1, 2, 3, 4, 5, 6]
+    assert seen["shape"]["radius"] == 0.25
+    assert np.frombuffer(base64.b64decode(wedge["shape"]["faces"]), "<u4").tolist()[:3] == [0, 1, 2]
+    assert (hills["shape"]["columns"], hills["shape"]["cell"], hills["shape"]["thickness"]) == (3, [0.5, 0.25], 0.1)
+    # The robot alone; and the height alone, as before 1.4.
+    assert _carried(arm.frame().text) is None
+    assert "height: 123px" in arm.frame(123)._repr_html_()
+    for wrong in (np.zeros((0, arm.num_dofs)), np.zeros(arm.num_dofs), [[0.0]]):
+        with pytest.raises(urdd.ConfigurationError):
+            arm.frame(path=wrong)
+
+
+def test_the_page_gets_a_world_and_then_another_path(arm: urdd.Robot) -> None:
+    world = urdd.World()
+    world.add_sphere("ball", 0.5, [7, 8, 9])
+    with arm.show(open_browser=False, world=world) as shown:
+        assert isinstance(shown, urdd.Shown)
+        # It has a copy.
+        world.remove("ball")
+        shown.set(arm.zero)
+        shown.set_around(path=[arm.zero, arm.zero])
+        address, token = shown.address.split("#token=")
+        request = urllib.request.Request(
+            f"{address}robots/{arm.path.name}/states", headers={"x-urdd-token": token.split("&")[0]}
+        )
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            lines = (json.loads(line) for line in answer if line.strip())
+            q, around = next(lines), next(lines)
+        assert q == {"q": arm.zero.tolist()}
+        assert [one["name"] for one in around["world"]] == ["ball"]
+        assert around["path"]["rows"] == [arm.zero.tolist()] * 2
+    beside: dict[str, Any] = {"backend": "viser", "open_browser": False, "world": world}
+    with pytest.raises(ValueError, match="viser shows the robot alone"):
+        arm.show(**beside)
 
 
 def test_viser_is_told_to_listen_to_this_machine_alone(arm: urdd.Robot, monkeypatch: pytest.MonkeyPatch) -> None:

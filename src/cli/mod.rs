@@ -16,6 +16,7 @@ mod lint;
 mod making;
 mod named_configurations;
 mod output;
+mod picture;
 mod rehash;
 mod reporting;
 mod schema;
@@ -78,6 +79,8 @@ enum Command {
     CheckCollisions(check_collisions::CheckCollisionsArguments),
     /// Show robots in the browser: shapes, joints, distances, skips and findings.
     View(view::ViewArguments),
+    /// Draw a robot into a PNG, without a browser or a display.
+    Picture(picture::PictureArguments),
     /// Export a robot: SRDF, URDF, MJCF, spheres.
     Export(export::ExportArguments),
     /// Import edits of the skips from an SRDF.
@@ -131,6 +134,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
+        Command::Picture(arguments) => picture::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Skips(command) => skips::run(&command),
         Command::Spheres(command) => spheres::run(&command),

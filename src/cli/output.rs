@@ -188,9 +188,9 @@ pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
 }
 
 /// Writes a file that a person named. One with other content is replaced with `force` only.
-pub fn write_alone(file: &Path, text: &str, force: bool) -> Result<(), String> {
+pub fn write_alone(file: &Path, bytes: &[u8], force: bool) -> Result<(), String> {
     let path = outputs::name_of(file).into();
-    let output = Output { path, bytes: text.as_bytes(), replaces: force };
+    let output = Output { path, bytes, replaces: force };
     write_files(Target::File(file), vec![output], None, force, "")
 }
 

@@ -282,7 +282,7 @@ fn write_site(
         if !may_hold_page(folder) {
             Err(ExportError::InTheWay(vec![folder.to_owned()]))?;
         }
-        return Ok(output::write_alone(folder, &page_with(robot)?, true)?);
+        return Ok(output::write_alone(folder, page_with(robot, None)?.as_bytes(), true)?);
     }
     for file in export(collection, folder, opens, &signals.cancellation(), &mut tell)? {
         output::error(&escape::line(&format!(

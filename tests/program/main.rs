@@ -28,6 +28,7 @@ mod lsp;
 mod new_extension;
 mod outputs;
 mod parsers;
+mod picture;
 mod printing;
 mod producers_agree;
 mod program;

@@ -161,7 +161,7 @@ fn the_page_of_a_robot_is_our_page() {
     let made = || {
         let collection = Collection::default();
         collection.add(&table.path).ok()?;
-        let page = page_with(&collection.robots()[0]).ok()?;
+        let page = page_with(&collection.robots()[0], None).ok()?;
         let site = testkit::temporary::folder();
         export(&collection, site.path(), None, &Cancellation::default(), &mut |_| {}).ok()?;
         Some((beside_data(&page), page_of_site(site.path())))

@@ -16,7 +16,7 @@ mod http;
 mod keep;
 mod live;
 mod one_file;
-mod picture;
+pub mod picture;
 mod reply;
 mod report;
 mod revision;

@@ -55,11 +55,12 @@ pub fn may_hold_page(file: &Path) -> bool {
 }
 
 /// The page with a robot in it, as HTML. It requests nothing else, and needs no origin: a frame may be sandboxed with
-/// `allow-scripts` only.
+/// `allow-scripts` only. `showing` is what it shows of the robot: a JSON object with the keys `q`, `world` and `path`, as
+/// `page/src/showing.ts` has them.
 ///
 /// # Errors
 /// [`ExportError`]; [`ExportError::TooLarge`] if the robot is too large for a page.
-pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
+pub fn page_with(robot: &Shown, showing: Option<&str>) -> Result<String, ExportError> {
     let asset = |name: &str| {
         let found = assets::find(name).map_or_else(|| Ok(Vec::new()), assets::Asset::bytes);
         found.map_err(ExportError::Page)
@@ -95,6 +96,9 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         ("worker.js", asset("worker.js")?),
     ] {
         carry(id, &deflated(&bytes).map_err(ExportError::Page)?);
+    }
+    if let Some(showing) = showing {
+        carry("showing.json", &deflated(showing.as_bytes()).map_err(ExportError::Page)?);
     }
     carry("urdd.wasm", assets::ROBOT_MODULE.brotli);
     let mut page = String::new();

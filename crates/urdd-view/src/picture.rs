@@ -1,7 +1,7 @@
-//! A small picture of a robot for the gallery, rendered in software.
+//! A picture of a robot, rendered in software: for the gallery, and for `urdd picture`.
 //!
-//! Orthographic projection from the page's initial viewpoint, one light and a depth buffer, rendered at twice the size
-//! and averaged. The same robot gives the same bytes.
+//! Orthographic projection, one light and a depth buffer, rendered at twice the size and averaged. The same robot gives
+//! the same bytes.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -10,14 +10,10 @@ use urdd_robot::{LinkVisual, Robot, RobotError};
 /// What the page's first picture, the joints and the sliders need of a URDD, with the core class.
 pub const MODULES: &[&str] = &["plain_meshes"];
 
-/// Size, pixels.
-pub const WIDTH: usize = 320;
-/// Size, pixels.
-pub const HEIGHT: usize = 240;
+/// Greatest width and height, pixels.
+pub const MAX_SIDE: u32 = 2048;
 /// Samples for each pixel, along each axis.
 const FINER: usize = 2;
-/// The page's initial viewing direction.
-const FROM: [f64; 3] = [1.0, -0.75, 0.45];
 /// The colour of parts without one.
 const PLAIN: [f64; 3] = [0.52, 0.55, 0.6];
 /// The brightness of an unlit facet, as a fraction of its colour.
@@ -27,22 +23,46 @@ const LEAST: f64 = 0.01;
 /// The margin at each side, as a fraction of the picture.
 const MARGIN: f64 = 0.06;
 
+/// How a robot is drawn.
+pub struct Drawing {
+    /// Width and height, pixels: 1 to [`MAX_SIDE`] each.
+    pub size: [u32; 2],
+    /// The direction from the robot to the viewer, in the root link's frame. A picture from above or below has y to the
+    /// top.
+    pub from: [f64; 3],
+}
+
+impl Default for Drawing {
+    /// A card of the gallery, from the page's initial viewpoint.
+    fn default() -> Self {
+        Drawing { size: [320, 240], from: [1.0, -0.75, 0.45] }
+    }
+}
+
 /// A triangle in the picture's axes (right, up, towards the viewer), and its colour.
 struct Facet {
     corners: [Vector3<f64>; 3],
     color: [f64; 3],
 }
 
-/// The picture of a robot in its default configuration, as PNG; `None` if it has nothing to show.
-pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
-    let poses = robot.link_poses(&robot.configurations()?.zero())?;
+/// The picture of a robot in a configuration, as PNG with a transparent background; `None` if it has nothing to show.
+///
+/// # Errors
+/// [`RobotError`] if the robot cannot be read, and for a configuration that is not one of it.
+pub fn png(
+    robot: &Robot,
+    configuration: &[f64],
+    drawing: &Drawing,
+) -> Result<Option<Vec<u8>>, RobotError> {
+    let axes = axes(drawing.from);
+    let poses = robot.link_poses(configuration)?;
     let mut facets = Vec::new();
     for visual in visuals(robot)? {
         let Some(pose) = poses.get(visual.link) else { continue };
         for part in &visual.parts {
             let color = part.color.map_or(PLAIN, |[r, g, b, _]| [r, g, b]);
             let places: Vec<Vector3<f64>> =
-                part.mesh.vertices.iter().map(|vertex| in_picture(pose, *vertex)).collect();
+                part.mesh.vertices.iter().map(|vertex| in_picture(&axes, pose, *vertex)).collect();
             for triangle in &part.mesh.triangles {
                 let corners = triangle.map(|k| places[k as usize]);
                 if corners.iter().all(|corner| corner.iter().all(|x| x.is_finite())) {
@@ -51,7 +71,15 @@ pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
             }
         }
     }
-    Ok(drawn(&facets).and_then(|pixels| encoded(&pixels)))
+    let size = drawing.size.map(|side| side.clamp(1, MAX_SIDE));
+    let [width, height] = size.map(|side| side as usize);
+    Ok(drawn(&facets, width, height).and_then(|pixels| encoded(&pixels, size)))
+}
+
+/// The picture of a robot on its card; `None` if it has nothing to show, or cannot be read.
+pub(crate) fn card(robot: &Robot) -> Option<Vec<u8>> {
+    let zero = robot.configurations().ok()?.zero();
+    png(robot, &zero, &Drawing::default()).ok().flatten()
 }
 
 /// The plain meshes, or what the URDF says where a URDD has none.
@@ -62,21 +90,29 @@ fn visuals(robot: &Robot) -> Result<Vec<LinkVisual>, RobotError> {
     }
 }
 
+/// The picture's axes: right, up, towards the viewer.
+fn axes(from: [f64; 3]) -> [Vector3<f64>; 3] {
+    let near = Vector3::from(from).try_normalize(0.0).unwrap_or_else(Vector3::z);
+    let right = Vector3::z().cross(&near).try_normalize(1e-9).unwrap_or_else(Vector3::x);
+    [right, near.cross(&right), near]
+}
+
 /// A point of a link, in the picture's axes.
-fn in_picture(pose: &Isometry3<f64>, vertex: [f64; 3]) -> Vector3<f64> {
-    let near = Vector3::from(FROM).normalize();
-    let right = Vector3::z().cross(&near).normalize();
-    let up = near.cross(&right);
+fn in_picture(
+    [right, up, near]: &[Vector3<f64>; 3],
+    pose: &Isometry3<f64>,
+    vertex: [f64; 3],
+) -> Vector3<f64> {
     let point = pose.transform_point(&Point3::from(vertex)).coords;
-    Vector3::new(point.dot(&right), point.dot(&up), point.dot(&near))
+    Vector3::new(point.dot(right), point.dot(up), point.dot(near))
 }
 
 /// Red, green, blue and opacity of each pixel, in rows from the top.
-fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
+fn drawn(facets: &[Facet], columns: usize, rows: usize) -> Option<Vec<u8>> {
     let corners = || facets.iter().flat_map(|facet| facet.corners);
     let low = corners().reduce(|a, b| a.inf(&b))?;
     let high = corners().reduce(|a, b| a.sup(&b))?;
-    let (width, height) = (WIDTH * FINER, HEIGHT * FINER);
+    let (width, height) = (columns * FINER, rows * FINER);
     let room = 1.0 - 2.0 * MARGIN;
     let size = high - low;
     let scale = (room * width as f64 / size.x).min(room * height as f64 / size.y);
@@ -85,9 +121,12 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
     }
     let middle = (low + high) / 2.0;
     let mut depth = vec![f64::NEG_INFINITY; width * height];
-    let mut colors = vec![[0.0; 3]; width * height];
+    // Which facet is seen, and the colours of all.
+    let mut seen_facets = vec![0; width * height];
+    let mut colors = Vec::with_capacity(facets.len());
     let light = Vector3::new(0.35, 0.55, 0.76);
-    for facet in facets {
+    for (number, facet) in facets.iter().enumerate() {
+        colors.push([0.0; 3]);
         let place = |corner: &Vector3<f64>| {
             [
                 width as f64 / 2.0 + (corner.x - middle.x) * scale,
@@ -105,6 +144,7 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
         // Lights both sides, since the winding of meshes is not consistent.
         let normal = if normal.z < 0.0 { -normal } else { normal };
         let shade = DARKEST + (1.0 - DARKEST) * normal.dot(&light).max(0.0);
+        colors[number] = facet.color.map(|value| shown(value * shade));
         let range = |values: [f64; 3], end: usize| {
             let least = values.iter().copied().fold(f64::INFINITY, f64::min);
             let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -124,20 +164,20 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
                 let k = y * width + x;
                 if z > depth[k] {
                     depth[k] = z;
-                    colors[k] = facet.color.map(|value| shown(value * shade));
+                    seen_facets[k] = number as u32;
                 }
             }
         }
     }
-    let mut pixels = Vec::with_capacity(4 * WIDTH * HEIGHT);
-    for y in 0..HEIGHT {
-        for x in 0..WIDTH {
+    let mut pixels = Vec::with_capacity(4 * columns * rows);
+    for y in 0..rows {
+        for x in 0..columns {
             let (mut sum, mut seen) = ([0.0; 3], 0.0);
             for k in 0..FINER * FINER {
                 let at = (y * FINER + k / FINER) * width + x * FINER + k % FINER;
                 if depth[at] > f64::NEG_INFINITY {
                     seen += 1.0;
-                    for (total, value) in sum.iter_mut().zip(colors[at]) {
+                    for (total, value) in sum.iter_mut().zip(colors[seen_facets[at] as usize]) {
                         *total += value;
                     }
                 }
@@ -155,9 +195,9 @@ fn shown(light: f64) -> f64 {
     (LEAST + (1.0 - LEAST) * light.clamp(0.0, 1.0)).sqrt()
 }
 
-fn encoded(pixels: &[u8]) -> Option<Vec<u8>> {
+fn encoded(pixels: &[u8], [width, height]: [u32; 2]) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, WIDTH as u32, HEIGHT as u32);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::High);
@@ -170,6 +210,9 @@ fn encoded(pixels: &[u8]) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const WIDTH: usize = 320;
+    const HEIGHT: usize = 240;
 
     #[test]
     fn the_nearer_facet_is_seen() {
@@ -187,7 +230,7 @@ mod tests {
                 .flatten()
                 .map(|facet| Facet { corners: facet.corners, color: facet.color })
                 .collect();
-            let pixels = drawn(&facets).expect("a picture");
+            let pixels = drawn(&facets, WIDTH, HEIGHT).expect("a picture");
             let at = |x: usize, y: usize| &pixels[4 * (y * WIDTH + x)..][..4];
             let middle = at(WIDTH / 2, HEIGHT / 2);
             // Facing the viewer: the z component of the light's direction.
@@ -201,6 +244,19 @@ mod tests {
             assert_eq!(at(WIDTH / 2, 120 - 104)[3], 255);
             assert_eq!(at(WIDTH / 2, 120 - 108)[3], 0);
         }
-        assert_eq!(drawn(&[]), None);
+        assert_eq!(drawn(&[], WIDTH, HEIGHT), None);
+    }
+
+    #[test]
+    fn axes_are_a_right_handed_frame_that_looks_at_the_viewer() {
+        for from in [[1.0, -0.75, 0.45], [0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [-3.0, 0.0, 0.0]] {
+            let [right, up, near] = axes(from);
+            assert!((right.cross(&up) - near).norm() < 1e-12, "{from:?}");
+            assert!((near - Vector3::from(from).normalize()).norm() < 1e-12, "{from:?}");
+            assert!(up.z >= 0.0, "{from:?}");
+        }
+        // From the front, y is to the right; from above, x is, and y to the top.
+        assert!((axes([1.0, 0.0, 0.0])[0] - Vector3::y()).norm() < 1e-12);
+        assert!((axes([0.0, 0.0, 1.0])[1] - Vector3::y()).norm() < 1e-12);
     }
 }

@@ -239,7 +239,7 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
         return picture.clone();
     }
     // A robot that cannot be drawn has no picture. The page shows the reason.
-    let drawn = picture::png(&opened.robot).ok().flatten();
+    let drawn = picture::card(&opened.robot);
     *known = Some((revision, drawn.clone()));
     drawn
 }

@@ -15,6 +15,8 @@ import { Plots } from "./plots";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 /** Configurations whose distances are asked, at most. */
 const ASKED = 240;
+/** And a second of few rows, at least. */
+const ASKED_A_SECOND = 30;
 const STRIP = { width: 480, height: 28 };
 
 /** A trajectory among the files of a drop, if it is the only one. */
@@ -106,6 +108,10 @@ export class Timeline {
     });
     app.store.on(["robot"], () => {
       this.close();
+    });
+    app.store.on(["path"], ({ path }) => {
+      if (path) void this.open(() => Promise.resolve(path));
+      else this.close();
     });
     app.store.on(["shapes"], () => {
       if (this.trajectory) void this.ask();
@@ -231,13 +237,14 @@ export class Timeline {
     if (!trajectory) return;
     const turn = ++this.turn;
     const kind = app.store.now.shapes;
-    const number = Math.min(ASKED, Math.max(2, trajectory.times.length));
+    const { duration, times } = trajectory;
+    const number = Math.min(ASKED, Math.max(2, times.length, Math.ceil(duration * ASKED_A_SECOND)));
     this.found = Array.from({ length: number }, () => null);
     this.said.textContent = "";
     let pairs = 0;
     try {
       for (let k = 0; k < number; k++) {
-        const q = trajectory.at((trajectory.duration * k) / (number - 1));
+        const q = trajectory.at((duration * k) / (number - 1));
         const answer = await app.engine.ask("proximity", { q, kind, k: 1 });
         if (turn !== this.turn) return;
         const [pair] = answer.nearest;

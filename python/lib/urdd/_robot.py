@@ -338,6 +338,8 @@ class Robot(RobotKinematics):
         self,
         q: ArrayLike | None = None,
         *,
+        path: ArrayLike | None = None,
+        world: World | None = None,
         backend: Literal["page"] = "page",
         open_browser: bool = True,
         port: int | None = None,
@@ -355,24 +357,43 @@ class Robot(RobotKinematics):
         self,
         q: ArrayLike | None = None,
         *,
+        path: ArrayLike | None = None,
+        world: World | None = None,
         backend: Literal["page", "viser"] = "page",
         open_browser: bool = True,
         port: int | None = None,
     ) -> Shown | ShownByViser:
         """Shows the robot in the browser: the page of ``urdd view``, or viser.
 
+        ``path`` (n, dofs) is a motion, which the page plays on straight lines, no DOF faster than 1 rad/s or 1 m/s.
+        ``world`` is drawn around the robot. Only the page shows both.
+
         The server accepts connections from this machine only. It ends when the result is closed, or with Python. In a
         notebook, :meth:`frame` shows the page in a cell.
         """
         from ._show import show
 
-        return show(self, q, backend=backend, open_browser=open_browser, port=port)
+        return show(self, q, path=path, world=world, backend=backend, open_browser=open_browser, port=port)
 
-    def frame(self, height: int = 600) -> Frame:
-        """The page with this robot, as the output of a notebook cell, without a server."""
+    def frame(
+        self,
+        q: ArrayLike | None = None,
+        path: ArrayLike | None = None,
+        world: World | None = None,
+        *,
+        height: int = 600,
+    ) -> Frame:
+        """The page with this robot, as the output of a notebook cell, without a server.
+
+        ``q`` is the configuration (dofs,) at the start, ``path`` (n, dofs) a motion that is played, and ``world`` what
+        is around the robot, as :meth:`show` takes them.
+        """
         from ._show import frame
 
-        return frame(self, height)
+        # Before 1.4, the height was the first argument. No configuration is a whole number.
+        if isinstance(q, int):
+            q, height = None, q
+        return frame(self, q, path, world, height)
 
     # Python protocols.
 

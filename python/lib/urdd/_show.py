@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Any, Literal
 
 from numpy.typing import ArrayLike
@@ -10,6 +11,8 @@ from . import _urdd
 from ._arrays import one_configuration
 from ._kinematics import RobotKinematics
 from ._need import need
+from ._showing import showing
+from ._world import World
 
 
 class Shown:
@@ -18,6 +21,8 @@ class Shown:
     def __init__(self, robot: RobotKinematics, page: _urdd.Page, address: str) -> None:
         self._robot = robot
         self._page = page
+        self._path: ArrayLike | None = None
+        self._world: World | None = None
         self.address = address
         """The address to open. It includes the token that the server requires."""
 
@@ -25,6 +30,14 @@ class Shown:
         """Shows another configuration (dofs,), in every page that is open. Returns at once: a page that is slower than
         the calls shows the last one."""
         self._page.set(one_configuration(q, self._robot.dof_names)[0].tolist())
+
+    def set_around(self, *, path: ArrayLike | None = None, world: World | None = None) -> None:
+        """Shows another path (n, dofs), or other obstacles, in every page that is open. What is not given stays."""
+        self._path = self._path if path is None else path
+        self._world = self._world if world is None else copy(world)
+        text = showing(self._robot.dof_names, path=self._path, world=self._world)
+        if text is not None:
+            self._page.show(text)
 
     def close(self) -> None:
         """Stops serving."""
@@ -97,6 +110,8 @@ def show(
     robot: RobotKinematics,
     q: ArrayLike | None,
     *,
+    path: ArrayLike | None,
+    world: World | None,
     backend: Literal["page", "viser"],
     open_browser: bool,
     port: int | None,
@@ -108,11 +123,19 @@ def show(
         address = page.address
         if row is not None:
             address += "&q=" + ",".join(repr(value) for value in row.tolist())
+        shown = Shown(robot, page, address)
+        try:
+            shown.set_around(path=path, world=world)
+        except BaseException:
+            shown.close()
+            raise
         if open_browser:
             _open(address)
-        return Shown(robot, page, address)
+        return shown
     if backend != "viser":
         raise ValueError(f"unknown backend {backend!r}; expected page or viser")
+    if path is not None or world is not None:
+        raise ValueError("viser shows the robot alone; the page shows paths and worlds: leave out backend")
     viser = need("viser", "viser", "show(backend='viser')")
     from ._trimesh import link_mesh
 
@@ -122,11 +145,11 @@ def show(
     for link, mesh in zip(robot.link_names, robot.modules.plain_meshes.link_meshes, strict=True):
         if mesh is not None:
             frames[link] = server.scene.add_mesh_trimesh(f"/{link}", link_mesh(robot, link))
-    shown = ShownByViser(robot, server, frames)
-    shown.set(robot.zero if row is None else row)
+    by_viser = ShownByViser(robot, server, frames)
+    by_viser.set(robot.zero if row is None else row)
     if open_browser:
-        _open(shown.address)
-    return shown
+        _open(by_viser.address)
+    return by_viser
 
 
 def _open(address: str) -> None:
@@ -155,6 +178,12 @@ def _open(address: str) -> None:
     webbrowser.open(page.as_uri())
 
 
-def frame(robot: RobotKinematics, height: int) -> Frame:
+def frame(
+    robot: RobotKinematics,
+    q: ArrayLike | None,
+    path: ArrayLike | None,
+    world: World | None,
+    height: int,
+) -> Frame:
     """As :meth:`urdd.Robot.frame`."""
-    return Frame(_urdd.page_html(robot.core), height)
+    return Frame(_urdd.page_html(robot.core, showing(robot.dof_names, q, path, world)), height)

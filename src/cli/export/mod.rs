@@ -150,7 +150,7 @@ fn write_setup(arguments: &ExportArguments) -> Result<(), Failure> {
             shown(&file)
         ))?;
     }
-    output::write_alone(&file, &text, arguments.force)?;
+    output::write_alone(&file, text.as_bytes(), arguments.force)?;
     let file = shown(&file);
     let text = format!("{file}: written; check the lines that begin with `# Guess`\n");
     Ok(output::print(&text)?)

@@ -19,7 +19,7 @@ use testkit::robots::made_named;
 fn page_of(path: &Path) -> String {
     let collection = Collection::default();
     collection.add(path).expect("a URDD");
-    page_with(&collection.robots()[0]).expect("a page")
+    page_with(&collection.robots()[0], None).expect("a page")
 }
 
 #[test]
