@@ -15,5 +15,6 @@ mod motion;
 mod nearness;
 mod opening;
 mod planning;
+mod sphere_rounding;
 mod spheres;
 mod world;

@@ -13,7 +13,7 @@ use super::planning::{SLIDE, robot_of};
 use testkit::robots::made_of;
 
 /// Numbers from 0 to 1.
-struct Numbers(u64);
+pub(super) struct Numbers(pub u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
@@ -22,7 +22,7 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn within(&mut self, size: f64) -> f64 {
+    pub fn within(&mut self, size: f64) -> f64 {
         size * (2.0 * self.next() - 1.0)
     }
 
@@ -30,7 +30,7 @@ impl Numbers {
         [self.within(size), self.within(size), self.within(size)]
     }
 
-    fn pose(&mut self, size: f64) -> Isometry3<f64> {
+    pub fn pose(&mut self, size: f64) -> Isometry3<f64> {
         let rotation = UnitQuaternion::from_scaled_axis(Vector3::from(self.vector(2.0)));
         Isometry3::from_parts(Translation3::from(self.vector(size)), rotation)
     }
