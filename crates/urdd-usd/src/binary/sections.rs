@@ -1,0 +1,181 @@
+//! The sections of a crate file, but those of paths and specs.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::super::door::Door;
+use super::super::error::{Fault, Place};
+use super::super::value::{Name, Value};
+use super::START;
+use super::cursor::{Cursor, Wrong};
+use super::packed::{integers, unpacked};
+use super::paths::Paths;
+
+/// The oldest version, whose sections are packed as they are today.
+const OLDEST: u8 = 4;
+/// The newest version: what it adds are types of values, and these are told by their numbers.
+const NEWEST: u8 = 13;
+/// Bytes of the entry of a section: 16 of its name, where it begins, its size.
+const SECTION: usize = 32;
+
+/// A crate file.
+pub struct Crate<'b> {
+    pub bytes: &'b [u8],
+    pub door: &'b mut dyn Door,
+    /// The second number of the version.
+    pub version: u8,
+    pub tokens: Vec<Name>,
+    /// Tokens by the numbers of strings.
+    strings: Vec<u32>,
+    /// Tokens, and where the value is.
+    pub fields: Vec<(u32, u64)>,
+    pub field_sets: Vec<u32>,
+    pub paths: Paths,
+    /// The values that were read, by where they are.
+    pub known: HashMap<u64, Value>,
+    sections: HashMap<&'b [u8], usize>,
+}
+
+impl<'b> Crate<'b> {
+    /// Reads all but specs.
+    pub fn open(bytes: &'b [u8], door: &'b mut dyn Door) -> Result<Self, Wrong> {
+        let mut cursor = Cursor::new(bytes, 0);
+        if cursor.take(START.len())? != START {
+            return Err((Place::Byte(0), Fault::Kind));
+        }
+        let version = cursor.take(8)?;
+        let (major, minor) = (version[0], version[1]);
+        if major != 0 || !(OLDEST..=NEWEST).contains(&minor) {
+            return Err((Place::Byte(8), Fault::Version(major, minor)));
+        }
+        let start =
+            usize::try_from(cursor.i64()?).map_err(|_| cursor.damaged("no table of contents"))?;
+        let mut cursor = Cursor::new(bytes, start);
+        let count = cursor.count(SECTION)?;
+        let mut sections = HashMap::new();
+        for _ in 0..count {
+            let name = cursor.take(16)?;
+            let name = name.split(|byte| *byte == 0).next().unwrap_or(name);
+            let start = usize::try_from(cursor.i64()?).map_err(|_| cursor.damaged("a section"))?;
+            cursor.i64()?;
+            sections.insert(name, start);
+        }
+        let mut file = Crate {
+            bytes,
+            door,
+            version: minor,
+            tokens: Vec::new(),
+            strings: Vec::new(),
+            fields: Vec::new(),
+            field_sets: Vec::new(),
+            paths: Paths::default(),
+            known: HashMap::new(),
+            sections,
+        };
+        file.read_tokens()?;
+        file.read_strings()?;
+        file.read_fields()?;
+        let mut cursor = file.section(b"FIELDSETS")?;
+        let count = file.entries(&mut cursor)?;
+        let sets = file.integers(&mut cursor, count, false)?;
+        file.field_sets = sets.into_iter().map(|index| index as u32).collect();
+        file.read_paths()?;
+        Ok(file)
+    }
+
+    /// Charges memory at a place.
+    pub fn charge(&mut self, cursor: &Cursor<'_>, bytes: usize) -> Result<(), Wrong> {
+        let charged = self.door.charge(bytes);
+        charged.map_err(|why| (Place::Byte(cursor.at as u64), Fault::TooMuch(why)))
+    }
+
+    /// The start of a section.
+    pub fn section(&self, name: &[u8]) -> Result<Cursor<'b>, Wrong> {
+        match self.sections.get(name) {
+            Some(start) => Ok(Cursor::new(self.bytes, *start)),
+            None => Err((Place::Layer, Fault::Damaged("a section is missing"))),
+        }
+    }
+
+    /// A number of packed entries, which may be more than the bytes of the file.
+    pub fn entries(&mut self, cursor: &mut Cursor<'_>) -> Result<usize, Wrong> {
+        let before = *cursor;
+        let count = usize::try_from(cursor.u64()?);
+        count.map_err(|_| before.damaged("a count is larger than the file"))
+    }
+
+    /// A list of integers, packed.
+    pub fn integers(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        count: usize,
+        is_long: bool,
+    ) -> Result<Vec<i64>, Wrong> {
+        // What is unpacked, and the list.
+        self.charge(cursor, count.saturating_mul(17))?;
+        integers(cursor, count, is_long)
+    }
+
+    fn read_tokens(&mut self) -> Result<(), Wrong> {
+        let mut cursor = self.section(b"TOKENS")?;
+        let count = self.entries(&mut cursor)?;
+        let size = self.entries(&mut cursor)?;
+        let packed = cursor.count(1)?;
+        self.charge(&cursor, size.saturating_mul(2).saturating_add(count.saturating_mul(40)))?;
+        let at = cursor;
+        let text = unpacked(&mut cursor, packed, size)?;
+        let mut parts = text.split(|byte| *byte == 0);
+        if count > text.len() {
+            return Err(at.damaged("there are fewer tokens than it says"));
+        }
+        for _ in 0..count {
+            let part =
+                parts.next().ok_or_else(|| at.damaged("there are fewer tokens than it says"))?;
+            let part = std::str::from_utf8(part);
+            let part = part.map_err(|_| (Place::Byte(at.at as u64), Fault::Encoding))?;
+            self.tokens.push(Arc::from(part));
+        }
+        Ok(())
+    }
+
+    fn read_strings(&mut self) -> Result<(), Wrong> {
+        let mut cursor = self.section(b"STRINGS")?;
+        let count = cursor.count(4)?;
+        self.charge(&cursor, 4 * count)?;
+        for _ in 0..count {
+            self.strings.push(cursor.u32()?);
+        }
+        Ok(())
+    }
+
+    fn read_fields(&mut self) -> Result<(), Wrong> {
+        let mut cursor = self.section(b"FIELDS")?;
+        let count = self.entries(&mut cursor)?;
+        let names = self.integers(&mut cursor, count, false)?;
+        let packed = cursor.count(1)?;
+        let size = count.saturating_mul(8);
+        self.charge(&cursor, size.saturating_mul(3))?;
+        let at = cursor;
+        let places = unpacked(&mut cursor, packed, size)?;
+        if places.len() != size {
+            return Err(at.damaged("there are fewer values than fields"));
+        }
+        let mut places = Cursor::new(&places, 0);
+        for name in names {
+            self.fields.push((name as u32, places.u64()?));
+        }
+        Ok(())
+    }
+
+    /// A token by its number.
+    pub fn token(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
+        let token = self.tokens.get(index as usize);
+        token.cloned().ok_or_else(|| cursor.damaged("a token is missing"))
+    }
+
+    /// A string by its number.
+    pub fn string(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
+        let token = self.strings.get(index as usize);
+        self.token(cursor, *token.ok_or_else(|| cursor.damaged("a string is missing"))?)
+    }
+}

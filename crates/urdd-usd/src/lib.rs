@@ -1,0 +1,31 @@
+//! Internal to urdd; no stability promise.
+//!
+//! Reads USD: layers of text (`usda`), crate files (`usdc`) and packages (`usdz`), and composes them into a [`Stage`]:
+//! sublayers, references, payloads, inherits, variants, `over`, `active` and instances. What is not read is refused by
+//! name. Files and memory come through a [`Door`].
+//!
+//! - Values are those at the default time; a property that has values by time alone has the first of them, and says so.
+//! - Specializes count as inherits that are weaker than payloads of the same prim.
+//! - Local opinions below an instance do not count, as in USD; prototypes are read in the place of instances.
+//! - Relocates, expressions in paths, and layers from the network are refused.
+//!
+//! The crate `openusd` was looked at first. 0.8 needs a newer Rust than ours. 0.6 is 86,000 lines with an editor and a
+//! change tracker, brings seven crates that nothing else of ours needs, changes its interface in each version, and makes
+//! memory of the counts that a file declares before it reads what they count.
+
+mod binary;
+mod door;
+mod error;
+mod half;
+mod layer;
+mod package;
+mod stage;
+mod text;
+mod value;
+
+pub use binary::START as CRATE_START;
+pub use door::{Door, beside};
+pub use error::{Fault, Place, UsdError};
+pub use layer::MAX_LEVELS;
+pub use stage::{Prim, Property, Stage, open};
+pub use value::{Item, ListOp, Name, Value};

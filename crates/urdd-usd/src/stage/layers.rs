@@ -1,0 +1,177 @@
+//! The layers of a stage, each read once, and what their sublayers add to them.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::super::door::{Door, beside, is_remote};
+use super::super::error::{Fault, Place, UsdError};
+use super::super::layer::{Layer, field};
+use super::super::package::{self, Package};
+use super::super::value::{Name, Value};
+use super::super::{binary, text};
+
+/// Bytes that are made of each byte of text, at most: `int a` becomes a property with a field.
+const OF_TEXT: usize = 60;
+/// The most layers of a stack.
+const MAX_LAYERS: usize = 1000;
+
+/// A layer, and where it is from.
+#[derive(Debug)]
+pub struct Loaded {
+    pub path: Name,
+    pub layer: Layer,
+}
+
+/// All layers.
+pub struct Layers<'d> {
+    pub door: &'d mut dyn Door,
+    pub all: Vec<Loaded>,
+    /// Layers with all their sublayers, strongest first.
+    pub stacks: Vec<Vec<u32>>,
+    by_path: HashMap<String, u32>,
+    stack_of: HashMap<u32, usize>,
+    packages: HashMap<String, Package>,
+}
+
+/// An error of a layer.
+pub fn error(layer: &str, place: Place, fault: Fault) -> UsdError {
+    UsdError { layer: Arc::from(layer), place, fault }
+}
+
+impl<'d> Layers<'d> {
+    pub fn new(door: &'d mut dyn Door) -> Self {
+        Layers {
+            door,
+            all: Vec::new(),
+            stacks: Vec::new(),
+            by_path: HashMap::new(),
+            stack_of: HashMap::new(),
+            packages: HashMap::new(),
+        }
+    }
+
+    /// The path of a file that a layer names, if such a file can be read.
+    pub fn named(&self, layer: u32, asset: &str) -> Result<String, Fault> {
+        if is_remote(asset) {
+            return Err(Fault::Network(asset.to_owned()));
+        }
+        if asset.starts_with('`') {
+            return Err(Fault::Expression(asset.to_owned()));
+        }
+        Ok(beside(&self.all[layer as usize].path, asset))
+    }
+
+    /// The stack of a layer: itself and its sublayers.
+    pub fn stack(&mut self, path: &str) -> Result<usize, UsdError> {
+        let root = self.load(path)?;
+        if let Some(known) = self.stack_of.get(&root) {
+            return Ok(*known);
+        }
+        let mut stack = Vec::new();
+        // What is open: the layers from the root to the one that is read, and the sublayers that wait.
+        let mut open: Vec<(u32, Vec<u32>)> = Vec::new();
+        let mut next = Some(root);
+        loop {
+            if let Some(layer) = next {
+                let path = self.all[layer as usize].path.clone();
+                if open.iter().any(|(above, _)| *above == layer) {
+                    let fault = Fault::LayerCircle(path.to_string());
+                    return Err(error(&path, Place::Layer, fault));
+                }
+                if stack.len() >= MAX_LAYERS {
+                    return Err(error(&path, Place::Layer, Fault::Sources(MAX_LAYERS)));
+                }
+                stack.push(layer);
+                let mut below = self.sublayers(layer)?;
+                below.reverse();
+                open.push((layer, below));
+            }
+            let Some((_, waiting)) = open.last_mut() else { break };
+            next = waiting.pop();
+            if next.is_none() {
+                open.pop();
+            }
+        }
+        self.stacks.push(stack);
+        self.stack_of.insert(root, self.stacks.len() - 1);
+        Ok(self.stacks.len() - 1)
+    }
+
+    fn sublayers(&mut self, layer: u32) -> Result<Vec<u32>, UsdError> {
+        let of = &self.all[layer as usize];
+        let names = of.layer.metadata("subLayers").and_then(Value::texts);
+        let names: Vec<Name> = names.unwrap_or_default().to_vec();
+        let path = of.path.clone();
+        let mut all = Vec::new();
+        for name in names {
+            let named = self.named(layer, &name).map_err(|fault| error(&path, Place::Layer, fault));
+            all.push(self.load_from(&named?, &path, Place::Layer)?);
+        }
+        Ok(all)
+    }
+
+    /// A layer that another one names at a place.
+    fn load_from(&mut self, path: &str, layer: &str, place: Place) -> Result<u32, UsdError> {
+        self.load(path).map_err(|mut fault| {
+            if matches!(fault.fault, Fault::File { .. }) && &*fault.layer == path {
+                (fault.layer, fault.place) = (Arc::from(layer), place);
+            }
+            fault
+        })
+    }
+
+    fn load(&mut self, path: &str) -> Result<u32, UsdError> {
+        if let Some(known) = self.by_path.get(path) {
+            return Ok(*known);
+        }
+        let wrong = |(place, fault)| error(path, place, fault);
+        let layer = |fault| (Place::Layer, fault);
+        let bytes = self.bytes(path).map_err(|fault| wrong(layer(fault)))?;
+        let at = if bytes.starts_with(package::START) && !path.ends_with(']') {
+            let mut package = Package::open(bytes).map_err(|fault| wrong(layer(fault)))?;
+            let root = package.root().map_err(|fault| wrong(layer(fault)))?;
+            self.packages.insert(path.to_owned(), package);
+            self.load(&format!("{path}[{root}]"))?
+        } else {
+            let read = if bytes.starts_with(binary::START) {
+                binary::read(&bytes, self.door).map_err(wrong)?
+            } else {
+                let charged = self.door.charge(bytes.len().saturating_mul(OF_TEXT));
+                charged.map_err(|why| wrong(layer(Fault::TooMuch(why))))?;
+                text::read(&bytes).map_err(wrong)?
+            };
+            if field(&read.specs[0].fields, "layerRelocates").is_some_and(is_said)
+                || read
+                    .specs
+                    .iter()
+                    .any(|spec| field(&spec.fields, "relocates").is_some_and(is_said))
+            {
+                return Err(wrong(layer(Fault::Relocates)));
+            }
+            self.all.push(Loaded { path: Arc::from(path), layer: read });
+            self.all.len() as u32 - 1
+        };
+        self.by_path.insert(path.to_owned(), at);
+        Ok(at)
+    }
+
+    fn bytes(&mut self, path: &str) -> Result<Arc<[u8]>, Fault> {
+        let file = |why| Fault::File { asset: path.to_owned(), why };
+        let Some((package, inside)) = path.strip_suffix(']').and_then(|path| path.split_once('['))
+        else {
+            return self.door.read(path).map_err(file);
+        };
+        if !self.packages.contains_key(package) {
+            let bytes = self.door.read(package).map_err(file)?;
+            self.packages.insert(package.to_owned(), Package::open(bytes)?);
+        }
+        match self.packages.get_mut(package) {
+            Some(package) => package.read(inside, self.door),
+            None => Err(file("the package is missing".to_owned())),
+        }
+    }
+}
+
+fn is_said(value: &Value) -> bool {
+    !matches!(value, Value::Dictionary(entries) if entries.is_empty())
+}

@@ -1,0 +1,383 @@
+//! Finds where the opinions of prims are from, and walks through all prims.
+
+use std::collections::HashSet;
+use std::rc::Rc;
+use std::sync;
+
+use super::super::error::{Fault, Place, UsdError};
+use super::super::layer::{PropertySpec, Spec, field};
+use super::super::value::{Item, Name, Value};
+use super::Stage;
+use super::layers::{Layers, error};
+use super::tree::{Arc, Site, Tree};
+
+/// The most sites of one prim. Robots have up to ten.
+const MAX_SITES: usize = 1000;
+/// The deepest chain of references to prims inside of what is referenced itself.
+const MAX_CHAIN: usize = 64;
+/// Bytes of a site in memory, about.
+const SITE: usize = 120;
+
+/// Fields that bring in other sites.
+const ARCS: [(&str, Arc); 4] = [
+    ("inheritPaths", Arc::Inherit),
+    ("references", Arc::Reference),
+    ("payload", Arc::Payload),
+    ("specializes", Arc::Specialize),
+];
+
+/// Composes the layers.
+pub struct Composer<'d> {
+    pub layers: Layers<'d>,
+    /// What is being looked up, so that circles are seen.
+    chain: Vec<(usize, Name)>,
+    pub specialized: usize,
+    pub sampled: usize,
+}
+
+impl<'d> Composer<'d> {
+    pub fn new(layers: Layers<'d>) -> Self {
+        Composer { layers, chain: Vec::new(), specialized: 0, sampled: 0 }
+    }
+
+    /// All prims of a stack.
+    pub fn stage(mut self, stack: usize) -> Result<Stage, UsdError> {
+        let mut stage = Stage::default();
+        let root = self.layers.stacks[stack][0];
+        stage.metadata = self.layers.all[root as usize].layer.specs[0].fields.clone();
+        let tree = Rc::new(Tree::root(stack, &self.layers));
+        let mut waiting = Vec::new();
+        self.wait(&mut waiting, None, &tree, 0)?;
+        let mut names: Vec<Name> = Vec::new();
+        while let Some((parent, above, name, level)) = waiting.pop() {
+            names.truncate(level);
+            names.push(name.clone());
+            let mut tree = above.child(&name, &self.layers);
+            drop(above);
+            self.charge(&tree, &names, SITE * tree.0.len())?;
+            self.expand(&mut tree, &names, true)?;
+            let Some(prim) = self.prim(&tree, &names, parent)? else { continue };
+            let is_instance = prim.is_instance;
+            let at = stage.push(prim);
+            if is_instance {
+                // What is said of the insides of an instance does not count.
+                tree.0[0].specs.clear();
+            }
+            self.wait(&mut waiting, Some(at), &Rc::new(tree), level + 1)?;
+        }
+        stage.layers = self.layers.all.iter().map(|layer| layer.path.clone()).collect();
+        (stage.sampled, stage.specialized) = (self.sampled, self.specialized);
+        Ok(stage)
+    }
+
+    /// Adds the children of a prim to what waits, the first one last.
+    fn wait(
+        &mut self,
+        waiting: &mut Vec<(Option<usize>, Rc<Tree>, Name, usize)>,
+        parent: Option<usize>,
+        tree: &Rc<Tree>,
+        level: usize,
+    ) -> Result<(), UsdError> {
+        let (mut known, mut children) = (HashSet::new(), Vec::new());
+        for at in tree.ordered().into_iter().rev() {
+            for (layer, spec) in tree.0[at].specs.iter().rev() {
+                let specs = &self.layers.all[*layer as usize].layer.specs;
+                for child in &specs[*spec as usize].children {
+                    let name = &specs[*child as usize].name;
+                    if known.insert(name.clone()) {
+                        children.push(name.clone());
+                    }
+                }
+            }
+        }
+        self.charge(tree, &[], SITE * children.len())?;
+        let each = children.into_iter().rev().map(|name| (parent, Rc::clone(tree), name, level));
+        waiting.extend(each);
+        Ok(())
+    }
+
+    /// What a layer says.
+    pub fn spec(&self, (layer, spec): (u32, u32)) -> &Spec {
+        &self.layers.all[layer as usize].layer.specs[spec as usize]
+    }
+
+    /// The layer of the strongest opinion, and the line.
+    pub fn place(&self, tree: &Tree) -> (usize, u32) {
+        let first = tree.ordered().into_iter().find_map(|at| tree.0[at].specs.first().copied());
+        first.map_or((0, 0), |(layer, spec)| (layer as usize, self.spec((layer, spec)).line))
+    }
+
+    /// The place of a property.
+    pub fn property_place(layer: u32, property: &PropertySpec) -> (usize, u32) {
+        (layer as usize, property.line)
+    }
+
+    /// An error at the strongest opinion of a prim.
+    pub fn wrong(&self, tree: &Tree, names: &[Name], fault: Fault) -> UsdError {
+        let (layer, line) = self.place(tree);
+        let place = match line {
+            0 => Place::Path(tree.0[0].path(names)),
+            line => Place::Text(line, 1),
+        };
+        error(&self.layers.all[layer].path, place, fault)
+    }
+
+    /// Charges memory for a prim.
+    pub fn charge(&mut self, tree: &Tree, names: &[Name], bytes: usize) -> Result<(), UsdError> {
+        let charged = self.layers.door.charge(bytes);
+        charged.map_err(|why| self.wrong(tree, names, Fault::TooMuch(why)))
+    }
+
+    /// Adds all sites that those of a prim bring in; variants only if they are wanted.
+    fn expand(
+        &mut self,
+        tree: &mut Tree,
+        names: &[Name],
+        has_variants: bool,
+    ) -> Result<(), UsdError> {
+        let mut next = 0;
+        let mut chosen = HashSet::new();
+        loop {
+            while next < tree.0.len() {
+                self.arcs(tree, next, names)?;
+                next += 1;
+            }
+            if !(has_variants && self.variant(tree, names, &mut chosen)?) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Adds the sites that one site brings in.
+    fn arcs(&mut self, tree: &mut Tree, at: usize, names: &[Name]) -> Result<(), UsdError> {
+        for (name, arc) in ARCS {
+            let specs = &tree.0[at].specs;
+            if !specs.iter().any(|spec| field(&self.spec(*spec).fields, name).is_some()) {
+                continue;
+            }
+            let mut items = Vec::new();
+            let mut fault = None;
+            for (layer, spec) in specs.iter().rev() {
+                let Some(Value::List(list)) = field(&self.spec((*layer, *spec)).fields, name)
+                else {
+                    continue;
+                };
+                let anchored = list.map(|item| match item {
+                    Item::Reference { asset, path } if !asset.is_empty() => {
+                        match self.layers.named(*layer, asset) {
+                            Ok(asset) => {
+                                Some(Item::Reference { asset: asset.into(), path: path.clone() })
+                            }
+                            Err(why) => {
+                                fault.get_or_insert(why);
+                                None
+                            }
+                        }
+                    }
+                    other => Some(other.clone()),
+                });
+                anchored.apply(&mut items);
+            }
+            if let Some(fault) = fault {
+                return Err(self.wrong(tree, names, fault));
+            }
+            for item in items {
+                self.bring(tree, at, names, arc, &item)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds one site that another one brings in, with what it brings in by what it is inside of.
+    fn bring(
+        &mut self,
+        tree: &mut Tree,
+        at: usize,
+        names: &[Name],
+        arc: Arc,
+        item: &Item,
+    ) -> Result<(), UsdError> {
+        let own = tree.0[at].path(names);
+        let (asset, path) = match item {
+            Item::Reference { asset, path } => (&**asset, &**path),
+            Item::Text(path) | Item::Path(path) => ("", &**path),
+        };
+        // Nothing: what clears the references of weaker layers.
+        if asset.is_empty() && path.is_empty() {
+            return Ok(());
+        }
+        let stack = match asset {
+            "" => tree.0[at].stack,
+            asset => self.layers.stack(asset).map_err(|mut fault| {
+                if matches!(fault.fault, Fault::File { .. }) && &*fault.layer == asset {
+                    fault = self.wrong(tree, names, fault.fault);
+                }
+                fault
+            })?,
+        };
+        let root = self.layers.stacks[stack][0] as usize;
+        let path = match path {
+            "" => match self.layers.all[root].layer.metadata("defaultPrim").and_then(Value::text) {
+                Some(name) if !name.is_empty() => format!("/{}", name.trim_start_matches('/')),
+                _ => return Err(self.wrong(tree, names, Fault::NoDefault(asset.to_owned()))),
+            },
+            path => absolute(&own, path),
+        };
+        let target: Name = path.as_str().into();
+        let is_class = matches!(arc, Arc::Inherit | Arc::Specialize);
+        let mut above = at;
+        loop {
+            let site = &tree.0[above];
+            let one = site.path(names);
+            let is_circle = site.stack == stack
+                && (is_inside(&one, &path) || !is_class && is_inside(&path, &one));
+            if is_circle {
+                return Err(self.wrong(tree, names, Fault::Circle(path)));
+            }
+            if above == 0 {
+                break;
+            }
+            above = site.above;
+        }
+        let (inside, own_names) = self.index(stack, &target, tree, names)?;
+        if inside.0[0].specs.is_empty() && inside.0.len() == 1 {
+            if is_class {
+                return Ok(());
+            }
+            let asset = self.layers.all[root].path.to_string();
+            return Err(self.wrong(tree, names, Fault::Missing { asset, path }));
+        }
+        if tree.0.len() + inside.0.len() > MAX_SITES {
+            return Err(self.wrong(tree, names, Fault::Sources(MAX_SITES)));
+        }
+        self.charge(tree, names, inside.0.len() * (SITE + path.len()))?;
+        self.specialized += usize::from(arc == Arc::Specialize);
+        let depth = names.len() as i32;
+        let mut site = Site::new(at, arc, depth, stack, target.clone(), names.len());
+        site.map = Some((target, own.into()));
+        tree.graft(site, inside, &own_names, depth);
+        Ok(())
+    }
+
+    /// The sites of a path in a stack, with what is brought in by the prims that it is inside of.
+    fn index(
+        &mut self,
+        stack: usize,
+        path: &Name,
+        of: &Tree,
+        of_names: &[Name],
+    ) -> Result<(Tree, Vec<Name>), UsdError> {
+        let key = (stack, path.clone());
+        if self.chain.contains(&key) || self.chain.len() >= MAX_CHAIN {
+            return Err(self.wrong(of, of_names, Fault::Circle(path.to_string())));
+        }
+        self.chain.push(key);
+        let path = path.trim_matches('/');
+        let names: Vec<Name> = path.split('/').map(Name::from).collect();
+        let mut tree = Tree::root(stack, &self.layers);
+        for level in 1..=names.len() {
+            tree = tree.child(&names[level - 1], &self.layers);
+            if level < names.len() {
+                self.expand(&mut tree, &names[..level], true)?;
+            }
+        }
+        self.chain.pop();
+        Ok((tree, names))
+    }
+
+    /// Adds the chosen variant of a set that was not looked at before; false if there is none.
+    fn variant(
+        &mut self,
+        tree: &mut Tree,
+        names: &[Name],
+        chosen: &mut HashSet<(usize, Name)>,
+    ) -> Result<bool, UsdError> {
+        let has_sets =
+            |spec: &(u32, u32)| field(&self.spec(*spec).fields, "variantSetNames").is_some();
+        if !tree.0.iter().any(|site| site.specs.iter().any(has_sets)) {
+            return Ok(false);
+        }
+        let order = tree.ordered();
+        for at in &order {
+            let mut sets = Vec::new();
+            for spec in tree.0[*at].specs.iter().rev() {
+                if let Some(Value::List(list)) = field(&self.spec(*spec).fields, "variantSetNames")
+                {
+                    list.apply(&mut sets);
+                }
+            }
+            for set in sets {
+                let set = set.text().clone();
+                if !chosen.insert((*at, set.clone())) {
+                    continue;
+                }
+                let Some(name) = self.selection(tree, &order, &set) else { continue };
+                let name: Name = format!("{{{set}={name}}}").into();
+                let specs = tree.0[*at].specs.iter().filter_map(|(layer, spec)| {
+                    Some((*layer, self.layers.all[*layer as usize].layer.child(*spec, &name)?))
+                });
+                let specs: Vec<_> = specs.collect();
+                if specs.is_empty() {
+                    continue;
+                }
+                if tree.0.len() >= MAX_SITES {
+                    return Err(self.wrong(tree, names, Fault::Sources(MAX_SITES)));
+                }
+                let own = tree.0[*at].path(names);
+                self.charge(tree, names, SITE + own.len())?;
+                let (stack, level) = (tree.0[*at].stack, names.len());
+                let mut site = Site::new(*at, Arc::Variant, level as i32, stack, own.into(), level);
+                site.specs = specs;
+                tree.0.push(site);
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The strongest choice of a variant.
+    fn selection(&self, tree: &Tree, order: &[usize], set: &str) -> Option<Name> {
+        let specs = order.iter().flat_map(|at| &tree.0[*at].specs);
+        let mut all = specs.filter_map(|spec| {
+            let selection = field(&self.spec(*spec).fields, "variantSelection")?;
+            selection.get(set)?.text().cloned()
+        });
+        all.find(|name| !name.is_empty())
+    }
+}
+
+/// Whether a path is another one, or inside of it.
+fn is_inside(path: &str, of: &str) -> bool {
+    path.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+}
+
+/// A path that may be relative to a prim.
+pub fn absolute(prim: &str, path: &str) -> String {
+    if path.starts_with('/') {
+        return path.to_owned();
+    }
+    let mut parts: Vec<&str> = prim.split('/').filter(|part| !part.is_empty()).collect();
+    let (prims, property) = match path.find('.').filter(|at| !path[*at..].starts_with("..")) {
+        Some(at) if !path.starts_with("..") => path.split_at(at),
+        _ => match path.rsplit_once('/') {
+            Some((_, last)) if last.contains('.') && last != ".." => {
+                let dot = path.len() - last.len() + last.find('.').unwrap_or(last.len());
+                path.split_at(dot)
+            }
+            _ => (path, ""),
+        },
+    };
+    for part in prims.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => drop(parts.pop()),
+            name => parts.push(name),
+        }
+    }
+    format!("/{}{property}", parts.join("/"))
+}
+
+/// A shared text.
+pub fn shared(text: String) -> Name {
+    sync::Arc::from(text)
+}

@@ -1,0 +1,144 @@
+//! Where the opinions of a prim are from: a tree of sites, each in a stack of layers.
+
+use std::cmp::Reverse;
+
+use super::super::value::Name;
+use super::layers::Layers;
+
+/// How a site comes in, strongest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Arc {
+    Root,
+    Inherit,
+    Variant,
+    Reference,
+    Payload,
+    Specialize,
+}
+
+/// A place in a stack of layers that has opinions of a prim.
+#[derive(Debug, Clone)]
+pub struct Site {
+    /// The site that brought it in.
+    pub above: usize,
+    pub arc: Arc,
+    /// The level of the prim where it came in, of that the tree is of; deeper ones are stronger.
+    pub depth: i32,
+    pub stack: usize,
+    /// A path here, and what it is in the site above. None: paths are the same.
+    pub map: Option<(Name, Name)>,
+    /// The path of the site: this, and the names of the prim from `since` on.
+    base: Name,
+    since: usize,
+    /// The layers and their specs that are there, strongest first.
+    pub specs: Vec<(u32, u32)>,
+}
+
+/// The sites of a prim. The first is where it is in the stage; each stands behind the one that brought it in.
+#[derive(Debug, Clone)]
+pub struct Tree(pub Vec<Site>);
+
+impl Site {
+    /// A site at a path that the prim has where it comes in.
+    pub fn new(above: usize, arc: Arc, depth: i32, stack: usize, base: Name, since: usize) -> Self {
+        Site { above, arc, depth, stack, map: None, base, since, specs: Vec::new() }
+    }
+
+    /// Its path, for the prim of these names.
+    pub fn path(&self, names: &[Name]) -> String {
+        let base = if &*self.base == "/" { "" } else { &*self.base };
+        let below = names.get(self.since..).unwrap_or_default();
+        let path = below.iter().fold(base.to_owned(), |path, name| path + "/" + name);
+        if path.is_empty() { "/".to_owned() } else { path }
+    }
+}
+
+impl Tree {
+    /// The root of a stack.
+    pub fn root(stack: usize, layers: &Layers<'_>) -> Self {
+        let mut site = Site::new(0, Arc::Root, 0, stack, Name::from("/"), 0);
+        site.specs = layers.stacks[stack].iter().map(|layer| (*layer, 0)).collect();
+        Tree(vec![site])
+    }
+
+    /// The sites of a child, without those that say nothing.
+    pub fn child(&self, name: &Name, layers: &Layers<'_>) -> Tree {
+        let specs = |site: &Site| -> Vec<(u32, u32)> {
+            let inside = site.specs.iter();
+            inside
+                .filter_map(|(layer, spec)| {
+                    Some((*layer, layers.all[*layer as usize].layer.child(*spec, name)?))
+                })
+                .collect()
+        };
+        let all: Vec<_> = self.0.iter().map(specs).collect();
+        let mut is_kept: Vec<bool> = all.iter().map(|specs| !specs.is_empty()).collect();
+        is_kept[0] = true;
+        for at in (1..all.len()).rev() {
+            is_kept[self.0[at].above] |= is_kept[at];
+        }
+        let mut places = vec![0; all.len()];
+        let mut kept = Vec::new();
+        for (at, specs) in all.into_iter().enumerate().filter(|(at, _)| is_kept[*at]) {
+            places[at] = kept.len();
+            let above = places[self.0[at].above];
+            kept.push(Site { above, specs, ..self.0[at].clone() });
+        }
+        Tree(kept)
+    }
+
+    /// The sites, strongest first.
+    pub fn ordered(&self) -> Vec<usize> {
+        if self.0.len() == 1 {
+            return vec![0];
+        }
+        let mut below: Vec<Vec<usize>> = vec![Vec::new(); self.0.len()];
+        for (at, site) in self.0.iter().enumerate().skip(1) {
+            below[site.above].push(at);
+        }
+        for inside in &mut below {
+            inside.sort_by_key(|at| (self.0[*at].arc, Reverse(self.0[*at].depth)));
+        }
+        let (mut order, mut open) = (Vec::new(), vec![0]);
+        while let Some(at) = open.pop() {
+            order.push(at);
+            open.extend(below[at].iter().rev());
+        }
+        order
+    }
+
+    /// Puts the sites of another tree under one of these: the other's first becomes `site`.
+    pub fn graft(&mut self, site: Site, other: Tree, names: &[Name], depth: i32) {
+        let first = self.0.len();
+        let base = depth - names.len() as i32;
+        for (at, mut one) in other.0.into_iter().enumerate() {
+            if at == 0 {
+                self.0.push(Site { specs: one.specs, ..site.clone() });
+                continue;
+            }
+            // Of the levels of its own names to those of the prim.
+            (one.base, one.since) = (Name::from(one.path(names)), site.since);
+            one.above += first;
+            one.depth += base;
+            self.0.push(one);
+        }
+    }
+
+    /// A path of a site as it is in the stage; none of a path that is not brought in.
+    pub fn mapped(&self, site: usize, path: &str) -> Option<String> {
+        let (mut at, mut path) = (site, path.to_owned());
+        while at != 0 {
+            if let Some((here, above)) = &self.0[at].map {
+                let rest = path.strip_prefix(&**here);
+                match rest.filter(|rest| rest.is_empty() || rest.starts_with(['/', '.'])) {
+                    Some(rest) => path = format!("{above}{rest}"),
+                    // A class is in the same layers: other paths of it are as they are.
+                    None if matches!(self.0[at].arc, Arc::Inherit | Arc::Specialize) => {}
+                    None => return None,
+                }
+            }
+            at = self.0[at].above;
+        }
+        Some(path)
+    }
+}

@@ -1,0 +1,8 @@
+//! Text layers: `#usda 1.0`.
+
+mod lexer;
+mod metadata;
+mod reader;
+mod values;
+
+pub use reader::read;

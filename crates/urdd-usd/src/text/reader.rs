@@ -1,0 +1,298 @@
+//! Prims, variants and properties of a text layer.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use super::super::error::{Fault, Place};
+use super::super::layer::{Layer, MAX_LEVELS, PropertySpec};
+use super::super::value::{Item, ListOp, Name, Value};
+use super::lexer::{Lexer, Token, Wrong};
+use super::metadata::{Edit, items};
+use super::values::typed;
+
+/// The first words of a layer of text.
+const START: &str = "#usda 1.";
+
+/// Reads a layer.
+///
+/// What is made of a text is at most some 60 times its size: `int a`, six bytes, becomes a property with a field.
+///
+/// # Errors
+/// Where it is not USD.
+pub fn read(bytes: &[u8]) -> Result<Layer, Wrong> {
+    let text = std::str::from_utf8(bytes)
+        .map_err(|fault| (Place::Byte(fault.valid_up_to() as u64), Fault::Encoding))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if !text.starts_with(START) {
+        return Err((Place::Text(1, 1), Fault::Kind));
+    }
+    let mut reader = Reader {
+        lexer: Lexer::new(text),
+        layer: Layer::new(),
+        names: HashSet::new(),
+        properties: HashMap::new(),
+    };
+    reader.layer()?;
+    Ok(reader.layer)
+}
+
+/// Reads the words of a layer.
+#[derive(Debug)]
+pub struct Reader<'t> {
+    pub lexer: Lexer<'t>,
+    layer: Layer,
+    names: HashSet<Name>,
+    /// The properties of specs, by name.
+    properties: HashMap<(u32, Name), usize>,
+}
+
+/// What is open.
+enum Open {
+    /// A prim or a variant.
+    Spec(u32),
+    /// A set of variants of a prim.
+    Set(u32, Name),
+}
+
+impl Reader<'_> {
+    /// A name, which is there once.
+    pub fn name(&mut self, text: &str) -> Name {
+        if let Some(known) = self.names.get(text) {
+            return known.clone();
+        }
+        let name: Name = Arc::from(text);
+        self.names.insert(name.clone());
+        name
+    }
+
+    fn layer(&mut self) -> Result<(), Wrong> {
+        let fields = self.metadata()?;
+        self.set_fields(0, fields);
+        let mut open = vec![Open::Spec(0)];
+        while let Some(last) = open.last() {
+            match last {
+                Open::Spec(spec) => {
+                    let spec = *spec;
+                    self.statement(spec, &mut open)?;
+                }
+                Open::Set(owner, set) => {
+                    let (owner, set) = (*owner, set.clone());
+                    self.variant(owner, &set, &mut open)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn set_fields(&mut self, spec: u32, fields: Vec<(Name, Value)>) {
+        let own = &mut self.layer.specs[spec as usize].fields;
+        for (name, value) in fields {
+            match own.iter_mut().find(|(key, _)| *key == name) {
+                Some(known) => known.1 = value,
+                None => own.push((name, value)),
+            }
+        }
+    }
+
+    fn statement(&mut self, spec: u32, open: &mut Vec<Open>) -> Result<(), Wrong> {
+        let token = self.lexer.next()?;
+        let word = match token {
+            Token::Mark(';') => return Ok(()),
+            Token::Mark('}') if open.len() > 1 => {
+                open.pop();
+                return Ok(());
+            }
+            Token::End if open.len() == 1 => {
+                open.pop();
+                return Ok(());
+            }
+            Token::End => return Err(self.lexer.wrong(Fault::Unfinished("a prim"))),
+            Token::Name(word) => word,
+            other => return Err(self.lexer.expected("a prim, a property or `}`", &other)),
+        };
+        match word {
+            "def" | "over" | "class" => {
+                let child = self.prim(spec, word)?;
+                open.push(Open::Spec(child));
+            }
+            "variantSet" => {
+                let set = match self.lexer.next()? {
+                    Token::Text(set) => self.name(&set),
+                    other => return Err(self.lexer.expected("the name of a variant set", &other)),
+                };
+                self.lexer.take('=', "`=`")?;
+                self.lexer.take('{', "`{`")?;
+                open.push(Open::Set(spec, set));
+            }
+            _ => self.property(spec, word)?,
+        }
+        Ok(())
+    }
+
+    fn prim(&mut self, parent: u32, specifier: &str) -> Result<u32, Wrong> {
+        let line = self.lexer.line();
+        let mut token = self.lexer.next()?;
+        let mut kind = None;
+        if let Token::Name(name) = token {
+            kind = Some(self.name(name));
+            token = self.lexer.next()?;
+        }
+        let Token::Text(name) = token else {
+            return Err(self.lexer.expected("the name of a prim", &token));
+        };
+        let name = self.name(&name);
+        let spec = self.layer.make(parent, &name, true, line);
+        if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
+            return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
+        }
+        let mut fields = vec![(self.name("specifier"), Value::Text(self.name(specifier)))];
+        fields.extend(kind.map(|kind| (self.name("typeName"), Value::Text(kind))));
+        fields.extend(self.metadata()?);
+        self.set_fields(spec, fields);
+        self.lexer.take('{', "`{`")?;
+        Ok(spec)
+    }
+
+    fn variant(&mut self, owner: u32, set: &str, open: &mut Vec<Open>) -> Result<(), Wrong> {
+        let name = match self.lexer.next()? {
+            Token::Mark('}') => {
+                open.pop();
+                return Ok(());
+            }
+            Token::Mark(';') => return Ok(()),
+            Token::Text(name) => name,
+            other => return Err(self.lexer.expected("the name of a variant or `}`", &other)),
+        };
+        let name = self.name(&format!("{{{set}={name}}}"));
+        let line = self.lexer.line();
+        let spec = self.layer.make(owner, &name, false, line);
+        if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
+            return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
+        }
+        let fields = self.metadata()?;
+        self.set_fields(spec, fields);
+        self.lexer.take('{', "`{`")?;
+        open.push(Open::Spec(spec));
+        Ok(())
+    }
+
+    fn property(&mut self, spec: u32, first: &str) -> Result<(), Wrong> {
+        let line = self.lexer.line();
+        let (mut edit, mut word) = (Edit::Explicit, first);
+        let mut fields = Vec::new();
+        loop {
+            match word {
+                "custom" => fields.push((self.name("custom"), Value::Bool(true))),
+                "uniform" => {
+                    fields.push((self.name("variability"), Value::Text(self.name("uniform"))))
+                }
+                "varying" | "config" => {}
+                _ => match Edit::of(word) {
+                    Some(of) => edit = of,
+                    None => break,
+                },
+            }
+            word = match self.lexer.next()? {
+                Token::Name(word) => word,
+                other => return Err(self.lexer.expected("a type", &other)),
+            };
+        }
+        if edit == Edit::Reorder && matches!(word, "nameChildren" | "properties" | "rootPrims") {
+            self.lexer.take('=', "`=`")?;
+            self.value(0)?;
+            return Ok(());
+        }
+        let (kind, is_array) = (word, self.brackets()?);
+        let name = match self.lexer.next()? {
+            Token::Name(name) => self.name(name),
+            other => return Err(self.lexer.expected("the name of a property", &other)),
+        };
+        let is_relationship = kind == "rel";
+        if !is_relationship {
+            let full = if is_array { self.name(&format!("{kind}[]")) } else { self.name(kind) };
+            fields.push((self.name("typeName"), Value::Text(full)));
+        }
+        let part = match self.lexer.takes('.')? {
+            true => match self.lexer.next()? {
+                Token::Name(part) => part,
+                other => return Err(self.lexer.expected("`connect` or `timeSamples`", &other)),
+            },
+            false => "",
+        };
+        if self.lexer.takes('=')? {
+            fields.extend(self.assigned(kind, is_array, part, edit)?);
+        }
+        fields.extend(self.metadata()?);
+        self.set_property(spec, name, is_relationship, line, fields);
+        Ok(())
+    }
+
+    /// What stands after `=`.
+    fn assigned(
+        &mut self,
+        kind: &str,
+        is_array: bool,
+        part: &str,
+        edit: Edit,
+    ) -> Result<Option<(Name, Value)>, Wrong> {
+        let paths = match (kind, part) {
+            ("rel", _) => Some("targetPaths"),
+            (_, "connect") => Some("connectionPaths"),
+            _ => None,
+        };
+        if let Some(field) = paths {
+            let list = items(&self.value(0)?, Item::Path);
+            return Ok(Some((self.name(field), Value::List(Arc::new(edit.list(list))))));
+        }
+        if part == "timeSamples" {
+            return Ok(Some((self.name(part), self.samples(kind, is_array)?)));
+        }
+        if !part.is_empty() {
+            return Err(self.lexer.wrong(Fault::Syntax {
+                expected: "`connect` or `timeSamples`",
+                found: format!("`{part}`, which is not read"),
+            }));
+        }
+        let value = typed(kind, is_array, self.value(0)?);
+        Ok(Some((self.name("default"), value)))
+    }
+
+    fn set_property(
+        &mut self,
+        spec: u32,
+        name: Name,
+        is_relationship: bool,
+        line: u32,
+        fields: Vec<(Name, Value)>,
+    ) {
+        let all = &mut self.layer.specs[spec as usize].properties;
+        let at = *self.properties.entry((spec, name.clone())).or_insert(all.len());
+        if at == all.len() {
+            all.push(PropertySpec { name, is_relationship, line, fields });
+            return;
+        }
+        for (name, value) in fields {
+            let own = &mut all[at].fields;
+            match own.iter_mut().find(|(key, _)| *key == name) {
+                Some((_, Value::List(known))) => {
+                    let Value::List(more) = value else { continue };
+                    *known = Arc::new(joined(known, &more));
+                }
+                Some(known) => known.1 = value,
+                None => own.push((name, value)),
+            }
+        }
+    }
+}
+
+/// Two edits of one list, which stand in two statements.
+pub fn joined(one: &ListOp, other: &ListOp) -> ListOp {
+    let both = |of: fn(&ListOp) -> &Vec<Item>| [of(one).as_slice(), of(other)].concat();
+    ListOp {
+        explicit: other.explicit.clone().or_else(|| one.explicit.clone()),
+        deleted: both(|list| &list.deleted),
+        added: both(|list| &list.added),
+        prepended: both(|list| &list.prepended),
+        appended: both(|list| &list.appended),
+    }
+}

@@ -1,0 +1,211 @@
+//! Values in text, and what their types make of them.
+
+use std::sync::Arc;
+
+use super::super::error::Fault;
+use super::super::half;
+use super::super::value::Value;
+use super::lexer::{Token, Wrong};
+use super::reader::Reader;
+
+/// The deepest nesting of dictionaries and tuples. Robots use three levels.
+pub const MAX_VALUE_LEVELS: usize = 32;
+
+impl<'t> Reader<'t> {
+    /// A value of any type.
+    pub fn value(&mut self, level: usize) -> Result<Value, Wrong> {
+        Ok(match self.lexer.next()? {
+            Token::Number(number) => Value::Number(number),
+            Token::Text(text) => Value::Text(self.name(&text)),
+            Token::Asset(path) => Value::Asset(self.name(&path)),
+            Token::Path(path) => Value::Path(self.name(path)),
+            Token::Name("None" | "AnimationBlock") => Value::Blocked,
+            Token::Name(name) => match literal(name) {
+                Some(value) => value,
+                None => Value::Text(self.name(name)),
+            },
+            Token::Mark('(') => {
+                let mut numbers = Vec::new();
+                self.tuple(&mut numbers, level)?;
+                Value::Tuple(numbers.into())
+            }
+            Token::Mark('[') => self.list()?,
+            Token::Mark('{') => self.dictionary(level)?,
+            other => return Err(self.lexer.expected("a value", &other)),
+        })
+    }
+
+    /// The numbers of a tuple after its `(`.
+    fn tuple(&mut self, numbers: &mut Vec<f64>, level: usize) -> Result<(), Wrong> {
+        if level >= MAX_VALUE_LEVELS {
+            return Err(self.lexer.wrong(Fault::DeepValue(MAX_VALUE_LEVELS)));
+        }
+        loop {
+            match self.lexer.next()? {
+                Token::Number(number) => numbers.push(number),
+                Token::Name("inf") => numbers.push(f64::INFINITY),
+                Token::Name("nan") => numbers.push(f64::NAN),
+                Token::Mark('(') => self.tuple(numbers, level + 1)?,
+                Token::Mark(',') => {}
+                Token::Mark(')') => return Ok(()),
+                other => return Err(self.lexer.expected("a number or `)`", &other)),
+            }
+        }
+    }
+
+    /// A list after its `[`.
+    fn list(&mut self) -> Result<Value, Wrong> {
+        let (mut numbers, mut texts, mut width) = (Vec::new(), Vec::new(), None);
+        loop {
+            let before = numbers.len();
+            match self.lexer.next()? {
+                Token::Mark(']') => break,
+                Token::Mark(',') => continue,
+                Token::Number(number) => numbers.push(number),
+                Token::Mark('(') => self.tuple(&mut numbers, 0)?,
+                Token::Name(name) => match literal(name) {
+                    Some(Value::Bool(value)) => numbers.push(f64::from(value)),
+                    Some(Value::Number(value)) => numbers.push(value),
+                    _ => texts.push(self.name(name)),
+                },
+                Token::Text(text) | Token::Asset(text) => texts.push(self.name(&text)),
+                Token::Path(path) => texts.push(self.name(path)),
+                other => return Err(self.lexer.expected("an entry of a list or `]`", &other)),
+            }
+            let more = numbers.len() - before;
+            let is_like_others = if more == 0 {
+                numbers.is_empty()
+            } else {
+                texts.is_empty() && *width.get_or_insert(more) == more
+            };
+            if !is_like_others {
+                let fault = Fault::Syntax {
+                    expected: "entries of one type",
+                    found: "one of another".to_owned(),
+                };
+                return Err(self.lexer.wrong(fault));
+            }
+        }
+        Ok(match texts.is_empty() {
+            false => Value::Texts(texts.into()),
+            true => Value::Numbers { width: width.unwrap_or(1), values: numbers.into() },
+        })
+    }
+
+    /// A dictionary after its `{`.
+    pub fn dictionary(&mut self, level: usize) -> Result<Value, Wrong> {
+        if level >= MAX_VALUE_LEVELS {
+            return Err(self.lexer.wrong(Fault::DeepValue(MAX_VALUE_LEVELS)));
+        }
+        let mut entries = Vec::new();
+        loop {
+            let kind = match self.lexer.next()? {
+                Token::Mark('}') => return Ok(Value::Dictionary(entries.into())),
+                Token::Mark(';' | ',') => continue,
+                Token::Name(kind) => kind,
+                other => return Err(self.lexer.expected("a type or `}`", &other)),
+            };
+            let is_array = self.brackets()?;
+            let key = match self.lexer.next()? {
+                Token::Name(key) => self.name(key),
+                Token::Text(key) => self.name(&key),
+                other => return Err(self.lexer.expected("a name", &other)),
+            };
+            self.lexer.take('=', "`=`")?;
+            let value = self.value(level + 1)?;
+            entries.push((key, typed(kind, is_array, value)));
+        }
+    }
+
+    /// Whether `[]` is next, which is taken.
+    pub fn brackets(&mut self) -> Result<bool, Wrong> {
+        let is_array = self.lexer.takes('[')?;
+        if is_array {
+            self.lexer.take(']', "`]`")?;
+        }
+        Ok(is_array)
+    }
+
+    /// Values by time, of which the first is kept.
+    pub fn samples(&mut self, kind: &str, is_array: bool) -> Result<Value, Wrong> {
+        self.lexer.take('{', "`{`")?;
+        let mut first = None;
+        loop {
+            let time = match self.lexer.next()? {
+                Token::Mark('}') => break,
+                Token::Mark(',') => continue,
+                Token::Number(time) => time,
+                other => return Err(self.lexer.expected("a time or `}`", &other)),
+            };
+            self.lexer.take(':', "`:`")?;
+            let value = self.value(0)?;
+            if first.is_none() && value != Value::Blocked {
+                first = Some((time, typed(kind, is_array, value)));
+            }
+        }
+        Ok(first.map_or(Value::Blocked, |sample| Value::Samples(Arc::new(sample))))
+    }
+}
+
+fn literal(name: &str) -> Option<Value> {
+    match name {
+        "true" | "True" | "yes" => Some(Value::Bool(true)),
+        "false" | "False" | "no" => Some(Value::Bool(false)),
+        "inf" => Some(Value::Number(f64::INFINITY)),
+        "nan" => Some(Value::Number(f64::NAN)),
+        _ => None,
+    }
+}
+
+/// A value as one of a type: rounded to its precision, and an empty array of its entries.
+pub fn typed(kind: &str, is_array: bool, value: Value) -> Value {
+    let round: Option<fn(f64) -> f64> = match kind {
+        "half" | "half2" | "half3" | "half4" => Some(half::rounded),
+        "float" | "float2" | "float3" | "float4" => Some(single),
+        _ if kind.starts_with("matrix") => None,
+        _ if kind.ends_with(['f']) => Some(single),
+        _ if kind.ends_with(['h']) => Some(half::rounded),
+        _ => None,
+    };
+    let all = |values: Arc<[f64]>| match round {
+        Some(round) => values.iter().map(|value| round(*value)).collect(),
+        None => values,
+    };
+    match (kind, value) {
+        ("bool", Value::Number(number)) => Value::Bool(number != 0.0),
+        ("token" | "string" | "asset" | "pathExpression", Value::Numbers { values, .. })
+            if values.is_empty() && is_array =>
+        {
+            Value::Texts(Arc::from([]))
+        }
+        (_, Value::Number(number)) => Value::Number(round.map_or(number, |round| round(number))),
+        (_, Value::Tuple(values)) => Value::Tuple(all(values)),
+        (_, Value::Numbers { width, values }) => {
+            let width = if values.is_empty() { width_of(kind) } else { width };
+            Value::Numbers { width, values: all(values) }
+        }
+        (_, other) => other,
+    }
+}
+
+fn single(value: f64) -> f64 {
+    f64::from(value as f32)
+}
+
+/// Numbers of a value of a type.
+fn width_of(kind: &str) -> usize {
+    match kind {
+        "quath" | "quatf" | "quatd" => 4,
+        "frame4d" => 16,
+        _ => {
+            let digit =
+                kind.bytes().find(u8::is_ascii_digit).map_or(1, |byte| usize::from(byte - b'0'));
+            let is_int64 = kind.ends_with("int64");
+            match (kind.starts_with("matrix"), is_int64) {
+                (true, _) => digit * digit,
+                (_, true) => 1,
+                _ => digit.clamp(1, 4),
+            }
+        }
+    }
+}
