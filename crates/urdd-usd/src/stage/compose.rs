@@ -88,7 +88,7 @@ impl Composer<'_> {
         let all = specs.iter().map(|(_, spec)| (spec.0, &self.spec(*spec).fields));
         let fields = self.fields(all, COMPOSITION);
         let is_instance = first("instanceable").and_then(Value::bool) == Some(true)
-            && tree.0.iter().any(|site| site.arc != Arc::Root);
+            && tree.0.iter().any(|site| site.arc != Arc::Root && site.depth == names.len() as i32);
         let mut opinions: BTreeMap<Name, Vec<Opinion<'_>>> = BTreeMap::new();
         for (at, spec) in &specs {
             for property in &self.spec(*spec).properties {

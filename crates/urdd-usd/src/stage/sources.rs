@@ -60,8 +60,7 @@ impl<'d> Composer<'d> {
             let is_instance = prim.is_instance;
             let at = stage.push(prim);
             if is_instance {
-                // What is said of the insides of an instance does not count.
-                tree.0[0].specs.clear();
+                tree.close(level + 1);
             }
             self.wait(&mut waiting, Some(at), &Rc::new(tree), level + 1)?;
         }
@@ -183,7 +182,39 @@ impl<'d> Composer<'d> {
             }
             for item in items {
                 self.bring(tree, at, names, arc, &item)?;
+                if matches!(arc, Arc::Inherit | Arc::Specialize) {
+                    self.imply(tree, at, names, arc, &item)?;
+                }
             }
+        }
+        Ok(())
+    }
+
+    /// A class that is brought in counts in the layers of all that bring in its user, too.
+    fn imply(
+        &mut self,
+        tree: &mut Tree,
+        at: usize,
+        names: &[Name],
+        arc: Arc,
+        item: &Item,
+    ) -> Result<(), UsdError> {
+        let mut path = absolute(&tree.0[at].path(names), item.text());
+        let mut site = at;
+        while site != 0 {
+            let (above, stack) = (tree.0[site].above, tree.0[site].stack);
+            let mapped = tree.above(site, &path);
+            let is_same = mapped == path && tree.0[above].stack == stack;
+            (path, site) = (mapped, above);
+            let is_known = |one: &Site| {
+                let target = one.map.as_ref().map(|(target, _)| &**target);
+                one.above == above && one.arc == arc && target == Some(path.as_str())
+            };
+            let own = tree.0[site].path(names);
+            if is_same || is_inside(&own, &path) || tree.0.iter().any(is_known) {
+                continue;
+            }
+            self.bring(tree, site, names, arc, &Item::Path(path.as_str().into()))?;
         }
         Ok(())
     }

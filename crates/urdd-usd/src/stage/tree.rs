@@ -124,6 +124,34 @@ impl Tree {
         }
     }
 
+    /// Whether a site is in the layers of the one that brought it in.
+    fn is_in_place(&self, at: usize) -> bool {
+        let site = &self.0[at];
+        site.stack == self.0[site.above].stack || matches!(site.arc, Arc::Inherit | Arc::Specialize)
+    }
+
+    /// A path of a site in the site above, which may be the same.
+    pub fn above(&self, at: usize, path: &str) -> String {
+        let map = self.0[at].map.as_ref();
+        let inside = map.and_then(|(here, above)| {
+            let rest = path.strip_prefix(&**here)?;
+            (rest.is_empty() || rest.starts_with('/')).then(|| format!("{above}{rest}"))
+        });
+        inside.unwrap_or_else(|| path.to_owned())
+    }
+
+    /// Forgets what is said of the insides of an instance, at some level, but by what the instance itself brings in.
+    pub fn close(&mut self, level: usize) {
+        let mut is_kept = vec![false; self.0.len()];
+        for at in 0..self.0.len() {
+            let site = &self.0[at];
+            is_kept[at] = site.depth == level as i32 || at > 0 && is_kept[site.above];
+            if !is_kept[at] {
+                self.0[at].specs.clear();
+            }
+        }
+    }
+
     /// A path of a site as it is in the stage; none of a path that is not brought in.
     pub fn mapped(&self, site: usize, path: &str) -> Option<String> {
         let (mut at, mut path) = (site, path.to_owned());
@@ -132,8 +160,8 @@ impl Tree {
                 let rest = path.strip_prefix(&**here);
                 match rest.filter(|rest| rest.is_empty() || rest.starts_with(['/', '.'])) {
                     Some(rest) => path = format!("{above}{rest}"),
-                    // A class is in the same layers: other paths of it are as they are.
-                    None if matches!(self.0[at].arc, Arc::Inherit | Arc::Specialize) => {}
+                    // In the same layers, other paths are as they are.
+                    None if self.is_in_place(at) => {}
                     None => return None,
                 }
             }

@@ -20,12 +20,12 @@ const START: &str = "#usda 1.";
 /// # Errors
 /// Where it is not USD.
 pub fn read(bytes: &[u8]) -> Result<Layer, Wrong> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|fault| (Place::Byte(fault.valid_up_to() as u64), Fault::Encoding))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    if !text.starts_with(START) {
-        return Err((Place::Text(1, 1), Fault::Kind));
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if !bytes.starts_with(START.as_bytes()) {
+        return Err((Place::Layer, Fault::Kind));
     }
+    let text = std::str::from_utf8(bytes);
+    let text = text.map_err(|fault| (Place::Byte(fault.valid_up_to() as u64), Fault::Encoding))?;
     let mut reader = Reader {
         lexer: Lexer::new(text),
         layer: Layer::new(),

@@ -139,7 +139,8 @@ impl<'t> Reader<'t> {
             };
             self.lexer.take(':', "`:`")?;
             let value = self.value(0)?;
-            if first.is_none() && value != Value::Blocked {
+            let is_first = first.as_ref().is_none_or(|(least, _)| time < *least);
+            if is_first && value != Value::Blocked {
                 first = Some((time, typed(kind, is_array, value)));
             }
         }
@@ -163,6 +164,8 @@ pub fn typed(kind: &str, is_array: bool, value: Value) -> Value {
         "half" | "half2" | "half3" | "half4" => Some(half::rounded),
         "float" | "float2" | "float3" | "float4" => Some(single),
         _ if kind.starts_with("matrix") => None,
+        // Names of types before 2016.
+        _ if kind.ends_with("Float") || kind == "Color" => Some(single),
         _ if kind.ends_with(['f']) => Some(single),
         _ if kind.ends_with(['h']) => Some(half::rounded),
         _ => None,
@@ -172,6 +175,7 @@ pub fn typed(kind: &str, is_array: bool, value: Value) -> Value {
         None => values,
     };
     match (kind, value) {
+        ("asset", Value::Text(path)) => Value::Asset(path),
         ("bool", Value::Number(number)) => Value::Bool(number != 0.0),
         ("token" | "string" | "asset" | "pathExpression", Value::Numbers { values, .. })
             if values.is_empty() && is_array =>
