@@ -66,10 +66,16 @@ impl Composer<'_> {
             order.iter().flat_map(|at| tree.0[*at].specs.iter().map(|spec| (*at, *spec))).collect();
         let first =
             |name: &str| specs.iter().find_map(|(_, spec)| field(&self.spec(*spec).fields, name));
-        let specifiers =
-            specs.iter().filter_map(|(_, spec)| field(&self.spec(*spec).fields, "specifier"));
-        let specifier =
-            specifiers.filter_map(Value::text).find(|specifier| ***specifier != *"over");
+        // That a prim inherits a class does not make it one.
+        let mut is_of_class = vec![false; tree.0.len()];
+        for (at, site) in tree.0.iter().enumerate() {
+            is_of_class[at] = is_of_class[site.above] || tree.is_class(at);
+        }
+        let specifier = specs.iter().find_map(|(at, spec)| {
+            let specifier = field(&self.spec(*spec).fields, "specifier")?.text()?;
+            let counts = **specifier == *"def" || **specifier == *"class" && !is_of_class[*at];
+            counts.then_some(specifier)
+        });
         if specifier.is_none_or(|specifier| **specifier != *"def")
             || first("active").and_then(Value::bool) == Some(false)
         {

@@ -124,10 +124,15 @@ impl Tree {
         }
     }
 
+    /// Whether a site is that of a class.
+    pub fn is_class(&self, at: usize) -> bool {
+        matches!(self.0[at].arc, Arc::Inherit | Arc::Specialize)
+    }
+
     /// Whether a site is in the layers of the one that brought it in.
     fn is_in_place(&self, at: usize) -> bool {
         let site = &self.0[at];
-        site.stack == self.0[site.above].stack || matches!(site.arc, Arc::Inherit | Arc::Specialize)
+        site.stack == self.0[site.above].stack || self.is_class(at)
     }
 
     /// A path of a site in the site above, which may be the same.

@@ -72,7 +72,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// The line of the word ahead, or of the last one.
-    pub fn line(&self) -> u32 {
+    pub fn word_line(&self) -> u32 {
         self.start_line
     }
 

@@ -130,7 +130,7 @@ impl Reader<'_> {
     }
 
     fn prim(&mut self, parent: u32, specifier: &str) -> Result<u32, Wrong> {
-        let line = self.lexer.line();
+        let line = self.lexer.word_line();
         let mut token = self.lexer.next()?;
         let mut kind = None;
         if let Token::Name(name) = token {
@@ -164,7 +164,7 @@ impl Reader<'_> {
             other => return Err(self.lexer.expected("the name of a variant or `}`", &other)),
         };
         let name = self.name(&format!("{{{set}={name}}}"));
-        let line = self.lexer.line();
+        let line = self.lexer.word_line();
         let spec = self.layer.make(owner, &name, false, line);
         if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
             return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
@@ -177,7 +177,7 @@ impl Reader<'_> {
     }
 
     fn property(&mut self, spec: u32, first: &str) -> Result<(), Wrong> {
-        let line = self.lexer.line();
+        let line = self.lexer.word_line();
         let (mut edit, mut word) = (Edit::Explicit, first);
         let mut fields = Vec::new();
         loop {
