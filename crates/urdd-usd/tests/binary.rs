@@ -1,4 +1,5 @@
 //! Crate files and packages: the same as text, and damaged in each place.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 mod common;
 

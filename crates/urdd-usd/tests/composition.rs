@@ -1,4 +1,5 @@
 //! What layers compose. The strengths are those of USD: usd-core composes the same of each.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What is refused, by name and place, and what is large.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
 mod common;
 
