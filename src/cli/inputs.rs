@@ -122,9 +122,7 @@ fn of_file(path: &Path) -> Option<&'static str> {
              give the URDF that it belongs to, or a URDD",
         ),
         Some(FileType::Mjcf) => Some(MJCF),
-        Some(FileType::Usd) => Some(
-            "this is USD; URDDs are generated from URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
-        ),
+        Some(FileType::Usd) => Some(USD),
         Some(FileType::Document) => Some(
             "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders",
         ),
@@ -139,11 +137,14 @@ const SDF: &str = "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` 
 const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, \
     `urdd import` makes a URDF";
 
+const USD: &str = "this is USD; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
+
 fn by_content(path: &Path) -> Option<&'static str> {
     let root = root_of(path, &SourceFiles::Disk)?;
     match Format::of_root(&root) {
         Some(Format::Mjcf) => Some(MJCF),
         Some(Format::Sdf) => Some(SDF),
+        Some(Format::Usd) => Some(USD),
         None => (root == "robot").then_some(
             "this looks like a URDF; give it a name that ends in .urdf, or use `urdd generate` to generate a URDD from it",
         ),

@@ -47,7 +47,7 @@ const ENDINGS: [(&str, FileType); 15] = [
     ("yml", Document),
 ];
 /// The number of endings of descriptions and archives.
-const NO_STEMS: usize = 8;
+const NO_STEMS: usize = 12;
 
 impl FileType {
     /// What a file is; `None` if its name does not say.

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::mjcf::fault::MjcfFault;
 use super::sdf::fault::SdfFault;
+use super::usd::fault::UsdFault;
 use urdd_directory::account::Overdrawn;
 use urdd_directory::read_error::ReadError;
 use urdd_source::NotFound;
@@ -26,6 +27,8 @@ pub enum ImportFault {
     Mjcf(#[from] MjcfFault),
     #[error(transparent)]
     Sdf(#[from] SdfFault),
+    #[error(transparent)]
+    Usd(#[from] UsdFault),
 }
 
 impl ImportFault {

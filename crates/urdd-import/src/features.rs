@@ -16,13 +16,15 @@ pub struct Feature {
     pub mjcf: How,
     /// From SDF.
     pub sdf: How,
+    /// From USD.
+    pub usd: How,
 }
 
 macro_rules! features {
-    ($($feature:ident = $name:literal, $mjcf:expr, $sdf:expr;)*) => {
+    ($($feature:ident = $name:literal, $mjcf:expr, $sdf:expr, $usd:expr;)*) => {
         $(
             #[doc = $name]
-            pub const $feature: Feature = Feature { name: $name, mjcf: $mjcf, sdf: $sdf };
+            pub const $feature: Feature = Feature { name: $name, mjcf: $mjcf, sdf: $sdf, usd: $usd };
         )*
         /// All of them, in the order of the table.
         pub const ALL: &[Feature] = &[$($feature),*];
@@ -52,70 +54,75 @@ const PART: How = Otherwise("as meshes of their own");
 const GAZEBO: How = Otherwise("as text in `<gazebo>`");
 
 features! {
-    BODIES = "bodies", Yes, Yes;
-    HINGES = "hinges", Yes, Yes;
-    SLIDES = "slides with limits", Yes, Yes;
-    FREE_SLIDES = "slides without limits", SLIDE, SLIDE;
-    BALLS = "balls", BALL, BALL;
-    FREE = "the free joint of the root", SETUP, Elsewhere;
-    MORE_JOINTS = "more joints of a body, and joints away from its frame", EMPTY, EMPTY;
-    MASSES = "masses and inertias", Yes, Yes;
-    BOXES = "boxes, spheres and cylinders", Yes, Yes;
-    CAPSULES = "capsules", CAPSULE, CAPSULE;
-    ELLIPSOIDS = "ellipsoids", ELLIPSOID, ELLIPSOID;
-    MESHES = "meshes", Yes, Yes;
-    COLOURS = "colours", Yes, Yes;
-    TEXTURES = "textures", Yes, Yes;
-    FRAMES = "sites, cameras and frames", FRAME, FRAME;
-    POSES = "named configurations", SRDF, Elsewhere;
-    MIMICS = "joints that follow others", Yes, Yes;
-    APART = "pairs that never collide", SRDF, SRDF;
-    GAINS = "gains of actuators, their names and ranges, and armatures", SETUP, Elsewhere;
-    CLOSED = "closed chains", LOOPS, LOOPS;
-    TIES = "welds and connections that are not active, or of a body that is not of the robot, and distances", No, Elsewhere;
-    OPEN = "joints of other kinds that close a chain", Elsewhere, No;
-    WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere;
-    MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere;
-    SURFACES = "planes and height fields", No, No;
-    DISCARDED = "shapes that `discardvisual` leaves out", No, Elsewhere;
-    ONLY_COLLIDING = "shapes that collide and are hidden: in group 3 and above, transparent, or inside those that are only seen", HIDDEN, Elsewhere;
-    UNSEEN = "shapes that neither collide nor are seen: in group 3 and above, or transparent", No, Elsewhere;
-    SPRINGS = "springs of joints", No, No;
-    BALL_RANGES = "ranges of balls", No, Elsewhere;
-    POLYNOMIALS = "equalities of joints that are not linear, or that no mimic can say", LOOPS, Elsewhere;
-    COUPLINGS = "equalities of joints that are not active, or of balls and joints that are left out", No, Elsewhere;
-    TENDONS = "tendons", No, Elsewhere;
-    MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere;
-    MORE_GAINS = "gains and armatures of joints that follow others, and names and ranges of several actuators of one joint", No, Elsewhere;
-    GRAVCOMP = "gravity compensation of bodies", No, Elsewhere;
-    OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere;
-    SOFT = "flexes, skins and composites", No, Elsewhere;
-    CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere;
-    PARTLY_APART = "pairs of bodies of which some shapes never collide with some of the other", WHOLE, Elsewhere;
-    TORSION = "torsional and rolling friction", No, Elsewhere;
-    FRICTIONS = "coefficients of friction that differ", No, No;
-    CONTROLS = "velocities, activations and controls of named configurations", No, Elsewhere;
-    BASE_POSES = "poses of the free root in named configurations", SETUP, Elsewhere;
-    MEASURED = "sensors", No, Elsewhere;
-    OWN_DATA = "data of users", No, Elsewhere;
-    SETTINGS = "settings of the simulator and the viewer", No, No;
-    SCREWS = "screws", Elsewhere, SCREW;
-    GEARBOXES = "gearboxes", Elsewhere, LOOPS;
-    LOST_GEARBOXES = "gearboxes about other axes than their joints turn, or seen from no link", Elsewhere, No;
-    ONE_SIDED = "limits of one side", Elsewhere, SIDE;
-    TURNED = "joints that lead to their parent", Elsewhere, TURN;
-    DETACHED = "links that no joint holds", Elsewhere, HELD;
-    DEFAULT_MASSES = "masses and inertias that are not given", Elsewhere, DEFAULT;
-    AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes;
-    CONES = "cones", Elsewhere, CONE;
-    MISSING_MESHES = "meshes and images that are not found or read", No, No;
-    SUBMESHES = "parts of meshes", Elsewhere, PART;
-    LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No;
-    FRICTION = "friction of surfaces, the same of all", SETUP, SETUP;
-    CONTACTS = "other properties of contacts", Elsewhere, No;
-    INCLUDES = "included models", Elsewhere, Yes;
-    IN_WORLD = "the pose of the model in the world", Elsewhere, No;
-    KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO;
+    BODIES = "bodies", Yes, Yes, Yes;
+    HINGES = "hinges", Yes, Yes, Yes;
+    SLIDES = "slides with limits", Yes, Yes, Yes;
+    FREE_SLIDES = "slides without limits", SLIDE, SLIDE, SLIDE;
+    BALLS = "balls", BALL, BALL, BALL;
+    FREE = "the free joint of the root", SETUP, Elsewhere, SETUP;
+    MORE_JOINTS = "more joints of a body, and joints away from its frame", EMPTY, EMPTY, EMPTY;
+    MASSES = "masses and inertias", Yes, Yes, Yes;
+    BOXES = "boxes, spheres and cylinders", Yes, Yes, Yes;
+    CAPSULES = "capsules", CAPSULE, CAPSULE, CAPSULE;
+    ELLIPSOIDS = "ellipsoids", ELLIPSOID, ELLIPSOID, ELLIPSOID;
+    MESHES = "meshes", Yes, Yes, STL;
+    COLOURS = "colours", Yes, Yes, Yes;
+    TEXTURES = "textures", Yes, Yes, No;
+    FRAMES = "sites, cameras and frames", FRAME, FRAME, FRAME;
+    POSES = "named configurations", SRDF, Elsewhere, SRDF;
+    MIMICS = "joints that follow others", Yes, Yes, Yes;
+    APART = "pairs that never collide", SRDF, SRDF, SRDF;
+    GAINS = "gains of actuators, their names and ranges, and armatures", SETUP, Elsewhere, SETUP;
+    CLOSED = "closed chains", LOOPS, LOOPS, LOOPS;
+    TIES = "welds and connections that are not active, or of a body that is not of the robot, and distances", No, Elsewhere, Elsewhere;
+    OPEN = "joints of other kinds that close a chain", Elsewhere, No, No;
+    WRITTEN_MESHES = "meshes in the text, and MSH files", STL, Elsewhere, Elsewhere;
+    MADE_TEXTURES = "textures that are made, cubes and grids, and images that are not PNG", No, Elsewhere, Elsewhere;
+    SURFACES = "planes and height fields", No, No, No;
+    DISCARDED = "shapes that `discardvisual` leaves out", No, Elsewhere, Elsewhere;
+    ONLY_COLLIDING = "shapes that collide and are hidden: in group 3 and above, transparent, or inside those that are only seen", HIDDEN, Elsewhere, Elsewhere;
+    UNSEEN = "shapes that neither collide nor are seen: in group 3 and above, or transparent", No, Elsewhere, Elsewhere;
+    SPRINGS = "springs of joints", No, No, Elsewhere;
+    BALL_RANGES = "ranges of balls", No, Elsewhere, No;
+    POLYNOMIALS = "equalities of joints that are not linear, or that no mimic can say", LOOPS, Elsewhere, Elsewhere;
+    COUPLINGS = "equalities of joints that are not active, or of balls and joints that are left out", No, Elsewhere, No;
+    TENDONS = "tendons", No, Elsewhere, Elsewhere;
+    MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere, Elsewhere;
+    MORE_GAINS = "gains and armatures of joints that follow others, and names and ranges of several actuators of one joint", No, Elsewhere, No;
+    GRAVCOMP = "gravity compensation of bodies", No, Elsewhere, Elsewhere;
+    OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere, Elsewhere;
+    SOFT = "flexes, skins and composites", No, Elsewhere, Elsewhere;
+    CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere, Elsewhere;
+    PARTLY_APART = "pairs of bodies of which some shapes never collide with some of the other", WHOLE, Elsewhere, WHOLE;
+    TORSION = "torsional and rolling friction", No, Elsewhere, Elsewhere;
+    FRICTIONS = "coefficients of friction that differ", No, No, No;
+    CONTROLS = "velocities, activations and controls of named configurations", No, Elsewhere, Elsewhere;
+    BASE_POSES = "poses of the free root in named configurations", SETUP, Elsewhere, Elsewhere;
+    MEASURED = "sensors", No, Elsewhere, Elsewhere;
+    OWN_DATA = "data of users", No, Elsewhere, Elsewhere;
+    SETTINGS = "settings of the simulator and the viewer", No, No, No;
+    SCREWS = "screws", Elsewhere, SCREW, Elsewhere;
+    GEARBOXES = "gearboxes", Elsewhere, LOOPS, Elsewhere;
+    LOST_GEARBOXES = "gearboxes about other axes than their joints turn, or seen from no link", Elsewhere, No, Elsewhere;
+    ONE_SIDED = "limits of one side", Elsewhere, SIDE, SIDE;
+    TURNED = "joints that lead to their parent", Elsewhere, TURN, TURN;
+    DETACHED = "links that no joint holds", Elsewhere, HELD, Elsewhere;
+    DEFAULT_MASSES = "masses and inertias that are not given", Elsewhere, DEFAULT, Elsewhere;
+    AUTO_MASSES = "masses and inertias of shapes by density", Elsewhere, Yes, Yes;
+    CONES = "cones", Elsewhere, CONE, CONE;
+    MISSING_MESHES = "meshes and images that are not found or read", No, No, No;
+    SUBMESHES = "parts of meshes", Elsewhere, PART, PART;
+    LIGHTING = "materials of scripts, and what is not a colour of them", Elsewhere, No, No;
+    FRICTION = "friction of surfaces, the same of all", SETUP, SETUP, SETUP;
+    CONTACTS = "other properties of contacts", Elsewhere, No, Elsewhere;
+    INCLUDES = "included models", Elsewhere, Yes, Elsewhere;
+    IN_WORLD = "the pose of the model in the world", Elsewhere, No, No;
+    KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO, Elsewhere;
+    DETACHED_BODIES = "bodies that no joint holds, and other robots", Elsewhere, Elsewhere, No;
+    ALONE = "shapes that belong to no body", Elsewhere, Elsewhere, No;
+    DISTANCES = "joints that hold a distance, and joints that are not active", Elsewhere, Elsewhere, No;
+    OTHER_SHAPES = "curves, points and other shapes that are not solid", Elsewhere, Elsewhere, No;
+    SAMPLES = "values by time, but the first", Elsewhere, Elsewhere, No;
 }
 
 /// As many remarks of one robot are kept.

@@ -13,8 +13,9 @@ use super::refusal::{Placed, Positions, placed};
 use super::report::Report;
 use super::tree::Tree;
 use super::urdf::{UNIT_SPHERE, urdf};
-use super::{companions, mjcf, sdf};
+use super::{companions, mjcf, sdf, usd};
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::{self, portable};
 use urdd_directory::writer::sha256;
 use urdd_format::link_shapes_skips::SkipEdit;
@@ -155,7 +156,7 @@ impl Imported {
     }
 }
 
-/// Imports a description, if it is MJCF or SDF by its content; `None` of anything else, and of what cannot be read.
+/// Imports a description, if it is MJCF, SDF or USD by its content; `None` of anything else, and of what cannot be read.
 ///
 /// # Errors
 /// If it is refused, with the place.
@@ -167,19 +168,27 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
     if settings.loops.is_some() {
         return Err(SourceError::SaysItsLoops { file: shown, format: format.name() });
     }
-    let Ok(bytes) = settings.files.read(path, MAX_SOURCE_BYTES) else { return Ok(None) };
+    let most = match format {
+        Format::Mjcf | Format::Sdf => MAX_SOURCE_BYTES,
+        // With meshes in it.
+        Format::Usd => MAX_DOCUMENT_BYTES,
+    };
+    let Ok(bytes) = settings.files.read(path, most) else { return Ok(None) };
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical
         .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
     let gate = Gate::of_project(folder, settings);
     gate.account().deposit(bytes.len());
-    let Ok(file) = TextFile::new(shown.clone(), canonical.clone(), bytes) else {
-        return Ok(None);
+    let file = match format {
+        Format::Mjcf | Format::Sdf => TextFile::new(shown.clone(), canonical.clone(), bytes),
+        Format::Usd => Ok(TextFile::any(shown.clone(), canonical.clone(), bytes.into())),
     };
+    let Ok(file) = file else { return Ok(None) };
     let read = match format {
         Format::Mjcf => mjcf::read(file, &gate, options),
         Format::Sdf => sdf::read(file, &gate, options),
+        Format::Usd => usd::read(file, &gate, options),
     };
     let mut model = read.map_err(refused)?;
     if model.name.trim().is_empty() {

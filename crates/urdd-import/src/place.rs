@@ -43,6 +43,12 @@ impl TextFile {
         Ok(TextFile { shown, path, text, bytes: bytes.into() })
     }
 
+    /// A file that may not be text; then its text is empty.
+    pub fn any(shown: String, path: PathBuf, bytes: Arc<[u8]>) -> Self {
+        let text = std::str::from_utf8(&bytes).unwrap_or_default().to_owned();
+        TextFile { shown, path, text, bytes }
+    }
+
     /// As [`TextFile::new`], of a file that a description includes. What is made of it is charged each time it is
     /// included.
     ///

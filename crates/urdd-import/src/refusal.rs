@@ -47,17 +47,21 @@ pub fn placed(files: &[TextFile], place: Place, fault: impl Into<ImportFault>) -
 }
 
 /// The lines of files, for places in them.
-pub struct Positions<'f>(Vec<(&'f str, LineIndex<'f>)>);
+pub struct Positions<'f>(Vec<(&'f str, Option<LineIndex<'f>>)>);
 
 impl<'f> Positions<'f> {
     /// Finds the lines.
     pub fn of(files: &'f [TextFile]) -> Self {
-        Positions(files.iter().map(|file| (&*file.shown, LineIndex::new(&file.text))).collect())
+        let lines =
+            |file: &'f TextFile| (!file.text.is_empty()).then(|| LineIndex::new(&file.text));
+        Positions(files.iter().map(|file| (&*file.shown, lines(file))).collect())
     }
 
     /// The file, line and column of a place.
     pub fn at(&self, place: Place) -> Option<(&'f str, u32, u32)> {
         let (shown, lines) = self.0.get(place.file)?;
+        // A binary file has no lines.
+        let Some(lines) = lines else { return Some((shown, 0, 0)) };
         let at = lines.position(place.offset);
         Some((shown, at.line, at.column))
     }

@@ -113,6 +113,7 @@ fn how(feature: Feature, format: Format) -> How {
     match format {
         Format::Mjcf => feature.mjcf,
         Format::Sdf => feature.sdf,
+        Format::Usd => feature.usd,
     }
 }
 

@@ -120,6 +120,7 @@ fn sdf_hint(element: &str) -> &'static str {
         (Some(Format::Mjcf), _) => {
             ": this is a MuJoCo model; `urdd import` makes a URDF of a file of it"
         }
+        (Some(Format::Usd), _) => "",
         (None, "xacro:macro") => ": this is a xacro macro file, to be included by others",
         _ => "",
     }

@@ -1,4 +1,4 @@
-//! What a description is by its content, if it is no URDF: MJCF or SDF. Files of these that are parts of others.
+//! What a description is by its content, if it is no URDF: MJCF, SDF or USD. Files of these that are parts of others.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -18,17 +18,20 @@ pub enum Format {
     Mjcf,
     /// The simulation description format of Gazebo.
     Sdf,
+    /// Universal Scene Description.
+    Usd,
 }
 
 impl Format {
     /// All of them, in the order of the table in docs/import.md.
-    pub const ALL: [Format; 2] = [Format::Mjcf, Format::Sdf];
+    pub const ALL: [Format; 3] = [Format::Mjcf, Format::Sdf, Format::Usd];
 
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Format::Mjcf => "mjcf",
             Format::Sdf => "sdf",
+            Format::Usd => "usd",
         }
     }
 
@@ -41,10 +44,27 @@ impl Format {
         }
     }
 
-    /// The format of a text, by its outermost element.
+    /// The format of a text, by its outermost element, or the first line of a USD.
     pub fn of(text: &str) -> Option<Self> {
-        Format::of_root(root_name(text)?)
+        match is_usd(text.as_bytes()) {
+            true => Some(Format::Usd),
+            false => Format::of_root(root_name(text)?),
+        }
     }
+}
+
+/// Whether bytes begin as a USD layer does.
+fn is_usd(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    bytes.starts_with(b"#usda ") || bytes.starts_with(b"PXR-USDC")
+}
+
+/// Whether a file is a USD: a layer, or a package with that ending. Other zip archives are URDDs.
+fn is_usd_file(path: &Path, files: &Files) -> bool {
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    let is_package = ending.is_some_and(|ending| ending == "usdz" || ending == "usd");
+    let Ok(head) = files.head(path, 16) else { return false };
+    is_usd(&head) || is_package && head.starts_with(b"PK\x03\x04")
 }
 
 /// The name of the outermost element of a file, if that is in the beginning of it.
@@ -55,9 +75,12 @@ pub fn root_of(path: &Path, files: &Files) -> Option<String> {
     root_name(&text).map(str::to_owned)
 }
 
-/// The format of a file, by its outermost element; none of a URDF, and of anything else.
+/// The format of a file, by its outermost element or its first bytes; none of a URDF, and of anything else.
 pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
-    Format::of_root(&root_of(path, files)?)
+    match is_usd_file(path, files) {
+        true => Some(Format::Usd),
+        false => Format::of_root(&root_of(path, files)?),
+    }
 }
 
 /// The format of a file of a folder that is imported, by its extension and its content.

@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 
 use super::super::fault::Unreachable;
 use super::super::features::{self, Tally};
+use super::super::mesh_mass::{Measures, Mode, measure};
 use super::super::model::Geometry;
 use super::super::place::Place;
 use super::super::refusal::{Fallible, Refusal, at};
@@ -14,7 +15,6 @@ use super::assets::{Assets, Folder};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::mesh_mass::{Measures, Mode, measure};
 use super::msh;
 use super::orientation::quaternion;
 use super::reading::{View, list, wrong};

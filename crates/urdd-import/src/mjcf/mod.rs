@@ -21,7 +21,6 @@ mod keyframe;
 mod lookup;
 mod material;
 mod mesh;
-mod mesh_mass;
 mod moved;
 mod msh;
 mod orientation;

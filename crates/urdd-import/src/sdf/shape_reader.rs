@@ -2,6 +2,7 @@
 
 use nalgebra::{Translation3, Vector3};
 
+use super::super::cone::cone;
 use super::super::fault::{ImportFault, Unreachable};
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
@@ -9,7 +10,6 @@ use super::super::refusal::Refusal;
 use super::reader::SdfReader;
 use super::scene::Placeable;
 use super::tag::Tag;
-use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::stl;
 
@@ -122,7 +122,7 @@ fn geometry(reader: &mut SdfReader, tag: Tag) -> Result<Option<Geometry>, Refusa
         (Some(other), _) => (features::BOXES, other),
         (None, "cone") => {
             let (radius, length) = (tag.size("radius")?, tag.size("length")?);
-            let Some(bytes) = cone() else { return Ok(None) };
+            let Some(bytes) = stl(&[Part::from(cone())]).ok() else { return Ok(None) };
             let asset = reader.assets.made(reader.gate, "meshes/unit_cone.stl", bytes);
             let asset = asset.or_else(|why| Refusal::at(tag.place(), why))?;
             (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
@@ -246,24 +246,4 @@ fn color(material: Tag) -> Result<Option<[f64; 4]>, Refusal> {
         _ => tag.numbers::<4>("three or four numbers")?,
     };
     Ok(color.map(|color| color.map(|value| value.clamp(0.0, 1.0))))
-}
-
-/// The number of sides of a cone.
-const SIDES: u32 = 64;
-
-/// The STL of a cone of radius 1 and length 1 along z, about the middle of its length, its tip at the top.
-fn cone() -> Option<Vec<u8>> {
-    let rim = (0..SIDES).map(|side| {
-        let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
-        [angle.cos(), angle.sin(), -0.5]
-    });
-    let vertices: Vec<[f64; 3]> = rim.chain([[0.0, 0.0, 0.5], [0.0, 0.0, -0.5]]).collect();
-    let (tip, middle) = (SIDES, SIDES + 1);
-    let triangles = (0..SIDES).flat_map(|side| {
-        let next = (side + 1) % SIDES;
-        [[side, next, tip], [next, side, middle]]
-    });
-    let mut mesh = Mesh { vertices, triangles: triangles.collect() };
-    mesh.round_to_f32();
-    stl(&[Part::from(mesh)]).ok()
 }

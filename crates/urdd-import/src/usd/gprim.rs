@@ -1,0 +1,426 @@
+//! Shapes of bodies: what is seen, and what collides.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use sha2::{Digest, Sha256};
+use urdd_directory::account::Charged;
+use urdd_directory::path::file_name;
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::mesh::Bounds;
+use urdd_geometry::read::Part;
+use urdd_geometry::write::stl;
+use urdd_geometry::{Mesh, primitives};
+use urdd_kinematics::rotation::from_z;
+use urdd_source::gate::Gate;
+use urdd_usd::{Prim, Value};
+
+use super::super::cone::cone;
+use super::super::features::{self, Tally};
+use super::super::model::{Asset, Geometry, Material, Shape, Use};
+use super::super::refusal::{Fallible, at};
+use super::look::{bound, look};
+use super::mesh::{Faces, faces};
+use super::robot::Made;
+use super::scene::{Scene, flag, is_square, number, split, word};
+
+/// Two scales that differ by less are one: those of single precision.
+const NEAR: f64 = 1e-5;
+/// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written.
+const MESH: usize = 60;
+
+/// The shapes of a robot, and the meshes of these.
+pub struct Shapes<'a, 's> {
+    scene: &'a Scene<'s>,
+    gate: &'a Gate,
+    assets: Charged<Asset>,
+    known: HashMap<[u8; 32], usize>,
+    taken: BTreeSet<String>,
+    /// The shapes that collide, by body: the prim, the shape in the frame of the link, and the mesh of it.
+    pub solids: HashMap<usize, Vec<Solid>>,
+}
+
+/// A shape that collides.
+pub struct Solid {
+    pub prim: usize,
+    pub pose: Isometry3<f64>,
+    pub geometry: Geometry,
+    pub mesh: Option<Arc<Mesh>>,
+}
+
+/// A shape in the frame of its prim: where it is there, and what it is.
+enum Form {
+    Plain(Isometry3<f64>, Geometry),
+    Meshed(Isometry3<f64>, Mesh),
+    Nothing,
+}
+
+impl<'a, 's> Shapes<'a, 's> {
+    pub fn new(scene: &'a Scene<'s>, gate: &'a Gate) -> Self {
+        Shapes {
+            scene,
+            gate,
+            assets: Charged::default(),
+            known: HashMap::new(),
+            taken: BTreeSet::new(),
+            solids: HashMap::new(),
+        }
+    }
+
+    /// The meshes.
+    pub fn into_assets(self) -> Charged<Asset> {
+        self.assets
+    }
+
+    /// Adds the shapes to their bodies.
+    pub fn add(&mut self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
+        for (at, prim) in self.scene.stage.prims.iter().enumerate() {
+            let is_shape = matches!(
+                &*prim.type_name,
+                "Cube"
+                    | "Sphere"
+                    | "Cylinder"
+                    | "Capsule"
+                    | "Cone"
+                    | "Mesh"
+                    | "Plane"
+                    | "Cylinder_1"
+                    | "Capsule_1"
+                    | "BasisCurves"
+                    | "Points"
+                    | "NurbsPatch"
+                    | "TetMesh"
+            );
+            if !is_shape {
+                continue;
+            }
+            let collides =
+                prim.has("PhysicsCollisionAPI") && flag(prim, "physics:collisionEnabled", true);
+            let is_seen = self.scene.is_seen[at];
+            let Some(body) = self.scene.body[at] else {
+                if collides {
+                    tally.count(features::ALONE);
+                }
+                continue;
+            };
+            let Some(index) = made.index.get(&body).copied() else { continue };
+            if collides || is_seen {
+                self.shape(made, (at, body, index), collides, is_seen, tally)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn shape(
+        &mut self,
+        made: &mut Made,
+        (prim, body, index): (usize, usize, usize),
+        collides: bool,
+        is_seen: bool,
+        tally: &mut Tally,
+    ) -> Fallible<()> {
+        let (scene, of) = (self.scene, self.scene.prim(prim));
+        let place = scene.place(prim);
+        let numbers: usize = of
+            .properties
+            .iter()
+            .filter_map(|one| one.value.as_ref()?.numbers())
+            .map(<[f64]>::len)
+            .sum();
+        self.gate.account().charge(MESH * numbers).map_err(|why| at(place, why))?;
+        // In the frame of the link: its rotation and place, and what it is stretched by, in m.
+        scene.frame(prim)?;
+        let link = Translation3::from(-made.shifts[index]) * scene.frame(body)?.0.inverse();
+        let world = &scene.world[prim];
+        let place_in = link * nalgebra::Point3::from(world.fixed_view::<3, 1>(0, 3) * scene.metre);
+        let linear = link.rotation.to_rotation_matrix().matrix()
+            * world.fixed_view::<3, 3>(0, 0).into_owned()
+            * scene.metre;
+        let (rotation, scale) = split(&linear);
+        let frame = Isometry3::from_parts(Translation3::from(place_in), rotation);
+        // What is left of the matrix in that frame: scales, and a shear.
+        let stretch = match is_square(&linear) {
+            true => Matrix3::from_diagonal(&scale),
+            false => rotation.inverse().to_rotation_matrix().matrix() * linear,
+        };
+        let name = scene.name(prim).to_owned();
+        let link_name = made.bodies[index].name.clone();
+        let mut push = |this: &mut Self,
+                        used,
+                        form: Form,
+                        material,
+                        name: &str,
+                        tally: &mut Tally|
+         -> Fallible<()> {
+            let (pose, geometry, mesh) = match form {
+                Form::Nothing => return Ok(()),
+                Form::Plain(pose, geometry) => (frame * pose, geometry, None),
+                Form::Meshed(pose, mesh) => {
+                    let asset = this.asset(&mesh, &format!("{link_name}_{name}"), prim, tally)?;
+                    let Some(asset) = asset else { return Ok(()) };
+                    (frame * pose, Geometry::Mesh { asset, scale: [1.0; 3] }, Some(Arc::new(mesh)))
+                }
+            };
+            if used != Use::Visual {
+                let solid = Solid { prim, pose, geometry: geometry.clone(), mesh };
+                this.solids.entry(index).or_default().push(solid);
+            }
+            let shape =
+                Shape { name: Some(name.to_owned()), used, pose, geometry, material, place };
+            made.bodies[index].shapes.push(shape, this.gate.account()).map_err(|why| at(place, why))
+        };
+        if &*of.type_name != "Mesh" {
+            let form = form(of, &stretch, tally);
+            let used = match (collides, is_seen) {
+                (true, true) => Use::Both,
+                (true, false) => Use::Collision,
+                (false, _) => Use::Visual,
+            };
+            let material = if is_seen { look(scene, prim, None, tally) } else { None };
+            return push(self, used, form, material, &name, tally);
+        }
+        let faces = match faces(of, &stretch) {
+            Ok(faces) => faces,
+            Err(problem) => {
+                tally.count(features::MISSING_MESHES);
+                tally.remark(place, format!("the mesh `{name}` is left out: {problem}"));
+                return Ok(());
+            }
+        };
+        tally.count(features::MESHES);
+        if collides {
+            let form = match word(of, "physics:approximation")
+                .filter(|_| of.has("PhysicsMeshCollisionAPI"))
+            {
+                Some("convexHull") => match ConvexHull::new(&faces.mesh.vertices) {
+                    Ok(hull) => Form::Meshed(Isometry3::identity(), hull.into_mesh()),
+                    Err(_) => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
+                },
+                Some("boundingCube") => bounding(&faces.mesh, |size| Geometry::Box(size)),
+                Some("boundingSphere") => {
+                    bounding(&faces.mesh, |_| Geometry::Sphere(reach(&faces.mesh)))
+                }
+                _ => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
+            };
+            push(self, Use::Collision, form, None, &name, tally)?;
+        }
+        if is_seen {
+            for (part, mesh, material) in self.parts(prim, faces, tally) {
+                let name = part.map_or(name.clone(), |part| format!("{name}_{part}"));
+                push(
+                    self,
+                    Use::Visual,
+                    Form::Meshed(Isometry3::identity(), mesh),
+                    material,
+                    &name,
+                    tally,
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The parts of a mesh that have materials of their own, and the rest.
+    fn parts(
+        &self,
+        prim: usize,
+        faces: Faces,
+        tally: &mut Tally,
+    ) -> Vec<(Option<String>, Mesh, Option<Material>)> {
+        let scene = self.scene;
+        let mut taken: BTreeSet<u32> = BTreeSet::new();
+        let mut all = Vec::new();
+        for child in &scene.prim(prim).children {
+            let of = scene.prim(*child);
+            if &*of.type_name != "GeomSubset" || of.targets("material:binding").is_empty() {
+                continue;
+            }
+            let indices = of.value("indices").and_then(Value::numbers).unwrap_or_default();
+            let own: BTreeSet<u32> = indices
+                .iter()
+                .map(|index| *index as u32)
+                .filter(|face| !taken.contains(face))
+                .collect();
+            let mesh = faces.part(|face| own.contains(&face));
+            taken.extend(own);
+            if !mesh.triangles.is_empty() {
+                tally.count(features::SUBMESHES);
+                all.push((Some(of.name.to_string()), mesh, look(scene, prim, Some(*child), tally)));
+            }
+        }
+        if all.is_empty() {
+            return vec![(None, faces.mesh, look(scene, prim, None, tally))];
+        }
+        let rest = faces.part(|face| !taken.contains(&face));
+        if !rest.triangles.is_empty() {
+            all.push((None, rest, look(scene, prim, None, tally)));
+        }
+        all
+    }
+
+    /// A mesh as a file, once; none of a mesh without triangles.
+    fn asset(
+        &mut self,
+        mesh: &Mesh,
+        name: &str,
+        prim: usize,
+        tally: &mut Tally,
+    ) -> Fallible<Option<usize>> {
+        let place = self.scene.place(prim);
+        let mut rounded = mesh.clone();
+        rounded.round_to_f32();
+        rounded.drop_non_finite();
+        let bytes = match stl(&[Part::from(rounded.clone())]) {
+            Ok(bytes) if !rounded.triangles.is_empty() => bytes,
+            _ => {
+                tally.count(features::MISSING_MESHES);
+                tally.remark(
+                    place,
+                    format!(
+                        "the mesh `{}` is left out: it has no triangles",
+                        self.scene.name(prim)
+                    ),
+                );
+                return Ok(None);
+            }
+        };
+        let key: [u8; 32] = Sha256::digest(&bytes).into();
+        if let Some(known) = self.known.get(&key) {
+            return Ok(Some(*known));
+        }
+        let mut path = format!("meshes/{}", file_name(name, ".stl"));
+        for number in 2.. {
+            if self.taken.insert(path.to_lowercase()) {
+                break;
+            }
+            path = format!("meshes/{}", file_name(&format!("{name}_{number}"), ".stl"));
+        }
+        let index = self.assets.len();
+        self.known.insert(key, index);
+        let asset = Asset { path, bytes: bytes.into() };
+        self.assets.push(asset, self.gate.account()).map_err(|why| at(place, why))?;
+        Ok(Some(index))
+    }
+
+    /// The coefficient of friction of all shapes that collide, if it is one.
+    pub fn friction(&self, made: &Made, tally: &mut Tally) -> Option<f64> {
+        let mut all: Vec<f64> = Vec::new();
+        for solid in (0..made.bodies.len()).filter_map(|body| self.solids.get(&body)).flatten() {
+            let material = bound(self.scene, solid.prim, ":physics")
+                .or_else(|| bound(self.scene, solid.prim, ""));
+            let material =
+                material.map(|at| self.scene.prim(at)).filter(|of| of.has("PhysicsMaterialAPI"));
+            all.push(number(material?, "physics:dynamicFriction")?);
+        }
+        let first = *all.first()?;
+        let is_one = all.iter().all(|friction| *friction == first);
+        tally.count(if is_one { features::FRICTION } else { features::FRICTIONS });
+        is_one.then_some(first)
+    }
+}
+
+/// A shape that is not a mesh, stretched.
+fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
+    let value = |name: &str, none: f64| number(of, name).unwrap_or(none);
+    let is_straight = stretch.clone_owned() == Matrix3::from_diagonal(&stretch.diagonal());
+    let scale = stretch.diagonal().abs();
+    let axis = match word(of, "axis") {
+        Some("X") => 0,
+        Some("Y") => 1,
+        _ => 2,
+    };
+    let along = from_z(&Vector3::ith(axis, 1.0));
+    let pose = Isometry3::from_parts(Translation3::identity(), along);
+    let [a, b] = [scale[(axis + 1) % 3], scale[(axis + 2) % 3]];
+    let is_round = is_straight && (a - b).abs() <= NEAR * a.max(b);
+    let is_even = is_round && (a - scale[axis]).abs() <= NEAR * a.max(scale[axis]);
+    // As a mesh along z, which is turned, then stretched.
+    let stretched = |mut mesh: Mesh, along: &UnitQuaternion<f64>| {
+        mesh.transform(&(stretch * along.to_rotation_matrix().matrix()).to_homogeneous());
+        Form::Meshed(Isometry3::identity(), mesh)
+    };
+    let still = UnitQuaternion::identity();
+    match &*of.type_name {
+        "Cube" => {
+            let size = value("size", 2.0);
+            tally.count(features::BOXES);
+            match is_straight {
+                true => Form::Plain(Isometry3::identity(), Geometry::Box((scale * size).into())),
+                false => stretched(primitives::cuboid([size; 3]), &still),
+            }
+        }
+        "Sphere" => {
+            let radius = value("radius", 1.0);
+            tally.count(if is_even { features::BOXES } else { features::ELLIPSOIDS });
+            match (is_even, is_straight) {
+                (true, _) => Form::Plain(Isometry3::identity(), Geometry::Sphere(radius * scale.x)),
+                (_, true) => {
+                    Form::Plain(Isometry3::identity(), Geometry::Ellipsoid((scale * radius).into()))
+                }
+                _ => stretched(primitives::sphere(radius), &still),
+            }
+        }
+        "Cylinder" | "Cylinder_1" => {
+            let radius = [value("radius", 1.0), value("radiusTop", 1.0)]
+                [usize::from(of.type_name.ends_with('1'))];
+            let height = value("height", 2.0);
+            tally.count(features::BOXES);
+            match is_round {
+                true => Form::Plain(
+                    pose,
+                    Geometry::Cylinder { radius: radius * a, length: height * scale[axis] },
+                ),
+                false => stretched(primitives::cylinder(radius, height), &along),
+            }
+        }
+        "Capsule" | "Capsule_1" => {
+            let radius = [value("radius", 0.5), value("radiusTop", 0.5)]
+                [usize::from(of.type_name.ends_with('1'))];
+            let height = value("height", 1.0);
+            tally.count(features::CAPSULES);
+            match is_even {
+                true => Form::Plain(
+                    pose,
+                    Geometry::Capsule { radius: radius * a, length: height * scale[axis] },
+                ),
+                false => stretched(primitives::capsule(radius, height), &along),
+            }
+        }
+        "Cone" => {
+            let (radius, height) = (value("radius", 1.0), value("height", 2.0));
+            tally.count(features::CONES);
+            let mut mesh = cone();
+            mesh.transform(
+                &Matrix3::from_diagonal(&Vector3::new(radius, radius, height)).to_homogeneous(),
+            );
+            stretched(mesh, &along)
+        }
+        "Plane" => {
+            tally.count(features::SURFACES);
+            Form::Nothing
+        }
+        _ => {
+            tally.count(features::OTHER_SHAPES);
+            Form::Nothing
+        }
+    }
+}
+
+/// The box around a mesh, or what is made of its middle.
+fn bounding(mesh: &Mesh, of: impl Fn([f64; 3]) -> Geometry) -> Form {
+    let Some(bounds) = mesh.bounds() else { return Form::Nothing };
+    let pose =
+        Isometry3::from_parts(Translation3::from(middle(&bounds)), UnitQuaternion::identity());
+    Form::Plain(pose, of(bounds.size()))
+}
+
+fn middle(bounds: &Bounds) -> Vector3<f64> {
+    (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0
+}
+
+/// How far a mesh is from the middle of its box.
+fn reach(mesh: &Mesh) -> f64 {
+    let middle = mesh.bounds().map_or_else(Vector3::zeros, |bounds| middle(&bounds));
+    mesh.vertices.iter().map(|point| (Vector3::from(*point) - middle).norm()).fold(0.0, f64::max)
+}

@@ -1,0 +1,225 @@
+//! The tree in the graph of bodies and joints: which bodies are the robot, which is its root, which joints close chains.
+
+use std::collections::HashMap;
+
+use super::super::features::{self, Tally};
+use super::super::refusal::{Fallible, at};
+use super::fault::UsdFault;
+use super::joint::UsdJoint;
+use super::scene::Scene;
+
+/// A body in the tree.
+#[derive(Debug, Clone, Copy)]
+pub struct Branch {
+    /// Its prim; none of the world.
+    pub body: Option<usize>,
+    /// The branch before it, and the joint between the two.
+    pub joint: Option<(usize, usize)>,
+    /// Whether the body is the joint's body 0.
+    pub is_turned: bool,
+}
+
+/// The tree.
+#[derive(Debug)]
+pub struct Graph {
+    /// A parent stands before its children.
+    pub branches: Vec<Branch>,
+    /// The joints that close chains.
+    pub outside: Vec<usize>,
+    pub is_floating: bool,
+}
+
+/// The tree of the robot: the bodies that joints connect with an articulation, or with most joints.
+pub fn graph(
+    scene: &Scene<'_>,
+    joints: &[UsdJoint],
+    wanted: Option<&str>,
+    tally: &mut Tally,
+) -> Fallible<Graph> {
+    let bodies: Vec<usize> =
+        (0..scene.body.len()).filter(|at| scene.body[*at] == Some(*at)).collect();
+    let index: HashMap<usize, usize> =
+        bodies.iter().enumerate().map(|(at, body)| (*body, at)).collect();
+    if bodies.is_empty() {
+        return Err(at(Default::default(), UsdFault::NoBody));
+    }
+    let between = |joint: &UsdJoint| {
+        let [one, other] =
+            joint.ends.map(|end| end.body.and_then(|body| index.get(&body).copied()));
+        one.zip(other)
+    };
+    let mut sets = Sets::new(bodies.len());
+    // Those first that are the first to hold their body 1; those that an articulation leaves open last.
+    let mut is_held = vec![false; bodies.len()];
+    let mut order: Vec<(u8, usize)> = Vec::new();
+    for (at, joint) in joints.iter().enumerate().filter(|(_, joint)| !joint.is_free) {
+        let Some((_, child)) = between(joint) else { continue };
+        let rank = match (joint.is_excluded, std::mem::replace(&mut is_held[child], true)) {
+            (true, _) => 2,
+            (false, was_held) => u8::from(was_held),
+        };
+        order.push((rank, at));
+    }
+    order.sort_unstable();
+    let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
+    let mut outside = Vec::new();
+    for (_, at) in order {
+        let Some((parent, child)) = between(&joints[at]) else { continue };
+        if sets.join(parent, child) {
+            around[parent].push((child, at, false));
+            around[child].push((parent, at, true));
+        } else {
+            outside.push(at);
+        }
+    }
+    around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
+    outside.sort_unstable();
+    let main = main_set(scene, joints, &bodies, &index, &around, wanted, &mut sets)?;
+    let is_main: Vec<bool> = (0..bodies.len()).map(|body| sets.of(body) == main.set).collect();
+    for left in (0..bodies.len()).filter(|body| !is_main[*body]) {
+        tally.count(features::DETACHED_BODIES);
+        let text = format!(
+            "body `{}` is left out: no joint connects it with the robot",
+            scene.name(bodies[left])
+        );
+        tally.remark(scene.place(bodies[left]), text);
+    }
+    let is_of_main = |joint: &usize| {
+        joints[*joint].ends.iter().any(|end| end.body.is_some_and(|body| is_main[index[&body]]))
+    };
+    outside.retain(is_of_main);
+    let mut branches: Vec<Branch> = Vec::new();
+    let first = Branch { body: Some(bodies[main.root]), joint: None, is_turned: false };
+    let mut open = vec![(first, Some(main.root))];
+    if let Some(joint) = main.moves {
+        branches.push(Branch { body: None, joint: None, is_turned: false });
+        let is_turned = joints[joint].ends[0].body.is_some();
+        open = vec![(Branch { joint: Some((0, joint)), is_turned, ..first }, Some(main.root))];
+    }
+    while let Some((branch, body)) = open.pop() {
+        let place = branches.len();
+        branches.push(branch);
+        let came = branch.joint.map(|(_, joint)| joint);
+        let Some(body) = body else { continue };
+        for (next, joint, is_turned) in around[body].iter().rev().copied() {
+            if Some(joint) != came {
+                let one =
+                    Branch { body: Some(bodies[next]), joint: Some((place, joint)), is_turned };
+                open.push((one, Some(next)));
+            }
+        }
+    }
+    outside.extend(main.others.iter().filter(|joint| Some(**joint) != main.moves));
+    Ok(Graph { branches, outside, is_floating: !main.is_fixed && main.moves.is_none() })
+}
+
+/// The bodies that are the robot.
+struct Main {
+    set: usize,
+    root: usize,
+    is_fixed: bool,
+    /// The joint by which the root moves in the world, if it is neither free nor fixed.
+    moves: Option<usize>,
+    /// Further joints to the world.
+    others: Vec<usize>,
+}
+
+fn main_set(
+    scene: &Scene<'_>,
+    joints: &[UsdJoint],
+    bodies: &[usize],
+    index: &HashMap<usize, usize>,
+    around: &[Vec<(usize, usize, bool)>],
+    wanted: Option<&str>,
+    sets: &mut Sets,
+) -> Fallible<Main> {
+    let is_root = |mut prim: usize| loop {
+        if scene.prim(prim).has("PhysicsArticulationRootAPI") {
+            break true;
+        }
+        match scene.prim(prim).parent {
+            Some(parent) => prim = parent,
+            None => break false,
+        }
+    };
+    let wanted = match wanted {
+        None => None,
+        Some(name) => {
+            let is_it = |body: &usize| scene.name(*body) == name || scene.stage.path(*body) == name;
+            let found = bodies.iter().position(is_it);
+            let missing = || at(Default::default(), UsdFault::NoSuchBody(name.to_owned()));
+            Some(found.ok_or_else(missing)?)
+        }
+    };
+    let mut scores: HashMap<usize, (bool, usize, usize)> = HashMap::new();
+    for (at, body) in bodies.iter().enumerate() {
+        let score = scores.entry(sets.of(at)).or_default();
+        score.0 |= is_root(*body);
+        score.1 += around[at].len();
+        score.2 += 1;
+    }
+    for joint in
+        joints.iter().filter(|joint| scene.prim(joint.prim).has("PhysicsArticulationRootAPI"))
+    {
+        for body in joint.ends.iter().filter_map(|end| end.body) {
+            scores.entry(sets.of(index[&body])).or_default().0 = true;
+        }
+    }
+    let best = |at: &usize, sets: &mut Sets| scores[&sets.of(*at)];
+    let mut chosen = 0;
+    for at in 1..bodies.len() {
+        if best(&at, sets) > best(&chosen, sets) {
+            chosen = at;
+        }
+    }
+    let set = sets.of(wanted.unwrap_or(chosen));
+    // Joints to the world: fixed ones first, then the first.
+    let mut to_world: Vec<(bool, usize, usize)> = Vec::new();
+    for (at, joint) in joints.iter().enumerate().filter(|(_, joint)| !joint.is_free) {
+        let [one, other] = joint.ends.map(|end| end.body);
+        let (Some(body), None) = (one.xor(other), one.and(other)) else { continue };
+        let body = index[&body];
+        if sets.of(body) == set && wanted.is_none_or(|wanted| wanted == body) {
+            to_world.push((!joint.motions.is_empty(), at, body));
+        }
+    }
+    to_world.sort_unstable();
+    let kinematic =
+        |at: &usize| super::scene::flag(scene.prim(bodies[*at]), "physics:kinematicEnabled", false);
+    let of_set: Vec<usize> = (0..bodies.len()).filter(|at| sets.of(*at) == set).collect();
+    if let Some((moves, joint, root)) = to_world.first().copied() {
+        let others = to_world[1..].iter().map(|(_, joint, _)| *joint).collect();
+        return Ok(Main { set, root, is_fixed: !moves, moves: moves.then_some(joint), others });
+    }
+    let is_child = |at: &usize| around[*at].iter().any(|(_, _, is_turned)| *is_turned);
+    let marked =
+        of_set.iter().find(|at| scene.prim(bodies[**at]).has("PhysicsArticulationRootAPI"));
+    let first = of_set.iter().find(|at| !is_child(at));
+    let still = of_set.iter().find(|at| kinematic(at));
+    let root = wanted.or(still.or(marked).or(first).copied()).unwrap_or(chosen);
+    Ok(Main { set, root, is_fixed: still == Some(&root), moves: None, others: Vec::new() })
+}
+
+/// Sets of bodies that joints connect.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Sets((0..count).collect())
+    }
+
+    fn of(&mut self, mut body: usize) -> usize {
+        while self.0[body] != body {
+            self.0[body] = self.0[self.0[body]];
+            body = self.0[body];
+        }
+        body
+    }
+
+    /// Makes one of two sets; false if they are one.
+    fn join(&mut self, left: usize, right: usize) -> bool {
+        let (left, right) = (self.of(left), self.of(right));
+        self.0[left.max(right)] = left.min(right);
+        left != right
+    }
+}

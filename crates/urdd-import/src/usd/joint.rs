@@ -1,0 +1,167 @@
+//! The joints of UsdPhysics: which of six motions they leave free, and their frames in two bodies.
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+use urdd_usd::Prim;
+
+use super::super::features::{self, Tally};
+use super::super::refusal::Fallible;
+use super::scene::{Scene, flag, number, triple, turn, word};
+
+/// The motions of a generic joint, in the order in which they follow each other.
+pub const MOTIONS: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
+/// The axes of these.
+const AXES: [Vector3<f64>; 3] =
+    [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
+
+/// A joint.
+#[derive(Debug)]
+pub struct UsdJoint {
+    pub prim: usize,
+    /// What moves.
+    pub motions: Vec<Motion>,
+    /// Whether all rotations are one ball.
+    pub is_ball: bool,
+    /// The ends: body 0, and body 1, which moves.
+    pub ends: [JointEnd; 2],
+    /// Whether it closes a chain that the articulation leaves open.
+    pub is_excluded: bool,
+    /// Whether it moves in all ways.
+    pub is_free: bool,
+}
+
+/// Where a joint is in a body.
+#[derive(Debug, Clone, Copy)]
+pub struct JointEnd {
+    /// The prim of the body; none of the world.
+    pub body: Option<usize>,
+    /// In m.
+    pub frame: Isometry3<f64>,
+}
+
+/// A motion along or about an axis of the frame of a joint.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// Its index in [`MOTIONS`].
+    pub which: usize,
+    pub axis: Vector3<f64>,
+    /// Limits, rad or m; infinite where there are none.
+    pub range: [f64; 2],
+    /// The name of its drive and its state.
+    pub instance: &'static str,
+}
+
+impl Motion {
+    pub fn is_slide(&self) -> bool {
+        self.which < 3
+    }
+}
+
+/// The joints of a stage that hold bodies.
+pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
+    let mut all = Vec::new();
+    for (at, prim) in scene.stage.prims.iter().enumerate() {
+        if !(prim.type_name.starts_with("Physics") && prim.type_name.ends_with("Joint")) {
+            continue;
+        }
+        if !flag(prim, "physics:jointEnabled", true) || &*prim.type_name == "PhysicsDistanceJoint" {
+            tally.count(features::DISTANCES);
+            continue;
+        }
+        let (motions, is_ball) = motions(scene, prim, tally);
+        let ends = [end(scene, prim, 0)?, end(scene, prim, 1)?];
+        if ends[0].body == ends[1].body {
+            continue;
+        }
+        let is_excluded = flag(prim, "physics:excludeFromArticulation", false);
+        let is_free = motions.len() == 6;
+        all.push(UsdJoint { prim: at, motions, is_ball, ends, is_excluded, is_free });
+    }
+    Ok(all)
+}
+
+/// The frame of a joint in the body of one of its ends.
+fn end(scene: &Scene<'_>, prim: &Prim, which: usize) -> Fallible<JointEnd> {
+    let place = triple(prim, &format!("physics:localPos{which}")).unwrap_or_default();
+    let rotation = turn(prim, &format!("physics:localRot{which}")).unwrap_or_default();
+    let frame = |scale: Vector3<f64>| {
+        let place = place.component_mul(&scale) * scene.metre;
+        Isometry3::from_parts(Translation3::from(place), rotation)
+    };
+    let Some(target) = scene.target(prim, &format!("physics:body{which}")) else {
+        return Ok(JointEnd { body: None, frame: frame(Vector3::repeat(1.0)) });
+    };
+    let (own, scale) = scene.frame(target)?;
+    let frame = frame(scale);
+    Ok(match scene.body[target] {
+        Some(body) if body == target => JointEnd { body: Some(body), frame },
+        Some(body) => {
+            JointEnd { body: Some(body), frame: scene.frame(body)?.0.inverse() * own * frame }
+        }
+        None => JointEnd { body: None, frame: own * frame },
+    })
+}
+
+/// What a joint leaves free, and whether that is a ball.
+fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, bool) {
+    let axis = match word(prim, "physics:axis") {
+        Some("Y") => 1,
+        Some("Z") => 2,
+        _ => 0,
+    };
+    let range = |lower: &str, upper: &str, unit: f64| {
+        let of = |name: &str, none: f64| number(prim, name).map_or(none, |value| value * unit);
+        [of(lower, f64::NEG_INFINITY), of(upper, f64::INFINITY)]
+    };
+    let unit = |which: usize| if which < 3 { scene.metre } else { 1f64.to_radians() };
+    let single = |which: usize, instance| {
+        let range = range("physics:lowerLimit", "physics:upperLimit", unit(which));
+        let is_locked = range[0] > range[1];
+        let motion = Motion { which, axis: AXES[axis], range, instance };
+        if is_locked { Vec::new() } else { vec![motion] }
+    };
+    match &*prim.type_name {
+        "PhysicsRevoluteJoint" => (single(3 + axis, "angular"), false),
+        "PhysicsPrismaticJoint" => (single(axis, "linear"), false),
+        "PhysicsSphericalJoint" => {
+            let limits = ["physics:coneAngle0Limit", "physics:coneAngle1Limit"];
+            if limits.iter().any(|name| number(prim, name).is_some_and(|limit| limit >= 0.0)) {
+                tally.count(features::BALL_RANGES);
+            }
+            let each = (3..6).map(|which| free(which));
+            (each.collect(), true)
+        }
+        "PhysicsJoint" => {
+            let mut all = Vec::new();
+            for (which, name) in MOTIONS.into_iter().enumerate() {
+                let range = match prim.has(&format!("PhysicsLimitAPI:{name}")) {
+                    true => {
+                        let [low, high] =
+                            ["low", "high"].map(|end| format!("limit:{name}:physics:{end}"));
+                        range(&low, &high, unit(which))
+                    }
+                    false => [f64::NEG_INFINITY, f64::INFINITY],
+                };
+                // Where the lower limit is above the upper one, it is locked; of equal ones, too.
+                if range[0] < range[1] {
+                    all.push(Motion { range, ..free(which) });
+                }
+            }
+            if prim.has("PhysicsLimitAPI:distance") {
+                tally.count(features::DISTANCES);
+            }
+            let is_ball = all.len() == 3 && all.iter().all(|motion| !motion.is_slide());
+            if is_ball
+                && all.iter().any(|motion| motion.range.iter().any(|limit| limit.is_finite()))
+            {
+                tally.count(features::BALL_RANGES);
+            }
+            (all, is_ball)
+        }
+        _ => (Vec::new(), false),
+    }
+}
+
+fn free(which: usize) -> Motion {
+    let range = [f64::NEG_INFINITY, f64::INFINITY];
+    Motion { which, axis: AXES[which % 3], range, instance: MOTIONS[which] }
+}

@@ -1,0 +1,131 @@
+//! Masses of bodies: what they say, and what follows from the shapes that collide.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use urdd_usd::Prim;
+
+use super::super::features::{self, Tally};
+use super::super::mass::{Mass, moments, volume};
+use super::super::mesh_mass::{Mode, measure};
+use super::super::model::{Geometry, Inertial};
+use super::super::refusal::Fallible;
+use super::gprim::{Shapes, Solid};
+use super::look::bound;
+use super::robot::Made;
+use super::scene::{Scene, number, triple, turn};
+
+/// The density of what says none, kg/m³.
+const WATER: f64 = 1000.0;
+
+/// Adds masses to the bodies.
+pub fn add(
+    scene: &Scene<'_>,
+    made: &mut Made,
+    shapes: &Shapes<'_, '_>,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    let bodies: Vec<(usize, usize)> =
+        made.index.iter().map(|(prim, body)| (*body, *prim)).collect();
+    for (index, prim) in bodies {
+        let (of, place) = (scene.prim(prim), scene.place(prim));
+        let shift = made.shifts[index];
+        let positive =
+            |name: &str| number(of, name).filter(|value| *value > 0.0 && value.is_finite());
+        let mass = positive("physics:mass").map(|mass| mass * scene.kilogram);
+        let scale = scene.frame(prim)?.1;
+        let centre = triple(of, "physics:centerOfMass")
+            .filter(|centre| centre.iter().all(|part| part.is_finite()));
+        let centre = centre.map(|centre| centre.component_mul(&scale) * scene.metre - shift);
+        let diagonal = triple(of, "physics:diagonalInertia")
+            .filter(|moments| moments.iter().any(|moment| *moment != 0.0));
+        let inertia = diagonal.map(|diagonal| {
+            let axes = turn(of, "physics:principalAxes").unwrap_or_else(UnitQuaternion::identity);
+            let own = Mass::along_axes(1.0, Vector3::zeros(), diagonal.into());
+            own.at(&nalgebra::Isometry3::from_parts(Default::default(), axes)).inertia
+                * scene.kilogram
+                * scene.metre.powi(2)
+        });
+        let whole = match (mass, centre, inertia) {
+            (Some(mass), Some(centre), Some(inertia)) => Some(Mass { mass, centre, inertia }),
+            _ => {
+                let solids = shapes.solids.get(&index).map_or(&[][..], Vec::as_slice);
+                let computed = computed(scene, of, solids);
+                let mut whole = computed.or_else(|| mass.map(small));
+                if let Some(whole) = &mut whole {
+                    if let Some(mass) = mass {
+                        whole.inertia *= mass / whole.mass;
+                        whole.mass = mass;
+                    }
+                    whole.centre = centre.unwrap_or(whole.centre);
+                    whole.inertia = inertia.unwrap_or(whole.inertia);
+                    tally.count(features::AUTO_MASSES);
+                }
+                whole
+            }
+        };
+        let Some(whole) = whole else {
+            tally.remark(
+                place,
+                format!(
+                    "body `{}` has no mass, and no shapes that collide: its link has none",
+                    made.bodies[index].name
+                ),
+            );
+            continue;
+        };
+        tally.count(features::MASSES);
+        let inertia = whole.inertia.map(|value| if value.abs() < 1e-18 { 0.0 } else { value });
+        made.bodies[index].inertial =
+            Some(Inertial { mass: whole.mass, centre: Point3::from(whole.centre), inertia, place });
+    }
+    Ok(())
+}
+
+/// A ball of the density of water: of a body that says its mass alone, and has no shapes.
+fn small(mass: f64) -> Mass {
+    let radius = (mass / WATER * 3.0 / (4.0 * std::f64::consts::PI)).cbrt();
+    Mass::along_axes(mass, Vector3::zeros(), moments(&Geometry::Sphere(radius), false, mass))
+}
+
+/// The masses of the shapes that collide, together.
+fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
+    let cube = scene.kilogram / scene.metre.powi(3);
+    let density = |prim: &Prim, name: &str| {
+        number(prim, name).filter(|value| *value > 0.0).map(|value| value * cube)
+    };
+    let mut parts = Vec::new();
+    for solid in solids {
+        let own = scene.prim(solid.prim);
+        let unit = of_density_one(solid)?;
+        let material = || {
+            let material =
+                bound(scene, solid.prim, ":physics").or_else(|| bound(scene, solid.prim, ""));
+            density(scene.prim(material?), "physics:density")
+        };
+        let is_body = std::ptr::eq(own, body);
+        let mass = number(own, "physics:mass")
+            .filter(|mass| *mass > 0.0 && !is_body)
+            .map(|mass| mass * scene.kilogram);
+        let mass = mass.unwrap_or_else(|| {
+            let own = density(own, "physics:density").or_else(|| density(body, "physics:density"));
+            unit.mass * own.or_else(material).unwrap_or(WATER)
+        });
+        parts.push(Mass { mass, inertia: unit.inertia * (mass / unit.mass), ..unit });
+    }
+    Mass::together(&parts).filter(|whole| whole.mass > 0.0)
+}
+
+/// The mass of a shape whose density is 1, in the frame of its link.
+fn of_density_one(solid: &Solid) -> Option<Mass> {
+    let own = match &solid.mesh {
+        Some(mesh) => {
+            let measures =
+                measure(mesh, Mode::Exact).or_else(|_| measure(mesh, Mode::Convex)).ok()?;
+            Mass { mass: measures.volume, centre: measures.centre, inertia: measures.inertia }
+        }
+        None => {
+            let mass = volume(&solid.geometry, false);
+            Mass::along_axes(mass, Vector3::zeros(), moments(&solid.geometry, false, mass))
+        }
+    };
+    (own.mass > 0.0).then(|| own.at(&solid.pose))
+}

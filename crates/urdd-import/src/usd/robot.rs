@@ -1,0 +1,404 @@
+//! The robot of a scene, as a model.
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+use urdd_directory::account::{Account, Charged};
+use urdd_format::loops::LoopKind;
+use urdd_kinematics::rotation::from_z;
+use urdd_source::ImportOptions;
+use urdd_source::gate::Gate;
+use urdd_usd::Value;
+
+use super::super::features::{self, Tally};
+use super::super::model::{
+    Body, Closing, Configuration, End, Joint, JointKind, JointValue, Mimic, Model,
+};
+use super::super::names::Names;
+use super::super::refusal::{Fallible, at};
+use super::drive::drive;
+use super::gprim::Shapes;
+use super::graph::{Branch, Graph, graph};
+use super::joint::{MOTIONS, Motion, UsdJoint, joints};
+use super::scene::{Scene, flag, number};
+use super::{mass, pairs, upright};
+
+/// How far the other limit is from one that stands alone, rad and m.
+const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
+
+/// The bodies of the robot, while they are made.
+pub struct Made {
+    pub bodies: Charged<Body>,
+    /// The body of each prim that is one.
+    pub index: HashMap<usize, usize>,
+    /// Where the frame of each link is in its body: the joint that leads to it is there.
+    pub shifts: Vec<Vector3<f64>>,
+}
+
+/// Reads the robot.
+pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
+    let (mut tally, account) = (Tally::default(), gate.account());
+    for _ in 0..scene.stage.sampled {
+        tally.count(features::SAMPLES);
+    }
+    let joints = joints(scene, &mut tally)?;
+    let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
+    let mut maker = Maker {
+        scene,
+        joints: &joints,
+        account,
+        names: [Names::new(account), Names::new(account)],
+        of_joint: HashMap::new(),
+    };
+    let mut made = maker.bodies(&graph, &mut tally)?;
+    maker.mimics(&mut made, &mut tally)?;
+    if graph.is_floating {
+        tally.count(features::FREE);
+    }
+    let mut shapes = Shapes::new(scene, gate);
+    shapes.add(&mut made, &mut tally)?;
+    mass::add(scene, &mut made, &shapes, &mut tally)?;
+    let closings = maker.closings(&graph, &made, &mut tally)?;
+    let (apart, checked) = pairs::pairs(scene, &joints, &made, account, &mut tally)?;
+    maker.frames(&mut made, &mut tally)?;
+    let configurations = maker.configurations(&made, &mut tally)?;
+    let friction = shapes.friction(&made, &mut tally);
+    let mut model = Model {
+        name: maker.name(&graph),
+        bodies: made.bodies,
+        is_floating: graph.is_floating,
+        assets: shapes.into_assets(),
+        configurations,
+        apart,
+        checked,
+        closings,
+        friction,
+        tally,
+        ..Model::default()
+    };
+    if scene.is_y_up {
+        upright::turn(&mut model);
+    }
+    Ok(model)
+}
+
+struct Maker<'a, 's> {
+    scene: &'a Scene<'s>,
+    joints: &'a [UsdJoint],
+    account: &'a Account,
+    /// Of bodies and of joints.
+    names: [Names; 2],
+    /// The joints of the model by the prim of each: body, place, and whether it is turned.
+    of_joint: HashMap<usize, (usize, usize)>,
+}
+
+impl Maker<'_, '_> {
+    /// The name of the robot: that of the default prim, or of what all its bodies are in.
+    fn name(&self, graph: &Graph) -> String {
+        let default = self.scene.stage.metadata("defaultPrim").and_then(Value::text);
+        let default = default.and_then(|name| self.scene.stage.find(&format!("/{name}")));
+        let first = graph.branches.iter().find_map(|branch| branch.body);
+        let above = first.map(|mut at| {
+            while let Some(parent) = self.scene.prim(at).parent {
+                at = parent;
+            }
+            at
+        });
+        default.or(above).map_or_else(String::new, |at| self.scene.name(at).to_owned())
+    }
+
+    fn bodies(&mut self, graph: &Graph, tally: &mut Tally) -> Fallible<Made> {
+        let mut made =
+            Made { bodies: Charged::default(), index: HashMap::new(), shifts: Vec::new() };
+        for branch in &graph.branches {
+            let body = self.body(branch, &mut made, tally)?;
+            let place = body.place;
+            let (index, joints) = (made.bodies.len(), body.joints.len());
+            if let Some((_, joint)) = branch.joint.filter(|_| joints == 1) {
+                self.of_joint.insert(self.joints[joint].prim, (index, 0));
+            }
+            if let Some(prim) = branch.body {
+                made.index.insert(prim, index);
+            }
+            tally.count(features::BODIES);
+            made.bodies.push(body, self.account).map_err(|why| at(place, why))?;
+        }
+        Ok(made)
+    }
+
+    fn body(&mut self, branch: &Branch, made: &mut Made, tally: &mut Tally) -> Fallible<Body> {
+        let scene = self.scene;
+        let Some(prim) = branch.body else {
+            made.shifts.push(Vector3::zeros());
+            let place = Default::default();
+            let name = self.names[0].free("world").map_err(|why| at(place, why))?;
+            return Ok(Body::new(name, None, Isometry3::identity(), place));
+        };
+        let place = scene.place(prim);
+        let too_much = |why| at(place, why);
+        let name = self.names[0].free(scene.name(prim)).map_err(too_much)?;
+        let Some((parent, joint)) = branch.joint else {
+            made.shifts.push(Vector3::zeros());
+            return Ok(Body::new(name, None, Isometry3::identity(), place));
+        };
+        let joint = &self.joints[joint];
+        let [in_parent, in_child] = match branch.is_turned {
+            false => [&joint.ends[0], &joint.ends[1]],
+            true => [&joint.ends[1], &joint.ends[0]],
+        };
+        // Where it turns is the frame of the link.
+        let is_still = joint.motions.iter().all(Motion::is_slide);
+        let shift = if is_still { Vector3::zeros() } else { in_child.frame.translation.vector };
+        let above = made.shifts[parent];
+        made.shifts.push(shift);
+        let pose = Translation3::from(-above)
+            * in_parent.frame
+            * in_child.frame.inverse()
+            * Translation3::from(shift);
+        let mut body = Body::new(name, Some(parent), clean(pose), place);
+        let of = scene.place(joint.prim);
+        let name = self.names[1].free(scene.name(joint.prim)).map_err(|why| at(of, why))?;
+        if branch.is_turned {
+            tally.count(features::TURNED);
+        }
+        if joint.is_ball {
+            tally.count(features::BALLS);
+            let ball = Joint::new(name, JointKind::Ball, Isometry3::identity(), of);
+            body.joints.push(ball, self.account).map_err(|why| at(of, why))?;
+            return Ok(body);
+        }
+        if joint.motions.is_empty() {
+            body.fixed_by = Some(name);
+            return Ok(body);
+        }
+        let mut motions: Vec<&Motion> = joint.motions.iter().collect();
+        if branch.is_turned {
+            motions.reverse();
+        }
+        if motions.len() > 1 {
+            tally.count(features::MORE_JOINTS);
+        }
+        for motion in &motions {
+            let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
+            let own = match motions.len() {
+                1 => name.clone(),
+                _ => self.names[1]
+                    .free(&format!("{name}/{}", MOTIONS[motion.which]))
+                    .map_err(|why| at(of, why))?,
+            };
+            let mut moving = Joint::new(own, kind, Isometry3::identity(), of);
+            let sign = if branch.is_turned { -1.0 } else { 1.0 };
+            moving.axis = clean_axis(in_child.frame.rotation * motion.axis * sign);
+            moving.range = range(motion, &moving.name, scene.place(joint.prim), tally);
+            drive(scene, joint.prim, motion, &mut moving, tally);
+            tally.count(match (kind, moving.range) {
+                (JointKind::Slide, None) => features::FREE_SLIDES,
+                (JointKind::Slide, Some(_)) => features::SLIDES,
+                _ => features::HINGES,
+            });
+            body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+        }
+        Ok(body)
+    }
+
+    /// Joints that follow others, as Newton says it, or PhysX.
+    fn mimics(&self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
+        for joint in self.joints {
+            let prim = self.scene.prim(joint.prim);
+            let physx = ["rotX", "rotY", "rotZ", "transX", "transY", "transZ"];
+            let physx = physx.iter().find(|axis| prim.has(&format!("PhysxMimicJointAPI:{axis}")));
+            let (leader, offset, multiplier) = if prim.has("NewtonMimicAPI") {
+                if !flag(prim, "newton:mimicEnabled", true) {
+                    continue;
+                }
+                let value = |name: &str, none| number(prim, name).unwrap_or(none);
+                (
+                    self.scene.target(prim, "newton:mimicJoint"),
+                    value("newton:mimicCoef0", 0.0),
+                    value("newton:mimicCoef1", 1.0),
+                )
+            } else if let Some(axis) = physx {
+                let value = |name: &str, none| {
+                    number(prim, &format!("physxMimicJoint:{axis}:{name}")).unwrap_or(none)
+                };
+                let leader = format!("physxMimicJoint:{axis}:referenceJoint");
+                // Own + gearing × other + offset = 0.
+                (self.scene.target(prim, &leader), -value("offset", 0.0), -value("gearing", 1.0))
+            } else {
+                continue;
+            };
+            let own = self.of_joint.get(&joint.prim).copied();
+            let other = leader.and_then(|leader| self.of_joint.get(&leader)).copied();
+            let Some((own, other)) = own.zip(other).filter(|(own, other)| own != other) else {
+                tally.count(features::COUPLINGS);
+                continue;
+            };
+            let leader = made.bodies[other.0].joints[other.1].clone();
+            let follower = &mut made.bodies[own.0].joints[own.1];
+            let unit = if follower.kind == JointKind::Slide {
+                self.scene.metre
+            } else {
+                1f64.to_radians()
+            };
+            // A circle of joints that follow each other has no leader: what comes last moves by itself.
+            if leader.mimic.as_ref().is_some_and(|mimic| mimic.joint == follower.name) {
+                tally.count(features::COUPLINGS);
+                continue;
+            }
+            follower.mimic = Some(Mimic { joint: leader.name, multiplier, offset: offset * unit });
+            tally.count(features::MIMICS);
+        }
+        Ok(())
+    }
+
+    fn closings(
+        &self,
+        graph: &Graph,
+        made: &Made,
+        tally: &mut Tally,
+    ) -> Fallible<Charged<Closing>> {
+        let mut closings = Charged::default();
+        for joint in graph.outside.iter().map(|at| &self.joints[*at]) {
+            let place = self.scene.place(joint.prim);
+            let slides = joint.motions.iter().filter(|motion| motion.is_slide()).count();
+            let axes: Vec<Vector3<f64>> = joint.motions.iter().map(|motion| motion.axis).collect();
+            let (kind, axis) = match (slides, &axes[..]) {
+                _ if joint.is_ball => (Some(LoopKind::Spherical), Vector3::z()),
+                (0, []) => (Some(LoopKind::Fixed), Vector3::z()),
+                (0, [axis]) => (Some(LoopKind::Revolute), *axis),
+                (1, [axis]) => (Some(LoopKind::Prismatic), *axis),
+                (1, [slide, hinge]) if slide == hinge => (Some(LoopKind::Cylindrical), *slide),
+                (2, [one, other, hinge]) if one.cross(other).cross(hinge).norm() == 0.0 => {
+                    (Some(LoopKind::Planar), *hinge)
+                }
+                _ => (None, Vector3::z()),
+            };
+            let bodies =
+                joint.ends.map(|end| end.body.and_then(|body| made.index.get(&body).copied()));
+            let (Some(kind), [Some(one), Some(other)]) = (kind, bodies) else {
+                tally.count(features::OPEN);
+                let text = format!(
+                    "the joint `{}` is left out: it closes a chain",
+                    self.scene.name(joint.prim)
+                );
+                tally.remark(place, text);
+                continue;
+            };
+            tally.count(features::CLOSED);
+            if joint.motions.iter().any(|motion| motion.range.iter().any(|limit| limit.is_finite()))
+            {
+                let text = format!(
+                    "the limits of joint `{}` are left out: it closes a chain, and moves as the others let it",
+                    self.scene.name(joint.prim)
+                );
+                tally.remark(place, text);
+            }
+            let end = |body: usize, which: usize| {
+                let shifted = Translation3::from(-made.shifts[body]) * joint.ends[which].frame;
+                let turned = if axis == Vector3::z() { shifted } else { shifted * from_z(&axis) };
+                End { body, frame: turned }
+            };
+            let name = Some(self.scene.name(joint.prim).to_owned());
+            let closing = Closing { name, kind, ends: [end(one, 0), end(other, 1)], place };
+            closings.push(closing, self.account).map_err(|why| at(place, why))?;
+        }
+        Ok(closings)
+    }
+
+    /// Prims of a body that are frames alone.
+    fn frames(&mut self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
+        for (prim, of) in self.scene.stage.prims.iter().enumerate() {
+            let Some((body, index)) =
+                of.parent.and_then(|parent| Some((parent, *made.index.get(&parent)?)))
+            else {
+                continue;
+            };
+            let is_frame = &*of.type_name == "Xform"
+                && of.children.is_empty()
+                && !made.index.contains_key(&prim)
+                && !of.properties.is_empty()
+                && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
+            if !is_frame {
+                continue;
+            }
+            let place = self.scene.place(prim);
+            let too_much = |why| at(place, why);
+            let pose = self.scene.frame(body)?.0.inverse() * self.scene.frame(prim)?.0;
+            let pose = clean(Translation3::from(-made.shifts[index]) * pose);
+            let name = self.names[0].free(self.scene.name(prim)).map_err(too_much)?;
+            tally.count(features::FRAMES);
+            let frame = Body { is_frame: true, ..Body::new(name, Some(index), pose, place) };
+            made.bodies.push(frame, self.account).map_err(too_much)?;
+        }
+        Ok(())
+    }
+
+    /// Named configurations, which `urdd export` writes into custom data.
+    fn configurations(&self, made: &Made, tally: &mut Tally) -> Fallible<Charged<Configuration>> {
+        let mut all = Charged::default();
+        for (prim, of) in self.scene.stage.prims.iter().enumerate() {
+            let data =
+                of.field("customData").and_then(|data| data.get("urdd")?.get("configurations"));
+            let Some(Value::Dictionary(named)) = data else { continue };
+            let place = self.scene.place(prim);
+            for (name, values) in named.iter() {
+                let mut configuration = Configuration {
+                    name: name.to_string(),
+                    values: Charged::default(),
+                    base: None,
+                };
+                for (body, part) in made.bodies.iter().enumerate() {
+                    for (which, joint) in part.joints.iter().enumerate() {
+                        let Some(value) = values.get(&joint.name).and_then(Value::number) else {
+                            continue;
+                        };
+                        let name = joint.name.clone();
+                        let value = JointValue { joint: (body, which), name, values: vec![value] };
+                        configuration
+                            .values
+                            .push(value, self.account)
+                            .map_err(|why| at(place, why))?;
+                    }
+                }
+                tally.count(features::POSES);
+                all.push(configuration, self.account).map_err(|why| at(place, why))?;
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// The limits of a joint; `None` without any.
+fn range(
+    motion: &Motion,
+    name: &str,
+    place: super::super::place::Place,
+    tally: &mut Tally,
+) -> Option<[f64; 2]> {
+    let [lower, upper] = motion.range;
+    let far = FAR[usize::from(motion.is_slide())];
+    let (range, missing) = match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => return Some([lower, upper]),
+        (false, false) => return None,
+        (true, false) => ([lower, far.max(lower + far)], "upper"),
+        (false, true) => ([(-far).min(upper - far), upper], "lower"),
+    };
+    tally.count(features::ONE_SIDED);
+    tally.remark(
+        place,
+        format!("joint `{name}` has no {missing} limit: it is written with {range:?}"),
+    );
+    Some(range)
+}
+
+/// A pose without what rounding alone made of 0.
+fn clean(pose: Isometry3<f64>) -> Isometry3<f64> {
+    let vector = pose.translation.vector.map(|value| if value.abs() < 1e-12 { 0.0 } else { value });
+    let rotation = if pose.rotation.angle() < 1e-9 { Default::default() } else { pose.rotation };
+    Isometry3::from_parts(Translation3::from(vector), rotation)
+}
+
+/// An axis without components that the rounding of a rotation to single precision made of 0.
+fn clean_axis(axis: Vector3<f64>) -> Vector3<f64> {
+    axis.map(|value| if value.abs() < 1e-7 { 0.0 } else { value })
+}
