@@ -35,7 +35,7 @@ pub enum SourceError {
     )]
     NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
     /// A description of another format than URDF.
-    #[error("{}:{line}:{column}: {}", escape::line(file), escape::line(fault))]
+    #[error("{}{}: {}", escape::line(file), place(*line, *column), escape::line(fault))]
     Import { file: String, line: u32, column: u32, fault: String },
     #[error("{file}: this is a URDF already; `urdd generate` takes it as it is")]
     IsUrdf { file: String },
@@ -58,6 +58,11 @@ impl From<Cancelled> for SourceError {
     fn from(_: Cancelled) -> Self {
         SourceError::Cancelled
     }
+}
+
+/// A place in a file; that of a binary one is empty.
+fn place(line: u32, column: u32) -> String {
+    if line == 0 { String::new() } else { format!(":{line}:{column}") }
 }
 
 impl SourceError {

@@ -11,3 +11,4 @@ mod mjcf_faults;
 mod mjcf_meaning;
 mod mjcf_seen;
 mod sdf;
+mod usd;

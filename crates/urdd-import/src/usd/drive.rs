@@ -32,7 +32,7 @@ pub fn drive(
     joint.damping =
         positive(value(&["newton:damping"])).map_or(0.0, |damping| damping * force / unit);
     joint.friction = positive(value(&["newton:friction"])).map_or(0.0, |friction| friction * force);
-    let limits = [value(&["newton:effortLimit"])];
+    let limits = [value(&["newton:effortLimit", "urdf:limit:effort"])];
     joint.effort = positive(limits[0]).map(|effort| effort * force);
     let instance = motion.instance;
     if !of.has(&format!("PhysicsDriveAPI:{instance}")) {

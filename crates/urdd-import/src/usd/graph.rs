@@ -49,14 +49,17 @@ pub fn graph(
         one.zip(other)
     };
     let mut sets = Sets::new(bodies.len());
-    // Those first that are the first to hold their body 1; those that an articulation leaves open last.
+    // Those first that are the first to hold their body 1; those that an articulation leaves open last,
+    // but before joints that hold nothing.
     let mut is_held = vec![false; bodies.len()];
     let mut order: Vec<(u8, usize)> = Vec::new();
-    for (at, joint) in joints.iter().enumerate().filter(|(_, joint)| !joint.is_free) {
+    for (at, joint) in joints.iter().enumerate() {
         let Some((_, child)) = between(joint) else { continue };
-        let rank = match (joint.is_excluded, std::mem::replace(&mut is_held[child], true)) {
-            (true, _) => 2,
-            (false, was_held) => u8::from(was_held),
+        let was_held = std::mem::replace(&mut is_held[child], true);
+        let rank = match (joint.is_free, joint.is_excluded) {
+            (true, _) => 3,
+            (_, true) => 2,
+            _ => u8::from(was_held),
         };
         order.push((rank, at));
     }
@@ -68,7 +71,7 @@ pub fn graph(
         if sets.join(parent, child) {
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
-        } else {
+        } else if !joints[at].is_free {
             outside.push(at);
         }
     }

@@ -11,7 +11,7 @@ use super::super::refusal::Fallible;
 use super::gprim::{Shapes, Solid};
 use super::look::bound;
 use super::robot::Made;
-use super::scene::{Scene, number, triple, turn};
+use super::scene::{Scene, number, triple, turn, word};
 
 /// The density of what says none, kg/m³.
 const WATER: f64 = 1000.0;
@@ -95,7 +95,8 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
     let mut parts = Vec::new();
     for solid in solids {
         let own = scene.prim(solid.prim);
-        let unit = of_density_one(solid)?;
+        let is_shell = word(own, "newton:massModel") == Some("shell");
+        let unit = of_density_one(solid, is_shell)?;
         let material = || {
             let material =
                 bound(scene, solid.prim, ":physics").or_else(|| bound(scene, solid.prim, ""));
@@ -114,17 +115,18 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
     Mass::together(&parts).filter(|whole| whole.mass > 0.0)
 }
 
-/// The mass of a shape whose density is 1, in the frame of its link.
-fn of_density_one(solid: &Solid) -> Option<Mass> {
+/// The mass of a shape whose density is 1, in the frame of its link; of a shell, that of its surface.
+fn of_density_one(solid: &Solid, is_shell: bool) -> Option<Mass> {
     let own = match &solid.mesh {
         Some(mesh) => {
-            let measures =
-                measure(mesh, Mode::Exact).or_else(|_| measure(mesh, Mode::Convex)).ok()?;
+            let measures = measure(mesh, if is_shell { Mode::Shell } else { Mode::Exact })
+                .or_else(|_| measure(mesh, Mode::Convex))
+                .ok()?;
             Mass { mass: measures.volume, centre: measures.centre, inertia: measures.inertia }
         }
         None => {
-            let mass = volume(&solid.geometry, false);
-            Mass::along_axes(mass, Vector3::zeros(), moments(&solid.geometry, false, mass))
+            let mass = volume(&solid.geometry, is_shell);
+            Mass::along_axes(mass, Vector3::zeros(), moments(&solid.geometry, is_shell, mass))
         }
     };
     (own.mass > 0.0).then(|| own.at(&solid.pose))

@@ -19,7 +19,7 @@ use super::super::refusal::{Fallible, at};
 use super::drive::drive;
 use super::gprim::Shapes;
 use super::graph::{Branch, Graph, graph};
-use super::joint::{MOTIONS, Motion, UsdJoint, joints};
+use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::scene::{Scene, flag, number};
 use super::{mass, pairs, upright};
 
@@ -161,48 +161,70 @@ impl Maker<'_, '_> {
         if branch.is_turned {
             tally.count(features::TURNED);
         }
-        if joint.is_ball {
-            tally.count(features::BALLS);
-            let ball = Joint::new(name, JointKind::Ball, Isometry3::identity(), of);
-            body.joints.push(ball, self.account).map_err(|why| at(of, why))?;
-            return Ok(body);
-        }
         if joint.motions.is_empty() {
             body.fixed_by = Some(name);
             return Ok(body);
         }
-        let mut motions: Vec<&Motion> = joint.motions.iter().collect();
-        if branch.is_turned {
-            motions.reverse();
+        for moving in self.moves(joint, &name, in_child, branch.is_turned, tally)? {
+            body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
         }
-        if motions.len() > 1 {
+        Ok(body)
+    }
+
+    /// What a joint leaves free, one after the other; rotations that are all free are a ball.
+    fn moves(
+        &mut self,
+        joint: &UsdJoint,
+        name: &str,
+        end: &JointEnd,
+        is_turned: bool,
+        tally: &mut Tally,
+    ) -> Fallible<Vec<Joint>> {
+        let (scene, place) = (self.scene, self.scene.place(joint.prim));
+        let has_ball = joint.is_ball || joint.is_free;
+        let motions = joint.motions.iter().filter(|motion| !has_ball || motion.is_slide());
+        let mut parts: Vec<Option<&Motion>> = motions.map(Some).collect();
+        parts.extend(has_ball.then_some(None));
+        if is_turned {
+            parts.reverse();
+        }
+        if parts.len() > 1 {
             tally.count(features::MORE_JOINTS);
         }
-        for motion in &motions {
-            let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
-            let own = match motions.len() {
-                1 => name.clone(),
-                _ => self.names[1]
-                    .free(&format!("{name}/{}", MOTIONS[motion.which]))
-                    .map_err(|why| at(of, why))?,
+        let mut moves = Vec::new();
+        for part in &parts {
+            let own = match parts.len() {
+                1 => name.to_owned(),
+                _ => {
+                    let suffix = part.map_or("rot", |motion| MOTIONS[motion.which]);
+                    let own = self.names[1].free(&format!("{name}/{suffix}"));
+                    own.map_err(|why| at(place, why))?
+                }
             };
-            let mut moving = Joint::new(own, kind, Isometry3::identity(), of);
-            let sign = if branch.is_turned { -1.0 } else { 1.0 };
-            moving.axis = clean_axis(in_child.frame.rotation * motion.axis * sign);
-            moving.range = range(motion, &moving.name, scene.place(joint.prim), tally);
+            let Some(motion) = part else {
+                tally.count(features::BALLS);
+                moves.push(Joint::new(own, JointKind::Ball, Isometry3::identity(), place));
+                continue;
+            };
+            let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
+            let mut moving = Joint::new(own, kind, Isometry3::identity(), place);
+            let sign = if is_turned { -1.0 } else { 1.0 };
+            moving.axis = clean_axis(end.frame.rotation * motion.axis * sign);
+            moving.range = range(motion, &moving.name, place, tally);
             drive(scene, joint.prim, motion, &mut moving, tally);
             tally.count(match (kind, moving.range) {
                 (JointKind::Slide, None) => features::FREE_SLIDES,
                 (JointKind::Slide, Some(_)) => features::SLIDES,
                 _ => features::HINGES,
             });
-            body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+            moves.push(moving);
         }
-        Ok(body)
+        Ok(moves)
     }
 
     /// Joints that follow others, as Newton says it, or PhysX.
     fn mimics(&self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
+        let mut followed: HashMap<String, String> = HashMap::new();
         for joint in self.joints {
             let prim = self.scene.prim(joint.prim);
             let physx = ["rotX", "rotY", "rotZ", "transX", "transY", "transZ"];
@@ -233,19 +255,23 @@ impl Maker<'_, '_> {
                 tally.count(features::COUPLINGS);
                 continue;
             };
-            let leader = made.bodies[other.0].joints[other.1].clone();
+            let leader = made.bodies[other.0].joints[other.1].name.clone();
             let follower = &mut made.bodies[own.0].joints[own.1];
-            let unit = if follower.kind == JointKind::Slide {
-                self.scene.metre
-            } else {
-                1f64.to_radians()
-            };
             // A circle of joints that follow each other has no leader: what comes last moves by itself.
-            if leader.mimic.as_ref().is_some_and(|mimic| mimic.joint == follower.name) {
+            let mut above = Some(&leader);
+            while let Some(name) = above.filter(|name| **name != follower.name) {
+                above = followed.get(name);
+            }
+            if above.is_some() {
                 tally.count(features::COUPLINGS);
                 continue;
             }
-            follower.mimic = Some(Mimic { joint: leader.name, multiplier, offset: offset * unit });
+            followed.insert(follower.name.clone(), leader.clone());
+            let unit = match follower.kind {
+                JointKind::Slide => self.scene.metre,
+                _ => 1f64.to_radians(),
+            };
+            follower.mimic = Some(Mimic { joint: leader, multiplier, offset: offset * unit });
             tally.count(features::MIMICS);
         }
         Ok(())

@@ -1,0 +1,138 @@
+"""Takes URDFs to USD and back, and compares both URDFs: links, joints, limits, mimics, masses, poses in 20 configurations.
+
+    python usd_round.py URDD export|converter WORK URDF...
+
+`export`: by `urdd generate` and `urdd export usd`; `converter`: by urdf-usd-converter of PyPI. Numbers of USD are binary32.
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+from kinematics import Urdf, floats
+
+# Of lengths in m, angles, masses against themselves.
+FAR = 2e-6
+
+
+def run(*command):
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError((done.stderr or done.stdout).strip().splitlines()[-1][:300])
+    return done
+
+
+def usd_of(urdd, way, urdf, folder):
+    if way == "export":
+        run(urdd, "generate", urdf, "-o", folder / "urdd", "--modules", "link_shapes_skips")
+        (folder / "usd").mkdir()
+        run(urdd, "export", "usd", folder / "urdd", "-o", folder / "usd" / "robot.usda", "--actuators", "position")
+    else:
+        import urdf_usd_converter
+
+        urdf_usd_converter.Converter().convert(str(urdf), str(folder / "usd"))
+    roots = sorted((folder / "usd").rglob("*.usd*"), key=lambda path: (len(path.parts), path))
+    return roots[0]
+
+
+def limits(joint):
+    element = joint.find("limit")
+    if element is None or element.get("lower") is None:
+        return None
+    return float(element.get("lower", 0)), float(element.get("upper", 0))
+
+
+def leader(robot, joint):
+    """The joint that a joint follows, through others: its name, multiplier and offset."""
+    name, multiplier, offset = joint.get("name"), 1.0, 0.0
+    while (of := robot[name].find("mimic")) is not None:
+        own, shift = float(of.get("multiplier", 1)), float(of.get("offset", 0))
+        name, multiplier, offset = of.get("joint"), multiplier * own, offset + multiplier * shift
+    return name, multiplier, offset
+
+
+def compare(one, other, wrong):
+    """What differs between two robots."""
+    links = [name for name in one.links if name in other.links]
+    if missing := sorted(set(one.links) - set(other.links)):
+        wrong.append(f"links are missing: {missing[:5]}")
+    if more := sorted(set(other.links) - set(one.links)):
+        wrong.append(f"links are more: {more[:5]}")
+    joints = {joint.get("name"): joint for joint in other.joints}
+    values, rng = {}, np.random.default_rng(0)
+    for joint in one.moving:
+        name, kind = joint.get("name"), joint.get("type")
+        own = joints.get(name)
+        if own is None:
+            wrong.append(f"joint {name} is missing")
+            return
+        if own.get("type") != kind:
+            wrong.append(f"joint {name} is {own.get('type')} for {kind}")
+        theirs, ours = (limits(of) if of.get("type") in ("revolute", "prismatic") else None for of in (joint, own))
+        if (theirs is None) != (ours is None) or theirs and max(abs(a - b) for a, b in zip(theirs, ours)) > FAR * max(1, *map(abs, theirs)):
+            wrong.append(f"joint {name}: limits {ours} for {theirs}")
+        follows = joint.find("mimic") is not None
+        # What follows is not driven: `urdd export` leaves its effort out.
+        for attribute in ("velocity",) if follows else ("effort", "velocity"):
+            theirs, ours = ((of.find("limit").get(attribute) if of.find("limit") is not None else None) for of in (joint, own))
+            if theirs and float(theirs) > 0 and abs(float(ours or 1000) - float(theirs)) > 1e-5 * float(theirs):
+                wrong.append(f"joint {name}: {attribute} {ours} for {theirs}")
+        theirs, ours = leader({of.get("name"): of for of in one.joints}, joint), leader(joints, own)
+        if theirs[0] != ours[0] or np.abs(np.subtract(theirs[1:], ours[1:])).max() > FAR * max(1, abs(theirs[1])):
+            wrong.append(f"joint {name} follows {ours} for {theirs}")
+        values[name] = rng.uniform(-1, 1, 20)
+    for link in links:
+        (mass, centre, inertia), (mass2, centre2, inertia2) = one.inertial(link), other.inertial(link)
+        if mass == 0 and mass2 < 2e-6:
+            continue
+        if abs(mass - mass2) > FAR * mass or np.abs(centre - centre2).max() > FAR:
+            wrong.append(f"link {link}: mass {mass2} {centre2} for {mass} {centre}")
+        if np.abs(inertia - inertia2).max() > 1e-5 * max(np.abs(inertia).max(), 1e-6):
+            wrong.append(f"link {link}: inertia {inertia2.tolist()} for {inertia.tolist()}")
+    try:
+        poses, poses2 = one.poses(values, 20), other.poses(values, 20)
+    except ValueError as why:
+        wrong.append(f"poses are not compared: {why}")
+        return
+    root = np.linalg.inv(poses2[one.root])
+    far = {link: np.abs(root @ poses2[link] - poses[link]).max() for link in links}
+    worst = max(far, key=far.get)
+    if far[worst] > 1e-5:
+        wrong.append(f"link {worst} is {far[worst]:.3g} away, of {sum(of > 1e-5 for of in far.values())} links")
+
+
+def main():
+    urdd, way, work = sys.argv[1:4]
+    totals = dict(robots=0, right=0, refused=0, unconverted=0)
+    for urdf in map(pathlib.Path, sys.argv[4:]):
+        folder = pathlib.Path(work) / urdf.stem
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        totals["robots"] += 1
+        try:
+            usd = usd_of(urdd, way, urdf.resolve(), folder)
+        except Exception as why:
+            totals["unconverted"] += 1
+            print(f"{urdf.name}: not converted: {why}")
+            continue
+        try:
+            run(urdd, "import", usd, "-o", folder / "back", "--report", folder / "report.json")
+        except RuntimeError as why:
+            totals["refused"] += 1
+            print(f"{urdf.name}: {why}")
+            continue
+        wrong = []
+        compare(Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf"))), wrong)
+        totals["right"] += not wrong
+        for line in wrong[:6]:
+            print(f"{urdf.name}: {line}")
+    print(json.dumps(totals))
+
+
+if __name__ == "__main__":
+    main()
