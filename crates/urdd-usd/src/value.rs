@@ -152,6 +152,18 @@ impl ListOp {
         ListOp { explicit: Some(items), ..ListOp::default() }
     }
 
+    /// Two edits of one list, which stand in two statements.
+    pub(crate) fn joined(&self, other: &ListOp) -> ListOp {
+        let both = |of: fn(&ListOp) -> &Vec<Item>| [of(self).as_slice(), of(other)].concat();
+        ListOp {
+            explicit: other.explicit.clone().or_else(|| self.explicit.clone()),
+            deleted: both(|list| &list.deleted),
+            added: both(|list| &list.added),
+            prepended: both(|list| &list.prepended),
+            appended: both(|list| &list.appended),
+        }
+    }
+
     /// With other entries in place of its own; `None` leaves one out.
     pub(crate) fn map(&self, mut each: impl FnMut(&Item) -> Option<Item>) -> ListOp {
         let mut all = |items: &[Item]| items.iter().filter_map(&mut each).collect::<Vec<_>>();

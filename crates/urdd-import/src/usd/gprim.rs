@@ -3,30 +3,26 @@
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3};
 use sha2::{Digest, Sha256};
 use urdd_directory::account::Charged;
 use urdd_directory::path::file_name;
+use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
-use urdd_geometry::mesh::Bounds;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::stl;
-use urdd_geometry::{Mesh, primitives};
-use urdd_kinematics::rotation::from_z;
 use urdd_source::gate::Gate;
-use urdd_usd::{Prim, Value};
+use urdd_usd::Value;
 
-use super::super::cone::cone;
 use super::super::features::{self, Tally};
 use super::super::model::{Asset, Geometry, Material, Shape, Use};
 use super::super::refusal::{Fallible, at};
+use super::form::{Form, bounding, form, reach};
 use super::look::{bound, look};
+use super::made::Made;
 use super::mesh::{Faces, faces};
-use super::robot::Made;
 use super::scene::{Scene, flag, is_square, number, split, word};
 
-/// Two scales that differ by less are one: those of single precision.
-const NEAR: f64 = 1e-5;
 /// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written.
 const MESH: usize = 60;
 
@@ -47,13 +43,6 @@ pub struct Solid {
     pub pose: Isometry3<f64>,
     pub geometry: Geometry,
     pub mesh: Option<Arc<Mesh>>,
-}
-
-/// A shape in the frame of its prim: where it is there, and what it is.
-enum Form {
-    Plain(Isometry3<f64>, Geometry),
-    Meshed(Isometry3<f64>, Mesh),
-    Nothing,
 }
 
 impl<'a, 's> Shapes<'a, 's> {
@@ -197,7 +186,7 @@ impl<'a, 's> Shapes<'a, 's> {
                     Ok(hull) => Form::Meshed(Isometry3::identity(), hull.into_mesh()),
                     Err(_) => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
                 },
-                Some("boundingCube") => bounding(&faces.mesh, |size| Geometry::Box(size)),
+                Some("boundingCube") => bounding(&faces.mesh, Geometry::Box),
                 Some("boundingSphere") => {
                     bounding(&faces.mesh, |_| Geometry::Sphere(reach(&faces.mesh)))
                 }
@@ -318,109 +307,4 @@ impl<'a, 's> Shapes<'a, 's> {
         tally.count(if is_one { features::FRICTION } else { features::FRICTIONS });
         is_one.then_some(first)
     }
-}
-
-/// A shape that is not a mesh, stretched.
-fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
-    let value = |name: &str, none: f64| number(of, name).unwrap_or(none);
-    let is_straight = stretch.clone_owned() == Matrix3::from_diagonal(&stretch.diagonal());
-    let scale = stretch.diagonal().abs();
-    let axis = match word(of, "axis") {
-        Some("X") => 0,
-        Some("Y") => 1,
-        _ => 2,
-    };
-    let along = from_z(&Vector3::ith(axis, 1.0));
-    let pose = Isometry3::from_parts(Translation3::identity(), along);
-    let [a, b] = [scale[(axis + 1) % 3], scale[(axis + 2) % 3]];
-    let is_round = is_straight && (a - b).abs() <= NEAR * a.max(b);
-    let is_even = is_round && (a - scale[axis]).abs() <= NEAR * a.max(scale[axis]);
-    // As a mesh along z, which is turned, then stretched.
-    let stretched = |mut mesh: Mesh, along: &UnitQuaternion<f64>| {
-        mesh.transform(&(stretch * along.to_rotation_matrix().matrix()).to_homogeneous());
-        Form::Meshed(Isometry3::identity(), mesh)
-    };
-    let still = UnitQuaternion::identity();
-    match &*of.type_name {
-        "Cube" => {
-            let size = value("size", 2.0);
-            tally.count(features::BOXES);
-            match is_straight {
-                true => Form::Plain(Isometry3::identity(), Geometry::Box((scale * size).into())),
-                false => stretched(primitives::cuboid([size; 3]), &still),
-            }
-        }
-        "Sphere" => {
-            let radius = value("radius", 1.0);
-            tally.count(if is_even { features::BOXES } else { features::ELLIPSOIDS });
-            match (is_even, is_straight) {
-                (true, _) => Form::Plain(Isometry3::identity(), Geometry::Sphere(radius * scale.x)),
-                (_, true) => {
-                    Form::Plain(Isometry3::identity(), Geometry::Ellipsoid((scale * radius).into()))
-                }
-                _ => stretched(primitives::sphere(radius), &still),
-            }
-        }
-        "Cylinder" | "Cylinder_1" => {
-            let radius = [value("radius", 1.0), value("radiusTop", 1.0)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 2.0);
-            tally.count(features::BOXES);
-            match is_round {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Cylinder { radius: radius * a, length: height * scale[axis] },
-                ),
-                false => stretched(primitives::cylinder(radius, height), &along),
-            }
-        }
-        "Capsule" | "Capsule_1" => {
-            let radius = [value("radius", 0.5), value("radiusTop", 0.5)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 1.0);
-            tally.count(features::CAPSULES);
-            match is_even {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Capsule { radius: radius * a, length: height * scale[axis] },
-                ),
-                false => stretched(primitives::capsule(radius, height), &along),
-            }
-        }
-        "Cone" => {
-            let (radius, height) = (value("radius", 1.0), value("height", 2.0));
-            tally.count(features::CONES);
-            let mut mesh = cone();
-            mesh.transform(
-                &Matrix3::from_diagonal(&Vector3::new(radius, radius, height)).to_homogeneous(),
-            );
-            stretched(mesh, &along)
-        }
-        "Plane" => {
-            tally.count(features::SURFACES);
-            Form::Nothing
-        }
-        _ => {
-            tally.count(features::OTHER_SHAPES);
-            Form::Nothing
-        }
-    }
-}
-
-/// The box around a mesh, or what is made of its middle.
-fn bounding(mesh: &Mesh, of: impl Fn([f64; 3]) -> Geometry) -> Form {
-    let Some(bounds) = mesh.bounds() else { return Form::Nothing };
-    let pose =
-        Isometry3::from_parts(Translation3::from(middle(&bounds)), UnitQuaternion::identity());
-    Form::Plain(pose, of(bounds.size()))
-}
-
-fn middle(bounds: &Bounds) -> Vector3<f64> {
-    (Vector3::from(bounds.min) + Vector3::from(bounds.max)) / 2.0
-}
-
-/// How far a mesh is from the middle of its box.
-fn reach(mesh: &Mesh) -> f64 {
-    let middle = mesh.bounds().map_or_else(Vector3::zeros, |bounds| middle(&bounds));
-    mesh.vertices.iter().map(|point| (Vector3::from(*point) - middle).norm()).fold(0.0, f64::max)
 }

@@ -127,7 +127,7 @@ fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, b
             if limits.iter().any(|name| number(prim, name).is_some_and(|limit| limit >= 0.0)) {
                 tally.count(features::BALL_RANGES);
             }
-            let each = (3..6).map(|which| free(which));
+            let each = (3..6).map(free);
             (each.collect(), true)
         }
         "PhysicsJoint" => {

@@ -10,7 +10,7 @@ use super::super::model::{Geometry, Inertial};
 use super::super::refusal::Fallible;
 use super::gprim::{Shapes, Solid};
 use super::look::bound;
-use super::robot::Made;
+use super::made::Made;
 use super::scene::{Scene, number, triple, turn, word};
 
 /// The density of what says none, kg/m³.

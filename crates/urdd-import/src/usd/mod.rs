@@ -3,10 +3,13 @@
 mod door;
 mod drive;
 pub mod fault;
+mod form;
+mod frames;
 mod gprim;
 mod graph;
 mod joint;
 mod look;
+mod made;
 mod mass;
 mod mesh;
 mod pairs;

@@ -8,7 +8,7 @@ use super::super::features::{self, Tally};
 use super::super::model::Apart;
 use super::super::refusal::{Fallible, at};
 use super::joint::UsdJoint;
-use super::robot::Made;
+use super::made::Made;
 use super::scene::{Scene, flag};
 
 /// Those that never collide, and those that do.

@@ -11,29 +11,20 @@ use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
 use super::super::features::{self, Tally};
-use super::super::model::{
-    Body, Closing, Configuration, End, Joint, JointKind, JointValue, Mimic, Model,
-};
+use super::super::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
 use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
 use super::drive::drive;
+use super::frames::clean;
 use super::gprim::Shapes;
 use super::graph::{Branch, Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
+use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{mass, pairs, upright};
+use super::{frames, mass, pairs, upright};
 
 /// How far the other limit is from one that stands alone, rad and m.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
-
-/// The bodies of the robot, while they are made.
-pub struct Made {
-    pub bodies: Charged<Body>,
-    /// The body of each prim that is one.
-    pub index: HashMap<usize, usize>,
-    /// Where the frame of each link is in its body: the joint that leads to it is there.
-    pub shifts: Vec<Vector3<f64>>,
-}
 
 /// Reads the robot.
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
@@ -60,8 +51,8 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     mass::add(scene, &mut made, &shapes, &mut tally)?;
     let closings = maker.closings(&graph, &made, &mut tally)?;
     let (apart, checked) = pairs::pairs(scene, &joints, &made, account, &mut tally)?;
-    maker.frames(&mut made, &mut tally)?;
-    let configurations = maker.configurations(&made, &mut tally)?;
+    frames::frames(scene, &mut maker.names[0], &mut made, account, &mut tally)?;
+    let configurations = frames::configurations(scene, &made, account, &mut tally)?;
     let friction = shapes.friction(&made, &mut tally);
     let mut model = Model {
         name: maker.name(&graph),
@@ -330,68 +321,6 @@ impl Maker<'_, '_> {
         }
         Ok(closings)
     }
-
-    /// Prims of a body that are frames alone.
-    fn frames(&mut self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
-        for (prim, of) in self.scene.stage.prims.iter().enumerate() {
-            let Some((body, index)) =
-                of.parent.and_then(|parent| Some((parent, *made.index.get(&parent)?)))
-            else {
-                continue;
-            };
-            let is_frame = &*of.type_name == "Xform"
-                && of.children.is_empty()
-                && !made.index.contains_key(&prim)
-                && !of.properties.is_empty()
-                && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
-            if !is_frame {
-                continue;
-            }
-            let place = self.scene.place(prim);
-            let too_much = |why| at(place, why);
-            let pose = self.scene.frame(body)?.0.inverse() * self.scene.frame(prim)?.0;
-            let pose = clean(Translation3::from(-made.shifts[index]) * pose);
-            let name = self.names[0].free(self.scene.name(prim)).map_err(too_much)?;
-            tally.count(features::FRAMES);
-            let frame = Body { is_frame: true, ..Body::new(name, Some(index), pose, place) };
-            made.bodies.push(frame, self.account).map_err(too_much)?;
-        }
-        Ok(())
-    }
-
-    /// Named configurations, which `urdd export` writes into custom data.
-    fn configurations(&self, made: &Made, tally: &mut Tally) -> Fallible<Charged<Configuration>> {
-        let mut all = Charged::default();
-        for (prim, of) in self.scene.stage.prims.iter().enumerate() {
-            let data =
-                of.field("customData").and_then(|data| data.get("urdd")?.get("configurations"));
-            let Some(Value::Dictionary(named)) = data else { continue };
-            let place = self.scene.place(prim);
-            for (name, values) in named.iter() {
-                let mut configuration = Configuration {
-                    name: name.to_string(),
-                    values: Charged::default(),
-                    base: None,
-                };
-                for (body, part) in made.bodies.iter().enumerate() {
-                    for (which, joint) in part.joints.iter().enumerate() {
-                        let Some(value) = values.get(&joint.name).and_then(Value::number) else {
-                            continue;
-                        };
-                        let name = joint.name.clone();
-                        let value = JointValue { joint: (body, which), name, values: vec![value] };
-                        configuration
-                            .values
-                            .push(value, self.account)
-                            .map_err(|why| at(place, why))?;
-                    }
-                }
-                tally.count(features::POSES);
-                all.push(configuration, self.account).map_err(|why| at(place, why))?;
-            }
-        }
-        Ok(all)
-    }
 }
 
 /// The limits of a joint; `None` without any.
@@ -415,13 +344,6 @@ fn range(
         format!("joint `{name}` has no {missing} limit: it is written with {range:?}"),
     );
     Some(range)
-}
-
-/// A pose without what rounding alone made of 0.
-fn clean(pose: Isometry3<f64>) -> Isometry3<f64> {
-    let vector = pose.translation.vector.map(|value| if value.abs() < 1e-12 { 0.0 } else { value });
-    let rotation = if pose.rotation.angle() < 1e-9 { Default::default() } else { pose.rotation };
-    Isometry3::from_parts(Translation3::from(vector), rotation)
 }
 
 /// An axis without components that the rounding of a rotation to single precision made of 0.

@@ -7,6 +7,7 @@
 mod cursor;
 mod lists;
 mod packed;
+mod path_tree;
 mod paths;
 mod sections;
 mod specs;

@@ -6,28 +6,11 @@ use super::super::error::Fault;
 use super::super::layer::MAX_LEVELS;
 use super::super::value::Name;
 use super::cursor::{Cursor, Wrong};
+use super::path_tree::PathNode;
 use super::sections::Crate;
 
 /// Bytes of a path in memory, about: of the tables, and of what is read for them.
 const PATH: usize = 100;
-
-/// A path.
-#[derive(Debug, Clone)]
-pub struct PathNode {
-    /// The path that it is inside of.
-    pub parent: Option<u32>,
-    pub name: Name,
-    pub is_property: bool,
-    pub level: u32,
-}
-
-/// All paths, by their numbers.
-#[derive(Debug, Default)]
-pub struct Paths {
-    pub nodes: Vec<Option<PathNode>>,
-    /// Texts that were made.
-    texts: Vec<Option<Name>>,
-}
 
 impl Crate<'_> {
     pub fn read_paths(&mut self) -> Result<(), Wrong> {

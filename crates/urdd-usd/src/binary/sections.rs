@@ -9,7 +9,7 @@ use super::super::value::{Name, Value};
 use super::START;
 use super::cursor::{Cursor, Wrong};
 use super::packed::{integers, unpacked};
-use super::paths::Paths;
+use super::path_tree::Paths;
 
 /// The oldest version, whose sections are packed as they are today.
 const OLDEST: u8 = 4;
@@ -37,7 +37,7 @@ pub struct Crate<'b> {
 }
 
 impl<'b> Crate<'b> {
-    /// Reads all but specs.
+    /// Reads all but paths and specs.
     pub fn open(bytes: &'b [u8], door: &'b mut dyn Door) -> Result<Self, Wrong> {
         let mut cursor = Cursor::new(bytes, 0);
         if cursor.take(START.len())? != START {
@@ -79,7 +79,6 @@ impl<'b> Crate<'b> {
         let count = file.entries(&mut cursor)?;
         let sets = file.integers(&mut cursor, count, false)?;
         file.field_sets = sets.into_iter().map(|index| index as u32).collect();
-        file.read_paths()?;
         Ok(file)
     }
 

@@ -22,6 +22,7 @@ const VARIANT: i64 = 10;
 /// Reads a layer.
 pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
     let mut file = Crate::open(bytes, door)?;
+    file.read_paths()?;
     let mut cursor = file.section(b"SPECS")?;
     let count = file.entries(&mut cursor)?;
     let paths = file.integers(&mut cursor, count, false)?;

@@ -7,9 +7,9 @@ use super::super::door::{beside, is_remote};
 use super::super::error::UsdError;
 use super::super::layer::{PropertySpec, field};
 use super::super::value::{Item, ListOp, Name, Value};
+use super::composed::{Prim, Property};
 use super::sources::{Composer, absolute, shared};
 use super::tree::{Arc, Tree};
-use super::{Prim, Property};
 
 /// Bytes of a prim and of a property in memory, about.
 const PRIM: usize = 400;

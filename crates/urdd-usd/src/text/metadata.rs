@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::super::value::{Item, ListOp, Name, Value};
 use super::lexer::{Token, Wrong};
-use super::reader::{Reader, joined};
+use super::words::Reader;
 
 /// How a statement edits a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Reader<'_> {
             match fields.iter_mut().find(|(key, _)| *key == field) {
                 Some((_, Value::List(known))) => {
                     if let Value::List(more) = value {
-                        *known = Arc::new(joined(known, &more));
+                        *known = Arc::new(known.joined(&more));
                     }
                 }
                 Some(known) => known.1 = value,

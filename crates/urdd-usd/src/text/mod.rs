@@ -4,5 +4,6 @@ mod lexer;
 mod metadata;
 mod reader;
 mod values;
+mod words;
 
 pub use reader::read;

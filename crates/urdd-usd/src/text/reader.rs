@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::super::error::{Fault, Place};
 use super::super::layer::{Layer, MAX_LEVELS, PropertySpec};
-use super::super::value::{Item, ListOp, Name, Value};
+use super::super::value::{Item, Name, Value};
 use super::lexer::{Lexer, Token, Wrong};
 use super::metadata::{Edit, items};
 use super::values::typed;
+use super::words::Reader;
 
 /// The first words of a layer of text.
 const START: &str = "#usda 1.";
@@ -36,16 +37,6 @@ pub fn read(bytes: &[u8]) -> Result<Layer, Wrong> {
     Ok(reader.layer)
 }
 
-/// Reads the words of a layer.
-#[derive(Debug)]
-pub struct Reader<'t> {
-    pub lexer: Lexer<'t>,
-    layer: Layer,
-    names: HashSet<Name>,
-    /// The properties of specs, by name.
-    properties: HashMap<(u32, Name), usize>,
-}
-
 /// What is open.
 enum Open {
     /// A prim or a variant.
@@ -55,16 +46,6 @@ enum Open {
 }
 
 impl Reader<'_> {
-    /// A name, which is there once.
-    pub fn name(&mut self, text: &str) -> Name {
-        if let Some(known) = self.names.get(text) {
-            return known.clone();
-        }
-        let name: Name = Arc::from(text);
-        self.names.insert(name.clone());
-        name
-    }
-
     fn layer(&mut self) -> Result<(), Wrong> {
         let fields = self.metadata()?;
         self.set_fields(0, fields);
@@ -276,23 +257,11 @@ impl Reader<'_> {
             match own.iter_mut().find(|(key, _)| *key == name) {
                 Some((_, Value::List(known))) => {
                     let Value::List(more) = value else { continue };
-                    *known = Arc::new(joined(known, &more));
+                    *known = Arc::new(known.joined(&more));
                 }
                 Some(known) => known.1 = value,
                 None => own.push((name, value)),
             }
         }
-    }
-}
-
-/// Two edits of one list, which stand in two statements.
-pub fn joined(one: &ListOp, other: &ListOp) -> ListOp {
-    let both = |of: fn(&ListOp) -> &Vec<Item>| [of(one).as_slice(), of(other)].concat();
-    ListOp {
-        explicit: other.explicit.clone().or_else(|| one.explicit.clone()),
-        deleted: both(|list| &list.deleted),
-        added: both(|list| &list.added),
-        prepended: both(|list| &list.prepended),
-        appended: both(|list| &list.appended),
     }
 }

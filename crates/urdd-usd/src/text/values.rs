@@ -6,7 +6,7 @@ use super::super::error::Fault;
 use super::super::half;
 use super::super::value::Value;
 use super::lexer::{Token, Wrong};
-use super::reader::Reader;
+use super::words::Reader;
 
 /// The deepest nesting of dictionaries and tuples. Robots use three levels.
 pub const MAX_VALUE_LEVELS: usize = 32;

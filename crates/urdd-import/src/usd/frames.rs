@@ -1,0 +1,85 @@
+//! Frames of bodies, and named configurations.
+
+use nalgebra::{Isometry3, Translation3};
+use urdd_directory::account::{Account, Charged};
+use urdd_usd::Value;
+
+use super::super::features::{self, Tally};
+use super::super::model::{Body, Configuration, JointValue};
+use super::super::names::Names;
+use super::super::refusal::{Fallible, at};
+use super::made::Made;
+use super::scene::Scene;
+
+/// Prims of a body that are frames alone.
+pub fn frames(
+    scene: &Scene<'_>,
+    names: &mut Names,
+    made: &mut Made,
+    account: &Account,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    for (prim, of) in scene.stage.prims.iter().enumerate() {
+        let Some((body, index)) =
+            of.parent.and_then(|parent| Some((parent, *made.index.get(&parent)?)))
+        else {
+            continue;
+        };
+        let is_frame = &*of.type_name == "Xform"
+            && of.children.is_empty()
+            && !made.index.contains_key(&prim)
+            && !of.properties.is_empty()
+            && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
+        if !is_frame {
+            continue;
+        }
+        let place = scene.place(prim);
+        let too_much = |why| at(place, why);
+        let pose = scene.frame(body)?.0.inverse() * scene.frame(prim)?.0;
+        let pose = clean(Translation3::from(-made.shifts[index]) * pose);
+        let name = names.free(scene.name(prim)).map_err(too_much)?;
+        tally.count(features::FRAMES);
+        let frame = Body { is_frame: true, ..Body::new(name, Some(index), pose, place) };
+        made.bodies.push(frame, account).map_err(too_much)?;
+    }
+    Ok(())
+}
+
+/// Named configurations, which `urdd export` writes into custom data.
+pub fn configurations(
+    scene: &Scene<'_>,
+    made: &Made,
+    account: &Account,
+    tally: &mut Tally,
+) -> Fallible<Charged<Configuration>> {
+    let mut all = Charged::default();
+    for (prim, of) in scene.stage.prims.iter().enumerate() {
+        let data = of.field("customData").and_then(|data| data.get("urdd")?.get("configurations"));
+        let Some(Value::Dictionary(named)) = data else { continue };
+        let place = scene.place(prim);
+        for (name, values) in named.iter() {
+            let mut configuration =
+                Configuration { name: name.to_string(), values: Charged::default(), base: None };
+            for (body, part) in made.bodies.iter().enumerate() {
+                for (which, joint) in part.joints.iter().enumerate() {
+                    let Some(value) = values.get(&joint.name).and_then(Value::number) else {
+                        continue;
+                    };
+                    let name = joint.name.clone();
+                    let value = JointValue { joint: (body, which), name, values: vec![value] };
+                    configuration.values.push(value, account).map_err(|why| at(place, why))?;
+                }
+            }
+            tally.count(features::POSES);
+            all.push(configuration, account).map_err(|why| at(place, why))?;
+        }
+    }
+    Ok(all)
+}
+
+/// A pose without what rounding alone made of 0.
+pub fn clean(pose: Isometry3<f64>) -> Isometry3<f64> {
+    let vector = pose.translation.vector.map(|value| if value.abs() < 1e-12 { 0.0 } else { value });
+    let rotation = if pose.rotation.angle() < 1e-9 { Default::default() } else { pose.rotation };
+    Isometry3::from_parts(Translation3::from(vector), rotation)
+}
