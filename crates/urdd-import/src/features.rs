@@ -87,7 +87,7 @@ features! {
     POLYNOMIALS = "equalities of joints that are not linear, or that no mimic can say", LOOPS, Elsewhere, Elsewhere;
     COUPLINGS = "equalities of joints that are not active, or of balls and joints that are left out", No, Elsewhere, No;
     TENDONS = "tendons", No, Elsewhere, Elsewhere;
-    MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere, Elsewhere;
+    MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere, Yes;
     MORE_GAINS = "gains and armatures of joints that follow others, and names and ranges of several actuators of one joint", No, Elsewhere, No;
     GRAVCOMP = "gravity compensation of bodies", No, Elsewhere, Elsewhere;
     OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere, Elsewhere;

@@ -1,5 +1,6 @@
 //! Prints what a file composes, as JSON, for `tests/figures/imports/usd.py`: prims with their properties.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -19,13 +20,15 @@ impl Door for Folder {
     }
 }
 
-fn main() {
+fn main() -> std::io::Result<()> {
+    let mut out = std::io::stdout().lock();
     for file in std::env::args().skip(1) {
         let path = PathBuf::from(&file);
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let folder = path.parent().map(PathBuf::from).unwrap_or_default();
-        println!("{}", dump(&file, &name, folder));
+        writeln!(out, "{}", dump(&file, &name, folder))?;
     }
+    Ok(())
 }
 
 fn dump(file: &str, name: &str, folder: PathBuf) -> Json {

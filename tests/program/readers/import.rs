@@ -1,4 +1,4 @@
-//! Imports of MJCF and SDF.
+//! Imports of MJCF, SDF and USD.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,6 +15,10 @@ pub fn mjcf(bytes: &[u8]) {
 
 pub fn sdf(bytes: &[u8]) {
     imported(bytes, "model.sdf");
+}
+
+pub fn usd(bytes: &[u8]) {
+    imported(bytes, "robot.usd");
 }
 
 /// An import ends, whatever the bytes are. What it refuses has a reason; what it makes, both readers of URDF read as the
