@@ -18,11 +18,11 @@ const MAX_NOTES: usize = 20;
 #[command(
     after_help = "Writes NAME.urdf with its meshes, and where they say something NAME.srdf (named configurations, pairs that never \
     collide), NAME.export.toml (kind of base, gains) and NAME.loops.toml (loops and couplings). The format is told by the content of the file. `urdd generate`, \
-    `view`, `diff`, `lint` and `combine` take MJCF and SDF directly.\n\n\
+    `view`, `diff`, `lint` and `combine` take MJCF, SDF and USD directly.\n\n\
     Exit status: 0 the files are written; 2 the file cannot be imported or written."
 )]
 pub struct ImportArguments {
-    /// An MJCF or SDF file.
+    /// An MJCF, SDF or USD file.
     #[arg(value_name = "FILE")]
     file: PathBuf,
 

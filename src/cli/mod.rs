@@ -56,7 +56,7 @@ enum Command {
     Generate(generate::GenerateArguments),
     /// Combine robots: a gripper on an arm, arms on a base.
     Combine(combine::CombineArguments),
-    /// Import an MJCF or SDF: a URDF, its meshes, an SRDF, what exports need.
+    /// Import an MJCF, SDF or USD: a URDF, its meshes, an SRDF, what exports need.
     Import(import::ImportArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),

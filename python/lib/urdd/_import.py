@@ -1,4 +1,4 @@
-"""Imports of MJCF and SDF."""
+"""Imports of MJCF, SDF and USD."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Imported", "import_robot"]
 
 @dataclass(frozen=True)
 class Imported:
-    """An MJCF or SDF as a URDF with its companions, which are written."""
+    """An MJCF, SDF or USD as a URDF with its companions, which are written."""
 
     urdf: Path
     """The URDF."""
@@ -50,11 +50,11 @@ def import_robot(
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
     force: bool = False,
 ) -> Imported:
-    """Writes an MJCF or SDF as a URDF with its meshes, an SRDF with named configurations and pairs of links that never
+    """Writes an MJCF, SDF or USD as a URDF with its meshes, an SRDF with named configurations and pairs of links that never
     collide, and an ``export.toml`` with the kind of base and gains. What the file is, its content says.
 
     Args:
-        file: the MJCF or SDF.
+        file: the MJCF, SDF or USD.
         output: the folder to write.
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
