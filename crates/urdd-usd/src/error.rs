@@ -55,6 +55,8 @@ pub enum Fault {
     Unfinished(&'static str),
     #[error("prims are nested more than {0} levels deep")]
     Deep(usize),
+    #[error("a prim or property has more than {0} fields")]
+    Fields(usize),
     #[error("values are nested more than {0} levels deep")]
     DeepValue(usize),
     #[error(

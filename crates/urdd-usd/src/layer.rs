@@ -7,6 +7,9 @@ use super::value::{Name, Value};
 /// The deepest nesting of prims. A chain of 2,000 links in each other fits; paths of all prims stay short.
 pub const MAX_LEVELS: usize = 4096;
 
+/// The most fields of a prim or property: they are searched one by one. Robots have up to 20.
+pub const MAX_FIELDS: usize = 1000;
+
 /// What one file says.
 #[derive(Debug)]
 pub struct Layer {

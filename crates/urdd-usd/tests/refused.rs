@@ -118,6 +118,13 @@ fn prims_in_each_other() {
 }
 
 #[test]
+fn many_fields() {
+    let fields: String = (0..2000).map(|at| format!("f{at} = 1\n")).collect();
+    let found = refused(&format!("def \"a\" ( {fields} ) {{}}"));
+    assert!(found.ends_with("a prim or property has more than 1000 fields"), "{found}");
+}
+
+#[test]
 fn many_prims() {
     let mut text = String::from("#usda 1.0\n");
     for at in 0..100_000 {

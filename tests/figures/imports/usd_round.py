@@ -13,8 +13,9 @@ import sys
 import tempfile
 
 import numpy as np
+import trimesh
 
-from kinematics import Urdf, floats
+from kinematics import Urdf, floats, origin
 
 # Of lengths in m, angles, masses against themselves.
 FAR = 2e-6
@@ -54,6 +55,61 @@ def leader(robot, joint):
         own, shift = float(of.get("multiplier", 1)), float(of.get("offset", 0))
         name, multiplier, offset = of.get("joint"), multiplier * own, offset + multiplier * shift
     return name, multiplier, offset
+
+
+def points(shape, folder):
+    """Points whose box is that of a shape, in the frame of its link."""
+    geometry = shape.find("geometry")[0]
+    if geometry.tag == "box":
+        made = trimesh.creation.box(floats(geometry.get("size"), 3)).vertices
+    elif geometry.tag == "sphere":
+        made = trimesh.creation.icosphere(subdivisions=5, radius=float(geometry.get("radius"))).vertices
+    elif geometry.tag == "capsule":
+        made = trimesh.creation.capsule(float(geometry.get("length")), float(geometry.get("radius")), count=[64, 64]).vertices
+        made = made - made.mean(0)
+    elif geometry.tag == "cylinder":
+        size = {name: float(geometry.get(of)) for name, of in (("radius", "radius"), ("height", "length"))}
+        made = trimesh.creation.cylinder(**size, sections=256).vertices
+    else:
+        name = geometry.get("filename")
+        name = name.split("://")[1].split("/", 1)[1] if "://" in name else name
+        made = trimesh.load(folder / name, force="mesh").vertices
+        made = made * (floats(geometry.get("scale"), 3) if geometry.get("scale") else 1)
+    pose = origin(shape)
+    return made @ pose[:3, :3].T + pose[:3, 3]
+
+
+def box(robot, link, kind):
+    """The box of all visuals or collisions of a link."""
+    shapes = robot.links[link].findall(kind)
+    if not shapes:
+        return None
+    meshes = [mesh.get("filename") for shape in shapes for mesh in shape.iter("mesh")]
+    # What the converter leaves out, and what trimesh reads without its unit.
+    if any(shape.find("geometry/capsule") is not None for shape in shapes) or any(mesh.lower().endswith((".dae", ".glb")) for mesh in meshes):
+        raise KeyError
+    all_points = np.concatenate([points(shape, pathlib.Path(robot.path).parent) for shape in shapes])
+    return np.stack([all_points.min(0), all_points.max(0)])
+
+
+def compare_shapes(one, other, wrong):
+    """Boxes around what is seen and what collides, within what the facets of round shapes are."""
+    compared = 0
+    for link in one.links:
+        if link not in other.links:
+            continue
+        for kind in ("visual", "collision"):
+            try:
+                theirs, ours = box(one, link, kind), box(other, link, kind)
+            except KeyError:
+                continue
+            if (theirs is None) != (ours is None):
+                wrong.append(f"link {link}: {kind} {ours is not None} for {theirs is not None}")
+            elif theirs is not None:
+                compared += 1
+                if np.abs(theirs - ours).max() > 1e-3 * np.ptp(theirs, axis=0).max() + 1e-6:
+                    wrong.append(f"link {link}: {kind} in {ours.tolist()} for {theirs.tolist()}")
+    return compared
 
 
 def compare(one, other, wrong):
@@ -108,7 +164,7 @@ def compare(one, other, wrong):
 
 def main():
     urdd, way, work = sys.argv[1:4]
-    totals = dict(robots=0, right=0, refused=0, unconverted=0)
+    totals = dict(robots=0, right=0, refused=0, unconverted=0, boxes=0)
     for urdf in map(pathlib.Path, sys.argv[4:]):
         folder = pathlib.Path(work) / urdf.stem
         shutil.rmtree(folder, ignore_errors=True)
@@ -127,7 +183,11 @@ def main():
             print(f"{urdf.name}: {why}")
             continue
         wrong = []
-        compare(Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf"))), wrong)
+        one, other = Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf")))
+        compare(one, other, wrong)
+        # `urdd export` writes pieces of ours.
+        if way == "converter":
+            totals["boxes"] += compare_shapes(one, other, wrong)
         totals["right"] += not wrong
         for line in wrong[:6]:
             print(f"{urdf.name}: {line}")

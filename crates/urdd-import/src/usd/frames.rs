@@ -1,5 +1,7 @@
 //! Frames of bodies, and named configurations.
 
+use std::collections::HashMap;
+
 use nalgebra::{Isometry3, Translation3};
 use urdd_directory::account::{Account, Charged};
 use urdd_usd::Value;
@@ -10,6 +12,9 @@ use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
 use super::made::Made;
 use super::scene::Scene;
+
+/// Looking for the values of a body in a configuration, as bytes.
+const BODY: usize = 20;
 
 /// Prims of a body that are frames alone.
 pub fn frames(
@@ -58,15 +63,21 @@ pub fn configurations(
         let Some(Value::Dictionary(named)) = data else { continue };
         let place = scene.place(prim);
         for (name, values) in named.iter() {
+            let Value::Dictionary(values) = values else { continue };
+            account.charge(BODY * made.bodies.len()).map_err(|why| at(place, why))?;
+            let known: HashMap<&str, f64> = values
+                .iter()
+                .filter_map(|(name, value)| Some((&**name, value.number()?)))
+                .collect();
             let mut configuration =
                 Configuration { name: name.to_string(), values: Charged::default(), base: None };
             for (body, part) in made.bodies.iter().enumerate() {
                 for (which, joint) in part.joints.iter().enumerate() {
-                    let Some(value) = values.get(&joint.name).and_then(Value::number) else {
+                    let Some(value) = known.get(&*joint.name) else {
                         continue;
                     };
                     let name = joint.name.clone();
-                    let value = JointValue { joint: (body, which), name, values: vec![value] };
+                    let value = JointValue { joint: (body, which), name, values: vec![*value] };
                     configuration.values.push(value, account).map_err(|why| at(place, why))?;
                 }
             }

@@ -18,7 +18,7 @@ use super::super::features::{self, Tally};
 use super::super::model::{Asset, Geometry, Material, Shape, Use};
 use super::super::refusal::{Fallible, at};
 use super::form::{Form, bounding, form, reach};
-use super::look::{bound, look};
+use super::look::{look, rubbed};
 use super::made::Made;
 use super::mesh::{Faces, faces};
 use super::scene::{Scene, flag, is_square, number, split, word};
@@ -80,8 +80,12 @@ impl<'a, 's> Shapes<'a, 's> {
                     | "Points"
                     | "NurbsPatch"
                     | "TetMesh"
+                    | "PointInstancer"
             );
             if !is_shape {
+                if prim.has("PhysicsCollisionAPI") && self.scene.body[at].is_some() {
+                    tally.unread("PhysicsCollisionAPI of prims that are not shapes");
+                }
                 continue;
             }
             let collides =
@@ -296,8 +300,7 @@ impl<'a, 's> Shapes<'a, 's> {
     pub fn friction(&self, made: &Made, tally: &mut Tally) -> Option<f64> {
         let mut all: Vec<f64> = Vec::new();
         for solid in (0..made.bodies.len()).filter_map(|body| self.solids.get(&body)).flatten() {
-            let material = bound(self.scene, solid.prim, ":physics")
-                .or_else(|| bound(self.scene, solid.prim, ""));
+            let material = rubbed(self.scene, solid.prim);
             let material =
                 material.map(|at| self.scene.prim(at)).filter(|of| of.has("PhysicsMaterialAPI"));
             all.push(number(material?, "physics:dynamicFriction")?);

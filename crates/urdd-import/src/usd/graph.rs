@@ -136,15 +136,6 @@ fn main_set(
     wanted: Option<&str>,
     sets: &mut Sets,
 ) -> Fallible<Main> {
-    let is_root = |mut prim: usize| loop {
-        if scene.prim(prim).has("PhysicsArticulationRootAPI") {
-            break true;
-        }
-        match scene.prim(prim).parent {
-            Some(parent) => prim = parent,
-            None => break false,
-        }
-    };
     let wanted = match wanted {
         None => None,
         Some(name) => {
@@ -157,7 +148,7 @@ fn main_set(
     let mut scores: HashMap<usize, (bool, usize, usize)> = HashMap::new();
     for (at, body) in bodies.iter().enumerate() {
         let score = scores.entry(sets.of(at)).or_default();
-        score.0 |= is_root(*body);
+        score.0 |= scene.is_articulated[*body];
         score.1 += around[at].len();
         score.2 += 1;
     }

@@ -9,18 +9,10 @@ use super::scene::Scene;
 /// The longest chain of connections to a value.
 const MOST_STEPS: usize = 8;
 
-/// The material of a prim, or of the prims that it is in.
-pub fn bound(scene: &Scene<'_>, prim: usize, purpose: &str) -> Option<usize> {
-    let mut next = Some(prim);
-    while let Some(at) = next {
-        let of = scene.prim(at);
-        let name = format!("material:binding{purpose}");
-        if let Some(found) = scene.target(of, &name) {
-            return Some(found);
-        }
-        next = of.parent;
-    }
-    None
+/// The material by which a shape rubs.
+pub fn rubbed(scene: &Scene<'_>, prim: usize) -> Option<usize> {
+    let [seen, _, physics] = &scene.material;
+    physics[prim].or(seen[prim])
 }
 
 /// How a shape looks; `subset` may have a material of its own.
@@ -30,8 +22,9 @@ pub fn look(
     subset: Option<usize>,
     tally: &mut Tally,
 ) -> Option<Material> {
-    let material = bound(scene, subset.unwrap_or(prim), "")
-        .or_else(|| bound(scene, subset.unwrap_or(prim), ":preview"));
+    let [seen, preview, _] = &scene.material;
+    let part = subset.unwrap_or(prim);
+    let material = seen[part].or(preview[part]);
     let colour = material.and_then(|material| colour(scene, material, tally));
     if let (Some(material), Some(rgba)) = (material, colour) {
         tally.count(features::COLOURS);

@@ -9,7 +9,7 @@ use super::super::mesh_mass::{Mode, measure};
 use super::super::model::{Geometry, Inertial};
 use super::super::refusal::Fallible;
 use super::gprim::{Shapes, Solid};
-use super::look::bound;
+use super::look::rubbed;
 use super::made::Made;
 use super::scene::{Scene, number, triple, turn, word};
 
@@ -98,8 +98,7 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
         let is_shell = word(own, "newton:massModel") == Some("shell");
         let unit = of_density_one(solid, is_shell)?;
         let material = || {
-            let material =
-                bound(scene, solid.prim, ":physics").or_else(|| bound(scene, solid.prim, ""));
+            let material = rubbed(scene, solid.prim);
             density(scene.prim(material?), "physics:density")
         };
         let is_body = std::ptr::eq(own, body);

@@ -73,6 +73,9 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     Ok(model)
 }
 
+/// A step from a joint to the one that it follows, as bytes: a chain of them is walked for each.
+const STEP: usize = 50;
+
 struct Maker<'a, 's> {
     scene: &'a Scene<'s>,
     joints: &'a [UsdJoint],
@@ -251,6 +254,8 @@ impl Maker<'_, '_> {
             // A circle of joints that follow each other has no leader: what comes last moves by itself.
             let mut above = Some(&leader);
             while let Some(name) = above.filter(|name| **name != follower.name) {
+                let place = self.scene.place(joint.prim);
+                self.account.charge(STEP).map_err(|why| at(place, why))?;
                 above = followed.get(name);
             }
             if above.is_some() {

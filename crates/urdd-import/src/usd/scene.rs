@@ -12,7 +12,10 @@ use super::fault::UsdFault;
 /// Metres of a unit where a stage does not say it: USD's own is the centimetre.
 const METRE: f64 = 0.01;
 /// Bytes of what a prim inherits.
-const PRIM: usize = 200;
+const PRIM: usize = 300;
+/// How a prim names its material: that which is seen, the same for a preview, that of physics.
+pub const BINDINGS: [&str; 3] =
+    ["material:binding", "material:binding:preview", "material:binding:physics"];
 
 /// A stage.
 pub struct Scene<'s> {
@@ -28,6 +31,10 @@ pub struct Scene<'s> {
     pub body: Vec<Option<usize>>,
     /// Whether a prim is rendered.
     pub is_seen: Vec<bool>,
+    /// Whether a prim is in an articulation.
+    pub is_articulated: Vec<bool>,
+    /// The material that a prim has, by [`BINDINGS`].
+    pub material: [Vec<Option<usize>>; 3],
     /// The offset of each line of each file.
     lines: Vec<Vec<usize>>,
 }
@@ -60,6 +67,8 @@ impl<'s> Scene<'s> {
             world: Vec::new(),
             body: Vec::new(),
             is_seen: Vec::new(),
+            is_articulated: Vec::new(),
+            material: Default::default(),
             lines: lines.collect(),
         };
         for (at, prim) in stage.prims.iter().enumerate() {
@@ -73,6 +82,14 @@ impl<'s> Scene<'s> {
                 && word(prim, "visibility") != Some("invisible")
                 && !matches!(word(prim, "purpose"), Some("guide" | "proxy"));
             scene.is_seen.push(is_seen);
+            let is_articulated = prim.has("PhysicsArticulationRootAPI")
+                || prim.parent.is_some_and(|parent| scene.is_articulated[parent]);
+            scene.is_articulated.push(is_articulated);
+            for (kind, name) in BINDINGS.into_iter().enumerate() {
+                let above = prim.parent.and_then(|parent| scene.material[kind][parent]);
+                let own = scene.target(prim, name).or(above);
+                scene.material[kind].push(own);
+            }
         }
         Ok(scene)
     }

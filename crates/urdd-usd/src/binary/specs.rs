@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::super::door::Door;
-use super::super::layer::{Layer, PropertySpec};
+use super::super::error::{Fault, Place};
+use super::super::layer::{Layer, MAX_FIELDS, PropertySpec};
 use super::super::value::{Name, Value};
 use super::cursor::{Cursor, Wrong};
 use super::sections::Crate;
@@ -130,6 +131,9 @@ impl Crate<'_> {
             let Some(&(name, place)) = self.fields.get(*index as usize) else {
                 return Err(cursor.damaged("a field is missing"));
             };
+            if fields.len() >= MAX_FIELDS {
+                return Err((Place::Layer, Fault::Fields(MAX_FIELDS)));
+            }
             self.charge(cursor, FIELD)?;
             let name = self.token(cursor, name)?;
             fields.push((name, self.value(place, 0)?));

@@ -1,6 +1,6 @@
 //! What the opinions of a prim come to: its type, metadata and properties.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync;
 
 use super::super::door::{beside, is_remote};
@@ -196,9 +196,11 @@ impl Composer<'_> {
 fn merge(stronger: &mut Value, weaker: &Value) {
     let (Value::Dictionary(own), Value::Dictionary(more)) = (&*stronger, weaker) else { return };
     let mut all: Vec<(Name, Value)> = own.to_vec();
+    let known: HashMap<Name, usize> =
+        own.iter().enumerate().map(|(at, (name, _))| (name.clone(), at)).collect();
     for (name, value) in more.iter() {
-        match all.iter_mut().find(|(known, _)| known == name) {
-            Some((_, known)) => merge(known, value),
+        match known.get(name) {
+            Some(at) => merge(&mut all[*at].1, value),
             None => all.push((name.clone(), value.clone())),
         }
     }

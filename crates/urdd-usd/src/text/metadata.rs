@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::super::error::Fault;
+use super::super::layer::MAX_FIELDS;
 use super::super::value::{Item, ListOp, Name, Value};
 use super::lexer::{Token, Wrong};
 use super::words::Reader;
@@ -85,6 +87,9 @@ impl Reader<'_> {
                     Token::Name(word) => word,
                     other => return Err(self.lexer.expected("the name of a list", &other)),
                 };
+            }
+            if fields.len() >= MAX_FIELDS {
+                return Err(self.lexer.wrong(Fault::Fields(MAX_FIELDS)));
             }
             self.lexer.take('=', "`=`")?;
             if matches!(word, "symmetryFunction") {
