@@ -67,7 +67,7 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
             LinkSphere { level, link: k % links, centre, radius: 0.1 }
         };
         let deep = (0..50).map(|k| sphere(k, k));
-        let levels: Vec<LinkSphere> = deep.chain((0..1_500).map(|k| sphere(k, 49))).collect();
+        let levels: Vec<LinkSphere> = deep.chain((0..20_000).map(|k| sphere(k, 49))).collect();
         let links_of_pairs = vec![LinkPair { links: [0, 1] }; 50_000];
         let mut checker = null_mut();
         let first = sphere(0, 0);
@@ -124,10 +124,9 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
                 "spheres",
                 Box::new(|| {
                     let (mut made, mut answer) = (null_mut(), CoveringAnswer::Maybe);
-                    let (at, of) = (levels.as_ptr(), links_of_pairs.as_ptr());
-                    let (count, num_pairs) = (levels.len(), links_of_pairs.len());
+                    let (at, count) = (levels.as_ptr(), levels.len());
                     let status =
-                        urdd_robot_covering_checker_of(robot, at, count, of, num_pairs, &mut made);
+                        urdd_robot_covering_checker_of(robot, at, count, null(), 0, &mut made);
                     if status == Status::Ok {
                         let asked = urdd_covering_checker_in_collision(
                             made,
@@ -138,6 +137,17 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
                         );
                         assert_eq!(asked, Status::Ok);
                     }
+                    urdd_covering_checker_free(made);
+                    status
+                }),
+            ),
+            (
+                "pairs of spheres",
+                Box::new(|| {
+                    let (mut made, of) = (null_mut(), links_of_pairs.as_ptr());
+                    let count = links_of_pairs.len();
+                    let status =
+                        urdd_robot_covering_checker_of(robot, &first, 1, of, count, &mut made);
                     urdd_covering_checker_free(made);
                     status
                 }),
