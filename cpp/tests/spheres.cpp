@@ -181,7 +181,7 @@ void of_the_urdd(const urdd::Robot &robot) {
         }
     }
     std::printf("spheres: %zu free, %zu maybe, %zu of %zu right\n", free, maybe, right, count);
-    CHECK(right * 10 > count * 9);
+    CHECK(right * 10 > count * 9 && free > 0 && maybe > 0);
 }
 
 void mistakes(const urdd::Robot &robot, const urdd::Robot &without) {
