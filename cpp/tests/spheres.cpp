@@ -217,10 +217,10 @@ void mistakes(const urdd::Robot &robot, const urdd::Robot &without) {
 } // namespace
 
 int main(int count, char **words) {
-    CHECK(count == 3);
-    const urdd::Robot arm = urdd::Robot::open(words[1]), spheres = urdd::Robot::open(words[2]);
+    CHECK(count == 4);
+    const urdd::Robot arm = urdd::Robot::open(words[1]), gripper = urdd::Robot::open(words[2]);
     given(arm);
-    of_the_urdd(spheres);
-    mistakes(spheres, arm);
+    of_the_urdd(gripper);
+    mistakes(gripper, urdd::Robot::open(words[3]));
     std::puts("spheres: ok");
 }

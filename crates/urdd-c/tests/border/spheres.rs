@@ -321,7 +321,7 @@ fn loops_are_open_on_a_motion_of_spheres_or_it_is_an_error() {
 #[test]
 fn what_a_caller_does_wrong_with_spheres_is_a_status_with_a_text() {
     let folder = testkit::temporary::folder();
-    let (robot, _) = bars(folder.path(), &["core"]);
+    let (robot, _) = bars(folder.path(), &["all"]);
     let (good, mut made) = (spheres(), null_mut());
     // SAFETY: every mistake is one that the header says is found.
     unsafe {
@@ -418,6 +418,13 @@ fn what_a_caller_does_wrong_with_spheres_is_a_status_with_a_text() {
         fails(cloud(null(), 0, 0.1), Status::Value, "obstacle `cloud`");
         fails(cloud(null(), 1, 0.1), Status::Pointer, "`points` is null");
         fails(cloud(point.as_ptr(), usize::MAX, 0.1), Status::Length, "more than any memory");
+        let (mut seen, mut shapes, mut holding) = (null_mut(), null_mut(), null_mut());
+        ok(urdd_obstacle_points(c"seen".as_ptr(), null(), point.as_ptr(), 1, 0.1, &mut seen));
+        ok(urdd_robot_proximity(robot, c"hulls".as_ptr(), &mut shapes));
+        let carried = urdd_proximity_attach(shapes, 2, seen, &mut holding);
+        fails(carried, Status::Value, "obstacle `seen`");
+        ok(urdd_proximity_free(shapes));
+        ok(urdd_obstacle_free(seen));
         let (heights, mut obstacle) = ([0.1, 0.2, 0.3, 0.4], null_mut());
         let mut field = |heights: *const f64, rows, columns, cell: [f64; 2], thickness| {
             let (name, cell) = (c"field".as_ptr(), cell.as_ptr());
