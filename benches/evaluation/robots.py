@@ -75,6 +75,12 @@ def document(urdd: Path, module: str) -> Any:
     return json.loads((urdd / path / "module.json").read_text("utf-8"))
 
 
+def percent(hits: int, of: int, interval: list[float]) -> str:
+    """A rate and its interval, as tables have them."""
+    low, high = (100 * end for end in interval)
+    return f"{100 * hits / max(of, 1):.2f} % ({low:.2f} to {high:.2f})"
+
+
 def arguments(description: str | None, *, robots: bool = True) -> argparse.ArgumentParser:
     """The options that all scripts have."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
