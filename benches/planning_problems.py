@@ -39,12 +39,13 @@ import numpy as np
 import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE), str(HERE.parent / "python" / "examples")]
+sys.path += [str(HERE), str(HERE / "evaluation"), str(HERE.parent / "python" / "examples")]
 
 import results  # noqa: E402
+from robots import without_visuals  # noqa: E402
 
 #: What a path is judged at: no joint turns farther between two configurations.
-RESOLUTION = 0.005
+RESOLUTION = 0.01
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -156,9 +157,11 @@ def world_of(one: dict):
     return world
 
 
-def plan_by_spheres(robot, checker, problems: list[dict], proximity=None) -> list[dict]:
-    """By spheres; with a `proximity`, the exact shapes prove each path, and what they refuse is planned again."""
+def plan_by_spheres(robot, problems: list[dict], proved: bool) -> list[dict]:
+    """By spheres; `proved`, the exact shapes prove each path, and what they refuse is planned again."""
     import plan_by_spheres as planner
+
+    checker, proximity = robot.sphere_checker(), robot.proximity("pieces")
 
     lower, upper = robot.bounds.T
     found = []
@@ -166,7 +169,7 @@ def plan_by_spheres(robot, checker, problems: list[dict], proximity=None) -> lis
         ends = [np.array([one[end][joint] for joint in robot.dof_names]) for end in ("start", "goal")]
         world = world_of(one)
         around = checker.around(world)
-        exact = [] if proximity is None else [proximity, robot.world_proximity(world, proximity)]
+        exact = [proximity, robot.world_proximity(world, proximity)] if proved else []
         if around.in_collision(ends).any() or any(check.in_collision(ends).any() for check in exact):
             found.append({"free": 0, "ms": 0.0, "path": []})
             continue
@@ -268,18 +271,21 @@ def row(name: str, answers: list[dict], refused: dict[str, list]) -> list[str]:
 COLUMNS = ["planner", "solved", "ends refused", "median, ms", "95 %, ms", "paths that coal refuses", "that urdd refuses"]
 
 
-def make_urdds(program: pathlib.Path, source: pathlib.Path, name: str, rest: dict, own: pathlib.Path, listed: pathlib.Path):
-    """A URDD of the collision meshes, with the SRDF's pairs, and a copy with VAMP's spheres.
+def make_urdds(program: pathlib.Path, source: pathlib.Path, name: str, rest: dict, folder: pathlib.Path) -> None:
+    """A URDD of the collision meshes, with the SRDF's pairs, a copy with VAMP's spheres, and one with as many of ours.
 
     The robot rests at the first start: at zero, where it never is, links touch that would be skipped for that.
     """
 
     import urdd
 
+    own, listed, as_many = folder / "own", folder / "listed", folder / "as_many"
+
     def do(*words: object) -> None:
         subprocess.run([str(program), *map(str, words)], check=True, stdout=subprocess.DEVNULL)
 
-    make = ["generate", source / f"{name}.urdf", "-o", own, "--geometry", "collision", "--modules", "all,spheres"]
+    urdf = without_visuals(source / f"{name}.urdf", own.parent)
+    make = ["generate", urdf, "-o", own, "--modules", "all,spheres"]
     do(*make)
     dofs = urdd.load(own).dof_names
     do("configurations", "set", own, "rest", *(f"{dof}={rest[dof]}" for dof in dofs))
@@ -287,6 +293,14 @@ def make_urdds(program: pathlib.Path, source: pathlib.Path, name: str, rest: dic
     do(*make, "--reference", "rest")
     shutil.copytree(own, listed)
     do("spheres", "import", source / f"{name}_spherized.urdf", listed)
+    number = sphere_count(urdd.load(listed).sphere_checker())
+    do("export", "foam", own, "--total-spheres", number, "-o", own.parent / "as_many.json", "--force")
+    shutil.copytree(own, as_many)
+    do("spheres", "import", own.parent / "as_many.json", as_many)
+
+
+def sphere_count(checker) -> int:
+    return int(re.findall(r"(\d+) (?:covering )?spheres", repr(checker))[0])
 
 
 def run(given: argparse.Namespace, name: str, folder: pathlib.Path) -> results.Table:
@@ -294,10 +308,9 @@ def run(given: argparse.Namespace, name: str, folder: pathlib.Path) -> results.T
 
     source = given.vamp / "resources" / name
     problems = read_problems(source / "problems.tar.bz2", given.count)
-    own, listed = folder / "own", folder / "listed"
-    if not (listed / "urdd.json").exists():
-        make_urdds(given.urdd, source, name, problems[0]["start"], own, listed)
-    robot, by_list = urdd.load(own), urdd.load(listed)
+    if not (folder / "as_many" / "urdd.json").exists():
+        make_urdds(given.urdd, source, name, problems[0]["start"], folder)
+    robot = urdd.load(folder / "own")
     joints = list(robot.dof_names)
     plain = folder / "problems.txt"
     write_plain(problems, joints, plain)
@@ -306,12 +319,13 @@ def run(given: argparse.Namespace, name: str, folder: pathlib.Path) -> results.T
     answers = folder / "answers.json"
     subprocess.run([str(build_vamp(given.vamp, given.nigh, folder)), str(plain), name, str(answers)], check=True)
     found["VAMP"] = lines_of(answers)
-    found["`plan_by_spheres.py`, VAMP's spheres"] = plan_by_spheres(by_list, by_list.sphere_checker(), problems)
-    found["`plan_by_spheres.py`, the URDD's spheres"] = plan_by_spheres(robot, robot.sphere_checker(), problems)
-    exact = robot.proximity("pieces")
-    found["the same, proved exactly"] = plan_by_spheres(robot, robot.sphere_checker(), problems, exact)
+    for kind, of in (("listed", "{} spheres of VAMP"), ("own", "{} of the URDD"), ("as_many", "{} of ours")):
+        described = urdd.load(folder / kind)
+        title = f"`plan_by_spheres.py`, {of.format(sphere_count(described.sphere_checker()))}"
+        found[title] = plan_by_spheres(described, problems, False)
+    found[f"{title}, proved"] = plan_by_spheres(described, problems, True)
     for checker in ("urdd", "fcl") if given.ompl else ():
-        subprocess.run([str(given.ompl), str(plain), str(own), str(answers), checker], check=True)
+        subprocess.run([str(given.ompl), str(plain), str(folder / 'own'), str(answers), checker], check=True)
         found[f"OMPL, {'urdd (hulls)' if checker == 'urdd' else 'FCL (hulls)'}"] = lines_of(answers)
     (folder / "found.json").write_text(json.dumps(found), "utf-8")
     coal = Coal(source / f"{name}.urdf", source / f"{name}.srdf", joints)

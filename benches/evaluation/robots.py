@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -66,6 +68,17 @@ def generated(urdd: Path, urdf: Path, target: Path, *options: str) -> Path:
     """A URDD of a URDF."""
     subprocess.run([urdd, "generate", urdf, "-o", target, *options], check=True, capture_output=True)
     return target
+
+
+def without_visuals(urdf: Path, folder: Path) -> Path:
+    """A copy of a URDF and the meshes beside it, without visual elements: links have the shapes that its authors check."""
+    tree = ElementTree.parse(urdf)
+    for link in tree.getroot().findall("link"):
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    shutil.copytree(urdf.parent / "meshes", folder / "meshes", dirs_exist_ok=True)
+    tree.write(folder / urdf.name)
+    return folder / urdf.name
 
 
 def document(urdd: Path, module: str) -> Any:

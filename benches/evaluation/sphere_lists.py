@@ -3,7 +3,7 @@
     python benches/evaluation/sphere_lists.py --vamp VAMP --foam FOAM --robometrics ROBOMETRICS [--urdd PROGRAM]
 
 Each is a clone: github.com/KavrakiLab/vamp, CoMMALab/foam, fishbotics/robometrics. For each robot a URDD is made of the
-collision meshes of the URDF that the lists are of, with the pairs of its SRDF skipped. `urdd spheres import` puts a
+collision elements of the URDF that the lists are of, with the pairs of its SRDF skipped. `urdd spheres import` puts a
 list into a copy, and the figures are those of `link_shapes_spheres_module`: rates of 10,000 sampled configurations with
 95 % intervals, 
 and of the links' fits the mean or the largest. Where a list has a pair of links that touches in every configuration, it
@@ -19,9 +19,11 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from robots import arguments, document, percent, program, version_of
+from robots import arguments, document, percent, program, version_of, without_visuals
 from results import Table, write
 
+#: Where a robot rests, if at zero links touch that its SRDF checks.
+REST = {"Panda": [f"panda_joint{k}={q}" for k, q in ((2, -0.785), (4, -2.356), (6, 1.571), (7, 0.785))]}
 LISTS = "VAMP f6de6a7, Foam 116928f, robometrics 81e3d1d"
 COLUMNS = ["robot", "list", "spheres", "collisions missed", "false contacts", "pairs left out",
            "surface outside", "farthest outside, mm", "standoff mean, mm", "largest, mm"]
@@ -81,12 +83,17 @@ def always_touching(urdd: Path) -> list[tuple[str, str]]:
 class Robot:
     """A URDD of a robot's collision meshes, and a copy that takes one list after the other."""
 
-    def __init__(self, binary: Path, title: str, urdf: Path, srdf: Path, folder: Path) -> None:
+    def __init__(self, binary: Path, title: str, urdf: Path, srdf: Path, rest: list[str], folder: Path) -> None:
         self.binary, self.title, self.folder, self.rows = binary, title, folder, list[list[str]]()
-        self.own = folder / title.replace(" ", "_")
-        self.make = [binary, "generate", urdf, "--geometry", "collision", "--modules", "all,spheres", "-o"]
+        self.own = folder / "own"
+        for path in folder.iterdir():
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        self.make = [binary, "generate", without_visuals(urdf, folder), "--modules", "all,spheres", "-o"]
         ran(*self.make, self.own)
         print(ran(binary, "skips", "import", srdf, self.own))
+        if rest:
+            ran(binary, "configurations", "set", self.own, "rest", *rest)
+            self.make[2:2] = ["--reference", "rest"]
         ran(*self.make, self.own)
         self.add("ours", self.own)
 
@@ -142,7 +149,7 @@ def main() -> None:
     rows: list[list[str]] = []
     with tempfile.TemporaryDirectory() as name:
         for title, (urdf, srdf, lists) in robots.items():
-            robot = Robot(binary, title, urdf, srdf, Path(name))
+            robot = Robot(binary, title, urdf, srdf, REST.get(title, []), Path(name))
             for who, file in lists.items():
                 robot.measure(who, file)
             rows += robot.rows
