@@ -1,21 +1,26 @@
-"""Planners on public problems: MotionBenchMaker's, as VAMP's repository has them. Solved, time, and who judges the paths.
+"""Planners on MotionBenchMaker's problems, as VAMP's repository has them: solved, time, and which paths are free.
 
     git clone https://github.com/KavrakiLab/vamp /tmp/vamp && git clone https://github.com/KavrakiLab/nigh /tmp/nigh
     apt-get install clang libeigen3-dev libompl-dev libfcl-dev
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install numpy pyyaml pin target/wheels/urdd-*.whl
     /tmp/peers/bin/python benches/planning_problems.py --vamp /tmp/vamp --nigh /tmp/nigh --urdd target/release/urdd \\
-        [--ompl build/planning] [--robots panda fetch] [--count 100]
+        --folder /tmp/made [--ompl build/problems] [--robot panda] [--count 100] [--write]
 
-All planners get the same obstacles, those that VAMP's own script gives: boxes, and capsules for cylinders (in `box`,
-boxes). One thread; processor time of the search alone: a path is not made shorter, and the world is made before. Each
-program solves each problem three times with the same random numbers; the least counts. Two judges look at each path, at
-RESOLUTION rad: coal with the URDF's meshes (each as its convex hull, as all of these meshes are nearly convex), which
-shares no code with urdd; and urdd's exact check of the convex pieces. Pairs of links are those of the SRDF.
+All planners get the obstacles that VAMP's own script gives it: boxes, and capsules for cylinders (in `box`, boxes).
+One thread; processor time of the search alone: the world is made before, and no path is made shorter. VAMP and
+`plan_by_spheres.py` solve each problem three times with the same random numbers, and the least counts; OMPL once.
+Pairs of links are those of the SRDF: the same for all, and those of VAMP's header.
 
-- VAMP: RRT-Connect with its settings of that robot (range 1, dynamic domain, balanced trees), 32 configurations a radian.
-- `plan_by_spheres`: python/examples/plan_by_spheres.py, by VAMP's list of spheres or by the URDD's own, at 2 cm; `proved`
-  with the time of the exact proof of each path, and of new searches where it is refused.
-- OMPL (--ompl, of benches/planning): RRT-Connect in C++, with urdd's exact check of the hulls, or FCL's.
+- VAMP: RRT-Connect with its settings of that robot (range 1, dynamic domain, balanced trees), 32 configurations a
+  radian.
+- `plan_by_spheres.py` of python/examples, at 2 cm: by VAMP's list of spheres, by those of `urdd generate`, and by as
+  many of ours as VAMP's list has. `proved` has the time of the exact proof too, and of new searches where it refuses a
+  path.
+- OMPL (--ompl is benches/planning, built): RRT-Connect in C++ with range 1, 32 configurations a radian, ten seconds, by
+  urdd's exact check of the hulls, or FCL's.
+
+Two judges look at each path: coal, with the triangles of the URDF's meshes, at RESOLUTION, which shares no code with
+urdd; and urdd, which proves the motions of the convex pieces as a whole.
 """
 
 from __future__ import annotations
@@ -115,7 +120,7 @@ def rpy(place: np.ndarray) -> list[float]:
 
 
 def write_plain(problems: list[dict], joints: list[str], file: pathlib.Path) -> None:
-    """A line for each fact: problem, start, goal, box (centre, rpy, half extents), capsule (centre, rpy, radius, length)."""
+    """Lines: problem, start, goal, box (centre, rpy, half extents), capsule (centre, rpy, radius, length), end."""
     lines = []
     for one in problems:
         lines.append(f"problem {one['scene']} {one['number']}")
@@ -268,7 +273,7 @@ def row(name: str, answers: list[dict], refused: dict[str, list]) -> list[str]:
     ]
 
 
-COLUMNS = ["planner", "solved", "ends refused", "median, ms", "95 %, ms", "paths that coal refuses", "that urdd refuses"]
+COLUMNS = ["planner", "solved", "ends in contact", "median, ms", "95 %, ms", "paths not free by coal", "by urdd"]
 
 
 def make_urdds(program: pathlib.Path, source: pathlib.Path, name: str, rest: dict, folder: pathlib.Path) -> None:
@@ -340,19 +345,20 @@ def main() -> None:
     parser.add_argument("--nigh", type=pathlib.Path, required=True)
     parser.add_argument("--urdd", type=pathlib.Path, required=True, help="the program")
     parser.add_argument("--ompl", type=pathlib.Path, help="benches/planning, built")
-    parser.add_argument("--robots", nargs="+", default=["panda"])
+    parser.add_argument("--robot", default="panda", help="panda or fetch")
     parser.add_argument("--count", type=int, default=100, help="problems of each scene")
     parser.add_argument("--folder", type=pathlib.Path, required=True, help="for what is made")
-    parser.add_argument("--write", action="store_true", help="writes benches/results/planning.json")
+    parser.add_argument("--write", action="store_true", help="writes benches/results/planning_ROBOT.json")
     given = parser.parse_args()
-    items: dict[str, results.Table | str] = {}
-    for name in given.robots:
-        folder = given.folder / name
-        folder.mkdir(parents=True, exist_ok=True)
-        items[name] = run(given, name, folder)
-        print(name, results.markdown(items[name]), sep="\n", flush=True)
+    folder = given.folder / given.robot
+    folder.mkdir(parents=True, exist_ok=True)
+    table = run(given, given.robot, folder)
+    print(results.markdown(table))
     if given.write:
-        results.write("planning", items, how="processor time, one thread")
+        version = subprocess.run([given.urdd, "--version"], check=True, capture_output=True, text=True).stdout.strip()
+        programs = [version, "VAMP f6de6a7", *(["OMPL 1.5.2, FCL 0.7.0"] if given.ompl else []), "coal 3.0.3"]
+        how = "processor time of one thread"
+        results.write(f"planning_{given.robot}", {"problems": table}, *programs, how=how)
 
 
 if __name__ == "__main__":

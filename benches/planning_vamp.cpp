@@ -1,6 +1,6 @@
-// VAMP's RRT-Connect on the problems of a plain file, for `planning_problems.py`: PROBLEMS ROBOT ANSWERS. Writes for each
-// problem a line of JSON: whether VAMP's spheres are free at both ends, milliseconds of processor time (the least of
-// three rounds of the same samples), and the path. The settings are those of VAMP's Python package. One thread.
+// VAMP's RRT-Connect on the problems of a file, for `planning_problems.py`: PROBLEMS ROBOT ANSWERS. Writes for each a
+// line of JSON: whether VAMP's spheres are free at both ends, milliseconds of processor time (the least of three rounds
+// of the same samples), and the path. The settings are those of VAMP's Python package. One thread.
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +16,9 @@
 #include <vamp/random/halton.hh>
 #include <vamp/robots/fetch.hh>
 #include <vamp/robots/panda.hh>
+
+namespace factory = vamp::collision::factory;
+namespace planning = vamp::planning;
 
 double milliseconds() {
     timespec now;
@@ -44,26 +47,26 @@ void solve(std::istream &problems, std::ostream &answers, float range) {
         std::array<float, 9> b{};
         if (kind == "box") {
             for (float &number : b) words >> number;
-            auto box = vamp::collision::factory::cuboid::array({b[0], b[1], b[2]}, {b[3], b[4], b[5]}, {b[6], b[7], b[8]});
+            auto box = factory::cuboid::array({b[0], b[1], b[2]}, {b[3], b[4], b[5]}, {b[6], b[7], b[8]});
             (box.axis_3_z == 1.0F ? around.z_aligned_cuboids : around.cuboids).push_back(box);
         }
         if (kind == "capsule") {
             for (std::size_t k = 0; k < 8; k++) words >> b[k];
-            auto one = vamp::collision::factory::cylinder::center::array({b[0], b[1], b[2]}, {b[3], b[4], b[5]}, b[6], b[7]);
+            auto one = factory::cylinder::center::array({b[0], b[1], b[2]}, {b[3], b[4], b[5]}, b[6], b[7]);
             (one.xv == 0 && one.yv == 0 ? around.z_aligned_capsules : around.capsules).emplace_back(one);
         }
         if (kind != "end") continue;
         around.sort();
         const World world(around);
-        auto is_free = [&](const Configuration &q) { return vamp::planning::validate_motion<Robot, 8, 1>(q, q, world); };
+        auto is_free = [&](const Configuration &q) { return planning::validate_motion<Robot, 8, 1>(q, q, world); };
         double least = 1e9;
-        vamp::planning::PlanningResult<Robot> found;
+        planning::PlanningResult<Robot> found;
         for (int round = 0; round < 3; round++) {
             auto samples = std::make_shared<vamp::rng::Halton<Robot>>();
-            vamp::planning::RRTCSettings settings;
+            planning::RRTCSettings settings;
             settings.range = range;
             const double begin = milliseconds();
-            found = vamp::planning::RRTC<Robot, 8, Robot::resolution>::solve(start, goal, world, settings, samples);
+            found = planning::RRTC<Robot, 8, Robot::resolution>::solve(start, goal, world, settings, samples);
             least = std::min(least, milliseconds() - begin);
         }
         answers << "{\"free\": " << (is_free(start) && is_free(goal)) << ", \"ms\": " << least << ", \"path\": [";

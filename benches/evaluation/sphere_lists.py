@@ -4,11 +4,10 @@
 
 Each is a clone: github.com/KavrakiLab/vamp, CoMMALab/foam, fishbotics/robometrics. For each robot a URDD is made of the
 collision elements of the URDF that the lists are of, with the pairs of its SRDF skipped. `urdd spheres import` puts a
-list into a copy, and the figures are those of `link_shapes_spheres_module`: rates of 10,000 sampled configurations with
-95 % intervals, 
-and of the links' fits the mean or the largest. Where a list has a pair of links that touches in every configuration, it
-is measured again without these pairs. `ours` is the fitted level of `urdd generate`; `ours, N` are as many spheres as the
-list above has, of `urdd export foam --total-spheres N`.
+list into a copy. The figures are those of `link_shapes_spheres_module` (SPEC 8.9): rates of 10,000 sampled
+configurations with 95 % intervals, and of the links' fits the mean or the largest. A list of which a pair of links
+touches in every configuration is measured again without these pairs. `ours` is the fitted level of `urdd generate`, and
+below each list as many spheres, of `urdd export foam --total-spheres`. Foam's list of Panda is VAMP's, and left out.
 """
 
 from __future__ import annotations
@@ -101,8 +100,8 @@ class Robot:
         self.rows.append([self.title, name, *figures(urdd)])
         print(self.rows[-1], flush=True)
 
-    def measure(self, name: str, file: Path) -> None:
-        """A list, then the same without the pairs that always touch, and as many spheres of ours."""
+    def take(self, name: str, file: Path) -> None:
+        """A list, and then the same without the pairs that always touch."""
         copy = self.folder / "copy"
         shutil.rmtree(copy, ignore_errors=True)
         shutil.copytree(self.own, copy)
@@ -112,19 +111,20 @@ class Robot:
             print(f"{name} always touches: {touching}")
             srdf = self.folder / "more.srdf"
             lines = [f'<disable_collisions link1="{a}" link2="{b}" reason="Default"/>' for a, b in touching]
-            srdf.write_text(f'<robot name="{document(copy, "urdf_module")["name"]}">{"".join(lines)}</robot>', "utf-8")
+            robot = document(copy, "urdf_module")["name"]
+            srdf.write_text(f'<robot name="{robot}">{"".join(lines)}</robot>', "utf-8")
             ran(self.binary, "skips", "import", srdf, copy)
             ran(*self.make, copy)
             self.add(name, copy)
             self.rows[-1][5] = str(len(touching))
+
+    def measure(self, name: str, file: Path) -> None:
+        """A list, and as many spheres of ours."""
+        self.take(name, file)
         number = self.rows[-1][2]
-        if number not in [row[2] for row in self.rows if row[1].startswith("ours,")]:
-            ours = self.folder / "ours.json"
-            ran(self.binary, "export", "foam", self.own, "--total-spheres", number, "-o", ours, "--force")
-            shutil.rmtree(copy)
-            shutil.copytree(self.own, copy)
-            ran(self.binary, "spheres", "import", ours, copy)
-            self.add(f"ours, {number}", copy)
+        ours = self.folder / "ours.json"
+        ran(self.binary, "export", "foam", self.own, "--total-spheres", number, "-o", ours, "--force")
+        self.take("ours", ours)
 
 
 def main() -> None:
@@ -141,7 +141,6 @@ def main() -> None:
         for title, name in (("Panda", "panda"), ("UR5", "ur5"), ("Fetch", "fetch"), ("Baxter", "baxter"))
     }
     robots["Panda"][2]["cuRobo"] = given.robometrics / "robometrics/content/robot/franka_spheres.yml"
-    robots["Panda"][2]["Foam"] = foam / "panda/smaller_panda_spherized.urdf"
     lists = {f"Foam, {k}": foam / f"fetch/fetch_spherized_{k}.urdf" for k in (1, 6, 8)}
     robots["Fetch of Foam"] = (foam / "fetch/fetch_simple.urdf", of_vamp("fetch", ".srdf"), lists)
     lists = {f"Foam, {k}": foam / f"baxter/baxter_spherized_{k}.urdf" for k in (1, 8)}

@@ -1,4 +1,4 @@
-// What both checkers are asked about: a robot of hulls, and a scene: a floor with boxes and balls, or that of a problem.
+// What both checkers are asked about: a robot of hulls, among a floor, boxes and balls, or what a problem has.
 
 #ifndef PLANNING_SCENE_HPP
 #define PLANNING_SCENE_HPP
