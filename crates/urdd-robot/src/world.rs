@@ -54,6 +54,7 @@ use super::error::RobotError;
 use super::obstacle::{World, check_moves};
 use super::placed_part::PlacedPart;
 use super::proximity::{Gradient, Proximity, Shape, SweptPair, Waiting, relative, to_root};
+use super::tested::{Group, tested};
 use super::workspace::Placed;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use urdd_geometry::vector::norm;
@@ -93,7 +94,9 @@ pub struct WorldProximity<P> {
     /// Those of an obstacle are contiguous.
     parts: Vec<PlacedPart>,
     /// The shapes of the robot and the parts that are tested against each other, by shape, then by part.
-    pairs: Vec<[u32; 2]>,
+    pairs: Arc<[[u32; 2]]>,
+    /// The same pairs in groups, by link and part.
+    groups: Arc<[Group]>,
 }
 
 impl Proximity {
@@ -117,14 +120,9 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
             let placed = one.parts.iter();
             parts.extend(placed.map(|part| PlacedPart::new(obstacle, part.clone(), &one.pose)));
         }
-        let mut pairs = Vec::new();
-        for (shape, own) in proximity.shapes.iter().enumerate() {
-            let tested = parts.iter().enumerate();
-            let tested = tested.filter(|(_, part)| !ignored[part.obstacle].contains(&own.owner));
-            pairs.extend(tested.map(|(part, _)| [shape as u32, part as u32]));
-        }
+        let (pairs, groups) = tested(&proximity.shapes, &parts, &ignored);
         let names = world.obstacles.iter().map(|one| one.name.clone()).collect();
-        Ok(WorldProximity { proximity, names, parts, pairs })
+        Ok(WorldProximity { proximity, names, parts, pairs, groups })
     }
 
     /// Moves the obstacles from `first` on to these poses: their shapes stay, and nothing else is prepared. It does not
@@ -285,6 +283,26 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
         self.pairs.iter().enumerate().map(|(pair, [shape, _])| (pair, *shape as usize))
     }
 
+    fn num_groups(&self) -> usize {
+        self.groups.len()
+    }
+
+    fn group_bound(&self, placed: &Placed, group: usize) -> f64 {
+        let Group { link, part, .. } = self.groups[group];
+        // Less by more than any rounding error.
+        self.parts[part].bound(placed.around[link], self.proximity.around(link)) - 1e-12
+    }
+
+    fn is_group_beyond(&self, placed: &Placed, group: usize, distance: f64) -> bool {
+        let Group { link, part, .. } = self.groups[group];
+        let radius = self.proximity.around(link);
+        self.parts[part].is_beyond(placed.around[link], radius, distance + 1e-12)
+    }
+
+    fn members(&self, group: usize) -> impl Iterator<Item = usize> {
+        self.groups[group].pairs()
+    }
+
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {
         let (own, other) = self.both(pair);
         other.bound(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius)
@@ -309,7 +327,10 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
 
     fn touches(&self, placed: &Placed) -> bool {
         let mut waiting = Waiting::new(self.proximity.level);
-        let mut near = (0..self.pairs.len()).filter(|pair| !self.is_beyond(placed, *pair, 0.0));
+        let near =
+            (0..self.groups.len()).filter(|group| !self.is_group_beyond(placed, *group, 0.0));
+        let near = near.flat_map(|group| self.members(group));
+        let mut near = near.filter(|pair| !self.is_beyond(placed, *pair, 0.0));
         near.any(|pair| match self.both(pair).1.part.copies.is_some() {
             true => self.any_copy_touches(placed, pair),
             false => {
