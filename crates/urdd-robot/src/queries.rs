@@ -388,7 +388,7 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        let whole = (&self.shapes().motion, Self::BLOCK);
+        let whole = (&*self.shapes().motion, Self::BLOCK);
         answer_edges(whole, edges, cancellation, out, |start, end| {
             let contact = self.first_contact(start, end, settings)?;
             Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
@@ -403,7 +403,7 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [Option<FirstContact>],
     ) -> Result<(), RobotError> {
-        let whole = (&self.shapes().motion, Self::BLOCK);
+        let whole = (&*self.shapes().motion, Self::BLOCK);
         answer_edges(whole, edges, cancellation, out, |start, end| {
             Ok([self.first_contact(start, end, settings)?])
         })
