@@ -352,7 +352,7 @@ extern "C" {
 // The ABI number of the library.
 uint32_t urdd_abi_version(void);
 
-// The version of the library, such as "1.3.0". It lives as long as the library.
+// The version of the library, such as "1.4.0". It lives as long as the library.
 struct urdd_text urdd_version(void);
 
 // Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against

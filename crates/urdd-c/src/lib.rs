@@ -68,7 +68,7 @@ pub extern "C" fn urdd_abi_version() -> u32 {
     URDD_ABI_VERSION
 }
 
-/// The version of the library, such as "1.3.0". It lives as long as the library.
+/// The version of the library, such as "1.4.0". It lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn urdd_version() -> Text {
     VERSION.text()
