@@ -1,19 +1,18 @@
 //! Checks by spheres beside VAMP's: `benches/spheres_vamp.py` says how. Takes FOLDER ROBOT KIND, reads what that wrote there,
 //! and prints microseconds for a configuration and for a motion, free and blocked: the least of nine rounds, one thread.
 //!
-//! With URDDs instead (`cargo bench --bench spheres -- URDD...`), it prints what shapes behind spheres take: `in_collision` of
-//! 3,000 random configurations by the pieces alone, by spheres around the pieces alone, and by both.
+//! With URDDs instead (`cargo bench --bench spheres -- URDD...`), it prints what pieces behind spheres take: `in_collision` of
+//! 3,000 random configurations by the pieces alone, by spheres around the pieces alone, and by the pieces
+//! where the spheres are not free; in all configurations, and in those in which the robot is free.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use urdd_robot::spheres::{
-    ApproximateAnswer, CoveringAnswer, LinkSpheres, ScreenedProximity, Sphere, SphereChecker,
-    SphereLevel,
+    ApproximateAnswer, CoveringAnswer, LinkSpheres, Sphere, SphereChecker, SphereLevel,
 };
 use urdd_robot::{Obstacle, Queries, Robot, ShapeKind, World};
 
@@ -170,18 +169,21 @@ fn screened(urdd: &str) {
     let robot = Robot::open(urdd).expect("a URDD");
     let space = robot.configurations().expect("configurations");
     let asked: Vec<Vec<f64>> = (0..3000).map(|k| space.random(k)).collect();
-    let pieces = Arc::new(robot.proximity(ShapeKind::Pieces).expect("shapes"));
+    let pieces = robot.proximity(ShapeKind::Pieces).expect("shapes");
     let levels = [pieces.bounding_level()];
     let spheres = SphereChecker::covering(&robot, &levels, &pieces.link_pairs()).expect("spheres");
-    let both = ScreenedProximity::new(&robot, Arc::clone(&pieces), &levels).expect("spheres");
-    let all: Vec<usize> = (0..asked.len()).collect();
     let maybe =
         |k: usize| spheres.in_collision(&asked[k]).expect("an answer") == CoveringAnswer::Maybe;
-    println!(
-        "{urdd}: pieces {:.2}, spheres {:.2} ({:.0} % maybe), both {:.2} microseconds",
-        microseconds(&all, |k| pieces.in_collision(&asked[k]).expect("an answer")),
-        microseconds(&all, maybe),
-        100.0 * all.iter().filter(|k| maybe(**k)).count() as f64 / all.len() as f64,
-        microseconds(&all, |k| both.in_collision(&asked[k]).expect("an answer")),
-    );
+    let touches = |k: usize| pieces.in_collision(&asked[k]).expect("an answer");
+    let all: Vec<usize> = (0..asked.len()).collect();
+    let free: Vec<usize> = all.iter().copied().filter(|k| !touches(*k)).collect();
+    for (what, some) in [("all", all), ("free", free)] {
+        println!(
+            "{urdd}, {what}: pieces {:.2}, spheres {:.2} ({:.0} % maybe), both {:.2} microseconds",
+            microseconds(&some, touches),
+            microseconds(&some, maybe),
+            100.0 * some.iter().filter(|k| maybe(**k)).count() as f64 / some.len() as f64,
+            microseconds(&some, |k| maybe(k) && touches(k)),
+        );
+    }
 }

@@ -150,4 +150,5 @@ def make_points(generator: numpy.random.Generator, boxes: numpy.ndarray, count: 
     return found
 
 
-main()
+if __name__ == "__main__":
+    main()

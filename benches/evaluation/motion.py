@@ -282,10 +282,12 @@ def boxes(name: str, robot: urdd.Robot, count: int) -> tuple[list[str], str]:
     peer.around()
     questions = [(box_poses(0.01 * k), row, peer.q(row)) for k, row in enumerate(q)]
 
+    around = robot.world_proximity(world, shapes)
+
     def ours(question: Any) -> bool:
         poses, row, _ = question
-        world.move(names, poses)
-        return bool(robot.world_proximity(world, shapes).in_collision(row))
+        around.move(names, poses)
+        return bool(around.in_collision(row))
 
     def by_coal(question: Any) -> bool:
         poses, _, row = question

@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -68,11 +70,28 @@ def generated(urdd: Path, urdf: Path, target: Path, *options: str) -> Path:
     return target
 
 
+def without_visuals(urdf: Path, folder: Path) -> Path:
+    """A copy of a URDF and the meshes beside it, without visual elements: links have the shapes that its authors check."""
+    tree = ElementTree.parse(urdf)
+    for link in tree.getroot().findall("link"):
+        for visual in link.findall("visual"):
+            link.remove(visual)
+    shutil.copytree(urdf.parent / "meshes", folder / "meshes", dirs_exist_ok=True)
+    tree.write(folder / urdf.name)
+    return folder / urdf.name
+
+
 def document(urdd: Path, module: str) -> Any:
     """A module of a URDD, by its name."""
     modules = json.loads((urdd / "urdd.json").read_text("utf-8"))["modules"]
     path = next(one["path"] for one in modules if one["name"] == module)
     return json.loads((urdd / path / "module.json").read_text("utf-8"))
+
+
+def percent(hits: int, of: int, interval: list[float]) -> str:
+    """A rate and its interval, as tables have them."""
+    low, high = (100 * end for end in interval)
+    return f"{100 * hits / max(of, 1):.2f} % ({low:.2f} to {high:.2f})"
 
 
 def arguments(description: str | None, *, robots: bool = True) -> argparse.ArgumentParser:

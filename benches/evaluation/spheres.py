@@ -15,16 +15,11 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from robots import ROBOTS, arguments, generated, program, urdf_of, used, version_of
+from robots import ROBOTS, arguments, generated, percent, program, urdf_of, used, version_of
 from results import Table, write
 
 NUMBERS = (30, 50, 75, 100, 150, 200)
 NAMES = ("UR5", "Panda", "H1", "B1", "Orca hand")
-
-
-def percent(hits: int, of: int, interval: list[float]) -> str:
-    low, high = (100 * end for end in interval)
-    return f"{100 * hits / max(of, 1):.2f} % ({low:.2f} to {high:.2f})"
 
 
 def exported(binary: Path, urdd: Path, *options: str) -> tuple[list[str], int, float]:

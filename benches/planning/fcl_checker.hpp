@@ -19,17 +19,20 @@ public:
         }
         for (const Box &box : scene.boxes) {
             const auto [x, y, z] = box.half_extents;
-            place(std::make_shared<fcl::Boxd>(2 * x, 2 * y, 2 * z), box.centre);
+            place(std::make_shared<fcl::Boxd>(2 * x, 2 * y, 2 * z), pose_of(box.centre, box.rpy));
         }
         for (const Ball &ball : scene.balls) {
-            place(std::make_shared<fcl::Sphered>(ball.radius), ball.centre);
+            place(std::make_shared<fcl::Sphered>(ball.radius), pose_of(ball.centre, {0, 0, 0}));
         }
-        // The robot stands on the first.
-        for (std::size_t index = 1; index < obstacles_.size(); ++index) {
+        for (const Capsule &one : scene.capsules) {
+            place(std::make_shared<fcl::Capsuled>(one.radius, 2 * one.half_length), pose_of(one.centre, one.rpy));
+        }
+        for (std::size_t index = 0; index < obstacles_.size(); ++index) {
             world_.registerObject(obstacles_[index].get());
-            above_.registerObject(obstacles_[index].get());
+            if (index > 0 || !scene.stands_on_first) {
+                above_.registerObject(obstacles_[index].get());
+            }
         }
-        world_.registerObject(obstacles_[0].get());
         world_.setup();
         above_.setup();
     }
@@ -40,10 +43,7 @@ public:
             if (links_[link] == nullptr) {
                 continue;
             }
-            const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> pose(poses_[link].data());
-            fcl::Transform3d transform;
-            transform.matrix() = pose;
-            links_[link]->setTransform(transform);
+            links_[link]->setTransform(transform(poses_[link]));
             links_[link]->computeAABB();
         }
         for (std::size_t link = 0; link < links_.size(); ++link) {
@@ -74,14 +74,19 @@ private:
         return *static_cast<bool *>(found) = fcl::collide(a, b, request, result) > 0;
     }
 
+    static fcl::Transform3d transform(const urdd::Pose &pose) {
+        fcl::Transform3d found;
+        found.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(pose.data());
+        return found;
+    }
+
     static Object object(const std::shared_ptr<fcl::CollisionGeometryd> &shape) {
         return std::make_shared<fcl::CollisionObjectd>(shape);
     }
 
-    void place(const std::shared_ptr<fcl::CollisionGeometryd> &shape, const urdd::Point &centre) {
-        const auto [x, y, z] = centre;
+    void place(const std::shared_ptr<fcl::CollisionGeometryd> &shape, const urdd::Pose &pose) {
         obstacles_.push_back(object(shape));
-        obstacles_.back()->setTranslation({x, y, z});
+        obstacles_.back()->setTransform(transform(pose));
         obstacles_.back()->computeAABB();
     }
 

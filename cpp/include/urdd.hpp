@@ -17,6 +17,7 @@
 #include "urdd/obstacle.hpp"
 #include "urdd/proximity.hpp"
 #include "urdd/robot.hpp"
+#include "urdd/spheres.hpp"
 #include "urdd/validate.hpp"
 
 #endif

@@ -111,6 +111,26 @@ static void nulls(void) {
         urdd_world_proximity_is_within(NULL, NULL, many, many, 0.1, NULL),
         urdd_world_proximity_blocked_edge(NULL, NULL, NULL, many, many, 0.1, 0.1, NULL),
         urdd_world_proximity_gradients(NULL, NULL, many, many, NULL, NULL, NULL),
+        urdd_obstacle_points(NULL, NULL, NULL, many, 1.0, NULL),
+        urdd_obstacle_height_field(NULL, NULL, NULL, many, many, NULL, 1.0, NULL),
+        urdd_robot_covering_checker(NULL, NULL),
+        urdd_robot_covering_checker_of(NULL, NULL, many, NULL, many, NULL),
+        urdd_covering_checker_num_dofs(NULL, NULL),
+        urdd_covering_checker_around(NULL, NULL, many, NULL),
+        urdd_covering_checker_move_obstacles(NULL, many, NULL, many),
+        urdd_covering_checker_in_collision(NULL, NULL, many, many, NULL),
+        urdd_covering_checker_is_within(NULL, NULL, many, many, 0.1, NULL),
+        urdd_covering_checker_blocked_edge(NULL, NULL, NULL, many, many, 0.1, 0.1, false, NULL),
+        urdd_covering_checker_first_contact(NULL, NULL, NULL, many, many, 0.1, 0.1, false, NULL, many),
+        urdd_robot_approximating_checker(NULL, NULL),
+        urdd_robot_approximating_checker_of(NULL, NULL, many, NULL, many, NULL),
+        urdd_approximating_checker_num_dofs(NULL, NULL),
+        urdd_approximating_checker_around(NULL, NULL, many, NULL),
+        urdd_approximating_checker_move_obstacles(NULL, many, NULL, many),
+        urdd_approximating_checker_in_collision(NULL, NULL, many, many, NULL),
+        urdd_approximating_checker_is_within(NULL, NULL, many, many, 0.1, NULL),
+        urdd_approximating_checker_blocked_edge(NULL, NULL, NULL, many, many, 0.1, 0.1, false, NULL),
+        urdd_approximating_checker_first_contact(NULL, NULL, NULL, many, many, 0.1, 0.1, false, NULL, many),
         urdd_robot_collision_model(NULL, NULL),
         urdd_collision_model_evaluation(NULL, NULL),
         urdd_collision_model_sizes(NULL, NULL, NULL),
@@ -133,6 +153,8 @@ static void nulls(void) {
     ok(urdd_proximity_free(NULL));
     ok(urdd_obstacle_free(NULL));
     ok(urdd_world_proximity_free(NULL));
+    ok(urdd_covering_checker_free(NULL));
+    ok(urdd_approximating_checker_free(NULL));
     ok(urdd_collision_model_free(NULL));
     ok(urdd_skips_free(NULL));
     ok(urdd_report_free(NULL));
@@ -211,7 +233,6 @@ int main(int count, char **words) {
 
     urdd_proximity *proximity = NULL;
     ok(urdd_robot_proximity(robot, "hulls", &proximity));
-    ok(urdd_robot_free(robot));
     bool touches = true;
     ok(urdd_proximity_in_collision(proximity, q, 1, dofs, &touches));
     assert(!touches);
@@ -223,6 +244,24 @@ int main(int count, char **words) {
     double blocked = 0.0;
     fails(urdd_proximity_blocked_edge(proximity, q, q, 1, dofs, 0.0, -1.0, &blocked), URDD_STATUS_VALUE, "resolution");
     ok(urdd_proximity_free(proximity));
+
+    /* Two spheres about the root, one of them on the last link, which is farther away. */
+    const urdd_link_sphere spheres[2] = {{0, 0, {0.0, 0.0, 0.0}, 0.01}, {0, links - 1, {0.0, 0.0, 0.0}, 0.01}};
+    const urdd_link_pair pair = {{0, links - 1}};
+    const double seen[3] = {0.0, 0.0, 0.005};
+    urdd_covering_checker *alone = NULL, *around = NULL;
+    urdd_obstacle *cloud = NULL;
+    urdd_covering_answer answers[2] = {URDD_COVERING_ANSWER_MAYBE, URDD_COVERING_ANSWER_MAYBE};
+    ok(urdd_robot_covering_checker_of(robot, spheres, 2, &pair, 1, &alone));
+    ok(urdd_robot_free(robot));
+    ok(urdd_obstacle_points("seen", NULL, seen, 1, 0.01, &cloud));
+    ok(urdd_covering_checker_around(alone, (const urdd_obstacle *const *)&cloud, 1, &around));
+    ok(urdd_obstacle_free(cloud));
+    ok(urdd_covering_checker_in_collision(alone, q, 1, dofs, &answers[0]));
+    ok(urdd_covering_checker_in_collision(around, q, 1, dofs, &answers[1]));
+    assert(answers[0] == URDD_COVERING_ANSWER_FREE && answers[1] == URDD_COVERING_ANSWER_MAYBE);
+    ok(urdd_covering_checker_free(alone));
+    ok(urdd_covering_checker_free(around));
 
     urdd_report *report = NULL;
     bool passes = false;

@@ -68,6 +68,20 @@ test("`npm pack` makes a package that validates, moves a robot and lints, with t
       if (middle?.length !== 3) throw new Error("a centre of mass");
       const torques: number[] = robot.gravityTorques(q, { payload: { link, mass: 1 }, gravity: [0, 0, -9.81] });
       if (torques.length !== q.length) throw new Error("torques");
+      try { robot.sphereChecker(); throw new Error("spheres, where there are none"); } catch (error) {
+        if (!/link_shapes_spheres_module/.test(String(error))) throw error;
+      }
+      // Of a URDD with spheres.
+      const spheres = () => {
+        const seen = { name: "seen", points: { points: [[0.5, 0, 0.4]], radius: 0.01 } } satisfies Body;
+        const around = robot.sphereChecker({ covers: true }).around([seen]);
+        const answer: "free" | "maybe" = around.inCollision(q);
+        const near: ("free" | "contact")[] = robot.sphereChecker().inCollisionBatch(new Float64Array(q));
+        // @ts-expect-error it is no boolean
+        const touches: boolean = around.inCollision(q);
+        return [answer, near, touches, around.firstContact(q, q, { resolution: 0.1, open_loops: true })?.blocked];
+      };
+      if (spheres.length !== 0) spheres();
       const missed: number | undefined = model?.evaluation.num_missed;
       const least: number | undefined = clearances?.min_clearance?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);

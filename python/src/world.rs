@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use nalgebra::Isometry3;
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
+use urdd_kinematics::pose_matrix::pose;
 use urdd_robot::{EdgeSettings, ObstacleDistance, Obstruction, Queries, World};
 
 use crate::arrays::{Batch, check_memory, shaped, zeros};
@@ -55,6 +59,14 @@ impl Asked for WorldProximity {
 
 queries!(WorldProximity, Near);
 
+/// The pose of a matrix that is one beyond doubt: `World.move` has the last word about others.
+fn plain(matrix: &[f64]) -> Option<Isometry3<f64>> {
+    let found = pose(matrix).filter(|_| matrix[12..16] == [0.0, 0.0, 0.0, 1.0])?;
+    let rotation = found.rotation.to_rotation_matrix();
+    let is_near = |k: usize| (rotation[(k / 3, k % 3)] - matrix[4 * (k / 3) + k % 3]).abs() < 1e-7;
+    (0..9).all(is_near).then_some(found)
+}
+
 #[pymethods]
 impl WorldProximity {
     /// Each obstacle with the names of the links that may touch it.
@@ -73,6 +85,28 @@ impl WorldProximity {
             proximity: proximity.map_err(|error| of_robot(py, &error))?,
             num_tested,
         })
+    }
+
+    /// The same, with the obstacles at `places` at other poses: matrices (n, 4, 4). `None` if one of them is not a pose, or there
+    /// are not as many.
+    fn moved(
+        &self,
+        py: Python<'_>,
+        places: Vec<usize>,
+        poses: PyReadonlyArray3<'_, f64>,
+    ) -> PyResult<Option<Self>> {
+        let poses: Option<Vec<Isometry3<f64>>> =
+            poses.as_slice()?.chunks_exact(16).map(plain).collect();
+        let Some(poses) = poses.filter(|poses| poses.len() == places.len()) else {
+            return Ok(None);
+        };
+        let (mut proximity, mut begin) = (self.proximity.clone(), 0);
+        for run in places.chunk_by(|a, b| a + 1 == *b) {
+            let moved = proximity.move_obstacles(run[0], &poses[begin..begin + run.len()]);
+            moved.map_err(|error| of_robot(py, &error))?;
+            begin += run.len();
+        }
+        Ok(Some(WorldProximity { proximity, num_tested: self.num_tested }))
     }
 
     /// (pairs, 3): the link, the piece and the obstacle of each pair.

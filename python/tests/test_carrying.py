@@ -131,6 +131,39 @@ def test_many_obstacles_move_at_once(arm: urdd.Robot) -> None:
         np.testing.assert_array_equal(moving.min_distance(q), least)
 
 
+def test_moves_one_after_another(arm: urdd.Robot) -> None:
+    """What a control loop moves is where a world has it whose obstacles were made there, also for a pickle."""
+    world, q = urdd.World(), arm.random(20)
+    for k in range(4):
+        world.add_box(f"box_{k}", [0.1, 0.2, 0.05], [0.1 * k, 0.5, 0.2])
+    moving = arm.world_proximity(world)
+    at = np.tile(np.eye(4), (4, 1, 1))
+    for step, places in enumerate([[0, 1, 2, 3], [0, 1, 2, 3], [2, 0], [3], [1, 1]]):
+        poses = np.tile(np.eye(4), (len(places), 1, 1))
+        poses[:, :3, 3] = 0.1 + 0.1 * step
+        poses[:, 0, 3] += np.arange(len(places))
+        names = [f"box_{k}" for k in places]
+        moving.move(names, poses)
+        world.move(names, poses)
+        made = arm.world_proximity(world).distances(q)
+        # A copy is kept.
+        poses[:] = at[: len(places)]
+        np.testing.assert_array_equal(moving.distances(q), made)
+    again: urdd.WorldProximity = pickle.loads(pickle.dumps(moving))
+    np.testing.assert_array_equal(again.distances(q), arm.world_proximity(world).distances(q))
+    # What is nearly a pose is as for a world: refused or taken, and both agree.
+    for row, by, is_pose in ((3, 1e-7, False), (0, 3e-7, True), (0, 1e-5, False)):
+        doubtful = np.tile(np.eye(4), (2, 1, 1))
+        doubtful[1, row, 0] += by
+        for of in (moving, world):
+            if is_pose:
+                of.move(["box_0", "box_1"], doubtful)
+            else:
+                with pytest.raises(urdd.ObstacleError, match="`box_1`"):
+                    of.move(["box_0", "box_1"], doubtful)
+        np.testing.assert_array_equal(moving.distances(q), arm.world_proximity(world).distances(q))
+
+
 def test_pairs_and_bodies_that_are_left_out(arm: urdd.Robot, tool: urdd.World) -> None:
     shapes = arm.proximity().attach("torch", tool)
     assert shapes.bodies == (*arm.link_names, "brush")

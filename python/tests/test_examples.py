@@ -112,6 +112,23 @@ def test_a_planner_needs_no_other_library(arm: urdd.Robot) -> None:
     assert np.isnan(checks).all()
 
 
+@pytest.mark.parametrize("name", ["welding_arm", "six_axis_arm"])
+def test_what_is_planned_by_spheres_is_proved_by_shapes(name: str, tmp_path: Path) -> None:
+    urdd.generate(ROBOTS / f"{name}.urdf", tmp_path / name, modules=["all", "spheres"])
+    robot = urdd.load(tmp_path / name)
+    world = urdd.World()
+    world.add_sphere("ball", radius=0.15, centre=[0.45, 0.1, 0.6])
+    lengths = []
+    for seed in range(5):
+        found = run("plan_by_spheres.py", robot.path, str(seed))
+        path = np.loadtxt(found.stdout.splitlines(), delimiter=",", skiprows=1)
+        assert "proved free" in found.stderr
+        for check in (robot.proximity("pieces"), robot.world_proximity(world)):
+            assert np.isnan(check.blocked_edge(path[:-1], path[1:], resolution=0.002)).all()
+        lengths.append(len(path))
+    assert max(lengths) > 2, "no straight motion was in the way of anything: the searches were not tried"
+
+
 @pytest.mark.parametrize("name", sorted(path.stem for path in ROBOTS.glob("*.urdf")))
 def test_forward_kinematics_by_json_and_numpy(name: str, tmp_path: Path) -> None:
     """Joints of every kind: its poses are those in each URDD."""

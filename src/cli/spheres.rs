@@ -13,7 +13,11 @@ use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
 use urdd_format::registry::ModuleKind;
+use urdd_format::self_collision_model::LinkPair;
 use urdd_format::urdf::Geometry;
+
+/// Maximum number of pairs that a message names.
+const MOST_NAMED: usize = 6;
 
 /// The commands of `urdd spheres`.
 #[derive(Subcommand)]
@@ -60,6 +64,7 @@ pub fn run(command: &SpheresCommand) -> Result<u8, Failure> {
                     of.miss_rate(),
                     of.false_contact_rate()
                 );
+                told += &always(&level.always_pairs, robot.link_names().map_err(about(urdd))?);
             }
             told += &left_out(&imported.left_out);
             Ok(Edited { files: imported.files, told })
@@ -67,6 +72,27 @@ pub fn run(command: &SpheresCommand) -> Result<u8, Failure> {
         output::print(&told)?;
         Ok(0)
     })
+}
+
+/// What pairs of links that touch in every configuration mean, and what to do; empty without one.
+fn always(pairs: &[LinkPair], links: &[String]) -> String {
+    if pairs.is_empty() {
+        return String::new();
+    }
+    let name = |link: usize| one_line(links.get(link).map_or("", String::as_str));
+    let names = pairs.iter().take(MOST_NAMED).map(|LinkPair { link_a_idx, link_b_idx }| {
+        format!("`{}` with `{}`", name(link_a_idx.get()), name(link_b_idx.get()))
+    });
+    let names: Vec<String> = names.collect();
+    let others = match pairs.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        others => format!(" and {others} more"),
+    };
+    format!(
+        "  in every configuration these links touch, so that a check by this list always says that the robot collides: {}{others}\n  \
+         if they need no check, disable them by `urdd skips import` of an SRDF, and import the list again\n",
+        names.join(", ")
+    )
 }
 
 fn read(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {

@@ -81,6 +81,7 @@ const JSON: &[(&str, &str)] = &[
     ("wasm/src/import.rs", "the page's own"),
     ("wasm/src/lint.rs", "the page's own"),
     ("wasm/src/robot.rs", "the page's own"),
+    ("wasm/src/spheres.rs", "the page's own"),
 ];
 
 /// Files that read a whole file of any size and kind, and why they may. All else is read by `urdd_directory::regular`.

@@ -45,6 +45,11 @@ fn spheres_go_from_a_urdf_to_a_planner_and_back() {
     run(folder, &generate);
     let info = run(folder, &["info", "bars"]);
     assert!(info.contains(" given; missed collisions "), "{info}");
+    // A list that is of no use says why.
+    let large = "collision_spheres: {a: [{center: [0, 0, 0], radius: 1}], c: [{center: [0, 0, 0], radius: 1}]}";
+    fs::write(folder.join("large.yml"), large).expect("written");
+    let told = run(folder, &["spheres", "import", "large.yml", "bars"]);
+    assert!(told.contains("these links touch") && told.contains(": `a` with `c`\n"), "{told}");
     // What rests on skips follows them when the URDD is made again.
     let srdf =
         "<robot name=\"bars\"><disable_collisions link1=\"a\" link2=\"c\" reason=\"x\"/></robot>";
@@ -68,4 +73,31 @@ fn spheres_go_from_a_urdf_to_a_planner_and_back() {
         assert_eq!((status, out.as_str()), (2, ""));
         assert!(said.contains("bad.yml") && said.contains(words), "{said}");
     }
+}
+
+/// The third bar stands on the first, 2 mm away: near enough that spheres touch unless the fit looks there.
+#[test]
+fn fitted_spheres_are_free_in_the_reference_configuration() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("bars.urdf"), BARS).expect("written");
+    let generate = ["generate", "bars.urdf", "-o", "bars", "--modules", "all,spheres"];
+    run(folder, &generate);
+    // The tip of the third bar is at 0.427 m - 0.4 m above the middle of the first, whose half height is 0.025 m.
+    let shoulder = std::f64::consts::PI - (0.427f64 / 0.5).asin();
+    let elbow = 1.5 * std::f64::consts::PI - shoulder;
+    let bent = [shoulder, elbow];
+    let touches = || {
+        let robot = urdd_robot::Robot::open(folder.join("bars")).expect("a URDD");
+        let pieces = robot.proximity(urdd_robot::ShapeKind::Pieces).expect("pieces");
+        let apart = urdd_robot::Queries::min_distance(&pieces, &bent).expect("a distance");
+        assert!(apart.is_some_and(|apart| (apart - 0.002).abs() < 1e-6), "{apart:?}");
+        robot.approximating_checker().expect("spheres").in_collision(&bent).expect("an answer")
+    };
+    let positions = [format!("ab={shoulder}"), format!("bc={elbow}")];
+    run(folder, &["configurations", "set", "bars", "bent", &positions[0], &positions[1]]);
+    assert_eq!(touches(), urdd_robot::spheres::ApproximateAnswer::Contact);
+    run(folder, &[&generate[..], &["--reference", "bent"]].concat());
+    assert_eq!(touches(), urdd_robot::spheres::ApproximateAnswer::Free);
+    run(folder, &["validate", "bars", "--fail-on", "info"]);
 }

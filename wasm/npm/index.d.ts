@@ -331,7 +331,12 @@ export interface Depth {
   gradient: number[];
 }
 
-/** A convex body. Capsules and cylinders are along the z axis of its frame; the half length is that of the segment. */
+/**
+ * A body. Capsules and cylinders are along the z axis of its frame; the half length is that of the segment. `points` is a
+ * cloud: all points that are at most `radius` from one of them. `height_field` has `columns` heights in a row: each is a
+ * column with the sizes `cell` along x and y, its centre at x = column * cell[0], y = row * cell[1], which reaches from its
+ * height `thickness` down. Metres.
+ */
 export type Body = {
   name: string;
   /** Of its frame, in the root link's frame, or in that of the link that carries it; metres. */
@@ -345,6 +350,15 @@ export type Body = {
   | { capsule: { radius: number; half_length: number } }
   | { cylinder: { radius: number; half_length: number } }
   | { hull: { points: Vector[] } }
+  | { points: { points: Vector[]; radius: number } }
+  | {
+      height_field: {
+        heights: number[];
+        columns: number;
+        cell: [number, number];
+        thickness: number;
+      };
+    }
 );
 
 /** The pairs of the robot's own shapes, with what its links carry. */
@@ -528,8 +542,79 @@ export class Robot {
   skips(kind?: ShapeKind): SkipsAnswer;
   /** The boxes or spheres of a kind. */
   shapes(kind: ShapeKind): Shape[];
+  /**
+   * Prepares the spheres that the URDD has (its `link_shapes_spheres_module`), for yes or no: the finest level that covers the
+   * shapes, or the last that does not. Close it when it is no longer needed; it outlives the robot.
+   */
+  sphereChecker(options: { covers: true }): SphereChecker<CoveringAnswer>;
+  sphereChecker(options?: { covers?: false }): SphereChecker<ApproximateAnswer>;
   /** The triangles of a mesh file of the URDD. */
   mesh(path: string): { positions: Float32Array; indices: Uint32Array };
+  /** Frees its memory. */
+  close(): void;
+}
+
+/** What covering spheres say: certainly no contact; or spheres touch, and the shapes may. */
+export type CoveringAnswer = "free" | "maybe";
+/** What approximating spheres say: whether spheres touch. Nothing is certain of the shapes. */
+export type ApproximateAnswer = "free" | "contact";
+
+/** How a motion is checked by spheres. */
+export interface SphereEdgeOptions {
+  /** The distance that is kept, metres; 0 by default. */
+  margin?: number;
+  /** No point of a sphere travels farther between two checked configurations, metres; 0.01 by default. */
+  resolution?: number;
+  /** Whether kinematic loops may be open on the way, which is needed for a robot with any: all DOFs go straight. */
+  open_loops?: boolean;
+}
+
+/**
+ * The spheres of a robot. Configurations have a value for each DOF, rad or m, at most 1e9. Batches take them one after
+ * another: they are faster, also because a call takes longer than a check.
+ */
+export class SphereChecker<
+  Answer extends CoveringAnswer | ApproximateAnswer =
+    CoveringAnswer | ApproximateAnswer,
+> {
+  private constructor();
+  /** The number of values of a configuration. */
+  readonly numDofs: number;
+  /**
+   * The same spheres among obstacles: each query then asks for both. Obstacles that stay or move since the last call are not
+   * prepared again. Close it, too.
+   */
+  around(obstacles: Body[]): SphereChecker<Answer>;
+  /** What the spheres say of a configuration. No answer is a boolean: compare with `"free"`. */
+  inCollision(q: Iterable<number>): Answer;
+  inCollisionBatch(values: ArrayLike<number>): Answer[];
+  /** The same of spheres that are at most `margin` apart, metres. */
+  isWithin(q: Iterable<number>, margin: number): Answer;
+  isWithinBatch(values: ArrayLike<number>, margin: number): Answer[];
+  /** Where spheres touch on a straight motion, as a part of it from 0 to 1; null if they do not. It need not be the first. */
+  blockedEdge(
+    start: Iterable<number>,
+    end: Iterable<number>,
+    options?: SphereEdgeOptions,
+  ): number | null;
+  /** The same for many motions; NaN where the motion is free. */
+  blockedEdgeBatch(
+    starts: ArrayLike<number>,
+    ends: ArrayLike<number>,
+    options?: SphereEdgeOptions,
+  ): Float64Array;
+  /** The last part of a straight motion in which no spheres touch, and the first in which some do; null if it is free. */
+  firstContact(
+    start: Iterable<number>,
+    end: Iterable<number>,
+    options?: SphereEdgeOptions,
+  ): { free: number; blocked: number } | null;
+  /** Two numbers for each of many motions; NaN where it is free. */
+  firstContactBatch(
+    starts: ArrayLike<number>,
+    ends: ArrayLike<number>,
+    options?: SphereEdgeOptions,
+  ): Float64Array;
   /** Frees its memory. */
   close(): void;
 }

@@ -285,6 +285,11 @@ export class Robot {
     return this.#ask({ ask: "shapes", kind });
   }
 
+  sphereChecker({ covers = false } = {}) {
+    const made = this.#module.sphereChecker(this.#open(), { covers });
+    return new SphereChecker(this.#module, made, covers ? "maybe" : "contact");
+  }
+
   mesh(path) {
     this.#open();
     return this.#module.mesh(this.#files, path);
@@ -314,5 +319,85 @@ export class Robot {
 
   #ask(question) {
     return this.#module.ask(this.#open(), question);
+  }
+}
+
+export class SphereChecker {
+  #module;
+  #checker;
+  #touching;
+
+  constructor(module, { checker, num_dofs }, touching) {
+    this.#module = module;
+    this.#checker = checker;
+    this.#touching = touching;
+    this.numDofs = num_dofs;
+  }
+
+  around(obstacles) {
+    const made = this.#module.spheresAround(this.#open(), obstacles);
+    return new SphereChecker(this.#module, made, this.#touching);
+  }
+
+  inCollision(q) {
+    return this.isWithin(q, 0);
+  }
+
+  inCollisionBatch(values) {
+    return this.isWithinBatch(values, 0);
+  }
+
+  isWithin(q, margin) {
+    return this.#within([...q], margin, true)[0];
+  }
+
+  isWithinBatch(values, margin) {
+    return this.#within(values, margin, false);
+  }
+
+  blockedEdge(start, end, options = {}) {
+    const [part] = this.#edges([...start], [...end], options, false, true);
+    return Number.isNaN(part) ? null : part;
+  }
+
+  blockedEdgeBatch(starts, ends, options = {}) {
+    return this.#edges(starts, ends, options, false, false);
+  }
+
+  firstContact(start, end, options = {}) {
+    const ends = [[...start], [...end]];
+    const [free, blocked] = this.#edges(...ends, options, true, true);
+    return Number.isNaN(blocked) ? null : { free, blocked };
+  }
+
+  firstContactBatch(starts, ends, options = {}) {
+    return this.#edges(starts, ends, options, true, false);
+  }
+
+  close() {
+    if (this.#checker === 0) return;
+    this.#module.closeSpheres(this.#checker);
+    this.#checker = 0;
+  }
+
+  #open() {
+    if (this.#checker === 0) throw new Error("this checker is closed");
+    return this.#checker;
+  }
+
+  #within(values, margin, isOne) {
+    const found = this.#module.spheresWithin(
+      this.#open(),
+      values,
+      margin,
+      isOne,
+    );
+    return Array.from(found, (touches) => (touches ? this.#touching : "free"));
+  }
+
+  #edges(starts, ends, options, isFirst, isOne) {
+    const { margin = 0, resolution = 0.01, open_loops = false } = options;
+    const settings = { margin, resolution, openLoops: open_loops, isFirst, isOne };
+    return this.#module.spheresEdges(this.#open(), starts, ends, settings);
   }
 }

@@ -35,4 +35,25 @@ export declare class Urdd {
   close(robot: number): void;
   linkPosesBatch(robot: number, values: ArrayLike<number>): Float64Array;
   ask(robot: number, question: object): unknown;
+  sphereChecker(robot: number, question: object): unknown;
+  spheresAround(checker: number, obstacles: object[]): unknown;
+  spheresWithin(
+    checker: number,
+    values: ArrayLike<number>,
+    margin: number,
+    isOne: boolean,
+  ): Uint8Array;
+  spheresEdges(
+    checker: number,
+    starts: ArrayLike<number>,
+    ends: ArrayLike<number>,
+    settings: {
+      margin: number;
+      resolution: number;
+      openLoops: boolean;
+      isFirst: boolean;
+      isOne: boolean;
+    },
+  ): Float64Array;
+  closeSpheres(checker: number): void;
 }

@@ -186,8 +186,7 @@ export class Urdd {
 
   /** x, y, z and the quaternion w, x, y, z of each link, in each of the configurations that follow each other. */
   linkPosesBatch(handle, values) {
-    const bytes = new Uint8Array(new Float64Array(values).buffer);
-    const answer = this.#with([bytes], (at) =>
+    const answer = this.#with([binary(values)], (at) =>
       this.#bytes(
         this.exports.urdd_robot_link_poses_batch(handle, at, values.length),
       ),
@@ -199,6 +198,64 @@ export class Urdd {
     return this.#asked(question, (...words) =>
       this.exports.urdd_robot_ask(handle, ...words),
     );
+  }
+
+  /** The spheres of a robot: `checker`, and `num_dofs`, the number of values of a configuration. */
+  sphereChecker(handle, question) {
+    return this.#asked(question, (...words) =>
+      this.exports.urdd_robot_sphere_checker(handle, ...words),
+    );
+  }
+
+  /** The same spheres among obstacles. */
+  spheresAround(checker, obstacles) {
+    return this.#asked(obstacles, (...words) =>
+      this.exports.urdd_spheres_around(checker, ...words),
+    );
+  }
+
+  /** A 1 for each of the configurations that follow each other, or of one alone, in which spheres are so near. */
+  spheresWithin(checker, values, margin, isOne) {
+    return this.#with([binary(values)], (at) =>
+      this.#bytes(
+        this.exports.urdd_spheres_within(
+          checker,
+          at,
+          values.length,
+          margin,
+          isOne,
+        ),
+      ),
+    );
+  }
+
+  /** Where each motion is blocked, NaN where it is free; with `isFirst` also the last part that is free, before it. */
+  spheresEdges(checker, starts, ends, settings) {
+    const { margin, resolution, openLoops, isFirst, isOne } = settings;
+    if (starts.length !== ends.length)
+      throw new Error(
+        `there are ${starts.length} values of starts, and ${ends.length} of ends`,
+      );
+    const answer = this.#with([binary(starts), binary(ends)], (from, _, to) =>
+      this.#bytes(
+        this.exports.urdd_spheres_edges(
+          checker,
+          from,
+          to,
+          ends.length,
+          margin,
+          resolution,
+          Boolean(openLoops),
+          isFirst,
+          isOne,
+        ),
+      ),
+    );
+    return new Float64Array(answer.buffer);
+  }
+
+  closeSpheres(checker) {
+    this.exports.urdd_spheres_close(checker);
   }
 
   #asked(question, call) {
@@ -281,4 +338,11 @@ function asked(question) {
 
 function encode(text) {
   return new TextEncoder().encode(text);
+}
+
+/** Numbers as bytes. */
+function binary(values) {
+  const { buffer, byteOffset, byteLength } =
+    values instanceof Float64Array ? values : new Float64Array(values);
+  return new Uint8Array(buffer, byteOffset, byteLength);
 }

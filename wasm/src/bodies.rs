@@ -31,6 +31,8 @@ enum Form {
     Capsule { radius: f64, half_length: f64 },
     Cylinder { radius: f64, half_length: f64 },
     Hull { points: Vec<[f64; 3]> },
+    Points { points: Vec<[f64; 3]>, radius: f64 },
+    HeightField { heights: Vec<f64>, columns: usize, cell: [f64; 2], thickness: f64 },
 }
 
 /// A body that a link carries.
@@ -60,6 +62,10 @@ impl Body {
                 Obstacle::cylinder(name, pose, *radius, *half_length)
             }
             Form::Hull { points } => Obstacle::hull(name, pose, points),
+            Form::Points { points, radius } => Obstacle::points(name, pose, points, *radius),
+            Form::HeightField { heights, columns, cell, thickness } => {
+                Obstacle::height_field(name, pose, heights, *columns, *cell, *thickness)
+            }
         };
         let made = made.map_err(|error| error.to_string())?;
         let ignored = self.ignoring.iter();

@@ -43,5 +43,7 @@ mod random;
 mod robot;
 #[cfg(feature = "robot")]
 mod sources;
+#[cfg(feature = "spheres")]
+mod spheres;
 #[cfg(feature = "validate")]
 mod validate;

@@ -52,3 +52,14 @@ pub unsafe fn bytes<'a>(pointer: *const u8, length: usize) -> &'a [u8] {
         length => unsafe { std::slice::from_raw_parts(pointer, length) },
     }
 }
+
+/// The little-endian binary64 numbers that the host wrote.
+///
+/// # Safety
+/// As for [`bytes`], with 8 bytes for each.
+#[cfg(feature = "robot")]
+pub unsafe fn numbers(pointer: *const u8, count: usize) -> Vec<f64> {
+    // SAFETY: guaranteed by the caller.
+    let bytes = unsafe { bytes(pointer, 8 * count) };
+    bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()
+}

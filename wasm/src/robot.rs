@@ -24,7 +24,7 @@ use crate::{answer, memory, model};
 /// A robot, and its cached data.
 pub struct Handle {
     files: Files,
-    robot: Robot,
+    pub robot: Robot,
     proximity: Vec<Proximity>,
     /// By kind: the pairs that are skipped because they touch at rest, if there are any.
     skipped: Vec<(ShapeKind, Option<Proximity>)>,
@@ -75,9 +75,7 @@ pub unsafe extern "C" fn urdd_robot_link_poses_batch(
     count: usize,
 ) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
-    let (handle, values) = unsafe { (&*handle, memory::bytes(values, 8 * count)) };
-    let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap_or_default());
-    let values: Vec<f64> = values.chunks_exact(8).map(number).collect();
+    let (handle, values) = unsafe { (&*handle, memory::numbers(values, count)) };
     let poses = handle.robot.link_poses_batch(&values);
     answer::bytes_or_error(poses.map_err(|error| error.to_string()).map(|poses| {
         let seven = |pose: &Isometry3<f64>| {

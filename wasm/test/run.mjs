@@ -11,6 +11,7 @@ import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
 import { brotliCompressSync, brotliDecompressSync, gzipSync } from "node:zlib";
 import { Urdd } from "../npm/module.mjs";
+import { compareSpheres } from "./spheres.mjs";
 
 const [program, wasm] = process.argv.slice(2);
 const given = readFileSync(wasm);
@@ -95,6 +96,8 @@ try {
     reaches(urdd, handle);
     compareLimits(urdd, handle, target);
     assert.equal(urdd.ask(handle, { ask: "collision_model" }), null);
+    for (const covers of [true, false])
+      assert.throws(() => urdd.sphereChecker(handle, { covers }), /link_shapes_spheres_module is missing/);
     assert.equal(urdd.ask(handle, { ask: "clearances", q: about.zero }), null);
     const sources = urdd.ask(handle, { ask: "sources" });
     const { links } = read(target, "urdf_module");
@@ -113,6 +116,12 @@ try {
   }
   assert.ok(compared > 1000, `${compared} distances`);
   compareModel(urdd, join(folder, "learned"));
+  for (const name of ["gripper", "planar_base_arm"]) {
+    const target = join(folder, `${name}_spheres`);
+    run("generate", `conformance/robots/${name}.urdf`, "-o", target, "--modules", "all,spheres");
+    const { levels } = read(join(target, "link_shapes_modules"), "link_shapes_spheres_module");
+    await compareSpheres(bytes, readFileSync(zip(target)), levels);
+  }
   assert.throws(() => urdd.zip("x", new Uint8Array(100)), /./);
   assert.throws(() => urdd.zip("x", new Uint8Array(0)), /./);
   assert.equal(urdd.explain("DOF003").code, "DOF003");

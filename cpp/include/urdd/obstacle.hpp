@@ -52,6 +52,27 @@ public:
         }));
     }
 
+    /// A cloud of points, metres, such as a depth camera sees: all points that are at most `radius` from one of them; 0
+    /// is allowed. A tree finds those near a shape: 100,000 are fine.
+    static Obstacle points(const std::string &name, const Pose &pose, Argument<const Point> points, double radius) {
+        const double *values = points.size() == 0 ? nullptr : points.data()->data();
+        return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
+            return urdd_obstacle_points(detail::c_text(name), pose.data(), values, points.size(), radius, out);
+        }));
+    }
+    /// A field of heights over the x-y plane of its frame, row by row: each is a column with the sizes `cell` along x
+    /// and y, metres, its centre at x = column * cell[0], y = row * cell[1]. It reaches from its height, metres,
+    /// `thickness` down.
+    static Obstacle height_field(const std::string &name, const Pose &pose, Argument<const double> heights,
+                                 std::size_t columns, const std::array<double, 2> &cell, double thickness) {
+        const std::size_t rows = columns == 0 ? 0 : heights.size() / columns;
+        detail::same_size("heights", heights.size(), rows * columns);
+        return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
+            return urdd_obstacle_height_field(detail::c_text(name), pose.data(), heights.data(), rows, columns,
+                                              cell.data(), thickness, out);
+        }));
+    }
+
     /// The same body with its frame at another pose; the frame of a sphere is at its centre.
     Obstacle at(const Pose &pose) const {
         return Obstacle(detail::made<urdd_obstacle>(
@@ -70,6 +91,19 @@ private:
     explicit Obstacle(urdd_obstacle *handle) : handle_(handle) {}
     detail::Handle<urdd_obstacle, urdd_obstacle_free> handle_;
 };
+
+namespace detail {
+
+/// The handles of obstacles, for C.
+inline std::vector<const urdd_obstacle *> handles(Span<const Obstacle> obstacles) {
+    std::vector<const urdd_obstacle *> found;
+    found.reserve(obstacles.size());
+    for (const Obstacle &obstacle : obstacles)
+        found.push_back(obstacle.handle());
+    return found;
+}
+
+} // namespace detail
 
 } // namespace urdd
 

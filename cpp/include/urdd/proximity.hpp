@@ -325,10 +325,7 @@ public:
         return world_proximity(Span<const Obstacle>(obstacles.begin(), obstacles.size()));
     }
     WorldProximity world_proximity(Argument<const Obstacle> obstacles) const {
-        std::vector<const urdd_obstacle *> handles;
-        handles.reserve(obstacles.size());
-        for (const Obstacle &obstacle : obstacles)
-            handles.push_back(obstacle.handle());
+        const std::vector<const urdd_obstacle *> handles = detail::handles(obstacles);
         return WorldProximity(detail::made<urdd_world_proximity>([&](urdd_world_proximity **out) {
             return urdd_proximity_world_proximity(handle(), handles.data(), handles.size(), out);
         }));

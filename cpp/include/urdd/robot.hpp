@@ -6,6 +6,7 @@
 #include "collision_model.hpp"
 #include "inverse.hpp"
 #include "proximity.hpp"
+#include "spheres.hpp"
 
 namespace urdd {
 
@@ -334,6 +335,31 @@ public:
     Proximity proximity(ShapeKind kind = ShapeKind::pieces) const {
         return Proximity(detail::made<urdd_proximity>(
             [&](urdd_proximity **out) { return urdd_robot_proximity(handle_.get(), name(kind), out); }));
+    }
+    /// Prepares the finest level of spheres that covers the links, as the URDD has them, for its pairs of links.
+    CoveringChecker covering_checker() const {
+        return CoveringChecker(detail::made<urdd_covering_checker>(
+            [&](urdd_covering_checker **out) { return urdd_robot_covering_checker(handle_.get(), out); }));
+    }
+    /// The same of spheres that you have, which cover the shapes, for these pairs of links.
+    CoveringChecker covering_checker(Argument<const LinkSphere> spheres, Argument<const LinkPair> pairs) const {
+        return CoveringChecker(detail::made<urdd_covering_checker>([&](urdd_covering_checker **out) {
+            return urdd_robot_covering_checker_of(handle_.get(), spheres.data(), spheres.size(), pairs.data(),
+                                                  pairs.size(), out);
+        }));
+    }
+    /// Prepares the last level of spheres that does not cover the links: fitted ones, or those that a person gave.
+    ApproximatingChecker approximating_checker() const {
+        return ApproximatingChecker(detail::made<urdd_approximating_checker>(
+            [&](urdd_approximating_checker **out) { return urdd_robot_approximating_checker(handle_.get(), out); }));
+    }
+    /// The same of spheres that you have, for these pairs of links.
+    ApproximatingChecker approximating_checker(Argument<const LinkSphere> spheres,
+                                               Argument<const LinkPair> pairs) const {
+        return ApproximatingChecker(detail::made<urdd_approximating_checker>([&](urdd_approximating_checker **out) {
+            return urdd_robot_approximating_checker_of(handle_.get(), spheres.data(), spheres.size(), pairs.data(),
+                                                       pairs.size(), out);
+        }));
     }
     /// Reads the learned self-collision model.
     CollisionModel collision_model() const {

@@ -15,6 +15,7 @@ use std::time::Instant;
 
 use urdd_c::*;
 use urdd_kinematics::pose_matrix::write_matrix;
+use urdd_robot::spheres::SphereChecker;
 use urdd_robot::{Queries, ShapeKind};
 
 /// Seconds of a call: the least of several rounds, each long enough for the clock.
@@ -72,6 +73,29 @@ fn main() {
         let made = urdd_robot_proximity(handle, c"pieces".as_ptr(), &mut shapes);
         assert_eq!(made, Status::Ok);
     }
+    // One sphere around each piece.
+    let level = proximity.bounding_level();
+    let known =
+        SphereChecker::covering(&robot, std::slice::from_ref(&level), &proximity.link_pairs())
+            .unwrap();
+    let each = level.links.iter().flat_map(|own| own.spheres.iter().map(|of| (own.link_idx, of)));
+    let sphere = |(link, of): (usize, &urdd_robot::spheres::Sphere)| LinkSphere {
+        level: 0,
+        link,
+        centre: of.centre,
+        radius: of.radius,
+    };
+    let spheres: Vec<LinkSphere> = each.map(sphere).collect();
+    let link_pairs = proximity.link_pairs().into_iter().map(|links| LinkPair { links });
+    let link_pairs: Vec<LinkPair> = link_pairs.collect();
+    let mut checker = null_mut();
+    // SAFETY: as the header says.
+    unsafe {
+        let (at, count, of) = (spheres.as_ptr(), spheres.len(), link_pairs.as_ptr());
+        let made =
+            urdd_robot_covering_checker_of(handle, at, count, of, link_pairs.len(), &mut checker);
+        assert_eq!(made, Status::Ok);
+    }
     let (dofs, links, pairs) = (
         robot.dof_names().unwrap().len(),
         robot.link_names().unwrap().len(),
@@ -111,6 +135,29 @@ fn main() {
         },
         |k| {
             black_box(proximity.in_collision(q(k)).unwrap());
+        },
+    );
+    let mut answer = CoveringAnswer::Maybe;
+    row(
+        "in collision by spheres",
+        // SAFETY: as the header says.
+        |k| unsafe {
+            ok(urdd_covering_checker_in_collision(checker, q(k).as_ptr(), 1, dofs, &mut answer))
+        },
+        |k| {
+            black_box(known.in_collision(q(k)).unwrap());
+        },
+    );
+    let mut covered = vec![CoveringAnswer::Maybe; ROWS];
+    row(
+        "1,000 in collision by spheres",
+        // SAFETY: as the header says.
+        |_| unsafe {
+            let at = covered.as_mut_ptr();
+            ok(urdd_covering_checker_in_collision(checker, all.as_ptr(), ROWS, dofs, at));
+        },
+        |_| {
+            black_box(known.in_collision_batch(&all).unwrap());
         },
     );
     let (mut distances, mut c) = (vec![0.0; pairs], vec![0.0; pairs]);
@@ -161,6 +208,7 @@ fn main() {
     );
     // SAFETY: as the header says.
     unsafe {
+        ok(urdd_covering_checker_free(checker));
         ok(urdd_proximity_free(shapes));
         ok(urdd_robot_free(handle));
     }

@@ -15,9 +15,9 @@
 // Files. A robot is the one that was there when it was opened. A call that first needs a module reads it, and it is kept.
 // If the folder changed on disk before, the status is UNUSABLE, never an answer of two robots: open it again.
 //
-// Threads. A handle never changes after it is made: any number of threads can use it at once. One function changes it,
-// `urdd_world_proximity_move_obstacles`: no other thread uses that handle meanwhile. A handle must not be freed while
-// another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches,
+// Threads. A handle never changes after it is made: any number of threads can use it at once. The functions that end with
+// `_move_obstacles` alone change it: no other thread uses that handle meanwhile. A handle must not be freed while another
+// thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches,
 // and calls that read a URDD, run on one pool of threads that the first call starts: as many as processors, or as the
 // environment variable RAYON_NUM_THREADS says. Where none can be started, they run on the calling thread. Results do not
 // depend on their number.
@@ -112,8 +112,30 @@ typedef enum urdd_obstruction {
     URDD_OBSTRUCTION_BRANCH = 3,
 } urdd_obstruction;
 
+// What covering spheres say.
+typedef enum urdd_covering_answer {
+    // Spheres touch; the shapes may.
+    URDD_COVERING_ANSWER_MAYBE = 0,
+    // Certainly no contact.
+    URDD_COVERING_ANSWER_FREE = 1,
+} urdd_covering_answer;
+
+// What approximating spheres say.
+typedef enum urdd_approximate_answer {
+    // Spheres touch; the shapes may be apart.
+    URDD_APPROXIMATE_ANSWER_CONTACT = 0,
+    // No spheres touch; parts of shapes outside of them may.
+    URDD_APPROXIMATE_ANSWER_FREE = 1,
+} urdd_approximate_answer;
+
+// Spheres that are near the shapes of a robot: nothing is certain.
+typedef struct urdd_approximating_checker urdd_approximating_checker;
+
 // The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
 typedef struct urdd_collision_model urdd_collision_model;
+
+// Spheres that contain the shapes of a robot: where none touch, the robot is certainly free.
+typedef struct urdd_covering_checker urdd_covering_checker;
 
 // A body that a robot must not touch, in the root link's frame.
 typedef struct urdd_obstacle urdd_obstacle;
@@ -299,6 +321,18 @@ typedef struct urdd_shape_place {
     size_t piece;
 } urdd_shape_place;
 
+// A sphere of a link, on a level.
+typedef struct urdd_link_sphere {
+    // The level, from 0, the coarsest, on. Each finer level is inside the coarser one, and the finest decides.
+    size_t level;
+    // The index of the link.
+    size_t link;
+    // In the link's frame, metres.
+    double centre[3];
+    // Metres.
+    double radius;
+} urdd_link_sphere;
+
 // A shape of the robot and an obstacle that are checked against each other.
 typedef struct urdd_obstacle_pair {
     // The index of the link; for an attached object, of the link that carries it.
@@ -318,7 +352,7 @@ extern "C" {
 // The ABI number of the library.
 uint32_t urdd_abi_version(void);
 
-// The version of the library, such as "1.3.0". It lives as long as the library.
+// The version of the library, such as "1.4.0". It lives as long as the library.
 struct urdd_text urdd_version(void);
 
 // Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
@@ -762,6 +796,31 @@ enum urdd_status urdd_obstacle_mesh(const char *name,
                                     size_t num_triangles,
                                     struct urdd_obstacle **out);
 
+// Makes a cloud of `count` points (count x 3), metres, such as a depth camera sees: all points that are at most `radius`
+// from one of them; 0 is allowed. It is one part, in which a tree finds the points near a shape: 100,000 are fine.
+//
+// Errors: as `urdd_obstacle_hull`.
+enum urdd_status urdd_obstacle_points(const char *name,
+                                      const double *pose,
+                                      const double *points,
+                                      size_t count,
+                                      double radius,
+                                      struct urdd_obstacle **out);
+
+// Makes a field of heights over the x-y plane of its frame: `rows` x `columns` columns, row by row, each with the 2 sizes
+// `cell` along x and y, metres. The centre of one is at x = column * cell[0], y = row * cell[1]. It reaches from its height,
+// metres, `thickness` down. There are no slopes between cells.
+//
+// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without heights.
+enum urdd_status urdd_obstacle_height_field(const char *name,
+                                            const double *pose,
+                                            const double *heights,
+                                            size_t rows,
+                                            size_t columns,
+                                            const double *cell,
+                                            double thickness,
+                                            struct urdd_obstacle **out);
+
 // Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
 // stays as it is.
 enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
@@ -1072,6 +1131,176 @@ enum urdd_status urdd_robot_random(const struct urdd_robot *handle,
 // Errors: as `urdd_robot_bounds`.
 enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
+// Prepares the finest level of spheres that covers the links, with the coarser ones around it, as the URDD has them
+// (link_shapes_spheres_module), for the pairs of links that are neither skipped nor ignored by the level.
+//
+// Errors: `MISSING_MODULE` without the module, or without a level that covers; `UNUSABLE`: the module, a skips module,
+// chain_module or dof_module.
+enum urdd_status urdd_robot_covering_checker(const struct urdd_robot *handle, struct urdd_covering_checker **out);
+
+// As `urdd_robot_covering_checker`, of spheres of the caller's that cover the shapes, and of `num_pairs` pairs of links,
+// such as those of `urdd_proximity_pairs`. A link without spheres on the finest level is left out.
+//
+// Errors: `VALUE` for a centre that is not finite or farther than 1e9 m, a radius that is not above 0 or larger than that,
+// a level that is left out, no spheres, or a pair of a link with itself; `OUT_OF_RANGE` for a link.
+enum urdd_status urdd_robot_covering_checker_of(const struct urdd_robot *handle,
+                                                const struct urdd_link_sphere *spheres,
+                                                size_t count,
+                                                const struct urdd_link_pair *pairs,
+                                                size_t num_pairs,
+                                                struct urdd_covering_checker **out);
+
+// Frees a checker. What was made of it stays. Null is ignored.
+enum urdd_status urdd_covering_checker_free(struct urdd_covering_checker *checker);
+
+// Writes the number of DOFs.
+enum urdd_status urdd_covering_checker_num_dofs(const struct urdd_covering_checker *handle, size_t *out);
+
+// Makes a checker of the same spheres among `count` obstacles: each query then asks for both, contacts of links with each
+// other and with obstacles. What it needs of the obstacles is copied; those of `handle` are not kept.
+//
+// Errors: `UNKNOWN_NAME` if an obstacle ignores an unknown link.
+enum urdd_status urdd_covering_checker_around(const struct urdd_covering_checker *handle,
+                                              const struct urdd_obstacle *const *obstacles,
+                                              size_t count,
+                                              struct urdd_covering_checker **out);
+
+// Moves obstacles, as `urdd_world_proximity_move_obstacles` does: it changes the handle.
+enum urdd_status urdd_covering_checker_move_obstacles(struct urdd_covering_checker *handle,
+                                                      size_t first,
+                                                      const double *poses,
+                                                      size_t count);
+
+// Writes what the spheres say of each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m, at most 1e9; `answers` has room for `rows` values. Eight rows
+// are checked at once. One row is computed on this thread, without an allocation.
+//
+// Errors: `VALUE` for a value beyond 1e9.
+enum urdd_status urdd_covering_checker_in_collision(const struct urdd_covering_checker *handle,
+                                                    const double *configurations,
+                                                    size_t rows,
+                                                    size_t dofs,
+                                                    enum urdd_covering_answer *answers);
+
+// As `urdd_covering_checker_in_collision`, of spheres that are at most `margin` apart, metres. With a margin above 0, pairs
+// count whose links can move against each other.
+//
+// Errors: also `VALUE` for a margin below 0.
+enum urdd_status urdd_covering_checker_is_within(const struct urdd_covering_checker *handle,
+                                                 const double *configurations,
+                                                 size_t rows,
+                                                 size_t dofs,
+                                                 double margin,
+                                                 enum urdd_covering_answer *answers);
+
+// Writes where spheres touch on each straight motion, as a part of it from 0 to 1; NaN where they do not.
+//
+// `starts` and `ends` have `rows` rows of `dofs` values each, rad or m; `blocked` has room for `rows` values. `margin` is
+// the distance that must be kept, metres. Configurations are checked between which no point of a sphere travels farther
+// than `resolution`, metres, eight at once, spread over the whole motion: the answer need not be the first part, which
+// `urdd_covering_checker_first_contact` has. `open_loops` says that kinematic loops may be open on the way: spheres follow
+// no motion in which they stay closed.
+//
+// Errors: `VALUE` for a margin below 0, a resolution that is not above 0, a value beyond 1e9, or a motion that needs more
+// than a million configurations; for a robot with loops without `open_loops`.
+enum urdd_status urdd_covering_checker_blocked_edge(const struct urdd_covering_checker *handle,
+                                                    const double *starts,
+                                                    const double *ends,
+                                                    size_t rows,
+                                                    size_t dofs,
+                                                    double margin,
+                                                    double resolution,
+                                                    bool open_loops,
+                                                    double *blocked);
+
+// Writes where spheres touch first on each straight motion, and how far they are free.
+//
+// As `urdd_covering_checker_blocked_edge`; `contacts` has room for `length` values, rows x 2: the last part of the motion in
+// which no spheres touch (0 if they do at the start), then the first in which some do; both NaN where the motion is free.
+// The part between two configurations is divided by 4096.
+enum urdd_status urdd_covering_checker_first_contact(const struct urdd_covering_checker *handle,
+                                                     const double *starts,
+                                                     const double *ends,
+                                                     size_t rows,
+                                                     size_t dofs,
+                                                     double margin,
+                                                     double resolution,
+                                                     bool open_loops,
+                                                     double *contacts,
+                                                     size_t length);
+
+// Prepares the last level of spheres that does not cover the links: fitted ones, or those that a person gave. How often it
+// is wrong stands in the level's `evaluation` in link_shapes_spheres_module.
+//
+// Errors: as `urdd_robot_covering_checker`.
+enum urdd_status urdd_robot_approximating_checker(const struct urdd_robot *handle,
+                                                  struct urdd_approximating_checker **out);
+
+// As `urdd_robot_covering_checker_of`, of spheres that need not cover the shapes.
+enum urdd_status urdd_robot_approximating_checker_of(const struct urdd_robot *handle,
+                                                     const struct urdd_link_sphere *spheres,
+                                                     size_t count,
+                                                     const struct urdd_link_pair *pairs,
+                                                     size_t num_pairs,
+                                                     struct urdd_approximating_checker **out);
+
+// Frees a checker. What was made of it stays. Null is ignored.
+enum urdd_status urdd_approximating_checker_free(struct urdd_approximating_checker *checker);
+
+// Writes the number of DOFs.
+enum urdd_status urdd_approximating_checker_num_dofs(const struct urdd_approximating_checker *handle, size_t *out);
+
+// As `urdd_covering_checker_around`.
+enum urdd_status urdd_approximating_checker_around(const struct urdd_approximating_checker *handle,
+                                                   const struct urdd_obstacle *const *obstacles,
+                                                   size_t count,
+                                                   struct urdd_approximating_checker **out);
+
+// As `urdd_covering_checker_move_obstacles`.
+enum urdd_status urdd_approximating_checker_move_obstacles(struct urdd_approximating_checker *handle,
+                                                           size_t first,
+                                                           const double *poses,
+                                                           size_t count);
+
+// As `urdd_covering_checker_in_collision`.
+enum urdd_status urdd_approximating_checker_in_collision(const struct urdd_approximating_checker *handle,
+                                                         const double *configurations,
+                                                         size_t rows,
+                                                         size_t dofs,
+                                                         enum urdd_approximate_answer *answers);
+
+// As `urdd_covering_checker_is_within`.
+enum urdd_status urdd_approximating_checker_is_within(const struct urdd_approximating_checker *handle,
+                                                      const double *configurations,
+                                                      size_t rows,
+                                                      size_t dofs,
+                                                      double margin,
+                                                      enum urdd_approximate_answer *answers);
+
+// As `urdd_covering_checker_blocked_edge`.
+enum urdd_status urdd_approximating_checker_blocked_edge(const struct urdd_approximating_checker *handle,
+                                                         const double *starts,
+                                                         const double *ends,
+                                                         size_t rows,
+                                                         size_t dofs,
+                                                         double margin,
+                                                         double resolution,
+                                                         bool open_loops,
+                                                         double *blocked);
+
+// As `urdd_covering_checker_first_contact`.
+enum urdd_status urdd_approximating_checker_first_contact(const struct urdd_approximating_checker *handle,
+                                                          const double *starts,
+                                                          const double *ends,
+                                                          size_t rows,
+                                                          size_t dofs,
+                                                          double margin,
+                                                          double resolution,
+                                                          bool open_loops,
+                                                          double *contacts,
+                                                          size_t length);
+
 // Validates every URDD at or below a path, as `urdd validate` does: a folder, a zip archive, or a folder of them.
 //
 // `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
@@ -1155,8 +1384,8 @@ enum urdd_status urdd_world_proximity_distances(const struct urdd_world_proximit
                                                 size_t length);
 
 // Moves obstacles to other poses: those from index `first` on, to `count` matrices (x 16 values, row by row). Nothing is
-// prepared again, and nothing is allocated after the first call of a thread. This is the one function that changes a
-// handle: no other thread uses it during the call. After an error, none has moved.
+// prepared again, and nothing is allocated after the first call of a thread. Functions of this name alone change a handle:
+// no other thread uses it during the call. After an error, none has moved.
 //
 // Errors: `OUT_OF_RANGE` if there are fewer obstacles; `VALUE` for NaN or infinity, or a matrix that is not a rotation and
 // a translation.

@@ -79,7 +79,9 @@ impl From<RobotError> for Failure {
             | RobotError::NotClosed { .. }
             | RobotError::NotCoupled { .. }
             | RobotError::Steps { .. }
-            | RobotError::Obstacle { .. } => Status::Value,
+            | RobotError::Obstacle { .. }
+            | RobotError::Sphere { .. }
+            | RobotError::Far { .. } => Status::Value,
             _ => Status::Internal,
         };
         Failure::new(status, error.to_string())

@@ -11,6 +11,7 @@
 #![allow(clippy::missing_safety_doc, reason = "the contract is in the head of the header, once")]
 
 mod bodies;
+mod checks;
 mod collision_model;
 mod failure;
 mod handle;
@@ -27,6 +28,8 @@ mod robot;
 mod rows;
 mod skips;
 mod space;
+mod sphere_levels;
+mod spheres;
 mod threads;
 mod validate;
 mod world;
@@ -50,6 +53,8 @@ pub use proximity::*;
 pub use robot::*;
 pub use skips::*;
 pub use space::*;
+pub use sphere_levels::*;
+pub use spheres::*;
 pub use validate::*;
 pub use world::*;
 
@@ -63,7 +68,7 @@ pub extern "C" fn urdd_abi_version() -> u32 {
     URDD_ABI_VERSION
 }
 
-/// The version of the library, such as "1.3.0". It lives as long as the library.
+/// The version of the library, such as "1.4.0". It lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn urdd_version() -> Text {
     VERSION.text()

@@ -5,11 +5,11 @@ use std::{ffi::c_char, ptr};
 use nalgebra::Isometry3;
 use urdd_geometry::Mesh;
 use urdd_kinematics::pose_matrix::pose;
-use urdd_robot::Obstacle as RobotObstacle;
+use urdd_robot::{Obstacle as RobotObstacle, World};
 
 use crate::failure::{Failure, Status};
 use crate::handle::{at, free, handle, make};
-use crate::memory::{enough, read_text, triple, values};
+use crate::memory::{enough, plain, read_text, triple, values, with_poses};
 use crate::names::out_of_range;
 
 /// A body that a robot must not touch, in the root link's frame.
@@ -19,6 +19,11 @@ pub struct Obstacle(pub(crate) RobotObstacle);
 /// of a mesh, which takes 2,000.
 const HULL: usize = 768;
 const MESH: usize = 4096;
+
+/// Bytes of a point of a cloud, or of a cell of a field of heights, while the tree of them is made.
+const COPY: usize = 256;
+
+plain!(*const Obstacle);
 
 handle!(Obstacle, "urdd_obstacle");
 
@@ -165,6 +170,55 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
     }
 }
 
+/// Makes a cloud of `count` points (count x 3), metres, such as a depth camera sees: all points that are at most `radius`
+/// from one of them; 0 is allowed. It is one part, in which a tree finds the points near a shape: 100,000 are fine.
+///
+/// Errors: as `urdd_obstacle_hull`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_points(
+    name: *const c_char,
+    pose: *const f64,
+    points: *const f64,
+    count: usize,
+    radius: f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    unsafe {
+        named(name, pose, out, |name, pose| {
+            let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
+            enough("points", count, COPY)?;
+            Ok(RobotObstacle::points(name, pose, points, radius)?)
+        })
+    }
+}
+
+/// Makes a field of heights over the x-y plane of its frame: `rows` x `columns` columns, row by row, each with the 2 sizes
+/// `cell` along x and y, metres. The centre of one is at x = column * cell[0], y = row * cell[1]. It reaches from its height,
+/// metres, `thickness` down. There are no slopes between cells.
+///
+/// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without heights.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_height_field(
+    name: *const c_char,
+    pose: *const f64,
+    heights: *const f64,
+    rows: usize,
+    columns: usize,
+    cell: *const f64,
+    thickness: f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    unsafe {
+        named(name, pose, out, |name, pose| {
+            let count = rows.saturating_mul(columns);
+            let (heights, cell) = (values("heights", heights, count)?, values("cell", cell, 2)?);
+            enough("heights", count, COPY)?;
+            let cell = [cell[0], cell[1]];
+            Ok(RobotObstacle::height_field(name, pose, heights, columns, cell, thickness)?)
+        })
+    }
+}
+
 /// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
 /// stays as it is.
 #[unsafe(no_mangle)]
@@ -199,4 +253,36 @@ pub unsafe extern "C" fn urdd_obstacle_at(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_free(obstacle: *mut Obstacle) -> Status {
     unsafe { free(obstacle) }
+}
+
+/// A world of the caller's obstacles. What is made of it takes `bytes` for each part of them.
+pub(crate) unsafe fn world_of(
+    obstacles: *const *const Obstacle,
+    count: usize,
+    bytes: usize,
+) -> Result<World, Failure> {
+    let obstacles = unsafe { values("obstacles", obstacles, count) }?;
+    let parts = obstacles.iter().map(|obstacle| Ok(unsafe { at(*obstacle) }?.0.num_parts()));
+    let parts = parts.sum::<Result<usize, Failure>>()?;
+    enough("obstacles", parts, bytes)?;
+    let each = obstacles.iter().map(|obstacle| Ok(unsafe { at(*obstacle) }?.0.clone()));
+    Ok(World::new(each.collect::<Result<Vec<_>, Failure>>()?))
+}
+
+/// Runs with the poses at `poses`, `count` matrices. Nothing is allocated after the first call of a thread.
+pub(crate) unsafe fn with_moves(
+    (poses, count): (*const f64, usize),
+    act: impl FnOnce(&[Isometry3<f64>]) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let matrices = unsafe { values("poses", poses, count.saturating_mul(16)) }?;
+    with_poses(|poses| {
+        poses.clear();
+        if poses.capacity() < count {
+            enough("poses", count, 2 * size_of::<Isometry3<f64>>())?;
+        }
+        for matrix in matrices.chunks_exact(16) {
+            poses.push(pose_of(matrix)?);
+        }
+        act(poses)
+    })
 }

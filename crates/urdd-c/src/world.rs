@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
-use urdd_robot::{ObstacleDistance as RobotDistance, Queries, World, WorldProximity as RobotWorld};
+use urdd_robot::{ObstacleDistance as RobotDistance, Queries, WorldProximity as RobotWorld};
 
-use crate::failure::{Failure, Status, run};
+use crate::failure::{Status, run};
 use crate::handle::{at, at_mut, free, handle, make};
-use crate::memory::{enough, plain, put_all, put_numbers, values, with_poses};
-use crate::obstacle::{Obstacle, pose_of};
+use crate::memory::{plain, put_all, put_numbers};
+use crate::obstacle::{Obstacle, with_moves, world_of};
 use crate::proximity::Proximity;
 use crate::queries::Asked;
 
@@ -54,7 +53,7 @@ pub struct ObstaclePair {
 const PART: usize = 1024;
 const PAIR: usize = 8;
 
-plain!(ObstacleDistance, ObstaclePair, *const Obstacle);
+plain!(ObstacleDistance, ObstaclePair);
 
 /// Prepares the shapes of a robot and `count` obstacles. Skips do not apply: every shape of the robot is checked
 /// against every obstacle, without the links that the obstacle ignores. What it needs of the obstacles is copied.
@@ -70,12 +69,8 @@ pub unsafe extern "C" fn urdd_proximity_world_proximity(
     unsafe {
         make(out, || {
             let proximity = &at(proximity)?.0;
-            let obstacles = values("obstacles", obstacles, count)?;
-            let parts = obstacles.iter().map(|obstacle| Ok(at(*obstacle)?.0.num_parts()));
-            let parts = parts.sum::<Result<usize, Failure>>()?;
-            enough("obstacles", parts, PART + 2 * PAIR * proximity.num_shapes())?;
-            let each = obstacles.iter().map(|obstacle| Ok(at(*obstacle)?.0.clone()));
-            let world = World::new(each.collect::<Result<Vec<_>, Failure>>()?);
+            let bytes = PART + 2 * PAIR * proximity.num_shapes();
+            let world = world_of(obstacles, count, bytes)?;
             Ok(WorldProximity(RobotWorld::new(Arc::clone(proximity), &world)?))
         })
     }
@@ -180,8 +175,8 @@ pub unsafe extern "C" fn urdd_world_proximity_distances(
 }
 
 /// Moves obstacles to other poses: those from index `first` on, to `count` matrices (x 16 values, row by row). Nothing is
-/// prepared again, and nothing is allocated after the first call of a thread. This is the one function that changes a
-/// handle: no other thread uses it during the call. After an error, none has moved.
+/// prepared again, and nothing is allocated after the first call of a thread. Functions of this name alone change a handle:
+/// no other thread uses it during the call. After an error, none has moved.
 ///
 /// Errors: `OUT_OF_RANGE` if there are fewer obstacles; `VALUE` for NaN or infinity, or a matrix that is not a rotation and
 /// a translation.
@@ -194,17 +189,7 @@ pub unsafe extern "C" fn urdd_world_proximity_move_obstacles(
 ) -> Status {
     run(|| unsafe {
         let world = at_mut(handle)?;
-        let matrices = values("poses", poses, count.saturating_mul(16))?;
-        with_poses(|poses| {
-            poses.clear();
-            if poses.capacity() < count {
-                enough("poses", count, 2 * size_of::<Isometry3<f64>>())?;
-            }
-            for matrix in matrices.chunks_exact(16) {
-                poses.push(pose_of(matrix)?);
-            }
-            Ok(world.0.move_obstacles(first, poses)?)
-        })
+        with_moves((poses, count), |poses| Ok(world.0.move_obstacles(first, poses)?))
     })
 }
 

@@ -14,7 +14,7 @@ pub const SPEC_VERSION: &str = "1.1.0";
 pub const FIRST_SPEC_VERSION: &str = "1.0.0";
 
 /// Version of the program and the packages `urdd`, as they state it in what they write. Crates have another.
-pub const PROGRAM_VERSION: &str = "1.3.0";
+pub const PROGRAM_VERSION: &str = "1.4.0";
 
 /// Format family of a (module, version).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

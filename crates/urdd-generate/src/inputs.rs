@@ -41,15 +41,21 @@ pub(super) fn text(kind: ModuleKind, context: &Context) -> Option<String> {
         ModuleKind::LinkShapesSkips => {
             let text =
                 serde_json::json!((context.skipped_reasons(), &context.edits.kept)).to_string();
-            match &context.reference {
-                None => text,
-                Some(of) => format!("{text}; {}", serde_json::json!((&of.name, &of.configuration))),
-            }
+            with_reference(context, text)
         }
         ModuleKind::SelfCollisionModel => format!("{VERSION} {:?}", settings.model_effort),
         ModuleKind::LinkShapesSpheres => {
-            format!("{} {:?}", urdd_spheres::module::VERSION, context.spheres)
+            let text = format!("{} {:?}", urdd_spheres::module::VERSION, context.spheres);
+            with_reference(context, text)
         }
         _ => return None,
     })
+}
+
+/// For what depends on the reference configuration, where a person chose one, or loops have one.
+fn with_reference(context: &Context, text: String) -> String {
+    match &context.reference {
+        None => text,
+        Some(of) => format!("{text}; {}", serde_json::json!((&of.name, &of.configuration))),
+    }
 }

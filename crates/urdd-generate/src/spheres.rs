@@ -73,8 +73,9 @@ struct Moving<'a>(&'a Context<'a>);
 impl Moves for Moving<'_> {
     type Error = ConfigurationError;
 
-    fn default_configuration(&self) -> Result<Vec<f64>, ConfigurationError> {
-        Ok(self.0.space.default_configuration())
+    fn start(&self) -> Result<Vec<f64>, ConfigurationError> {
+        let reference = self.0.reference.as_ref().map(|one| one.configuration.clone());
+        Ok(reference.unwrap_or_else(|| self.0.space.default_configuration()))
     }
 
     fn sampled(&self, k: u64) -> Result<Vec<f64>, ConfigurationError> {

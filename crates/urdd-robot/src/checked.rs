@@ -29,6 +29,20 @@ pub trait Checked: Sync {
     fn within(&self, margin: f64) -> impl Iterator<Item = (usize, usize)>;
     /// A lower bound of the distance of a pair, m; not positive if it may touch.
     fn bound(&self, placed: &Placed, pair: usize) -> f64;
+    /// Number of groups of pairs. Each pair is in one group.
+    fn num_groups(&self) -> usize;
+    /// A lower bound of those of all pairs of a group, m.
+    fn group_bound(&self, placed: &Placed, group: usize) -> f64;
+    /// Whether all pairs of a group are certainly farther apart than `distance`, m.
+    fn is_group_beyond(&self, placed: &Placed, group: usize, distance: f64) -> bool {
+        self.group_bound(placed, group) > distance
+    }
+    /// The pairs of a group.
+    fn members(&self, group: usize) -> impl Iterator<Item = usize>;
+    /// Whether a margin (m) counts for the pairs of a group.
+    fn counts(&self, _group: usize, _margin: f64) -> bool {
+        true
+    }
     /// Whether a pair is certainly farther apart than `distance`, m.
     fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
         self.bound(placed, pair) > distance
@@ -71,7 +85,11 @@ pub(super) fn any_within(checked: &impl Checked, placed: &Placed, margin: f64) -
     if margin == 0.0 {
         return checked.touches(placed);
     }
-    let pairs = checked.within(margin).map(|(pair, _)| pair);
+    let near = |group: &usize| {
+        checked.counts(*group, margin) && !checked.is_group_beyond(placed, *group, margin)
+    };
+    let groups = (0..checked.num_groups()).filter(near);
+    let pairs = groups.flat_map(|group| checked.members(group));
     at_most(checked, placed, pairs, margin).next().is_some()
 }
 
@@ -102,8 +120,12 @@ pub(super) fn least<'a>(
 ) -> Result<&'a [(f64, usize)], RobotError> {
     let Workspace { placed, least, .. } = workspace;
     checked.shapes().place(configuration, placed)?;
-    let bounds = (0..checked.count()).map(|pair| (checked.bound(placed, pair), pair));
-    Ok(least.of(bounds, k, |pairs, values| checked.values(placed, pairs, values)))
+    let groups = (0..checked.num_groups()).map(|group| checked.group_bound(placed, group));
+    let members = |group: usize, each: &mut dyn FnMut(f64, usize)| {
+        checked.members(group).for_each(|pair| each(checked.bound(placed, pair), pair));
+    };
+    let values = |pairs: &[usize], values: &mut [f64]| checked.values(placed, pairs, values);
+    Ok(least.of((checked.count(), k), groups, members, values))
 }
 
 /// Calls `each` with some pairs, their distances (m), and their closest points in the root link's frame.

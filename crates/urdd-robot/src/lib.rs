@@ -55,6 +55,7 @@ mod shapes;
 mod skips;
 mod source_elements;
 pub mod spheres;
+mod tested;
 mod workspace;
 pub mod world;
 

@@ -388,16 +388,11 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        answer_edges(
-            (&self.shapes().motion, Self::BLOCK),
-            edges,
-            cancellation,
-            out,
-            |start, end| {
-                let contact = self.first_contact(start, end, settings)?;
-                Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
-            },
-        )
+        let whole = (&*self.shapes().motion, Self::BLOCK);
+        answer_edges(whole, edges, cancellation, out, |start, end| {
+            let contact = self.first_contact(start, end, settings)?;
+            Ok(contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]))
+        })
     }
 
     /// As [`Queries::first_contact`] from each configuration of the first batch to that of the second, into `out`.
@@ -408,13 +403,10 @@ pub trait Queries: Checked + Sized {
         cancellation: &Cancellation,
         out: &mut [Option<FirstContact>],
     ) -> Result<(), RobotError> {
-        answer_edges(
-            (&self.shapes().motion, Self::BLOCK),
-            edges,
-            cancellation,
-            out,
-            |start, end| Ok([self.first_contact(start, end, settings)?]),
-        )
+        let whole = (&*self.shapes().motion, Self::BLOCK);
+        answer_edges(whole, edges, cancellation, out, |start, end| {
+            Ok([self.first_contact(start, end, settings)?])
+        })
     }
 }
 

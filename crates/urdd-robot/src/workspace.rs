@@ -68,6 +68,8 @@ pub struct Placed {
     pub links: Vec<[[f64; 3]; 4]>,
     /// The centre of each shape's bounding sphere.
     pub centres: Vec<[f64; 3]>,
+    /// For each link, the centre of the bounding sphere of its shapes; 0 without shapes.
+    pub around: Vec<[f64; 3]>,
 }
 
 /// A search of the nearest pairs. The bits of numbers that are not negative have their order.
@@ -81,33 +83,57 @@ pub(crate) struct Least {
 }
 
 impl Least {
-    /// The `k` nearest pairs, nearest first, from lower bounds of their distances. Ties are in the order of the pairs.
-    /// `values` computes the distances of some pairs, at most [`AT_ONCE`].
+    /// The `k` nearest of `count` pairs, nearest first. Ties are in the order of the pairs. `groups` has a lower bound of the
+    /// distances of each group of pairs, `members` calls back with the pairs of a group and their lower bounds, and `values`
+    /// computes the distances of some pairs, at most [`AT_ONCE`].
     pub fn of(
         &mut self,
-        bounds: impl Iterator<Item = (f64, usize)>,
-        k: usize,
+        (count, k): (usize, usize),
+        groups: impl Iterator<Item = f64>,
+        members: impl Fn(usize, &mut dyn FnMut(f64, usize)),
         values: impl Fn(&[usize], &mut [f64]),
     ) -> &[(f64, usize)] {
         let bits = |distance: f64| (distance.max(0.0) + 0.0).to_bits();
         self.bounds.clear();
         self.known.clear();
-        // Heaps: as a few of the pairs are enough, and `k` may be all of them.
-        self.bounds.extend(bounds.map(|(bound, pair)| Reverse((bits(bound), pair))));
-        self.known.reserve(k.min(self.bounds.len()) + 1);
+        // Heaps: as a few of the pairs are enough, and `k` may be all of them. Groups come after the pairs.
+        let groups = groups.enumerate();
+        self.bounds.extend(groups.map(|(group, bound)| Reverse((bits(bound), count + group))));
+        self.bounds.reserve(count);
+        self.known.reserve(k.min(count) + 1);
         let mut heap = BinaryHeap::from(std::mem::take(&mut self.bounds));
         let mut known = BinaryHeap::from(std::mem::take(&mut self.known));
-        while let Some(Reverse((least, _))) = heap.peek() {
-            // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
-            if known.len() >= k && known.peek().is_none_or(|(worst, _)| least > worst) {
+        let mut pairs: ArrayVec<usize, AT_ONCE> = ArrayVec::new();
+        loop {
+            pairs.clear();
+            // No pair can be nearer than the worst of `k` results, or equal to it and earlier in order, beyond this.
+            let worst = match known.peek() {
+                Some((worst, _)) if known.len() >= k => *worst,
+                _ if k == 0 => break,
+                _ => u64::MAX,
+            };
+            while !pairs.is_full() {
+                let Some(next) = heap.peek().filter(|Reverse((bound, _))| *bound <= worst) else {
+                    break;
+                };
+                let Reverse((_, place)) = *next;
+                heap.pop();
+                match place.checked_sub(count) {
+                    None => pairs.push(place),
+                    Some(group) => members(group, &mut |bound, pair| {
+                        if bits(bound) <= worst {
+                            heap.push(Reverse((bits(bound), pair)));
+                        }
+                    }),
+                }
+            }
+            if pairs.is_empty() {
                 break;
             }
-            let next = std::iter::from_fn(|| heap.pop()).take(AT_ONCE);
-            let pairs: ArrayVec<usize, AT_ONCE> = next.map(|Reverse((_, pair))| pair).collect();
             let mut found = [0.0; AT_ONCE];
             values(&pairs, &mut found[..pairs.len()]);
-            for (value, pair) in found.into_iter().zip(pairs) {
-                known.push((bits(value), pair));
+            for (value, pair) in found.into_iter().zip(&pairs) {
+                known.push((bits(value), *pair));
                 if known.len() > k {
                     known.pop();
                 }

@@ -54,6 +54,7 @@ use super::error::RobotError;
 use super::obstacle::{World, check_moves};
 use super::placed_part::PlacedPart;
 use super::proximity::{Gradient, Proximity, Shape, SweptPair, Waiting, relative, to_root};
+use super::tested::{Group, Tested};
 use super::workspace::Placed;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use urdd_geometry::vector::norm;
@@ -92,8 +93,7 @@ pub struct WorldProximity<P> {
     names: Vec<Arc<str>>,
     /// Those of an obstacle are contiguous.
     parts: Vec<PlacedPart>,
-    /// The shapes of the robot and the parts that are tested against each other, by shape, then by part.
-    pairs: Vec<[u32; 2]>,
+    tested: Arc<Tested>,
 }
 
 impl Proximity {
@@ -117,14 +117,9 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
             let placed = one.parts.iter();
             parts.extend(placed.map(|part| PlacedPart::new(obstacle, part.clone(), &one.pose)));
         }
-        let mut pairs = Vec::new();
-        for (shape, own) in proximity.shapes.iter().enumerate() {
-            let tested = parts.iter().enumerate();
-            let tested = tested.filter(|(_, part)| !ignored[part.obstacle].contains(&own.owner));
-            pairs.extend(tested.map(|(part, _)| [shape as u32, part as u32]));
-        }
+        let tested = Arc::new(Tested::new(&proximity.shapes, &parts, &ignored));
         let names = world.obstacles.iter().map(|one| one.name.clone()).collect();
-        Ok(WorldProximity { proximity, names, parts, pairs })
+        Ok(WorldProximity { proximity, names, parts, tested })
     }
 
     /// Moves the obstacles from `first` on to these poses: their shapes stay, and nothing else is prepared. It does not
@@ -149,7 +144,7 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
     /// The tested pairs: each shape of the robot, as the indices of its link and piece, with the index of each obstacle
     /// that does not ignore its link. Sorted by shape, then by obstacle.
     pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
-        self.tested().map(|[shape, obstacle]| {
+        self.each_tested().map(|[shape, obstacle]| {
             let shape = &self.proximity.shapes[shape];
             ([shape.link, shape.piece], obstacle)
         })
@@ -157,7 +152,7 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
 
     /// The body of each of the [pairs](WorldProximity::pairs), as [`ObstacleDistance::body_idx`].
     pub fn pair_bodies(&self) -> impl Iterator<Item = usize> {
-        self.tested().map(|[shape, _]| self.proximity.shapes[shape].owner)
+        self.each_tested().map(|[shape, _]| self.proximity.shapes[shape].owner)
     }
 
     /// The name of the link of each of the [pairs](WorldProximity::pairs), or of the attached object.
@@ -166,20 +161,26 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
     }
 
     /// The shapes of the robot and the obstacles that are tested against each other.
-    fn tested(&self) -> impl Iterator<Item = [usize; 2]> {
-        (0..self.pairs.len()).filter(|pair| self.is_first(*pair)).map(|pair| self.of(pair))
+    fn each_tested(&self) -> impl Iterator<Item = [usize; 2]> {
+        (0..self.tested.pairs.len()).filter(|pair| self.is_first(*pair)).map(|pair| self.of(pair))
     }
 
     /// The shape and the obstacle of a pair.
     fn of(&self, pair: usize) -> [usize; 2] {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        let [shape, part] = self.tested.pairs[pair].map(|index| index as usize);
         [shape, self.parts[part].obstacle]
     }
 
     /// The shape of the robot and the part of an obstacle of a pair.
     fn both(&self, pair: usize) -> (&Shape, &PlacedPart) {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        let [shape, part] = self.tested.pairs[pair].map(|index| index as usize);
         (&self.proximity.shapes[shape], &self.parts[part])
+    }
+
+    /// The bounding sphere of the shapes of a group, and its part.
+    fn around(&self, placed: &Placed, group: &Group) -> ([f64; 3], f64, &PlacedPart) {
+        let link = group.link as usize;
+        (placed.around[link], self.proximity.around(link), &self.parts[group.part as usize])
     }
 
     /// The two in the frame of the shape's link. Of an obstacle that is many copies, one of them.
@@ -204,7 +205,7 @@ impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
     ) {
         let (own, other) = self.both(pair);
         let Some(copies) = &other.part.copies else { return };
-        let centre = other.local(placed.centres[self.pairs[pair][0] as usize]);
+        let centre = other.local(placed.centres[self.tested.pairs[pair][0] as usize]);
         let radius = own.sphere.radius + other.rounding;
         let squared = |within: f64| match within >= 0.0 {
             true => (within + radius) * (within + radius) * (1.0 + 1e-12),
@@ -269,7 +270,7 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
     }
 
     fn count(&self) -> usize {
-        self.pairs.len()
+        self.tested.pairs.len()
     }
 
     fn is_first(&self, pair: usize) -> bool {
@@ -277,22 +278,45 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
     }
 
     fn num_answers(&self) -> usize {
-        self.tested().count()
+        self.each_tested().count()
     }
 
     /// Pairs of a shape of the robot share its rate.
     fn within(&self, _: f64) -> impl Iterator<Item = (usize, usize)> {
-        self.pairs.iter().enumerate().map(|(pair, [shape, _])| (pair, *shape as usize))
+        self.tested.pairs.iter().enumerate().map(|(pair, [shape, _])| (pair, *shape as usize))
+    }
+
+    fn num_groups(&self) -> usize {
+        self.tested.groups.len()
+    }
+
+    fn group_bound(&self, placed: &Placed, group: usize) -> f64 {
+        let (centre, radius, other) = self.around(placed, &self.tested.groups[group]);
+        // Less by more than any rounding error.
+        other.bound(centre, radius) - 1e-12
+    }
+
+    fn is_group_beyond(&self, placed: &Placed, group: usize, distance: f64) -> bool {
+        let (centre, radius, other) = self.around(placed, &self.tested.groups[group]);
+        other.is_beyond(centre, radius, distance + 1e-12)
+    }
+
+    fn members(&self, group: usize) -> impl Iterator<Item = usize> {
+        self.tested.groups[group].pairs()
     }
 
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {
         let (own, other) = self.both(pair);
-        other.bound(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius)
+        other.bound(placed.centres[self.tested.pairs[pair][0] as usize], own.sphere.radius)
     }
 
     fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
         let (own, other) = self.both(pair);
-        other.is_beyond(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius, distance)
+        other.is_beyond(
+            placed.centres[self.tested.pairs[pair][0] as usize],
+            own.sphere.radius,
+            distance,
+        )
     }
 
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
@@ -309,7 +333,12 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
 
     fn touches(&self, placed: &Placed) -> bool {
         let mut waiting = Waiting::new(self.proximity.level);
-        let mut near = (0..self.pairs.len()).filter(|pair| !self.is_beyond(placed, *pair, 0.0));
+        let near = self.tested.groups.iter().filter(|group| {
+            let (centre, radius, other) = self.around(placed, group);
+            !other.is_beyond(centre, radius, 1e-12)
+        });
+        let near = near.flat_map(|group| group.pairs());
+        let mut near = near.filter(|pair| !self.is_beyond(placed, *pair, 0.0));
         near.any(|pair| match self.both(pair).1.part.copies.is_some() {
             true => self.any_copy_touches(placed, pair),
             false => {

@@ -15,8 +15,8 @@ pub trait Moves: Sync {
     /// Why it cannot.
     type Error: Send;
 
-    /// The default configuration (SPEC 9.4).
-    fn default_configuration(&self) -> Result<Vec<f64>, Self::Error>;
+    /// The configuration that fitted spheres keep free: the default one (SPEC 9.4), or a reference in its place.
+    fn start(&self) -> Result<Vec<f64>, Self::Error>;
 
     /// Sampled configuration `k` (SPEC 9.3).
     fn sampled(&self, k: u64) -> Result<Vec<f64>, Self::Error>;
@@ -98,7 +98,7 @@ impl<R: Moves> Sampler<'_, R> {
 
     /// The sample of the default configuration.
     pub fn zero(self, ask: Ask) -> Result<Sample, R::Error> {
-        self.sample(&self.robot.default_configuration()?, ask)
+        self.sample(&self.robot.start()?, ask)
     }
 
     fn sample(self, configuration: &[f64], ask: Ask) -> Result<Sample, R::Error> {
@@ -115,7 +115,7 @@ impl<R: Moves> Sampler<'_, R> {
         let mut q = self.robot.sampled(number)?;
         if region == Region::NearDefault {
             let part = (0.5 + STEP * k as f64) % 1.0;
-            for (value, start) in q.iter_mut().zip(self.robot.default_configuration()?) {
+            for (value, start) in q.iter_mut().zip(self.robot.start()?) {
                 *value = start + part * (*value - start);
             }
         }

@@ -33,6 +33,9 @@ class WorldProximity(Queries["_urdd._NearObstacle", ObstacleDistance, ObstacleGr
         self._proximity = proximity
         # Later changes of the world have no effect.
         self._world = copy(world)
+        self._places = {name: place for place, name in enumerate(world.names)}
+        # The last move, if the world does not have it yet: in a control loop, nobody asks the world.
+        self._later: tuple[list[str], Floats] | None = None
         self._core = _urdd.WorldProximity(proximity.core, world.obstacles())
         self._dof_names = proximity.dof_names
 
@@ -48,8 +51,29 @@ class WorldProximity(Queries["_urdd._NearObstacle", ObstacleDistance, ObstacleGr
         >>> proximity = robot.world_proximity(world)
         >>> proximity.move(world.names, [[1 + 0.1 * k, 0.5, 0.2] for k in range(20)])
         """
-        self._world.move(name, pose)
-        self._core = _urdd.WorldProximity(self._proximity.core, self._world.obstacles())
+        names = [name] if isinstance(name, str) else list(name)
+        places = [self._places[one] for one in names]
+        if isinstance(pose, np.ndarray) and pose.dtype == np.float64 and pose.shape == (len(names), 4, 4):
+            placed = np.array(pose, order="C")
+            core = self._core.moved(places, placed)
+            if core is not None:
+                if self._later is not None and self._later[0] != names:
+                    self._caught_up()
+                self._later = (names, placed)
+                self._core = core
+                return
+        # Other forms of poses, and what is wrong with them.
+        world = copy(self._caught_up())
+        world.move(name, pose)
+        self._core = _urdd.WorldProximity(self._proximity.core, world.obstacles())
+        self._world = world
+
+    def _caught_up(self) -> World:
+        """The world, with the obstacles where they are now."""
+        if self._later is not None:
+            self._world.move(*self._later)
+            self._later = None
+        return self._world
 
     @property
     def kind(self) -> ShapeKind:
@@ -107,7 +131,7 @@ class WorldProximity(Queries["_urdd._NearObstacle", ObstacleDistance, ObstacleGr
         return name, piece, self.obstacle_names[obstacle], distance, np.array(points, dtype=np.float64)
 
     def __reduce__(self) -> tuple[type[WorldProximity], tuple[Proximity, World]]:
-        return type(self), (self._proximity, self._world)
+        return type(self), (self._proximity, self._caught_up())
 
     def __repr__(self) -> str:
         return f"<urdd.WorldProximity: {self.kind} and {len(self.obstacle_names)} obstacles, {self.num_pairs} pairs>"

@@ -60,6 +60,15 @@ fn a_control_loop_does_not_allocate() {
         ok(urdd_proximity_world_proximity(made, obstacles.as_ptr(), 1, &mut world));
         let mut pairs = 0;
         ok(urdd_proximity_sizes(made, null_mut(), &mut pairs, null_mut()));
+        let (mut covering, mut approximating) = (null_mut(), null_mut());
+        let sphere = |link| LinkSphere { level: 0, link, centre: [0.0; 3], radius: 0.1 };
+        let (spheres, links) = ([0, 4, 8].map(sphere), LinkPair { links: [0, 8] });
+        let mut alone = null_mut();
+        ok(urdd_robot_covering_checker_of(robot, spheres.as_ptr(), 3, &links, 1, &mut alone));
+        ok(urdd_covering_checker_around(alone, obstacles.as_ptr(), 1, &mut covering));
+        ok(urdd_covering_checker_free(alone));
+        let (at, of) = (spheres.as_ptr(), &raw const links);
+        ok(urdd_robot_approximating_checker_of(robot, at, 3, of, 1, &mut approximating));
         let (mut poses, mut jacobian) = (vec![0.0; 9 * 16], [0.0; 36]);
         let (mut distances, mut q) = (vec![0.0; pairs], [0.0; 6]);
         let pair = Pair { links: [0; 2], bodies: [0; 2], pieces: [0; 2] };
@@ -90,6 +99,16 @@ fn a_control_loop_does_not_allocate() {
             ok(urdd_world_proximity_move_obstacles(world, 0, matrix.as_ptr(), 1));
             ok(urdd_world_proximity_min_distance(world, at, 1, 6, &mut d));
             ok(urdd_world_proximity_distances(world, at, 1, 6, around.as_mut_ptr(), around.len()));
+            ok(urdd_covering_checker_move_obstacles(covering, 0, matrix.as_ptr(), 1));
+            let (mut maybe, mut contact) = (CoveringAnswer::Maybe, ApproximateAnswer::Contact);
+            ok(urdd_covering_checker_in_collision(covering, at, 1, 6, &mut maybe));
+            let within = urdd_approximating_checker_is_within;
+            ok(within(approximating, at, 1, 6, 0.1, &mut contact));
+            let (end, mut part, mut parts) = (q.map(|value| value + 0.1), 0.0, [0.0; 2]);
+            let (edge, end) = (urdd_covering_checker_blocked_edge, end.as_ptr());
+            ok(edge(covering, at, end, 1, 6, 0.0, 0.01, false, &mut part));
+            let (first, room) = (urdd_covering_checker_first_contact, parts.as_mut_ptr());
+            ok(first(covering, at, end, 1, 6, 0.0, 0.01, false, room, 2));
             let near = near.as_mut_ptr();
             ok(urdd_proximity_nearest(made, at, 1, 6, 5, near, &mut found));
             let gradients = gradients.as_mut_ptr();
@@ -100,6 +119,8 @@ fn a_control_loop_does_not_allocate() {
         }
         assert!(before > 0);
         assert_eq!(COUNT.get() - before, 0);
+        ok(urdd_covering_checker_free(covering));
+        ok(urdd_approximating_checker_free(approximating));
         ok(urdd_robot_free(robot));
         ok(urdd_proximity_free(made));
         ok(urdd_obstacle_free(ball));

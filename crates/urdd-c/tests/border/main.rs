@@ -13,3 +13,4 @@ mod inverse;
 mod loops;
 mod memory;
 mod motion;
+mod spheres;

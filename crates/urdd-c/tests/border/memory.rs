@@ -61,6 +61,21 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
         assert_eq!(urdd_robot_sizes(robot, &mut links, null_mut(), null_mut()), Status::Ok);
         assert_eq!(urdd_collision_model_sizes(model, &mut pairs, &mut dofs), Status::Ok);
         let q: Vec<f64> = (0..rows * dofs).map(|k| (k as f64 * 0.618).fract()).collect();
+        // On each link many spheres, and many levels.
+        let sphere = |k: usize, level| {
+            let centre = inside[k % inside.len()];
+            LinkSphere { level, link: k % links, centre, radius: 0.1 }
+        };
+        let deep = (0..50).map(|k| sphere(k, k));
+        let levels: Vec<LinkSphere> = deep.chain((0..20_000).map(|k| sphere(k, 49))).collect();
+        let links_of_pairs = vec![LinkPair { links: [0, 1] }; 50_000];
+        let mut checker = null_mut();
+        let first = sphere(0, 0);
+        let none = links_of_pairs.as_ptr();
+        assert_eq!(
+            urdd_robot_covering_checker_of(robot, &first, 1, none, 0, &mut checker),
+            Status::Ok
+        );
         let (mut clearances, mut poses) = (vec![0.0; rows * pairs], vec![0.0; rows * 16 * links]);
         let hull = |points: &[[f64; 3]], name: &CString| {
             let mut made = null_mut();
@@ -74,6 +89,79 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
             ("a hull of corners", Box::new(|| hull(&points, &CString::default()))),
             ("a hull of points inside", Box::new(|| hull(&inside, &CString::default()))),
             ("a name", Box::new(|| hull(&points[..9], &name))),
+            (
+                "a cloud",
+                Box::new(|| {
+                    let (mut made, at) = (null_mut(), inside.as_ptr().cast());
+                    let count = inside.len();
+                    let status =
+                        urdd_obstacle_points(c"c".as_ptr(), null(), at, count, 0.1, &mut made);
+                    urdd_obstacle_free(made);
+                    status
+                }),
+            ),
+            (
+                "a field",
+                Box::new(|| {
+                    let (mut made, at) = (null_mut(), inside.as_ptr().cast());
+                    let (name, cell) = (c"f".as_ptr(), [0.1, 0.1]);
+                    let (rows, cell) = (inside.len() / 10, cell.as_ptr());
+                    let status = urdd_obstacle_height_field(
+                        name,
+                        null(),
+                        at,
+                        rows,
+                        10,
+                        cell,
+                        0.1,
+                        &mut made,
+                    );
+                    urdd_obstacle_free(made);
+                    status
+                }),
+            ),
+            (
+                "spheres",
+                Box::new(|| {
+                    let (mut made, mut answer) = (null_mut(), CoveringAnswer::Maybe);
+                    let (at, count) = (levels.as_ptr(), levels.len());
+                    let status =
+                        urdd_robot_covering_checker_of(robot, at, count, null(), 0, &mut made);
+                    if status == Status::Ok {
+                        let asked = urdd_covering_checker_in_collision(
+                            made,
+                            q.as_ptr(),
+                            1,
+                            dofs,
+                            &mut answer,
+                        );
+                        assert_eq!(asked, Status::Ok);
+                    }
+                    urdd_covering_checker_free(made);
+                    status
+                }),
+            ),
+            (
+                "pairs of spheres",
+                Box::new(|| {
+                    let (mut made, of) = (null_mut(), links_of_pairs.as_ptr());
+                    let count = links_of_pairs.len();
+                    let status =
+                        urdd_robot_covering_checker_of(robot, &first, 1, of, count, &mut made);
+                    urdd_covering_checker_free(made);
+                    status
+                }),
+            ),
+            (
+                "obstacles of spheres",
+                Box::new(|| {
+                    let (mut made, at) = (null_mut(), obstacles.as_ptr());
+                    let status =
+                        urdd_covering_checker_around(checker, at, obstacles.len(), &mut made);
+                    urdd_covering_checker_free(made);
+                    status
+                }),
+            ),
             (
                 "a mesh",
                 Box::new(|| {
@@ -148,6 +236,7 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
         // Blocks of rows are joined as the whole.
         assert_eq!(clearances, known.clearances_batch(&q).expect("clearances"));
         assert_eq!(urdd_obstacle_free(ball), Status::Ok);
+        assert_eq!(urdd_covering_checker_free(checker), Status::Ok);
         assert_eq!(urdd_proximity_free(shapes), Status::Ok);
         assert_eq!(urdd_collision_model_free(model), Status::Ok);
         assert_eq!(urdd_robot_free(robot), Status::Ok);

@@ -11,7 +11,7 @@ pub(super) struct Moving<'a>(pub &'a Robot);
 impl Moves for Moving<'_> {
     type Error = RobotError;
 
-    fn default_configuration(&self) -> Result<Vec<f64>, RobotError> {
+    fn start(&self) -> Result<Vec<f64>, RobotError> {
         Ok(self.0.configurations()?.zero())
     }
 

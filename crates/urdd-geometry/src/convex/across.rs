@@ -12,6 +12,7 @@ use super::support::{Support, cells, farthest};
 use super::witness::Witness;
 pub use crate::lanes::columns;
 use crate::lanes::{LANES, Num, Pose, Vec3};
+use crate::vector::dot;
 
 /// Two convex shapes with their relative pose.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +32,29 @@ impl<'a> PlacedPair<'a> {
     /// The pose must be finite.
     pub fn new(a: &'a ConvexShape, b: &'a ConvexShape, b_in_a: &Isometry3<f64>) -> Self {
         Self { a, b, b_in_a: columns(b_in_a) }
+    }
+
+    /// Whether the shapes are certainly farther apart than `distance`, metres: the boxes around them, each along the axes of
+    /// its frame, are apart along one of these axes.
+    pub fn boxes_are_beyond(&self, distance: f64) -> bool {
+        let [x, y, z, shift] = self.b_in_a;
+        let (own, other) = (self.a.half_extents(), self.b.half_extents());
+        let (from, to) = (self.a.centre, self.b.centre);
+        let between =
+            [0, 1, 2].map(|k| x[k] * to[0] + y[k] * to[1] + z[k] * to[2] + shift[k] - from[k]);
+        let size = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
+        // More than any rounding, and than what distances are wrong by.
+        let gap = distance + 1e-8 + 1e-12 * (size(shift) + size(from) + size(to));
+        let along_own = (0..3).any(|k| {
+            let reach = x[k].abs() * other[0] + y[k].abs() * other[1] + z[k].abs() * other[2];
+            between[k].abs() > own[k] + reach + gap
+        });
+        along_own
+            || [x, y, z].iter().zip(other).any(|(axis, half)| {
+                let reach =
+                    axis[0].abs() * own[0] + axis[1].abs() * own[1] + axis[2].abs() * own[2];
+                dot(*axis, between).abs() > half + reach + gap
+            })
     }
 }
 

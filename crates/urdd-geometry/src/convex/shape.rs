@@ -11,6 +11,8 @@ use crate::vector::sub;
 pub struct ConvexShape {
     /// Centre of the axis-aligned bounds, in the body frame.
     pub(crate) centre: [f64; 3],
+    /// Half of the sizes of these bounds.
+    half_extents: [f64; 3],
     /// Support table of the points relative to the centre.
     pub(crate) table: SupportTable,
 }
@@ -76,13 +78,20 @@ impl ConvexShape {
         let Bounds { min, max } = Bounds::of(points.iter().copied());
         let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * min[k] + 0.5 * max[k]);
         let points: Vec<[f64; 3]> = points.iter().map(|p| sub(*p, centre)).collect();
+        let farthest = |most: f64, x: f64| most.max(x.abs());
+        let half_extents = [0, 1, 2].map(|k| points.iter().map(|p| p[k]).fold(0.0, farthest));
         let table = SupportTable::new(&points);
-        Ok(Self { centre, table })
+        Ok(Self { centre, half_extents, table })
     }
 
     /// Centre of the axis-aligned bounds, in the body frame, metres.
     pub fn centre(&self) -> [f64; 3] {
         self.centre
+    }
+
+    /// Half of the sizes of the axis-aligned bounds, metres.
+    pub fn half_extents(&self) -> [f64; 3] {
+        self.half_extents
     }
 }
 

@@ -142,3 +142,30 @@ fn parallel_faces_apart_as_parry_has_them() {
         assert!((found - case.gap).abs() < 1e-6, "{k}: parry {found}, {}", case.gap);
     }
 }
+
+/// What boxes around shapes tell apart is apart, and they tell most of what is far apart.
+#[test]
+fn shapes_are_beyond_what_their_boxes_are_beyond() {
+    let mut dice = Dice(11);
+    let (mut told, mut far) = (0, 0);
+    for _ in 0..20_000 {
+        let mut shape = || {
+            let by = Isometry3::translation(dice.within(-0.2, 0.2), dice.within(-0.2, 0.2), 0.1);
+            ConvexShape::of_points(&Prism::new(&mut dice).moved(&by)).unwrap()
+        };
+        let (a, b) = (shape(), shape());
+        let turn = Vector3::from_fn(|_, _| dice.within(-2.0, 2.0));
+        let shift = Vector3::from_fn(|_, _| dice.within(-0.6, 0.6));
+        let pose = Isometry3::new(shift, turn);
+        let pair = PlacedPair::new(&a, &b, &pose);
+        let mut apart = [0.0];
+        distances(Level::new(), &[pair], &mut apart);
+        for distance in [0.0, 0.05] {
+            let is_told = pair.boxes_are_beyond(distance);
+            assert!(!is_told || apart[0] > distance, "{apart:?} {pose:?}");
+            told += usize::from(is_told);
+            far += usize::from(apart[0] > distance);
+        }
+    }
+    assert!(far > 10_000 && 10 * told > 6 * far, "{told} of {far}");
+}

@@ -24,6 +24,16 @@ const REFUSED: usize = 8;
 const SMALLEST_PART: f64 = 0.01;
 pub(super) const LEAST_GAIN: f64 = 1e-6;
 
+/// The parts of the way to a posture that is free which are tried.
+const LEAST_PART: f64 = 0.1;
+const MOST_PART: f64 = 4.0;
+
+/// A solution nears where it will end when the way to the posture that is free is this part of that before.
+const ENDING: f64 = 0.7;
+
+/// A solution whose free way is at most this long, rad or m, ends at a known one that is as near.
+const NEAR: f64 = 0.1;
+
 /// The result of a descent.
 #[derive(Clone)]
 pub(super) struct Found {
@@ -95,35 +105,67 @@ pub(super) trait Descend<'a> {
     }
 }
 
-/// Moves a solution toward a posture, along the motions that the goal leaves free.
+/// Moves a solution toward a posture, along the motions that the goal leaves free. It ends before where it will not be nearer
+/// than another solution that is `known`: near that one, or where the rest of the way is too short.
+///
+/// The part of the way is that of J. Barzilai and J. Borwein, "Two-Point Step Size Gradient Methods", IMA Journal of Numerical
+/// Analysis 8 (1988): where one motion is free, the secant method.
 pub(super) fn toward(
     descent: &mut dyn Descend<'_>,
     path: &Path,
     posture: &[f64],
     mut found: Found,
+    known: Option<&[f64]>,
 ) -> Found {
     let away = |q: &[f64]| path.distance(q, posture);
     let mut part = 1.0;
+    let mut last: Option<(Vec<f64>, Vec<f64>)> = None;
     while part > SMALLEST_PART {
         let q = &found.configuration;
         let Some(free) = descent.freed(q, posture) else { return found };
-        let before = away(q);
-        if free.iter().map(|change| change * change).sum::<f64>() <= LEAST_GAIN * before * before {
+        let (before, left) = (away(q), norm(&free));
+        if left * left <= LEAST_GAIN * before * before {
             return found;
         }
-        let mut next = q.clone();
-        for (dof, change) in path.dofs.iter().zip(&free) {
-            next[*dof] += part * change;
+        if let Some((from, other)) = &last {
+            let moved: Vec<f64> = path.dofs.iter().map(|dof| q[*dof] - from[*dof]).collect();
+            let less: f64 =
+                moved.iter().zip(other.iter().zip(&free)).map(|(s, (a, b))| s * (a - b)).sum();
+            if less > 0.0 {
+                part = (norm(&moved).powi(2) / less).clamp(LEAST_PART, MOST_PART);
+            }
+            let is_ending = left <= ENDING * norm(other);
+            if let Some(known) = known
+                && is_ending
+                && (before * before - (2.0 * left).powi(2) > away(known).powi(2)
+                    || (left <= NEAR && path.distance(q, known) <= 2.0 * left + LEAST_GAIN.sqrt()))
+            {
+                return found;
+            }
         }
-        path.confine(&mut next);
-        let next = descent.from(next);
-        if next.reached && away(&next.configuration) < before * (1.0 - LEAST_GAIN) {
-            found = next;
-        } else {
+        let next = loop {
+            let mut next = q.clone();
+            for (dof, change) in path.dofs.iter().zip(&free) {
+                next[*dof] += part * change;
+            }
+            path.confine(&mut next);
+            let next = descent.from(next);
+            if next.reached && away(&next.configuration) < before * (1.0 - LEAST_GAIN) {
+                break next;
+            }
             part *= 0.5;
-        }
+            if part <= SMALLEST_PART {
+                return found;
+            }
+        };
+        last = Some((found.configuration, free));
+        found = next;
     }
     found
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// State shared by all descents to a goal.
@@ -289,16 +331,16 @@ impl<'a> Descend<'a> for Descent<'a> {
         self.linearise(q);
         let dofs = self.path.dofs.iter();
         let mut free: Vec<f64> = dofs.map(|dof| posture[*dof] - q[*dof]).collect();
-        let mut matrix = Matrix6::from_diagonal_element(f64::MIN_POSITIVE);
+        // So small that what the goal needs is kept, and so large that directions which it leaves free, and singular ones,
+        // have no part in it.
+        let trace: f64 = self.jacobian.iter().map(|column| column.norm_squared()).sum();
+        let mut matrix = Matrix6::from_diagonal_element(1e-10 * trace + f64::MIN_POSITIVE);
         let mut moved = Vector6::zeros();
         for (column, change) in self.jacobian.iter().zip(&free) {
             matrix.ger(1.0, column, column, 1.0);
             moved += column * *change;
         }
-        // A pseudo-inverse: free motions of the goal, and singular ones, have no part in it.
-        let scale = matrix.norm();
-        let inverse = matrix.pseudo_inverse(1e-9 * scale.max(f64::MIN_POSITIVE)).ok()?;
-        let needed = inverse * moved;
+        let needed = matrix.cholesky()?.solve(&moved);
         for (change, column) in free.iter_mut().zip(&self.jacobian) {
             *change -= column.dot(&needed);
         }

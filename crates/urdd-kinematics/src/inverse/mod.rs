@@ -243,11 +243,11 @@ struct Search<'a> {
 impl Search<'_> {
     /// The best configuration; the nearest one, if none reaches the goal and is accepted.
     fn best(&mut self, first: &[f64]) -> Found {
-        let mut best = self.from(first.to_vec());
+        let mut best = self.from(first.to_vec(), None);
         let most = if self.path.dofs.is_empty() { 0 } else { self.settings.restarts };
         let posture = self.settings.posture.as_deref();
         if let Some(posture) = posture {
-            let found = self.from(self.path.restarted(first, posture));
+            let found = self.from(self.path.restarted(first, posture), Some(&best));
             if self.is_better(&found, &best) {
                 best = found;
             }
@@ -263,7 +263,7 @@ impl Search<'_> {
             for (value, near) in other.iter_mut().zip(posture.into_iter().flatten()) {
                 *value = near + PARTS[self.restarts % PARTS.len()] * (*value - near);
             }
-            let found = self.from(self.path.restarted(first, &other));
+            let found = self.from(self.path.restarted(first, &other), Some(&best));
             in_vain += usize::from(best.reached);
             if self.is_better(&found, &best) {
                 best = found;
@@ -285,14 +285,16 @@ impl Search<'_> {
         }
     }
 
-    /// A descent whose result is reached only if it is accepted.
-    fn from(&mut self, begin: Vec<f64>) -> Found {
+    /// A descent whose result is reached only if it is accepted. What will not be nearer to the posture than the best so far is
+    /// not moved as far toward it as it goes.
+    fn from(&mut self, begin: Vec<f64>, best: Option<&Found>) -> Found {
         let mut found = self.descent.from(begin);
         if !found.reached {
             return found;
         }
         if let Some(posture) = &self.settings.posture {
-            let nearer = toward(&mut *self.descent, self.path, posture, found.clone());
+            let known = best.filter(|best| best.reached).map(|best| &*best.configuration);
+            let nearer = toward(&mut *self.descent, self.path, posture, found.clone(), known);
             // What is nearest may be refused, and what it began with not.
             if (self.conditions.accepts)(&nearer.configuration) {
                 return nearer;

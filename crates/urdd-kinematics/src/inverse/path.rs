@@ -57,7 +57,7 @@ pub struct InverseSettings {
     /// DOFs that keep the value that they have in the start configuration.
     pub locked: Vec<usize>,
     /// A configuration that the solution should be near. Descents begin at the start, at the posture, then at random
-    /// between the posture and anywhere, until 12 restarts in a row bring no nearer solution. Each solution is moved
+    /// between the posture and anywhere, until 12 restarts in a row bring no nearer solution. Each that may be nearest is moved
     /// toward the posture as far as the goal allows, and the nearest one counts, by the Euclidean distance of the DOFs
     /// that move the link. This is a search: a nearer solution can be missed.
     pub posture: Option<Vec<f64>>,

@@ -67,7 +67,7 @@ pub struct Proximity {
     pub(super) names: Vec<Arc<str>>,
     pub(super) shapes: Vec<Shape>,
     /// For each link, the bounding sphere of all its shapes.
-    spheres: Vec<Option<BoundingSphere>>,
+    pub(super) spheres: Vec<Option<BoundingSphere>>,
     pairs: Vec<Pair>,
     pub(super) groups: Vec<Group>,
     rounding: Rounding,
@@ -302,6 +302,11 @@ impl Proximity {
         placed.centres.clear();
         let centre = |shape: &Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
         placed.centres.extend(self.shapes.iter().map(centre));
+        placed.around.clear();
+        let links = placed.links.iter().zip(&self.spheres);
+        let around =
+            links.map(|(link, sphere)| sphere.map_or([0.0; 3], |one| to_root(link, one.centre)));
+        placed.around.extend(around);
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::body::{relative, to_root};
+use super::body::relative;
 use super::swept::{SweptPair, Waiting};
 use super::{Group, PairDistance, Proximity, Rounding};
 use crate::checked::Checked;
@@ -59,26 +59,33 @@ impl Proximity {
         Ok(parts.into_iter().map(|(bodies, parts)| (bodies, count(&parts))).collect())
     }
 
-    /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
-    fn are_apart(&self, placed: &Placed, links: [usize; 2]) -> bool {
-        let [Some(a), Some(b)] = links.map(|link| self.spheres[link]) else { return true };
-        let p = to_root(&placed.links[links[0]], a.centre);
-        let q = to_root(&placed.links[links[1]], b.centre);
-        let between = sub(q, p);
-        let reach = a.radius + b.radius;
-        dot(between, between) > reach * reach * (1.0 + 1e-12)
+    /// The radius of the bounding sphere of a link's shapes, m.
+    pub(crate) fn around(&self, link: usize) -> f64 {
+        self.spheres[link].map_or(0.0, |sphere| sphere.radius)
     }
 
     /// Whether any pair in these groups touches, for the given placement of the links.
     pub(crate) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
         let mut waiting = Waiting::new(self.level);
         for group in groups {
-            if self.are_apart(placed, group.links) {
+            let [a, b] = group.links;
+            let (other, radius) = (placed.around[b], self.around(b));
+            if are_apart(placed.around[a], other, self.around(a) + radius) {
                 continue;
             }
-            let pose = relative(&placed.links[group.links[0]], &placed.links[group.links[1]]);
+            let pose = relative(&placed.links[a], &placed.links[b]);
+            // Whether the first shape of the last pair is near the other link.
+            let mut last = (usize::MAX, false);
             for pair in group.first..group.end {
-                if self.bound(placed, pair) > 0.0 {
+                let [i, j] = self.pairs[pair].shapes;
+                let (p, reach) = (placed.centres[i], self.shapes[i].sphere.radius);
+                if last.0 != i {
+                    last = (i, !are_apart(p, other, reach + radius));
+                }
+                // Most pairs are told apart without a square root.
+                let is_near = last.1
+                    && !are_apart(p, placed.centres[j], reach + self.shapes[j].sphere.radius);
+                if !is_near || self.bound(placed, pair) > 0.0 {
                     continue;
                 }
                 // The bound of balls is their distance.
@@ -124,6 +131,12 @@ impl Proximity {
     }
 }
 
+/// Whether two spheres are disjoint, from the sum of their radii.
+fn are_apart(p: [f64; 3], q: [f64; 3], reach: f64) -> bool {
+    let between = sub(q, p);
+    dot(between, between) > reach * reach * (1.0 + 1e-12)
+}
+
 impl Checked for Proximity {
     type Pair = PairDistance;
     const BLOCK: usize = 32;
@@ -141,6 +154,26 @@ impl Checked for Proximity {
         let groups = self.groups.iter().enumerate();
         let groups = groups.filter(move |(_, group)| group.moves || margin == 0.0);
         groups.flat_map(|(place, group)| (group.first..group.end).map(move |pair| (pair, place)))
+    }
+
+    fn num_groups(&self) -> usize {
+        self.groups.len()
+    }
+
+    fn group_bound(&self, placed: &Placed, group: usize) -> f64 {
+        let [a, b] = self.groups[group].links;
+        let apart = norm(sub(placed.around[b], placed.around[a]));
+        // Less by more than any rounding error.
+        apart * (1.0 - 1e-12) - (self.around(a) + self.around(b)) * (1.0 + 1e-12) - 1e-12
+    }
+
+    fn members(&self, group: usize) -> impl Iterator<Item = usize> {
+        let Group { first, end, .. } = self.groups[group];
+        first..end
+    }
+
+    fn counts(&self, group: usize, margin: f64) -> bool {
+        self.groups[group].moves || margin == 0.0
     }
 
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {

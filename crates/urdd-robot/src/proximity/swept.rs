@@ -87,6 +87,9 @@ impl<'a> Waiting<'a> {
 
     /// Adds a pair, whose radii have this sum. True if one of those that waited touches.
     pub fn touches_with(&mut self, cores: PlacedPair<'a>, radii: f64) -> bool {
+        if cores.boxes_are_beyond(radii) {
+            return false;
+        }
         let is_full = if radii == 0.0 {
             self.flat.push(cores);
             self.flat.is_full()

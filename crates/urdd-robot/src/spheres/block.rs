@@ -74,21 +74,6 @@ impl Scene<'_> {
         dispatch!(self.model.level, simd => self.touching(simd, placed, values, asked))
     }
 
-    /// Calls `each` with the links of the pairs that touch in any of up to eight configurations, and the lanes in which they do.
-    pub fn each_touching<'a>(
-        &self,
-        memory: &mut Memory,
-        rows: impl ExactSizeIterator<Item = &'a [f64]>,
-        each: &mut dyn FnMut([usize; 2], u8),
-    ) {
-        let lanes = memory.fill(rows);
-        let Memory { placed, values, .. } = memory;
-        dispatch!(self.model.level, simd => {
-            placed.place(simd, self.model, values);
-            placed.each_touching(simd, self.model, lanes, &mut *each);
-        });
-    }
-
     /// The lanes that touch, of these parts of a straight motion.
     pub fn parts(
         &self,

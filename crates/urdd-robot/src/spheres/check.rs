@@ -173,34 +173,6 @@ impl Placed {
         found
     }
 
-    /// Calls `each` with the links of the pairs that touch, and the lanes in which they do.
-    #[inline(always)]
-    pub fn each_touching<S: Simd>(
-        &mut self,
-        simd: S,
-        model: &Model,
-        lanes: u8,
-        mut each: impl FnMut([usize; 2], u8),
-    ) {
-        let grown = 2.0 * self.slack(model);
-        for Group { clusters: [a, b], pairs } in &model.groups {
-            let p = Vec3::load(simd, &self.clusters[*a]);
-            let q = Vec3::load(simd, &self.clusters[*b]);
-            let reach = model.clusters[*a].around[3] + model.clusters[*b].around[3] + grown;
-            let lanes = bits(touch(simd, p, q, reach)) & lanes;
-            if lanes == 0 {
-                continue;
-            }
-            for pair in pairs {
-                let asked = Asked { lanes, any: false };
-                let touching = self.pair_touches(simd, model, *pair, grown, asked);
-                if touching != 0 {
-                    each([model.bodies[pair[0]].link, model.bodies[pair[1]].link], touching);
-                }
-            }
-        }
-    }
-
     /// What is added to a radius for slides, m.
     #[inline(always)]
     pub fn slack(&self, model: &Model) -> f32 {

@@ -33,10 +33,10 @@ use urdd_kinematics::fill;
 /// settings allow open ones: spheres follow no closed motion.
 #[derive(Debug)]
 pub struct SphereChecker<C> {
-    pub(super) motion: Arc<Motion>,
+    motion: Arc<Motion>,
     closure: Result<Option<Arc<Closure>>, RobotError>,
-    pub(super) model: Arc<Model>,
-    pub(super) obstacles: Obstacles,
+    model: Arc<Model>,
+    obstacles: Obstacles,
     coverage: PhantomData<C>,
 }
 
@@ -230,12 +230,7 @@ impl<C: Coverage> SphereChecker<C> {
         })
     }
 
-    /// Without a margin.
-    pub(super) fn plain_scene(&self) -> Scene<'_> {
-        Scene { model: &self.model, obstacles: &self.obstacles, margin: 0.0 }
-    }
-
-    pub(super) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+    fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let most = &self.model.most;
         let mut each = configuration.iter().zip(most);
         // What is not a number is not within.

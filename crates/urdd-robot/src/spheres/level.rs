@@ -1,6 +1,7 @@
 //! Spheres of links, level by level.
 
 use crate::error::RobotError;
+use crate::proximity::Proximity;
 
 /// A sphere in the frame of a link, m.
 pub use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
@@ -57,5 +58,29 @@ impl SphereLevel {
             }
         }
         Ok(())
+    }
+}
+
+impl Proximity {
+    /// The bounding sphere of each shape: a level that covers these shapes.
+    pub fn bounding_level(&self) -> SphereLevel {
+        let mut links: Vec<LinkSpheres> = Vec::new();
+        for shape in &self.shapes {
+            let sphere = Sphere {
+                centre: shape.sphere.centre,
+                // A point is a sphere, too.
+                radius: shape.sphere.radius.max(1e-9),
+            };
+            match links.iter_mut().find(|own| own.link_idx == shape.link) {
+                Some(own) => own.spheres.push(sphere),
+                None => links.push(LinkSpheres { link_idx: shape.link, spheres: vec![sphere] }),
+            }
+        }
+        SphereLevel { links, covers: true }
+    }
+
+    /// The pairs of links with pairs of shapes that are checked.
+    pub fn link_pairs(&self) -> Vec<[usize; 2]> {
+        self.groups.iter().map(|group| group.links).collect()
     }
 }

@@ -1,6 +1,8 @@
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use testkit::trials::sample;
-use urdd_robot::{PairDistance, Queries, Robot, ShapeKind};
+use urdd_robot::{Obstacle, PairDistance, Queries, Robot, ShapeKind, World};
 
+use super::planning::robot_of;
 use testkit::robots::{made, made_of, our_robots};
 
 /// A cube of 1 m, and one of 0.2 m that slides along x, 2 m away; a ball of 0.1 m that slides along y.
@@ -243,4 +245,55 @@ fn many_at_once_are_each_by_itself_for_any_number_of_threads() {
     }
     assert!(proximity.in_collision_batch(&batch[1..]).is_err());
     assert!(proximity.in_collision(&[f64::INFINITY; 6]).is_err());
+}
+
+/// Of pairs that are told apart by spheres, by boxes and in groups, the answers are those of all distances, bit by bit.
+#[test]
+fn answers_are_those_of_all_distances() {
+    let boxes = (0..20).map(|k| {
+        let turn = f64::from(k);
+        let at = Translation3::new(0.8 * turn.cos(), 0.8 * turn.sin(), 0.06 * turn);
+        let pose =
+            Isometry3::from_parts(at, UnitQuaternion::from_euler_angles(turn, 0.7 * turn, 0.0));
+        Obstacle::cuboid(&k.to_string(), pose, [0.05, 0.1, 0.2]).unwrap()
+    });
+    let world = World::new(boxes);
+    let mut contacts = [[0; 2]; 2];
+    for name in ["six_axis_arm", "quadruped", "welding_arm", "hand"] {
+        let (_folder, robot) = robot_of(name);
+        let space = robot.configurations().unwrap();
+        for kind in [ShapeKind::Pieces, ShapeKind::PieceSpheres] {
+            let shapes = robot.proximity(kind).unwrap();
+            let object = Obstacle::capsule("object", Isometry3::identity(), 0.05, 0.1).unwrap();
+            let shapes = shapes.attach(robot.link_names().unwrap().len() - 1, &object).unwrap();
+            let around = shapes.world_proximity(&world).unwrap();
+            let moves: Vec<bool> = shapes
+                .pairs()
+                .map(|[(a, _), (b, _)]| !robot.dofs_between(a, b).unwrap().is_empty())
+                .collect();
+            for k in 0..1250 {
+                let q = space.random(k);
+                let count = &mut contacts[usize::from(kind == ShapeKind::Pieces)];
+                let all = shapes.distances(&q).unwrap();
+                count[0] += check(&shapes, &q, &all, &moves);
+                let all = around.distances(&q).unwrap();
+                count[1] += check(&around, &q, &all, &vec![true; all.len()]);
+            }
+        }
+    }
+    let is_some = |count: &usize| *count > 50 && *count < 4950;
+    assert!(contacts.as_flattened().iter().all(is_some), "{contacts:?}");
+}
+
+/// Whether the robot is in contact; `all` are the distances of all pairs, `moves` says which count for a margin.
+fn check(of: &impl Queries, q: &[f64], all: &[f64], moves: &[bool]) -> usize {
+    let touches = all.contains(&0.0);
+    assert_eq!(of.in_collision(q), Ok(touches), "{q:?}");
+    let least = all.iter().copied().reduce(f64::min);
+    assert_eq!(of.min_distance(q), Ok(least), "{q:?}");
+    for margin in [0.003, 0.03, 0.3] {
+        let near = all.iter().zip(moves).any(|(apart, moves)| *moves && *apart <= margin);
+        assert_eq!(of.is_within(q, margin), Ok(near), "{margin} {q:?}");
+    }
+    usize::from(touches)
 }

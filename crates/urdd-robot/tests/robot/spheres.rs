@@ -1,11 +1,8 @@
 //! Spheres in the place of shapes, compared with distances in 64 bits.
 
-use std::sync::Arc;
-
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use urdd_robot::spheres::{
-    ApproximateAnswer, Coverage, CoveringAnswer, LinkSpheres, ScreenedProximity, Sphere,
-    SphereChecker, SphereLevel,
+    ApproximateAnswer, Coverage, CoveringAnswer, LinkSpheres, Sphere, SphereChecker, SphereLevel,
 };
 use urdd_robot::{EdgeSettings, Obstacle, Queries, Robot, RobotError, ShapeKind, World};
 
@@ -400,28 +397,28 @@ fn a_cloud_is_its_points_and_a_field_its_columns() {
     assert!(matches!(proximity.attach(1, &cloud), Err(RobotError::Obstacle { .. })));
 }
 
-/// Shapes behind their bounding spheres answer as they do alone.
+/// Where spheres around shapes are free, so are the shapes.
 #[test]
-fn screened_shapes_answer_as_shapes() {
+fn what_spheres_around_shapes_call_free_is_free() {
+    let (mut free, mut contacts) = (0, 0);
     for name in ["six_axis_arm", "quadruped", "welding_arm", "hand"] {
         let (_folder, robot) = robot_of(name);
         let space = robot.configurations().expect("configurations");
         let batch: Vec<f64> = (0..300).flat_map(|k| space.random(k)).collect();
         for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
-            let proximity = Arc::new(robot.proximity_of(kind, |_| true).expect("shapes"));
-            let of_skips = Arc::new(robot.proximity(kind).expect("shapes"));
-            for proximity in [proximity, of_skips] {
-                let levels = [proximity.bounding_level()];
-                let screened = ScreenedProximity::new(&robot, Arc::clone(&proximity), &levels);
-                let screened = screened.expect("spheres");
-                let expected = proximity.in_collision_batch(&batch).expect("answers");
-                assert_eq!(screened.in_collision_batch(&batch), Ok(expected.clone()), "{name}");
-                let one = screened.in_collision(&space.random(7));
-                assert_eq!(one, Ok(expected[7]));
-                let mut fewer = levels[0].clone();
-                fewer.links.pop();
-                assert!(ScreenedProximity::new(&robot, proximity, &[fewer]).is_err());
+            let all = robot.proximity_of(kind, |_| true).expect("shapes");
+            for proximity in [all, robot.proximity(kind).expect("shapes")] {
+                let (levels, pairs) = ([proximity.bounding_level()], proximity.link_pairs());
+                let spheres = SphereChecker::covering(&robot, &levels, &pairs).expect("spheres");
+                let spheres = spheres.in_collision_batch(&batch).expect("answers");
+                let shapes = proximity.in_collision_batch(&batch).expect("answers");
+                for (spheres, touches) in spheres.into_iter().zip(shapes) {
+                    assert!(!(touches && spheres == CoveringAnswer::Free), "{name}");
+                    free += usize::from(spheres == CoveringAnswer::Free);
+                    contacts += usize::from(touches);
+                }
             }
         }
     }
+    assert!(free > 10 && contacts > 1000, "{free} {contacts}");
 }

@@ -1,0 +1,151 @@
+//! What is asked of the spheres of a robot, once for both handles.
+
+use urdd_directory::cancellation::Cancellation;
+use urdd_robot::spheres::{Coverage, SphereChecker};
+use urdd_robot::{EdgeSettings, RobotError, fill};
+
+use crate::failure::{Status, run};
+use crate::handle::{Handle, at, at_mut, make};
+use crate::memory::Plain;
+use crate::obstacle::{Obstacle, with_moves, world_of};
+use crate::rows::Rows;
+
+/// Configurations that are checked at once.
+const LANES: usize = 8;
+
+/// As many of these, or of motions, are one block of work.
+const BLOCKS: usize = 32;
+const EDGES: usize = 32;
+
+/// Memory of a part of an obstacle, bytes.
+const PART: usize = 2048;
+
+/// A handle that answers from spheres. The functions have the contract of the interface.
+pub(crate) trait Checks: Handle + 'static {
+    type Coverage: Coverage;
+    type Answer: Plain + Send;
+
+    fn of(checker: SphereChecker<Self::Coverage>) -> Self;
+    fn checker(&self) -> &SphereChecker<Self::Coverage>;
+    fn checker_mut(&mut self) -> &mut SphereChecker<Self::Coverage>;
+    fn answer(found: <Self::Coverage as Coverage>::Answer) -> Self::Answer;
+
+    unsafe fn around(
+        handle: *const Self,
+        (obstacles, count): (*const *const Obstacle, usize),
+        out: *mut *mut Self,
+    ) -> Status {
+        unsafe {
+            make(out, || {
+                let world = world_of(obstacles, count, PART)?;
+                Ok(Self::of(at(handle)?.checker().around(&world)?))
+            })
+        }
+    }
+
+    unsafe fn move_obstacles(
+        handle: *mut Self,
+        first: usize,
+        (poses, count): (*const f64, usize),
+    ) -> Status {
+        run(|| unsafe {
+            let checker = at_mut(handle)?.checker_mut();
+            with_moves((poses, count), |poses| Ok(checker.move_obstacles(first, poses)?))
+        })
+    }
+
+    unsafe fn is_within(
+        handle: *const Self,
+        (data, rows, dofs): (*const f64, usize, usize),
+        margin: f64,
+        answers: *mut Self::Answer,
+    ) -> Status {
+        run(|| unsafe {
+            let checker = at(handle)?.checker();
+            let q = Rows::new("configurations", data, (rows, dofs), checker.num_dofs())?;
+            // Without DOFs, many configurations are as long as one.
+            if rows == 1 || dofs == 0 {
+                return q.answer(("answers", answers, rows), 1, |q, out| {
+                    out[0] = Self::answer(checker.is_within(q, margin)?);
+                    Ok(())
+                });
+            }
+            let on = Cancellation::default();
+            let out = q.room(("answers", answers, rows), 1)?;
+            Ok(fill(out, LANES, BLOCKS, |(): &mut (), block, out: &mut [Self::Answer]| {
+                let first = block * LANES;
+                let mut touches = [false; LANES];
+                let touches = &mut touches[..out.len()];
+                checker.touches_batch_into(
+                    q.some(first..first + out.len()),
+                    margin,
+                    &on,
+                    touches,
+                )?;
+                for (out, touches) in out.iter_mut().zip(touches) {
+                    *out = Self::answer(Self::Coverage::answer(*touches));
+                }
+                Ok::<(), RobotError>(())
+            })?)
+        })
+    }
+
+    unsafe fn edges<const N: usize>(
+        handle: *const Self,
+        [starts, ends]: [*const f64; 2],
+        shape: (usize, usize),
+        (margin, resolution, open_loops): (f64, f64, bool),
+        out: (&'static str, *mut f64, usize),
+        ask: impl Fn(
+            &SphereChecker<Self::Coverage>,
+            [&[f64]; 2],
+            &EdgeSettings,
+        ) -> Result<[f64; N], RobotError>
+        + Sync,
+    ) -> Status {
+        let resolution = (resolution != 0.0).then_some(resolution);
+        let settings = EdgeSettings { margin, resolution, open_loops };
+        run(|| unsafe {
+            let checker = at(handle)?.checker();
+            let from = Rows::new("starts", starts, shape, checker.num_dofs())?;
+            let to = Rows::new("ends", ends, shape, checker.num_dofs())?;
+            Ok(fill(from.room(out, N)?, N, EDGES, |(): &mut (), k, out| {
+                out.copy_from_slice(&ask(checker, [from.row(k), to.row(k)], &settings)?);
+                Ok::<(), RobotError>(())
+            })?)
+        })
+    }
+
+    /// NaN where a motion is free.
+    unsafe fn blocked_edge(
+        handle: *const Self,
+        ends: [*const f64; 2],
+        shape: (usize, usize),
+        settings: (f64, f64, bool),
+        blocked: *mut f64,
+    ) -> Status {
+        let out = ("blocked", blocked, shape.0);
+        unsafe {
+            Self::edges(handle, ends, shape, settings, out, |checker, [start, end], settings| {
+                Ok([checker.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
+            })
+        }
+    }
+
+    /// As [`Checks::blocked_edge`], with two numbers for each motion.
+    unsafe fn first_contact(
+        handle: *const Self,
+        ends: [*const f64; 2],
+        shape: (usize, usize),
+        settings: (f64, f64, bool),
+        (contacts, length): (*mut f64, usize),
+    ) -> Status {
+        let out = ("contacts", contacts, length);
+        unsafe {
+            Self::edges(handle, ends, shape, settings, out, |checker, [start, end], settings| {
+                let contact = checker.first_contact(start, end, settings)?;
+                Ok(contact.map_or([f64::NAN; 2], |contact| [contact.free, contact.blocked]))
+            })
+        }
+    }
+}
