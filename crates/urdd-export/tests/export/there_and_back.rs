@@ -1,4 +1,4 @@
-//! Robots go to MJCF and to SDF, and come back by an import: the same poses, masses, limits and followers.
+//! Robots go to MJCF, to SDF and to USD, and come back by an import: the same poses, masses, limits and followers.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,8 +13,10 @@ use urdd_robot::Robot;
 use crate::made::export;
 use testkit::robots::made_named;
 
-/// m and rad.
+/// m and rad; the same of masses and limits, to their size.
 const TOLERANCE: f64 = 1e-9;
+/// The same of USD, whose numbers are binary32.
+const SINGLE: f64 = 2e-6;
 const CONFIGURATIONS: u64 = 20;
 
 /// A robot as it comes back from a format.
@@ -68,7 +70,12 @@ fn poses_masses_limits_and_followers_come_back() {
         let description = robot.description().expect("a description");
         let dofs = robot.dof_names().expect("names").to_vec();
         let root = robot.link_names().expect("names")[0].clone();
-        for format in [Format::Mjcf, Format::Sdf] {
+        for format in [Format::Mjcf, Format::Sdf, Format::Usd] {
+            // The joint of its base, which moves in all ways, is a chain there.
+            if (name, format) == ("quadruped", Format::Usd) {
+                continue;
+            }
+            let most = if format == Format::Usd { SINGLE } else { TOLERANCE };
             let shown = format!("{name} by {}", format.name());
             let folder = tempfile::tempdir().expect("a folder");
             let other = back(&robot, format, folder.path());
@@ -80,7 +87,7 @@ fn poses_masses_limits_and_followers_come_back() {
                 let Some(others) = b.get(link) else { continue };
                 let scale = values.iter().fold(1e-3_f64, |most, value| most.max(value.abs()));
                 for (value, other) in values.iter().zip(others) {
-                    assert!((value - other).abs() <= 1e-9 * scale, "{shown}: {link}: {values:?}");
+                    assert!((value - other).abs() <= most * scale, "{shown}: {link}: {values:?}");
                 }
                 compared += 1;
             }
@@ -90,7 +97,14 @@ fn poses_masses_limits_and_followers_come_back() {
                 let of = joints.iter().find(|of| of.name == joint.name);
                 let (Some(limit), Some(of)) = (&joint.limit, of) else { continue };
                 let back = of.limit.as_ref().expect("a limit");
-                assert_eq!((limit.lower, limit.upper), (back.lower, back.upper), "{shown}");
+                let ends = [(limit.lower, back.lower), (limit.upper, back.upper)];
+                for (end, back) in ends {
+                    let far = end.zip(back).map(|(end, back)| (end - back).abs());
+                    assert_eq!(end.is_some(), back.is_some(), "{shown}: {}", joint.name);
+                    let is_near =
+                        if format == Format::Usd { far <= Some(SINGLE * 7.0) } else { end == back };
+                    assert!(is_near, "{shown}: {}: {back:?} for {end:?}", joint.name);
+                }
                 assert_eq!(joint.mimic.is_some(), of.mimic.is_some(), "{shown}: {}", joint.name);
             }
             for k in 0..CONFIGURATIONS {
@@ -100,7 +114,7 @@ fn poses_masses_limits_and_followers_come_back() {
                     let Some(other) = there.get(link) else { continue };
                     let apart = pose.inverse() * other;
                     let apart = apart.translation.vector.norm().max(apart.rotation.angle());
-                    assert!(apart < TOLERANCE, "{shown}: {link} is {apart} off");
+                    assert!(apart < most, "{shown}: {link} is {apart} off");
                 }
             }
         }
