@@ -86,12 +86,12 @@ features! {
     BALL_RANGES = "ranges of balls", No, Elsewhere, No;
     POLYNOMIALS = "equalities of joints that are not linear, or that no mimic can say", LOOPS, Elsewhere, Elsewhere;
     COUPLINGS = "equalities of joints that are not active, or of balls and joints that are left out", No, Elsewhere, No;
-    TENDONS = "tendons", No, Elsewhere, Elsewhere;
+    TENDONS = "tendons", No, Elsewhere, No;
     MOTORS = "motors, as the greatest forces of joints", Yes, Elsewhere, Yes;
     MORE_GAINS = "gains and armatures of joints that follow others, and names and ranges of several actuators of one joint", No, Elsewhere, No;
     GRAVCOMP = "gravity compensation of bodies", No, Elsewhere, Elsewhere;
-    OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere, Elsewhere;
-    SOFT = "flexes, skins and composites", No, Elsewhere, Elsewhere;
+    OTHER_ACTUATORS = "actuators of tendons, sites and bodies, and muscles", No, Elsewhere, No;
+    SOFT = "flexes, skins and composites", No, Elsewhere, No;
     CONTACT_PAIRS = "parameters of pairs in contact", No, Elsewhere, Elsewhere;
     PARTLY_APART = "pairs of bodies of which some shapes never collide with some of the other", WHOLE, Elsewhere, WHOLE;
     TORSION = "torsional and rolling friction", No, Elsewhere, Elsewhere;

@@ -14,6 +14,7 @@ mod mass;
 mod mesh;
 mod pairs;
 mod robot;
+mod said;
 mod scene;
 mod upright;
 

@@ -21,7 +21,7 @@ use super::graph::{Branch, Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{frames, mass, pairs, upright};
+use super::{frames, mass, pairs, said, upright};
 
 /// How far the other limit is from one that stands alone, rad and m.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
@@ -32,6 +32,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     for _ in 0..scene.stage.sampled {
         tally.count(features::SAMPLES);
     }
+    said::say(scene, &mut tally);
     let joints = joints(scene, &mut tally)?;
     let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
     let mut maker = Maker {
