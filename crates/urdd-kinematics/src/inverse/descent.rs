@@ -333,20 +333,22 @@ impl<'a> Descend<'a> for Descent<'a> {
         moves.clear();
         moves.resize(jacobian.len(), true);
         let mut wanted: Vec<f64> = path.dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
-        // A DOF that would leave its bounds goes to the bound, and the others are asked again.
+        // The DOF that would leave its bounds by most goes to the bound, and the others are asked again: without it, what
+        // made up for it may stay within.
         loop {
             let free = way(jacobian, moves, &wanted)?;
-            let mut is_within = true;
+            let mut farthest = None;
+            let mut most = 0.0;
             for (k, change) in free.iter().enumerate() {
                 let [lower, upper] = path.bounds(k).map(|bound| bound - q[path.dofs[k]]);
                 let room = change.max(lower).min(upper);
-                if moves[k] && path.kinds[k] == RangeKind::Bounded && room != *change {
-                    (moves[k], wanted[k], is_within) = (false, room, false);
+                let beyond = (change - room).abs();
+                if moves[k] && path.kinds[k] == RangeKind::Bounded && beyond > most {
+                    (farthest, most) = (Some((k, room)), beyond);
                 }
             }
-            if is_within {
-                return Some(free);
-            }
+            let Some((k, room)) = farthest else { return Some(free) };
+            (moves[k], wanted[k]) = (false, room);
         }
     }
 }
