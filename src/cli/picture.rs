@@ -86,7 +86,8 @@ pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
         let configuration = configuration(&robot, arguments.configuration.as_deref())
             .map_err(|error| about(path)(error))?;
         let drawing = Drawing { size: arguments.size, from: arguments.from };
-        let picture = png(&robot, &configuration, &drawing).map_err(about(path))?;
+        let picture = png(&robot, &configuration, &drawing, &signals.cancellation());
+        let picture = picture.map_err(about(path))?;
         let picture = picture.ok_or_else(|| about(path)("it has no shape to draw"))?;
         output::write_alone(&arguments.output, &picture, arguments.force)?;
         output::print(&format!("{}\n", shown(&arguments.output)))?;
