@@ -1,5 +1,7 @@
 // The classes of urdd.hpp. Built with the address and undefined-behaviour sanitizers by .ci/cpp.
 
+#include "check.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -11,23 +13,7 @@
 #include <urdd.hpp>
 #include <urdd/eigen.hpp>
 
-#define CHECK(condition)                                                                                               \
-    if (!(condition)) {                                                                                                \
-        std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                           \
-        std::exit(1);                                                                                                  \
-    }
-
 namespace {
-
-template <typename F> urdd_status thrown(F &&act) {
-    try {
-        act();
-    } catch (const urdd::Error &error) {
-        CHECK(std::string(error.what()).size() > 5);
-        return error.status();
-    }
-    return URDD_STATUS_OK;
-}
 
 void kinematics(const urdd::Robot &robot) {
     const std::vector<double> q = robot.middle();

@@ -1,16 +1,12 @@
 // Kinematic loops of a four-bar, held to the law of cosines. Built with the address and undefined-behaviour sanitizers
 // by .ci/cpp.
 
+#include "check.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <urdd.hpp>
-
-#define CHECK(condition)                                                                                               \
-    if (!(condition)) {                                                                                                \
-        std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                           \
-        std::exit(1);                                                                                                  \
-    }
 
 namespace {
 

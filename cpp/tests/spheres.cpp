@@ -1,5 +1,7 @@
 // Checks by spheres, compared with distances of their centres. Built with the sanitizers by .ci/cpp.
 
+#include "check.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,23 +10,7 @@
 #include <thread>
 #include <urdd.hpp>
 
-#define CHECK(condition)                                                                                               \
-    if (!(condition)) {                                                                                                \
-        std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                           \
-        std::exit(1);                                                                                                  \
-    }
-
 namespace {
-
-template <typename F> urdd_status thrown(F &&act) {
-    try {
-        act();
-    } catch (const urdd::Error &error) {
-        CHECK(std::string(error.what()).size() > 5);
-        return error.status();
-    }
-    return URDD_STATUS_OK;
-}
 
 double apart(const urdd::Point &a, const urdd::Point &b) {
     return std::sqrt(std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));

@@ -1,6 +1,8 @@
 // The types of urdd_types.hpp. Every document of the URDDs at or below the given folders is read, and written again to
 // the same bytes: what the reference generator wrote is the truth. Built with sanitizers by .ci/cpp.
 
+#include "check.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -8,12 +10,6 @@
 #include <iostream>
 #include <map>
 #include <urdd_types.hpp>
-
-#define CHECK(condition)                                                                                               \
-    if (!(condition)) {                                                                                                \
-        std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                           \
-        std::exit(1);                                                                                                  \
-    }
 
 namespace {
 

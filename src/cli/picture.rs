@@ -13,7 +13,11 @@ use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, is_archive};
 use urdd_generate::{Selection, Settings, generate_in_memory};
 use urdd_robot::Robot;
+use urdd_source::note::{Note, NoteKind};
 use urdd_view::picture::{Drawing, MAX_SIDE, MODULES, png};
+
+/// Maximum number of meshes that are named as not drawn.
+const MOST_NOTES: usize = 5;
 
 /// Arguments of `urdd picture`.
 #[derive(Args)]
@@ -86,7 +90,8 @@ pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
         let configuration = configuration(&robot, arguments.configuration.as_deref())
             .map_err(|error| about(path)(error))?;
         let drawing = Drawing { size: arguments.size, from: arguments.from };
-        let picture = png(&robot, &configuration, &drawing).map_err(about(path))?;
+        let picture = png(&robot, &configuration, &drawing, &signals.cancellation());
+        let picture = picture.map_err(about(path))?;
         let picture = picture.ok_or_else(|| about(path)("it has no shape to draw"))?;
         output::write_alone(&arguments.output, &picture, arguments.force)?;
         output::print(&format!("{}\n", shown(&arguments.output)))?;
@@ -110,7 +115,16 @@ fn generated(
         cancellation: signals.cancellation(),
         ..Settings::default()
     };
-    let (_, files) = generate_in_memory(path, &settings, &()).map_err(output::one_line)?;
+    let (made, files) = generate_in_memory(path, &settings, &()).map_err(output::one_line)?;
+    let is_missing =
+        |note: &&Note| matches!(note.kind, NoteKind::MeshNotFound | NoteKind::MeshNotUsable);
+    let missing: Vec<&Note> = made.notes.iter().filter(is_missing).collect();
+    for note in missing.iter().take(MOST_NOTES) {
+        output::error(&format!("note: {note}"));
+    }
+    if let Some(more @ 1..) = missing.len().checked_sub(MOST_NOTES) {
+        output::error(&format!("note: and {more} more that are not drawn; `urdd lint` tells all"));
+    }
     let root = Memory::new("robot", files);
     let root = root.map_err(|(file, _)| about(Path::new(&file))("not a name of a file of a URDD"));
     Ok(Robot::of(Root::of(root?)))

@@ -43,6 +43,23 @@ fn a_picture_is_of_the_robot_its_configuration_and_the_viewer() {
 }
 
 #[test]
+fn meshes_that_are_not_drawn_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let gone = r#"<visual><geometry><mesh filename="gone.stl"/></geometry></visual><visual>"#;
+    let text = BARS.replacen(
+        "<collision>",
+        &format!("{gone}<geometry><box size=\"1 1 1\"/></geometry></visual><collision>"),
+        1,
+    );
+    fs::write(folder.join("bars.urdf"), text).expect("written");
+    let (status, out, said) = urdd(&["picture", "bars.urdf", "-o", "new.png"], folder);
+    assert_eq!((status, &*out), (0, "new.png\n"), "{said}");
+    assert!(said.starts_with("urdd: note: ") && said.contains("gone.stl"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
 fn what_cannot_be_drawn_is_said_and_nothing_is_lost() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();

@@ -193,7 +193,7 @@ pub unsafe extern "C" fn urdd_obstacle_points(
 }
 
 /// Makes a field of heights over the x-y plane of its frame: `rows` x `columns` columns, row by row, each with the 2 sizes
-/// `cell` along x and y, metres. The centre of one is at x = column * cell[0], y = row * cell[1]. It reaches from its height,
+/// `cell` along x and y, metres. The centre of one is at `x = column * cell[0]`, `y = row * cell[1]`. It reaches from its height,
 /// metres, `thickness` down. There are no slopes between cells.
 ///
 /// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without heights.

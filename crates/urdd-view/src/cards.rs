@@ -135,7 +135,8 @@ fn drawn(Source { file, .. }: &Source, settings: &Settings) -> Result<Picture, G
     caught(file, || {
         let (_, files) = generate_in_memory(Path::new(file), settings, &())?;
         let root = Memory::new("robot", files).ok().map(Root::of);
-        let picture = root.and_then(|root| picture::card(&Robot::of(root)));
+        let picture = root.and_then(|root| picture::card(&Robot::of(root), &settings.cancellation));
+        settings.cancellation.check()?;
         Ok(picture.map(Arc::from))
     })
 }

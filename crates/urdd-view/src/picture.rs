@@ -5,6 +5,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
+use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_robot::{LinkVisual, Robot, RobotError};
 
 /// What the page's first picture, the joints and the sliders need of a URDD, with the core class.
@@ -48,11 +49,13 @@ struct Facet {
 /// The picture of a robot in a configuration, as PNG with a transparent background; `None` if it has nothing to show.
 ///
 /// # Errors
-/// [`RobotError`] if the robot cannot be read, and for a configuration that is not one of it.
+/// [`RobotError`] if the robot cannot be read, for a configuration that is not one of it, and after a cancellation: very
+/// many triangles, each as large as the picture, take hours.
 pub fn png(
     robot: &Robot,
     configuration: &[f64],
     drawing: &Drawing,
+    cancellation: &Cancellation,
 ) -> Result<Option<Vec<u8>>, RobotError> {
     let axes = axes(drawing.from);
     let poses = robot.link_poses(configuration)?;
@@ -73,13 +76,14 @@ pub fn png(
     }
     let size = drawing.size.map(|side| side.clamp(1, MAX_SIDE));
     let [width, height] = size.map(|side| side as usize);
-    Ok(drawn(&facets, width, height).and_then(|pixels| encoded(&pixels, size)))
+    let pixels = drawn(&facets, width, height, cancellation)?;
+    Ok(pixels.and_then(|pixels| encoded(&pixels, size)))
 }
 
 /// The picture of a robot on its card; `None` if it has nothing to show, or cannot be read.
-pub(crate) fn card(robot: &Robot) -> Option<Vec<u8>> {
+pub(crate) fn card(robot: &Robot, cancellation: &Cancellation) -> Option<Vec<u8>> {
     let zero = robot.configurations().ok()?.zero();
-    png(robot, &zero, &Drawing::default()).ok().flatten()
+    png(robot, &zero, &Drawing::default(), cancellation).ok().flatten()
 }
 
 /// The plain meshes, or what the URDF says where a URDD has none.
@@ -108,16 +112,21 @@ fn in_picture(
 }
 
 /// Red, green, blue and opacity of each pixel, in rows from the top.
-fn drawn(facets: &[Facet], columns: usize, rows: usize) -> Option<Vec<u8>> {
+fn drawn(
+    facets: &[Facet],
+    columns: usize,
+    rows: usize,
+    cancellation: &Cancellation,
+) -> Result<Option<Vec<u8>>, Cancelled> {
     let corners = || facets.iter().flat_map(|facet| facet.corners);
-    let low = corners().reduce(|a, b| a.inf(&b))?;
-    let high = corners().reduce(|a, b| a.sup(&b))?;
+    let ends = (corners().reduce(|a, b| a.inf(&b)), corners().reduce(|a, b| a.sup(&b)));
+    let (Some(low), Some(high)) = ends else { return Ok(None) };
     let (width, height) = (columns * FINER, rows * FINER);
     let room = 1.0 - 2.0 * MARGIN;
     let size = high - low;
     let scale = (room * width as f64 / size.x).min(room * height as f64 / size.y);
     if !scale.is_finite() {
-        return None;
+        return Ok(None);
     }
     let middle = (low + high) / 2.0;
     let mut depth = vec![f64::NEG_INFINITY; width * height];
@@ -126,6 +135,7 @@ fn drawn(facets: &[Facet], columns: usize, rows: usize) -> Option<Vec<u8>> {
     let mut colors = Vec::with_capacity(facets.len());
     let light = Vector3::new(0.35, 0.55, 0.76);
     for (number, facet) in facets.iter().enumerate() {
+        cancellation.check()?;
         colors.push([0.0; 3]);
         let place = |corner: &Vector3<f64>| {
             [
@@ -187,7 +197,7 @@ fn drawn(facets: &[Facet], columns: usize, rows: usize) -> Option<Vec<u8>> {
             pixels.push(byte(seen / (FINER * FINER) as f64));
         }
     }
-    Some(pixels)
+    Ok(Some(pixels))
 }
 
 /// Gamma correction, close to sRGB. A square root has the same result on every machine.
@@ -230,7 +240,8 @@ mod tests {
                 .flatten()
                 .map(|facet| Facet { corners: facet.corners, color: facet.color })
                 .collect();
-            let pixels = drawn(&facets, WIDTH, HEIGHT).expect("a picture");
+            let pixels = drawn(&facets, WIDTH, HEIGHT, &Cancellation::default());
+            let pixels = pixels.expect("not cancelled").expect("a picture");
             let at = |x: usize, y: usize| &pixels[4 * (y * WIDTH + x)..][..4];
             let middle = at(WIDTH / 2, HEIGHT / 2);
             // Facing the viewer: the z component of the light's direction.
@@ -244,7 +255,16 @@ mod tests {
             assert_eq!(at(WIDTH / 2, 120 - 104)[3], 255);
             assert_eq!(at(WIDTH / 2, 120 - 108)[3], 0);
         }
-        assert_eq!(drawn(&[], WIDTH, HEIGHT), None);
+        assert_eq!(drawn(&[], WIDTH, HEIGHT, &Cancellation::default()), Ok(None));
+    }
+
+    #[test]
+    fn a_cancelled_picture_ends() {
+        let corners = [(0., 0.), (1., 0.), (0., 1.)].map(|(x, y)| Vector3::new(x, y, 0.0));
+        let facets = [Facet { corners, color: PLAIN }];
+        let cancellation = Cancellation::default();
+        cancellation.cancel();
+        assert_eq!(drawn(&facets, WIDTH, HEIGHT, &cancellation), Err(Cancelled));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::collection::{Collection, Making, Shown};
 use crate::reply::{Body, Reply};
 use crate::report::report_of;
 use crate::{assets, drops, picture, revision};
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
 
@@ -239,7 +240,7 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
         return picture.clone();
     }
     // A robot that cannot be drawn has no picture. The page shows the reason.
-    let drawn = picture::card(&opened.robot);
+    let drawn = picture::card(&opened.robot, &Cancellation::default());
     *known = Some((revision, drawn.clone()));
     drawn
 }

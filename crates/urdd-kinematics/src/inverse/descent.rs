@@ -329,21 +329,49 @@ impl<'a> Descend<'a> for Descent<'a> {
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>> {
         self.left(q);
         self.linearise(q);
-        let dofs = self.path.dofs.iter();
-        let mut free: Vec<f64> = dofs.map(|dof| posture[*dof] - q[*dof]).collect();
-        // So small that what the goal needs is kept, and so large that directions which it leaves free, and singular ones,
-        // have no part in it.
-        let trace: f64 = self.jacobian.iter().map(|column| column.norm_squared()).sum();
-        let mut matrix = Matrix6::from_diagonal_element(1e-10 * trace + f64::MIN_POSITIVE);
-        let mut moved = Vector6::zeros();
-        for (column, change) in self.jacobian.iter().zip(&free) {
-            matrix.ger(1.0, column, column, 1.0);
-            moved += column * *change;
+        let Self { path, jacobian, free: moves, .. } = self;
+        moves.clear();
+        moves.resize(jacobian.len(), true);
+        let mut wanted: Vec<f64> = path.dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
+        // The DOF that would leave its bounds by most goes to the bound, and the others are asked again: without it, what
+        // made up for it may stay within.
+        loop {
+            let free = way(jacobian, moves, &wanted)?;
+            let mut farthest = None;
+            let mut most = 0.0;
+            for (k, change) in free.iter().enumerate() {
+                let [lower, upper] = path.bounds(k).map(|bound| bound - q[path.dofs[k]]);
+                let room = change.max(lower).min(upper);
+                let beyond = (change - room).abs();
+                if moves[k] && path.kinds[k] == RangeKind::Bounded && beyond > most {
+                    (farthest, most) = (Some((k, room)), beyond);
+                }
+            }
+            let Some((k, room)) = farthest else { return Some(free) };
+            (moves[k], wanted[k]) = (false, room);
         }
-        let needed = matrix.cholesky()?.solve(&moved);
-        for (change, column) in free.iter_mut().zip(&self.jacobian) {
-            *change -= column.dot(&needed);
-        }
-        Some(free)
     }
+}
+
+/// The part of the wanted changes that keeps the goal: of DOFs that do not move by it, all; the others make up for them.
+fn way(jacobian: &[Vector6<f64>], moves: &[bool], wanted: &[f64]) -> Option<Vec<f64>> {
+    let mut free = wanted.to_vec();
+    let trace: f64 = jacobian.iter().map(|column| column.norm_squared()).sum();
+    // So small that what the goal needs is kept, and so large that directions which it leaves free, and singular ones,
+    // have no part in it.
+    let mut matrix = Matrix6::from_diagonal_element(1e-10 * trace + f64::MIN_POSITIVE);
+    let mut moved = Vector6::zeros();
+    for ((column, moves), change) in jacobian.iter().zip(moves).zip(wanted) {
+        if *moves {
+            matrix.ger(1.0, column, column, 1.0);
+        }
+        moved += column * *change;
+    }
+    let needed = matrix.cholesky()?.solve(&moved);
+    for ((change, column), _) in
+        free.iter_mut().zip(jacobian).zip(moves).filter(|(_, moves)| **moves)
+    {
+        *change -= column.dot(&needed);
+    }
+    Some(free)
 }

@@ -489,3 +489,51 @@ fn solutions_that_are_refused() {
     assert_eq!(refused.verdict, Verdict::Refused);
     assert!(refused.position_error < 1e-6, "{refused:?}");
 }
+
+/// The short slide wants out of its bounds on the way to the posture: it ends at a bound, and the others make up for it.
+#[test]
+fn what_a_posture_wants_out_of_bounds_ends_at_the_bound() {
+    const REACHING: &str = r#"<robot name="reaching">
+  <link name="base"/><link name="upper"/><link name="fore"/><link name="boom"/><link name="tip"/>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.5 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="0" upper="2.5" effort="1" velocity="1"/></joint>
+  <joint name="long" type="prismatic"><parent link="fore"/><child link="boom"/><origin xyz="0.2 0 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>
+  <joint name="short" type="prismatic"><parent link="boom"/><child link="tip"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.04" effort="1" velocity="1"/></joint>
+</robot>"#;
+    let (_folder, path) = made_of(REACHING);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    for posture in [[0.4, 0.9, 0.0, -2.0], [-0.5, 1.2, 0.1, 3.0], [1.0, 0.3, 0.25, 0.5]] {
+        let settings =
+            InverseSettings { posture: Some(posture.to_vec()), ..InverseSettings::default() };
+        for [x, y] in [[0.6, 0.3], [0.4, -0.5], [0.2, 0.6]] {
+            let target = Target::position(tip, [x, y, 0.0]);
+            let found = robot.inverse_kinematics(&target, &[0.0, 1.0, 0.1, 0.02], &settings);
+            let found = found.unwrap().reached().expect("within reach");
+            // On a grid of both slides, the law of cosines.
+            let away = |q: &[f64]| -> f64 {
+                q.iter().zip(&posture).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+            };
+            let slides = (0..=3000).flat_map(|k| (0..=4).map(move |j| (k, j)));
+            let least = slides.filter_map(|(k, j)| {
+                let (long, short) = (1e-4 * f64::from(k), 0.01 * f64::from(j));
+                let (reach, fore) = (f64::hypot(x, y), 0.2 + long + short);
+                let cosine = (reach * reach - 0.25 - fore * fore) / fore;
+                let elbow = (cosine.abs() <= 1.0).then(|| cosine.acos())?;
+                let shoulder =
+                    f64::atan2(y, x) - f64::atan2(fore * elbow.sin(), 0.5 + fore * elbow.cos());
+                let q = [shoulder, elbow, long, short];
+                (elbow <= 2.5 && shoulder.abs() <= 3.0).then(|| away(&q))
+            });
+            let least = least.fold(f64::INFINITY, f64::min);
+            let own = away(&found.configuration);
+            assert!(own <= least * (1.0 + 1e-4), "{posture:?}, {x}, {y}: {own}, {least}");
+            let descents = found.restarts + 2;
+            assert!(found.iterations <= 25 * descents, "{} of {descents}", found.iterations);
+        }
+    }
+}
