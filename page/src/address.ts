@@ -135,7 +135,7 @@ export class Address {
     const { store, site } = app;
     if (source.kind === "files")
       throw new Error(
-        "This is no robot: there is no URDF, MJCF or SDF here, and no URDD (a folder with urdd.json or a module such as urdf_module/module.json).",
+        "This is no robot: there is no URDF, MJCF, SDF or USD here, and no URDD (a folder with urdd.json or a module such as urdf_module/module.json).",
       );
     if (source.kind !== "description") {
       this.close();

@@ -7,9 +7,9 @@ import type { Given } from "./here/protocol";
 
 /** The files that a description or a mesh may name. */
 const OF_ROBOT =
-  /\.(?:urdf|xacro|xml|sdf|mjcf|world|srdf|config|toml|ya?ml|stl|dae|obj|mtl|ply|msh|glb|gltf|bin|png|jpe?g|tga|bmp|dds|gif|tiff?|webp|hdr|exr|ktx2|ppm|pgm)$/i;
+  /\.(?:urdf|xacro|xml|sdf|mjcf|world|usd[acz]?|srdf|config|toml|ya?ml|stl|dae|obj|mtl|ply|msh|glb|gltf|bin|png|jpe?g|tga|bmp|dds|gif|tiff?|webp|hdr|exr|ktx2|ppm|pgm)$/i;
 /** Files that may be a description; whether one is, its content says. */
-export const MAY_DESCRIBE = /\.(?:urdf|xacro|xml|sdf|mjcf|world)$/i;
+export const MAY_DESCRIBE = /\.(?:urdf|xacro|xml|sdf|mjcf|world|usd[acz]?)$/i;
 const IS_XACRO = /\.xacro$/i;
 const IS_ZIP = /\.zip$/i;
 

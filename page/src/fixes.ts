@@ -4,6 +4,7 @@ import type { App } from "./app";
 import { Lines, apply, changesOf } from "./edits";
 import type { Fix } from "./edits";
 import type { Place } from "./findings";
+import { ofText } from "./here/draft";
 import type { Draft } from "./here/draft";
 
 /** The name of the draft's file. */
@@ -16,7 +17,7 @@ export function isDraft(draft: Draft, file: string | null): boolean {
   return file !== null && (file === draft.path || file === fileName(draft));
 }
 
-/** Whether fixes of the report are for the draft: those of MJCF and SDF are for the URDF that an import makes. */
+/** Whether fixes of the report are for the draft: those of MJCF, SDF and USD are for the URDF that an import makes. */
 export function hasFixes({ format }: Draft): boolean {
   return format === "urdf";
 }
@@ -30,7 +31,8 @@ export function fixesOf(draft: Draft | null, { fixes = [] }: Place): Fix[] {
 
 /** Makes a fix of the report in the draft. */
 export function mend(app: App, fix: Fix): void {
-  const { draft, report } = app.store.now;
+  const { report } = app.store.now;
+  const draft = ofText(app.store.now.draft);
   if (!draft || !app.drafting) return;
   const isOld = report.report?.text !== draft.text;
   const changes = isOld ? null : changesOf(fix, new Lines(draft.text), (file) => isDraft(draft, file));

@@ -5,6 +5,7 @@ import type { LoopErrors, ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAns
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
+import { ofText } from "./here/draft";
 import type { Draft } from "./here/draft";
 import type { Entry, Part, RobotModel } from "./model";
 import type { Obstacle } from "./showing";
@@ -91,7 +92,7 @@ export type Tab = (typeof TABS)[number];
 
 /** Whether a tab can be chosen. */
 export function hasTab(tab: Tab, { draft }: Readonly<State>): boolean {
-  return tab !== "Text" || draft !== null;
+  return tab !== "Text" || ofText(draft) !== null;
 }
 
 /** Tabs in which a pair can be selected; other tabs clear the selection. */
@@ -146,7 +147,7 @@ export interface State {
   report: { report: Report | null; error: string | null; busy: string | null };
   /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];
-  /** Files that the MJCF or SDF names, and that are not there. */
+  /** Files that the MJCF, SDF or USD names, and that are not there. */
   wanted: readonly string[];
   /** The drop that is being read, in words. */
   taking: string | null;

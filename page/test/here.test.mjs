@@ -106,6 +106,26 @@ inPage(set, "an MJCF and an SDF become robots, and files for other programs are 
   assert.equal(report.urdds[0].imported.format, "sdf");
 });
 
+inPage(set, "a USD of several layers becomes a robot, and one that is no text has no tab for it", async (page) => {
+  await dropped(page, join(repository, "examples/usd"));
+  const draft = await state(page, "draft", (draft) => draft?.format === "usd");
+  assert.ok(draft.text.startsWith("#usda"));
+  const { about } = await state(page, "robot", (robot) => robot !== null && robot.entry.making === null);
+  assert.equal(about.links.length, 7);
+  await page.getByRole("tab", { name: "Text" }).waitFor();
+  await page.getByRole("button", { name: "All robots" }).click();
+  await dropOn(page, join(repository, "crates/urdd-usd/tests/fixtures/arm.usdz"));
+  const binary = await state(page, "draft", (draft) => draft?.path.endsWith("arm.usdz"));
+  assert.equal(binary.text, null);
+  const { about: arm } = await state(page, "robot", (robot) => robot?.entry.name === "arm" && robot.entry.making === null);
+  assert.deepEqual(arm.links.map(({ name }) => name), ["base", "upper"]);
+  assert.equal(await page.getByRole("tab", { name: "Text" }).isVisible(), false);
+  await click(page, "Save…")();
+  assert.equal(await page.getByRole("button", { name: "Save arm.usdz" }).isVisible(), false);
+  const folder = await saved(page, click(page, "Save as URDF, with meshes"));
+  assert.ok(readdirSync(folder).some((name) => name.endsWith(".urdf")));
+});
+
 inPage(
   set,
   "several robots are cards, of a folder and of a .zip; a xacro file is told how to expand it",

@@ -79,7 +79,7 @@ pub fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result
 /// The name of the URDF, the files with it, by path, and the report as JSON.
 type Made<'py> = (String, Vec<(String, Bound<'py, PyBytes>)>, String);
 
-/// What an MJCF or SDF becomes, in memory.
+/// What an MJCF, SDF or USD becomes, in memory.
 #[pyfunction]
 pub fn import_robot<'py>(py: Python<'py>, file: PathBuf, source: Source) -> PyResult<Made<'py>> {
     let settings = source.settings().map_err(PyValueError::new_err)?;

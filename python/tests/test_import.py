@@ -1,9 +1,10 @@
-"""MJCF and SDF as sources."""
+"""MJCF, SDF and USD as sources."""
 
 import os
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import urdd
@@ -22,6 +23,19 @@ def test_an_mjcf_is_written_and_generated(tmp_path: Path) -> None:
     robot = made.load()
     # The qpos of the keyframe; the right finger follows.
     assert list(robot.named_configurations["home"]) == [0.0, -0.6, 1.4, 0.8, 0.0, 0.02]
+
+
+def test_a_usd_of_several_layers_is_written_and_generated(tmp_path: Path) -> None:
+    scara = EXAMPLES / "usd" / "scara.usda"
+    imported = urdd.import_robot(scara, tmp_path / "scara")
+    assert imported.report["format"] == "usd"
+    assert {path.name for path in imported.files} >= {"scara.urdf", "scara.srdf", "scara.export.toml"}
+    robot = urdd.generate(scara, tmp_path / "urdd", modules=["core"]).load()
+    assert robot.dof_names == ("shoulder", "elbow", "lift", "spin", "left_grip")
+    # Where the stage has the fingers: one is turned by half a turn.
+    right = robot.link_pose(robot.zero, "right_finger")
+    np.testing.assert_allclose(right[:3, 3], [0.55, -0.004, 0.17], atol=1e-6)
+    np.testing.assert_allclose(right[:3, 0], [-1, 0, 0], atol=1e-6)
 
 
 def test_files_of_a_person_stay(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ const DIFFERENT: u8 = 1;
     Exit status: 0 no difference; 1 different; 2 usage error, or one of the robots could not be read."
 )]
 pub struct DiffArguments {
-    /// The robot before: a URDF, a xacro file, an MJCF or SDF, or a URDD (a folder or a zip archive).
+    /// The robot before: a URDF, a xacro file, an MJCF, SDF or USD, or a URDD (a folder or a zip archive).
     #[arg(value_name = "A")]
     before: PathBuf,
 

@@ -26,7 +26,7 @@ const MOST_NOTES: usize = 5;
     Exit status: 0 drawn; 2 nothing was written."
 )]
 pub struct PictureArguments {
-    /// A URDD: a folder or a zip archive; or a URDF, xacro file, MJCF or SDF. `name:=value` is an argument for xacro.
+    /// A URDD: a folder or a zip archive; or a URDF, xacro file, MJCF, SDF or USD. `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "ROBOT")]
     paths: Vec<PathBuf>,
 

@@ -33,12 +33,12 @@ pub(super) struct PackageArguments {
     #[arg(long, value_name = "NAME")]
     model: Option<String>,
 
-    /// How a ball joint of an MJCF or SDF is written: as a spherical joint, which few programs read, or as three revolute
+    /// How a ball joint of an MJCF, SDF or USD is written: as a spherical joint, which few programs read, or as three revolute
     /// joints.
     #[arg(long, value_enum, default_value_t = Ball::Spherical, value_name = "JOINTS")]
     ball: Ball,
 
-    /// The mass of the links between several joints of one body of an MJCF or SDF: none, or 1e-9 kg and 1e-9 kg m², which
+    /// The mass of the links between several joints of one body of an MJCF, SDF or USD: none, or 1e-9 kg and 1e-9 kg m², which
     /// MuJoCo asks of what moves.
     #[arg(long, value_enum, default_value_t = Massless::None, value_name = "MASS")]
     massless: Massless,

@@ -1,4 +1,4 @@
-//! MJCF and SDF as sources, from outside.
+//! MJCF, SDF and USD as sources, from outside.
 
 use std::fs;
 use std::path::Path;
@@ -138,6 +138,51 @@ fn an_sdf_is_compared_linted_and_generated_as_the_urdf_that_it_becomes() {
     assert_eq!(status, 0, "{said}");
     let (status, out, _) = urdd(&["validate", "made"], folder.path());
     assert!(status == 0 && out.contains("0 findings"), "{out}");
+}
+
+#[test]
+fn a_usd_of_a_folder_is_read_with_its_layers_and_handed_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Of the folder, which has the layers of the robot too.
+    let (status, _, said) = urdd(&["generate", &example("usd"), "-o", "made"], folder.path());
+    assert_eq!(status, 0, "{said}");
+    let (status, out, _) = urdd(&["validate", "made"], folder.path());
+    assert!(status == 0 && out.contains("0 findings"), "{out}");
+    let origin = &json(&folder.path().join("made/scara/urdd.json"))["source"]["x_urdd_imported"];
+    assert_eq!(origin["format"], "usd");
+    let files: Vec<&str> = origin["files"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|file| file["name"].as_str())
+        .collect();
+    assert_eq!(files, ["scara.usda", "scara_links.usda", "finger.usda"]);
+    let bounds = json(&folder.path().join("made/scara/bounds_module/module.json"));
+    let degrees = |one: f64| one.to_radians();
+    let expected = [
+        [degrees(-130.0), degrees(130.0)],
+        [degrees(-145.0), degrees(145.0)],
+        [-0.18, 0.0],
+        [degrees(-180.0), degrees(180.0)],
+        [0.0, 0.03],
+    ];
+    for (k, range) in expected.iter().enumerate() {
+        for (side, bound) in range.iter().enumerate() {
+            let found = bounds["bounds"][k][side].as_f64().expect("a number");
+            assert!((found - bound).abs() < 1e-7, "{k}: {found} for {bound}");
+        }
+    }
+    let (status, _, said) = urdd(
+        &["export", "mjcf", "made/scara", "-o", "scara.xml", "--actuators", "position"],
+        folder.path(),
+    );
+    assert_eq!(status, 0, "{said}");
+    let mjcf = fs::read_to_string(folder.path().join("scara.xml")).expect("a file");
+    // 12 a degree.
+    assert!(mjcf.contains("joint=\"shoulder\"") && mjcf.contains("687.549"), "{mjcf}");
+    let (status, _, said) =
+        urdd(&["export", "moveit", "made/scara", "-o", "moveit"], folder.path());
+    assert_eq!(status, 0, "{said}");
 }
 
 #[test]

@@ -197,7 +197,7 @@ fn only_urdd_xml_names_the_parser_of_xml() {
 /// Who reads files around descriptions, beside what they name.
 const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
-    ("crates/urdd-import/src/imported.rs", "the description itself; 64 MiB"),
+    ("crates/urdd-import/src/imported.rs", "the description itself; 64 MiB, a USD 512 MiB"),
     ("crates/urdd-lint/src/lib.rs", "the xacro file that a person names, to show it; 64 MiB"),
     ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),
     (
@@ -214,6 +214,7 @@ const NAMED_FILES: &[(&str, &str)] = &[
         "what says of loops, which a person names, or beside the URDF; 1 MiB",
     ),
     ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
+    ("crates/urdd-source/src/usd_layers.rs", "USDs in a folder that a person names; 512 MiB"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
     ("wasm/src/files.rs", "what was given to the page, for the page"),
     ("wasm/src/mesh.rs", "a mesh that was given to the page, for its picture"),

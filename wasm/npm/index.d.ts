@@ -281,7 +281,7 @@ export class Urdd {
   /** The robot descriptions among files. A xacro file is a program, which has to be expanded first. */
   descriptions(source: Source): Promise<Description[]>;
   /**
-   * A URDD of a URDF, MJCF or SDF, as `urdd generate` makes it: a source for `validate`, `robot` and `export`. It takes
+   * A URDD of a URDF, MJCF, SDF or USD, as `urdd generate` makes it: a source for `validate`, `robot` and `export`. It takes
    * seconds to a minute on the calling thread: use a worker. The same description gives the same bytes here, and
    * within SPEC's tolerances those of the program.
    */
@@ -290,7 +290,7 @@ export class Urdd {
     options?: GenerateOptions,
     progress?: (progress: Progress) => void,
   ): Promise<Generated>;
-  /** The URDF of an MJCF or SDF, with its meshes, an SRDF and an `export.toml`, as `urdd import` writes them. */
+  /** The URDF of an MJCF, SDF or USD, with its meshes, an SRDF and an `export.toml`, as `urdd import` writes them. */
   importRobot(
     source: Source,
     options?: ImportOptions & { path?: string },

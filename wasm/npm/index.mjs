@@ -128,7 +128,7 @@ export class Urdd {
 /** The description that is meant where none is named. */
 function theOnly(found) {
   const [one, ...more] = found.filter(({ format }) => format !== "xacro");
-  if (!one) throw new Error("there is no URDF, MJCF or SDF among the files");
+  if (!one) throw new Error("there is no URDF, MJCF, SDF or USD among the files");
   if (more.length > 0)
     throw new Error(
       `there are several descriptions, such as \`${one.path}\` and \`${more[0].path}\`: name one as \`path\``,

@@ -152,7 +152,7 @@ export class Urdd {
     );
   }
 
-  /** The URDF of an MJCF or SDF among files, likewise. */
+  /** The URDF of an MJCF, SDF or USD among files, likewise. */
   importRobot(files, question) {
     return this.#asked(question, (...words) =>
       this.exports.urdd_import(files, ...words),

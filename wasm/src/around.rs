@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use urdd_directory::file_type::FileType;
 use urdd_directory::listing::EntryKind;
 use urdd_source::dropped::PackageFolders;
 use urdd_source::{Files as Around, MAX_SOURCE_BYTES, Packages, Settings};
@@ -73,10 +74,14 @@ impl GivenFiles {
         if !self.paths.iter().any(|known| known == path) {
             return Err(format!("there is no file `{}`", path.escape_debug()));
         }
+        let mut packages = Packages::none();
+        // A USD names files beside it.
+        if FileType::Usd.is_of(Path::new(path)) {
+            return Ok(Settings { packages, files: self.files.clone(), ..Settings::default() });
+        }
         let text = self.files.read(&self.place(path), MAX_SOURCE_BYTES);
         let text = text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
         let folders = PackageFolders::of(self.paths.iter().map(|path| &**path).collect());
-        let mut packages = Packages::none();
         for (name, folder) in folders.of_text(&String::from_utf8_lossy(&text), self.is_searched) {
             packages.put(name, self.place(&folder));
         }

@@ -18,7 +18,7 @@ use crate::{answer, import, memory};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Question {
-    /// The path of the URDF, MJCF or SDF.
+    /// The path of the URDF, MJCF, SDF or USD.
     path: String,
     modules: Option<Vec<String>>,
     geometry: Option<Geometry>,

@@ -1,4 +1,4 @@
-//! The descriptions among files, and a URDF of an MJCF or SDF.
+//! The descriptions among files, and a URDF of an MJCF, SDF or USD.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -47,7 +47,7 @@ pub fn options(
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Question {
-    /// The path of the MJCF or SDF.
+    /// The path of the MJCF, SDF or USD.
     path: String,
     body: Option<String>,
     model: Option<String>,
@@ -55,7 +55,7 @@ struct Question {
     massless: Option<Massless>,
 }
 
-/// Imports an MJCF or SDF among these files. The question is a [`Question`] as JSON. The answer has the address of `files`
+/// Imports an MJCF, SDF or USD among these files. The question is a [`Question`] as JSON. The answer has the address of `files`
 /// (the URDF, its meshes, `NAME.srdf`, `NAME.export.toml`), the path of the `urdf` there, and the `report`.
 ///
 /// # Safety
@@ -85,7 +85,7 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
     Ok(json!({ "files": files, "urdf": imported.urdf, "report": report }))
 }
 
-/// The descriptions among these files: `path`, `name` and `format` (`urdf`, `xacro`, `mjcf`, `sdf`) of each.
+/// The descriptions among these files: `path`, `name` and `format` (`urdf`, `xacro`, `mjcf`, `sdf`, `usd`) of each.
 ///
 /// # Safety
 /// `files` is open.

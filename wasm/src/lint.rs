@@ -18,7 +18,7 @@ use crate::{answer, memory};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Question {
-    /// The path of the URDF, MJCF or SDF; it may be left out where there is one URDF alone.
+    /// The path of the URDF, MJCF, SDF or USD; it may be left out where there is one URDF alone.
     urdf: Option<String>,
     /// The programs that it is for.
     #[serde(default, rename = "for")]

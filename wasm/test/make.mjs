@@ -133,8 +133,8 @@ try {
     const again = urdd.generate(all, { path: `${name}.urdf` }, generated.files);
     near(files(again.files), content);
   }
-  for (const kind of ["mjcf", "sdf"]) {
-    const [file] = readdirSync(`examples/${kind}`).filter((name) => /\.(?:xml|sdf)$/.test(name) && name !== "scene.xml");
+  for (const kind of ["mjcf", "sdf", "usd"]) {
+    const [file] = readdirSync(`examples/${kind}`).filter((name) => /\.(?:xml|sdf|usda)$/.test(name) && name !== "scene.xml");
     const target = join(made, `imported_${kind}`);
     run("import", `examples/${kind}/${file}`, "-o", target);
     const imported = urdd.importRobot(urdd.files("", folder(`examples/${kind}`)), { path: file });

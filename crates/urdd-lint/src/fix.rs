@@ -89,7 +89,7 @@ fn mended(
 ) -> Option<Mended> {
     let read =
         urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
-    // Fixes of an MJCF or SDF are for the URDF that an import makes of it.
+    // Fixes of an MJCF, SDF or USD are for the URDF that an import makes of it.
     if Format::of(&read.text).is_some() || read.trail.is_some() {
         return None;
     }

@@ -51,7 +51,8 @@ impl DroppedKind {
 }
 
 /// The descriptions among files in memory, in the order of their paths; none of files on a disk. Hidden folders are passed
-/// over, and URDDs, a `.urdf.xacro` beside its `.urdf` or without a robot, and an MJCF that is a part of another.
+/// over, and URDDs, a `.urdf.xacro` beside its `.urdf` or without a robot, and an MJCF or USD that is a part of
+/// another.
 pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let Files::Memory(all) = files else {
         return Vec::new();
@@ -193,6 +194,14 @@ mod tests {
             ("b/legs.xml", "<mujoco/>"),
             ("b/package.xml", "<package/>"),
             ("c/model.sdf", "<sdf version='1.7'><model name='m'/></sdf>"),
+            ("d/arm.usda", "#usda 1.0\n(subLayers = [@parts/base.usda@, @../b/none.usda@])\n"),
+            (
+                "d/parts/base.usda",
+                "#usda 1.0\ndef \"b\" (prepend apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}\n",
+            ),
+            ("d/table.usda", "#usda 1.0\ndef Cube \"c\" (references = @parts/look.usda@) {}\n"),
+            ("d/parts/look.usda", "#usda 1.0\ndef Material \"m\" {}\n"),
+            ("d/broken.usda", "#usda 1.0\ndef {\n"),
             ("c/lamp.sdf", "<sdf version='1.7'><light name='l'/></sdf>"),
             ("c/model.config", "<model/>"),
             ("made/urdd.json", "{}"),
@@ -209,6 +218,8 @@ mod tests {
             ("hand", "/a/urdf/hand.urdf.xacro", "xacro"),
             ("robot", "/b/robot.xml", "mjcf"),
             ("model", "/c/model.sdf", "sdf"),
+            ("arm", "/d/arm.usda", "usd"),
+            ("broken", "/d/broken.usda", "usd"),
         ];
         let expected = expected.map(|(name, path, kind)| (name, path.into(), kind));
         assert_eq!(found, expected);

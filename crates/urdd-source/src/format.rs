@@ -7,6 +7,7 @@ use urdd_directory::file_type::FileType;
 use urdd_xml::{Mended, parse_leniently, root_name};
 
 use super::files::{Files, MAX_SOURCE_BYTES};
+use super::usd_layers::layers_of_others;
 
 /// How many bytes at the start of a file are searched for its outermost element.
 const HEAD: u64 = 1 << 20;
@@ -86,18 +87,22 @@ pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
 /// The format of a file of a folder that is imported, by its extension and its content.
 pub(crate) fn imported(file: &Path, files: &Files) -> Option<Format> {
     match FileType::of(file)? {
-        FileType::Xml | FileType::Sdf | FileType::Mjcf => format_of(file, files),
+        FileType::Xml | FileType::Sdf | FileType::Mjcf => Format::of_root(&root_of(file, files)?),
+        FileType::Usd => is_usd_file(file, files).then_some(Format::Usd),
         _ => None,
     }
 }
 
-/// The files among some that are imported and are no robots: MJCFs that one of them includes, or without bodies, and SDFs
-/// without models.
+/// The files among some that are imported and are no robots: MJCFs that one of them includes, or without bodies, SDFs
+/// without models, and USDs that are layers of others, or without bodies.
 pub(crate) fn parts_of_others<'p>(
     sources: impl Iterator<Item = &'p Path>,
     files: &Files,
 ) -> HashSet<PathBuf> {
-    sources.flat_map(|source| parts_of(source, files).unwrap_or_default()).collect()
+    let (usds, others): (Vec<&Path>, Vec<&Path>) =
+        sources.partition(|source| FileType::Usd.is_of(source));
+    let others = others.into_iter().flat_map(|source| parts_of(source, files).unwrap_or_default());
+    others.chain(layers_of_others(&usds, files)).collect()
 }
 
 fn parts_of(source: &Path, files: &Files) -> Option<Vec<PathBuf>> {

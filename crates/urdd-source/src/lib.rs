@@ -46,6 +46,7 @@ pub mod sniff;
 mod tests;
 mod tree;
 pub mod urdf;
+mod usd_layers;
 mod watch;
 pub mod written;
 mod xacro;

@@ -63,10 +63,10 @@ pub enum BatchError {
         "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
     TooDeep { path: String },
-    #[error("{path}: there is no .urdf or .xacro file, and no MJCF or SDF, at any depth")]
+    #[error("{path}: there is no .urdf or .xacro file, and no MJCF, SDF or USD, at any depth")]
     Empty { path: String },
     #[error(
-        "{path}: there is no .urdf or .xacro file, and no MJCF or SDF, but in folders that colcon passes over too: `{folder}` has a file `{mark}`; give that folder itself"
+        "{path}: there is no .urdf or .xacro file, and no MJCF, SDF or USD, but in folders that colcon passes over too: `{folder}` has a file `{mark}`; give that folder itself"
     )]
     Ignored { path: String, folder: String, mark: &'static str },
     #[error(
@@ -74,7 +74,7 @@ pub enum BatchError {
     )]
     OnlyParts { path: String, files: usize },
     #[error(
-        "{path}: this is a URDD, or has only URDDs in it: `urdd validate` checks these; here, give the URDF, xacro, MJCF or SDF file that it was made of"
+        "{path}: this is a URDD, or has only URDDs in it: `urdd validate` checks these; here, give the URDF, xacro, MJCF, SDF or USD file that it was made of"
     )]
     Urdd { path: String },
 }
@@ -169,8 +169,8 @@ impl Batch {
 }
 
 /// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.xacro` that is a
-/// robot and without a `.urdf` of its name beside it; one without these, for every SDF, and for every MJCF that is no part of
-/// another. The search skips hidden folders, those that colcon skips (`COLCON_IGNORE`), symbolic links to folders, and URDDs,
+/// robot and without a `.urdf` of its name beside it; one without these, for every SDF, and for every MJCF or USD that is no
+/// part of another. The search skips hidden folders, those that colcon skips (`COLCON_IGNORE`), symbolic links to folders, and URDDs,
 /// which contain copies of their URDFs. Duplicate paths count once.
 ///
 /// Each robot is named after its file, without the extension. Where names collide, as many parent folder names as
@@ -293,7 +293,7 @@ struct Found {
     ignored: Option<(PathBuf, &'static str)>,
 }
 
-/// The MJCFs and SDFs among files, without those that are parts of others.
+/// The MJCFs, SDFs and USDs among files, without those that are parts of others.
 fn others(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     files.retain(|file| imported(file, &Files::Disk).is_some());
     let parts = parts_of_others(files.iter().map(PathBuf::as_path), &Files::Disk);
@@ -339,7 +339,9 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
         match FileType::of(&path) {
             Some(FileType::Urdf) => found.urdfs.push(path),
             Some(FileType::Xacro) if !expansion(&path).is_file() => found.urdfs.push(path),
-            Some(FileType::Xml | FileType::Sdf | FileType::Mjcf) => found.others.push(path),
+            Some(FileType::Xml | FileType::Sdf | FileType::Mjcf | FileType::Usd) => {
+                found.others.push(path);
+            }
             _ => {}
         }
     }

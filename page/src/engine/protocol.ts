@@ -352,7 +352,7 @@ export interface UrddReport {
   model_not_verified: { codes: string[]; reasons: string[] } | null;
   /** What programs do with a URDF; empty for a URDD. */
   programs: ProgramResult[];
-  /** The MJCF or SDF that the URDF was imported from; null if it was written as a URDF. */
+  /** The MJCF, SDF or USD that the URDF was imported from; null if it was written as a URDF. */
   imported: ImportedFrom | null;
   modules: { name: string; path: string; version: string | null; profile: string | null }[];
 }
@@ -382,7 +382,7 @@ export interface Explanation {
 export interface Description {
   path: string;
   name: string;
-  format: "urdf" | "xacro" | "mjcf" | "sdf";
+  format: "urdf" | "xacro" | "mjcf" | "sdf" | "usd";
 }
 
 export interface FileEntry {

@@ -6,10 +6,18 @@ export interface Draft {
   /** Its path among the dropped files. */
   path: string;
   format: Exclude<Description["format"], "xacro">;
-  /** The text as it is now. */
-  text: string;
+  /** The text as it is now; null of a binary file. */
+  text: string | null;
   /** Whether it differs from what was dropped, or saved last. */
   isChanged: boolean;
+}
+
+/** A draft that is a text. */
+export type TextDraft = Draft & { text: string };
+
+/** The draft, if it is a text. */
+export function ofText(draft: Draft | null): TextDraft | null {
+  return draft && draft.text !== null ? { ...draft, text: draft.text } : null;
 }
 
 /** What the page does with a changed text. */

@@ -6,6 +6,7 @@ import type { Report } from "../engine/protocol";
 import type { RobotSource } from "../engine/calls";
 import { Latest } from "../latest";
 import type { Entry } from "../model";
+import { ofText } from "./draft";
 import type { Draft, Drafting } from "./draft";
 import type { Keeper } from "./keeper";
 import { Kit } from "./kit";
@@ -62,7 +63,7 @@ export class Here implements Keeper, Drafting {
     signal.throwIfAborted();
     if (found.length === 0) {
       throw new Error(
-        "There is no robot description here: no .urdf, and no .xml or .sdf file that is an MJCF or an SDF by its content.",
+        "There is no robot description here: no .urdf, no .xml or .sdf file that is an MJCF or an SDF by its content, and no USD with bodies.",
       );
     }
     const robots = found.map(
@@ -157,7 +158,7 @@ export class Here implements Keeper, Drafting {
   /** Says which files the description names that are not there. Those of a URDF are known once it is made. */
   private want(): void {
     const { current } = this;
-    const { draft } = this.app.store.now;
+    const draft = ofText(this.app.store.now.draft);
     const wanted = !current || !draft || draft.format === "urdf" ? [] : unmet(draft.text, current.reader.files);
     this.app.store.set({ wanted });
   }
@@ -203,7 +204,7 @@ export class Here implements Keeper, Drafting {
     this.leave(robot);
     this.current = robot;
     const { path, format } = robot.description;
-    const text = await robot.reader.text(path);
+    const text = await robot.reader.text(robot.description);
     if (this.current !== robot) return;
     if (format !== "xacro") {
       const draft: Draft = { path, format, text, isChanged: robot.reader.changed.has(path) };

@@ -17,7 +17,7 @@ export function packagesOf(names: readonly string[]): string[] {
   return [...new Set(named.filter((name) => name !== undefined))].sort();
 }
 
-/** The files that an MJCF or SDF names, of whose last name there is none among these. */
+/** The files that an MJCF, SDF or USD names, of whose last name there is none among these. */
 export function unmet(text: string, files: readonly Given[]): string[] {
   if (text.length > MAX_TEXT) return [];
   const known = new Set(files.flatMap(({ path }) => path.split("/")));
@@ -26,6 +26,7 @@ export function unmet(text: string, files: readonly Given[]): string[] {
     const last = name?.trim().split(/[\\/]/).pop();
     if (name && last && !known.has(last) && !/^https?:/.test(name)) found.add(name.trim());
   };
+  for (const [, name] of text.startsWith("#usda") ? text.matchAll(/@([^@\n]+)@/g) : []) look(name ?? null);
   for (const element of new DOMParser().parseFromString(text, "application/xml").getElementsByTagName("*")) {
     if (found.size >= MAX_NAMES) break;
     if (NAMES_FILE.test(element.tagName) && element.parentElement?.tagName !== "script") look(element.textContent);

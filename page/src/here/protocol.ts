@@ -61,7 +61,7 @@ export interface MakerCalls {
     { path: string; donor: Given[]; options: MakeOptions },
     { robot: string; links: number; dofs: number; notes: string[]; files: Given[] },
   ];
-  /** The files of the URDF that an MJCF or SDF becomes. */
+  /** The files of the URDF that an MJCF, SDF or USD becomes. */
   import: [{ path: string }, { main: string; files: Given[] }];
   /** Files for another program, of a URDD. */
   export: [

@@ -6,6 +6,9 @@ import type { Kit, Maker } from "./kit";
 import { lost } from "./protocol";
 import type { Description, Given } from "./protocol";
 
+/** How a USD begins that is a text. */
+const USD_TEXT = "#usda";
+
 export class Reader {
   /** Texts that a person changed, by path. */
   readonly changed = new Map<string, string>();
@@ -24,9 +27,10 @@ export class Reader {
     return this.ask((maker) => maker.ask("lint", { path }));
   }
 
-  /** The text of a file. */
-  async text(path: string): Promise<string> {
+  /** The text of a description; null of a USD that is none. */
+  async text({ path, format }: Description): Promise<string | null> {
     const file = this.files.find((file) => file.path === path)?.file;
+    if (format === "usd" && (await file?.slice(0, USD_TEXT.length).text()) !== USD_TEXT) return null;
     return this.changed.get(path) ?? (await file?.text()) ?? "";
   }
 

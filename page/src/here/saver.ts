@@ -1,6 +1,7 @@
 /** Saves what the page made of a description, by workers of their own. */
 
 import { offer } from "../ui/offer";
+import { ofText } from "./draft";
 import type { Draft } from "./draft";
 import { ACTUATORS } from "./formats";
 import type { Format } from "./formats";
@@ -27,7 +28,7 @@ export class Saver {
 
   /** The text as it is now. */
   text(): Promise<void> {
-    const { draft } = this.open();
+    const draft = ofText(this.open().draft);
     if (draft) {
       offer(new Blob([draft.text], { type: "application/xml" }), draft.path.split("/").pop() ?? draft.path);
       this.textSaved();
@@ -35,7 +36,7 @@ export class Saver {
     return Promise.resolve();
   }
 
-  /** The URDF, with meshes, that an MJCF or SDF becomes. */
+  /** The URDF, with meshes, that an MJCF, SDF or USD becomes. */
   async urdf(): Promise<void> {
     const { robot } = this.open();
     const maker = await robot.reader.worker();

@@ -81,7 +81,7 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
     const { open } = here;
     const { draft } = app.store.now;
     urdd.disabled = other.disabled = !open?.isWhole;
-    text.hidden = !draft;
+    text.hidden = !draft || draft.text === null;
     text.disabled = false;
     text.textContent = `Save ${name(draft?.path.split("/").pop() ?? "")}`;
     urdf.hidden = !draft || draft.format === "urdf";

@@ -93,7 +93,7 @@ function dropHere(isLive: boolean, choose: (files: File[], folder: boolean) => v
     h(
       "p",
       {},
-      "Drop a robot here: a URDF, MJCF or SDF with its meshes, such as the folder of a ROS package, or a URDD; as files, as a folder, or as a .zip.",
+      "Drop a robot here: a URDF, MJCF, SDF or USD with its meshes, such as the folder of a ROS package, or a URDD; as files, as a folder, or as a .zip.",
     ),
     h("div", { class: "actions" }, picker("Choose a folder", true, choose), picker("Choose files", false, choose)),
     h(

@@ -1,4 +1,4 @@
-/** What an import made of an MJCF or SDF: what is lost, what is otherwise, and what was assumed. */
+/** What an import made of an MJCF, SDF or USD: what is lost, what is otherwise, and what was assumed. */
 
 import type { UrddReport } from "../engine/protocol";
 import { h } from "../ui/dom";

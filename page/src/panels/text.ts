@@ -5,7 +5,8 @@ import { message } from "../app";
 import type { Editor } from "../editor/editor";
 import type { Mark } from "../editor/marks";
 import { fileName, hasFixes, isDraft } from "../fixes";
-import type { Draft } from "../here/draft";
+import { ofText } from "../here/draft";
+import type { TextDraft } from "../here/draft";
 import { named } from "../named";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
@@ -59,7 +60,7 @@ export function text(app: App): HTMLElement {
   });
 
   function save(): void {
-    const { draft } = app.store.now;
+    const draft = ofText(app.store.now.draft);
     if (!draft) return;
     offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
     app.drafting?.saved();
@@ -95,7 +96,8 @@ export function text(app: App): HTMLElement {
 
   /** Puts the draft and its findings into the editor. */
   function follow(): void {
-    const { draft, tab } = app.store.now;
+    const { tab } = app.store.now;
+    const draft = ofText(app.store.now.draft);
     if (!draft) shown = null;
     if (!draft || tab !== "Text") return;
     if (!editor) {
@@ -114,7 +116,7 @@ export function text(app: App): HTMLElement {
     tell(draft);
   }
 
-  function open(editor: Editor, { path, text }: Draft): void {
+  function open(editor: Editor, { path, text }: TextDraft): void {
     shown = { path, text };
     marked = null;
     editor.open({
@@ -126,7 +128,7 @@ export function text(app: App): HTMLElement {
   }
 
   /** Marks the findings of a report, if it is of the present text. */
-  function mark(editor: Editor, draft: Draft): void {
+  function mark(editor: Editor, draft: TextDraft): void {
     const { report } = app.store.now.report;
     if (!report || report === marked) return;
     const isNow = report.text === draft.text || (report.text === null && !draft.isChanged);
@@ -135,7 +137,7 @@ export function text(app: App): HTMLElement {
     editor.mark(foundIn(report, draft), (file) => isDraft(draft, file) && hasFixes(draft));
   }
 
-  function tell(draft: Draft): void {
+  function tell(draft: TextDraft): void {
     fill(file, name(fileName(draft)));
     file.title = name(draft.path);
     saving.textContent = `Save ${draft.format.toUpperCase()}`;
@@ -160,7 +162,7 @@ export function text(app: App): HTMLElement {
   function list(): void {
     if (!editor) return;
     const { line, marks } = editor.here();
-    const { draft } = app.store.now;
+    const draft = ofText(app.store.now.draft);
     if (draft) tell(draft);
     const { all, marked } = editor.counts;
     const where =

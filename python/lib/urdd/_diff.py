@@ -37,7 +37,7 @@ def diff(
     True
 
     Args:
-        before: a URDF, a xacro file, an MJCF or SDF, or a URDD: a folder or a zip archive.
+        before: a URDF, a xacro file, an MJCF, SDF or USD, or a URDD: a folder or a zip archive.
         after: the other robot.
         findings: also compares what :func:`validate` finds in each, which takes most of the time.
         tolerance: numbers that differ by at most this, in the unit of each value (metres, radians, kilograms, …), are

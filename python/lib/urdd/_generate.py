@@ -112,7 +112,7 @@ def generate(
     force: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> Generated:
-    """Generates a URDD from a URDF, xacro, MJCF or SDF file, in the folder ``output``, which is replaced atomically and
+    """Generates a URDD from a URDF, xacro, MJCF, SDF or USD file, in the folder ``output``, which is replaced atomically and
     unchanged on error.
 
     A second run generates only what changed, and keeps the user's edits of skips.
@@ -140,7 +140,7 @@ def generate(
         xacro_timeout: time limit of the program xacro, seconds.
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
-        ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
+        ball: how a ball joint of an MJCF, SDF or USD is written: as a spherical joint, or as three revolute joints.
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         drop_edits: discards the edits of skips and the named configurations in the URDD that is replaced.
         force: writes to a folder that contains something other than a URDD of this program.

@@ -59,7 +59,7 @@ def lint(
         xacro_timeout: time limit of the program xacro, seconds.
         body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
-        ball: how a ball joint of an MJCF or SDF is written: as a spherical joint, or as three revolute joints.
+        ball: how a ball joint of an MJCF, SDF or USD is written: as a spherical joint, or as three revolute joints.
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².
         baseline: a file of ``urdd lint --write-baseline``, whose findings are left out.
         fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.

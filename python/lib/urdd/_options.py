@@ -68,9 +68,9 @@ class MakingOptions(TypedDict, total=False):
     model: str | None
     """The model of an SDF file that has several."""
     ball: Literal["spherical", "revolute"]
-    """How a ball joint of an MJCF or SDF is written."""
+    """How a ball joint of an MJCF, SDF or USD is written."""
     massless: Literal["none", "tiny"]
-    """The mass of links between several joints of one body of an MJCF or SDF."""
+    """The mass of links between several joints of one body of an MJCF, SDF or USD."""
     drop_edits: bool
     """Discards the edits of skips in the URDD that is replaced."""
     force: bool

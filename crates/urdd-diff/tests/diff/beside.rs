@@ -1,4 +1,4 @@
-//! What an import carries beside its URDF is compared: whatever MJCF or SDF can say, and the import knows.
+//! What an import carries beside its URDF is compared: whatever MJCF, SDF or USD can say, and the import knows.
 
 use std::path::PathBuf;
 

@@ -120,7 +120,8 @@ impl<'d> Layers<'d> {
         })
     }
 
-    fn load(&mut self, path: &str) -> Result<u32, UsdError> {
+    /// Reads a layer, if it was not read yet.
+    pub fn load(&mut self, path: &str) -> Result<u32, UsdError> {
         if let Some(known) = self.by_path.get(path) {
             return Ok(*known);
         }

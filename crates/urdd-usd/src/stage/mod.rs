@@ -3,6 +3,7 @@
 mod compose;
 mod composed;
 mod layers;
+mod outline;
 mod sources;
 mod tree;
 mod variants;
@@ -11,6 +12,7 @@ use super::door::Door;
 use super::error::UsdError;
 pub use composed::{Prim, Property, Stage};
 use layers::Layers;
+pub use outline::{Outline, outline};
 use sources::Composer;
 
 /// Reads a layer and all that it is composed of.
