@@ -228,6 +228,7 @@ fn files_with(words: &[&str]) -> BTreeSet<String> {
         for (path, bytes) in testkit::files::below(&repository().join(folder)) {
             let is_test = path.contains("/tests/")
                 || path.contains("/benches/")
+                || path.contains("/examples/")
                 || path.ends_with("tests.rs");
             if is_test || !path.ends_with(".rs") {
                 continue;
