@@ -34,7 +34,7 @@ def test_a_usd_of_several_layers_is_written_and_generated(tmp_path: Path) -> Non
     assert robot.dof_names == ("shoulder", "elbow", "lift", "spin", "left_grip")
     # Where the stage has the fingers: one is turned by half a turn.
     right = robot.link_pose(robot.zero, "right_finger")
-    np.testing.assert_allclose(right[:3, 3], [0.55, -0.004, 0.17], atol=1e-6)
+    np.testing.assert_allclose(right[:3, 3], [0.55, -0.004, 0.19], atol=1e-6)
     np.testing.assert_allclose(right[:3, 0], [-1, 0, 0], atol=1e-6)
 
 
