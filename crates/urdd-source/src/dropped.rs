@@ -214,11 +214,11 @@ mod tests {
             .map(|one| (&*one.job.name, one.job.source.to_string_lossy(), one.kind.name()))
             .collect();
         let expected = [
-            ("arm", "/a/urdf/arm.urdf", "urdf"),
+            ("urdf-arm", "/a/urdf/arm.urdf", "urdf"),
             ("hand", "/a/urdf/hand.urdf.xacro", "xacro"),
             ("robot", "/b/robot.xml", "mjcf"),
             ("model", "/c/model.sdf", "sdf"),
-            ("arm", "/d/arm.usda", "usd"),
+            ("d-arm", "/d/arm.usda", "usd"),
             ("broken", "/d/broken.usda", "usd"),
         ];
         let expected = expected.map(|(name, path, kind)| (name, path.into(), kind));
