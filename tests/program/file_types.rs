@@ -9,7 +9,7 @@ use crate::program::urdd;
 const MJCF: &str =
     "<mujoco><worldbody><body name=\"b\"><geom size=\"1\"/></body></worldbody></mujoco>";
 
-/// A URDF, MJCFs, SDFs and USDs of unusual names and beginnings.
+/// A URDF, MJCFs and SDFs of unusual names and beginnings.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let urdf = fs::read(repository().join("conformance/robots/single_link.urdf")).expect("a URDF");

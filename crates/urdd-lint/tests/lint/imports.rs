@@ -1,4 +1,4 @@
-//! MJCFs, SDFs and USDs: which are found in folders, and what programs do with what is made of them.
+//! MJCFs and SDFs: which are found in folders, and what programs do with what is made of them.
 
 use std::collections::BTreeSet;
 use std::fs;
