@@ -117,8 +117,15 @@ inPage(set, "a USD of several layers becomes a robot, and one that is no text ha
   await dropOn(page, join(repository, "crates/urdd-usd/tests/fixtures/arm.usdz"));
   const binary = await state(page, "draft", (draft) => draft?.path.endsWith("arm.usdz"));
   assert.equal(binary.text, null);
-  const { about: arm } = await state(page, "robot", (robot) => robot?.entry.name === "arm" && robot.entry.making === null);
-  assert.deepEqual(arm.links.map(({ name }) => name), ["base", "upper"]);
+  const { about: arm } = await state(
+    page,
+    "robot",
+    (robot) => robot?.entry.name === "arm" && robot.entry.making === null,
+  );
+  assert.deepEqual(
+    arm.links.map(({ name }) => name),
+    ["base", "upper"],
+  );
   assert.equal(await page.getByRole("tab", { name: "Text" }).isVisible(), false);
   await click(page, "Save…")();
   assert.equal(await page.getByRole("button", { name: "Save arm.usdz" }).isVisible(), false);
