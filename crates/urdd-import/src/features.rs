@@ -82,7 +82,7 @@ features! {
     DISCARDED = "shapes that `discardvisual` leaves out", No, Elsewhere, Elsewhere;
     ONLY_COLLIDING = "shapes that collide and are hidden: in group 3 and above, transparent, or inside those that are only seen", HIDDEN, Elsewhere, Elsewhere;
     UNSEEN = "shapes that neither collide nor are seen: in group 3 and above, or transparent", No, Elsewhere, Elsewhere;
-    SPRINGS = "springs of joints", No, No, Elsewhere;
+    SPRINGS = "springs of joints", No, No, No;
     BALL_RANGES = "ranges of balls", No, Elsewhere, No;
     POLYNOMIALS = "equalities of joints that are not linear, or that no mimic can say", LOOPS, Elsewhere, Elsewhere;
     COUPLINGS = "equalities of joints that are not active, or of balls and joints that are left out", No, Elsewhere, No;

@@ -80,7 +80,8 @@ impl Compilers {
 }
 
 impl Compiler {
-    fn new() -> Self {
+    /// How a model is read that says nothing.
+    pub fn new() -> Self {
         Compiler {
             angle: 1.0_f64.to_radians(),
             euler: ['x', 'y', 'z'],

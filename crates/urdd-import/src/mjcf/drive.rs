@@ -4,11 +4,11 @@ use std::cell::LazyCell;
 use std::collections::HashMap;
 
 use super::super::features::{self, Tally};
-use super::super::model::{self, Joint, JointKind};
+use super::super::model::{self, Body, Joint, JointKind};
 use super::super::refusal::Fallible;
 use super::actuator::{Actuator, Law, TAGS, greatest, within};
 use super::body::Made;
-use super::compiler::Compilers;
+use super::compiler::{Compiler, Compilers};
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
 use super::lookup::Lookup;
@@ -30,6 +30,18 @@ struct JointDrive {
 /// What passing a body costs.
 const BODY: usize = 50;
 
+/// An actuator of a joint.
+pub struct Driven<'d> {
+    /// What says it, and what a replica adds to its name.
+    pub element: &'d Element,
+    pub suffix: &'d str,
+    pub actuator: Actuator,
+    /// How its model is read.
+    pub compiler: &'d Compiler,
+    /// The joint: its body, and its place there.
+    pub joint: (usize, usize),
+}
+
 /// Gives joints what their actuators say.
 pub fn drive<'d>(
     root: &'d Element,
@@ -39,7 +51,7 @@ pub fn drive<'d>(
     made: &mut Made,
     tally: &mut Tally,
 ) -> Fallible<()> {
-    let mut driven: Vec<(&Element, &str, Actuator, (usize, usize))> = Vec::new();
+    let mut driven: Vec<Driven<'_>> = Vec::new();
     for element in root.sections("actuator") {
         let class = match element.text("class") {
             Some(class) => defaults.class(class, element.place)?,
@@ -57,29 +69,42 @@ pub fn drive<'d>(
                 tally.count(features::OTHER_ACTUATORS);
                 continue;
             }
-            driven.push((element, suffix, actuator.clone(), at));
+            let (actuator, compiler) = (actuator.clone(), compilers.at(element.place));
+            driven.push(Driven { element, suffix, actuator, compiler, joint: at });
         }
     }
-    for (.., actuator, (body, joint)) in &driven {
-        let joint = &mut made.bodies[*body].joints[*joint];
+    let charge = |element: &Element, cost: usize| lookup.charge(element, cost);
+    give_all(&driven, &mut made.bodies, made.is_floating, &charge, tally)
+}
+
+/// Gives joints what these actuators say. `charge` pays for work that one makes.
+pub fn give_all(
+    driven: &[Driven<'_>],
+    bodies: &mut [Body],
+    is_floating: bool,
+    charge: &dyn Fn(&Element, usize) -> Fallible<()>,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    for Driven { actuator, joint: (body, joint), .. } in driven {
+        let joint = &mut bodies[*body].joints[*joint];
         joint.damping += actuator.gear.powi(2) * actuator.joint_damping;
         let armature = actuator.gear.powi(2) * actuator.armature;
         if armature != 0.0 {
             joint.armature = Some(joint.armature.unwrap_or(0.0) + armature);
         }
     }
-    let moved = LazyCell::new(|| Moved::of(made));
+    let at_rest = &*bodies;
+    let moved = LazyCell::new(|| Moved::of(at_rest, is_floating));
     let mut given: HashMap<(usize, usize), JointDrive> = HashMap::new();
-    for (element, suffix, actuator, at) in &driven {
+    for Driven { element, suffix, actuator, compiler, joint: at } in driven {
         say(actuator, tally);
-        let compiler = compilers.at(element.place);
-        let of = &made.bodies[at.0].joints[at.1];
+        let of = &at_rest[at.0].joints[at.1];
         let force = actuator.force(element, compiler)?;
         let told = actuator.told(element, compiler, of.range)?;
         let is_of_speed = actuator.is_of_speed();
         let velocity = told.filter(|_| is_of_speed).map(greatest).filter(|most| *most > 0.0);
         if actuator.law == Law::Servo && actuator.is_ratio() {
-            lookup.charge(element, BODY * made.bodies.len())?;
+            charge(element, BODY * at_rest.len())?;
         }
         let gains = gains(actuator, || moved.by(*at));
         let Some(entry) = given.get_mut(at) else {
@@ -101,11 +126,11 @@ pub fn drive<'d>(
         }
     }
     for ((body, joint), given) in given {
-        give(&mut made.bodies[body].joints[joint], given, tally);
+        give(&mut bodies[body].joints[joint], given, tally);
     }
     let follows =
         |joint: &&Joint| joint.mimic.is_some() && (joint.kp.is_some() || joint.armature.is_some());
-    for _ in made.bodies.iter().flat_map(|body| &body.joints).filter(follows) {
+    for _ in bodies.iter().flat_map(|body| &body.joints).filter(follows) {
         tally.count(features::MORE_GAINS);
     }
     Ok(())
@@ -142,7 +167,7 @@ fn give(joint: &mut Joint, given: JointDrive, tally: &mut Tally) {
     };
     joint.actuator.force = force;
     joint.effort = force.map(greatest);
-    joint.velocity = given.velocity;
+    joint.velocity = given.velocity.or(joint.velocity);
     if let Some([kp, kv]) = given.gains {
         (joint.kp, joint.kv) = (Some(kp), Some(kv));
     }

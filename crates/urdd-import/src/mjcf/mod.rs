@@ -32,6 +32,11 @@ mod said;
 mod scene;
 mod seen;
 
+pub use actuator::Actuator;
+pub use compiler::Compiler;
+pub use drive::{Driven, give_all};
+pub use element::Element;
+
 use super::features::Tally;
 use super::model::Model;
 use super::place::TextFile;
@@ -42,7 +47,6 @@ use compiler::Compilers;
 use contact::Contacts;
 use defaults::Defaults;
 use document::Whole;
-use element::Element;
 use lookup::Lookup;
 use material::Materials;
 use mesh::Meshes;

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::super::model::{Body, Inertial, Joint, JointKind};
-use super::body::Made;
 
 /// What the joints of a robot move, where all are at their references. Six numbers are a turn and a shift in the frame of
 /// the first body, or a torque about its origin and a force.
@@ -28,14 +27,14 @@ struct Freedom {
 }
 
 impl Moved {
-    pub fn of(made: &Made) -> Self {
+    pub fn of(bodies: &[Body], is_floating: bool) -> Self {
         let mut moved = Moved { freedoms: Vec::new(), of: HashMap::new() };
         let mut known: Vec<(Isometry3<f64>, Option<usize>)> = Vec::new();
-        for (index, Body { parent, pose, joints, inertial, .. }) in made.bodies.iter().enumerate() {
+        for (index, Body { parent, pose, joints, inertial, .. }) in bodies.iter().enumerate() {
             let above = parent.and_then(|parent| known.get(parent).copied());
             let (above, mut last) = above.unwrap_or_default();
             let pose = above * pose;
-            if parent.is_none() && made.is_floating {
+            if parent.is_none() && is_floating {
                 let all = Matrix6::<f64>::identity();
                 last = moved.push(last, all.column_iter().map(|axis| axis.into_owned()), 0.0);
             }

@@ -25,16 +25,16 @@ fn given(text: &str, files: &[(&str, &str)], options: &ImportOptions) -> Result<
 }
 
 /// What is in a stage in metres, whose z is up.
-fn inside(text: &str) -> Model {
+pub fn inside(text: &str) -> Model {
     let head = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n";
     given(&format!("{head}{text}"), &[], &ImportOptions::default()).expect("a model")
 }
 
-fn body<'m>(model: &'m Model, name: &str) -> &'m Body {
+pub fn body<'m>(model: &'m Model, name: &str) -> &'m Body {
     model.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("no body {name}"))
 }
 
-fn joint<'m>(model: &'m Model, name: &str) -> (&'m Body, &'m Joint) {
+pub fn joint<'m>(model: &'m Model, name: &str) -> (&'m Body, &'m Joint) {
     let all = model.bodies.iter().flat_map(|body| body.joints.iter().map(move |of| (body, of)));
     let mut found = all.filter(|(_, joint)| joint.name == name);
     found.next().unwrap_or_else(|| panic!("no joint {name}"))

@@ -27,12 +27,19 @@ pub fn drive(
     let positive = |value: Option<f64>| value.filter(|value| *value > 0.0 && *value < NONE);
     joint.velocity = positive(value(&["newton:velocityLimit", "physxJoint:maxJointVelocity"]))
         .map(|speed| speed * unit);
-    joint.armature = positive(value(&["newton:armature", "physxJoint:armature"]))
+    joint.armature = positive(value(&["newton:armature", "physxJoint:armature", "mjc:armature"]))
         .map(|armature| armature * inertia);
     joint.damping =
         positive(value(&["newton:damping"])).map_or(0.0, |damping| damping * force / unit);
-    joint.friction = positive(value(&["newton:friction"])).map_or(0.0, |friction| friction * force);
-    let limits = [value(&["newton:effortLimit", "urdf:limit:effort"])];
+    // MuJoCo's are of radians.
+    let radian = if motion.is_slide() { force / metre } else { force };
+    joint.damping += positive(value(&["mjc:damping"])).map_or(0.0, |damping| damping * radian);
+    joint.friction = positive(value(&["newton:friction", "mjc:frictionloss"]))
+        .map_or(0.0, |friction| friction * force);
+    if positive(value(&["mjc:stiffness"])).is_some() {
+        tally.count(features::SPRINGS);
+    }
+    let limits = [value(&["newton:effortLimit", "urdf:limit:effort", "mjc:actuatorfrcrange:max"])];
     joint.effort = positive(limits[0]).map(|effort| effort * force);
     let instance = motion.instance;
     if !of.has(&format!("PhysicsDriveAPI:{instance}")) {

@@ -24,6 +24,8 @@ pub struct Branch {
 pub struct Graph {
     /// A parent stands before its children.
     pub branches: Vec<Branch>,
+    /// The joints of one body by the one that is in the tree, all in order: each adds motions of the body.
+    pub stacked: HashMap<usize, Vec<usize>>,
     /// The joints that close chains.
     pub outside: Vec<usize>,
     pub is_floating: bool,
@@ -66,15 +68,23 @@ pub fn graph(
     order.sort_unstable();
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
     let mut outside = Vec::new();
+    let mut stacked: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut first: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
         if sets.join(parent, child) {
+            first.insert((parent, child), at);
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
+        } else if let Some(tree) =
+            first.get(&(parent, child)).filter(|tree| adds_motion(scene, joints, **tree, at))
+        {
+            stacked.entry(*tree).or_insert_with(|| vec![*tree]).push(at);
         } else if !joints[at].is_free {
             outside.push(at);
         }
     }
+    stacked.values_mut().for_each(|all| all.sort_unstable());
     around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
     outside.sort_unstable();
     let main = main_set(scene, joints, &bodies, &index, &around, wanted, &mut sets)?;
@@ -113,7 +123,21 @@ pub fn graph(
         }
     }
     outside.extend(main.others.iter().filter(|joint| Some(**joint) != main.moves));
-    Ok(Graph { branches, outside, is_floating: !main.is_fixed && main.moves.is_none() })
+    Ok(Graph { branches, stacked, outside, is_floating: !main.is_fixed && main.moves.is_none() })
+}
+
+/// Whether a joint adds a motion to what another one of the same two bodies leaves free, as Newton's schema can say; by
+/// UsdPhysics itself, it would take motions away.
+fn adds_motion(scene: &Scene<'_>, joints: &[UsdJoint], tree: usize, at: usize) -> bool {
+    let [tree, one] = [tree, at].map(|joint| &joints[joint]);
+    let moves = |joint: &UsdJoint| matches!(joint.motions.len(), 1..6);
+    let mut above = Some(one.prim);
+    let said = std::iter::from_fn(|| {
+        let prim = scene.prim(above?);
+        above = prim.parent;
+        Some(super::scene::flag(prim, "newton:jointsAddMobility", false))
+    });
+    !one.is_excluded && moves(tree) && moves(one) && said.into_iter().any(|said| said)
 }
 
 /// The bodies that are the robot.

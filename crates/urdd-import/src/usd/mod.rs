@@ -12,6 +12,7 @@ mod look;
 mod made;
 mod mass;
 mod mesh;
+mod mjc;
 mod pairs;
 mod robot;
 mod said;

@@ -21,7 +21,7 @@ use super::graph::{Branch, Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{frames, mass, pairs, said, upright};
+use super::{frames, mass, mjc, pairs, said, upright};
 
 /// How far the other limit is from one that stands alone, rad and m.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
@@ -50,6 +50,8 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     let mut shapes = Shapes::new(scene, gate);
     shapes.add(&mut made, &mut tally)?;
     mass::add(scene, &mut made, &shapes, &mut tally)?;
+    let (moving, of_joint) = (&mut made.bodies, &maker.of_joint);
+    mjc::actuators(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
     let closings = maker.closings(&graph, &made, &mut tally)?;
     let (apart, checked) = pairs::pairs(scene, &joints, &made, account, &mut tally)?;
     frames::frames(scene, &mut maker.names[0], &mut made, account, &mut tally)?;
@@ -106,11 +108,19 @@ impl Maker<'_, '_> {
         let mut made =
             Made { bodies: Charged::default(), index: HashMap::new(), shifts: Vec::new() };
         for branch in &graph.branches {
-            let body = self.body(branch, &mut made, tally)?;
+            let body = self.body(branch, graph, &mut made, tally)?;
             let place = body.place;
             let (index, joints) = (made.bodies.len(), body.joints.len());
-            if let Some((_, joint)) = branch.joint.filter(|_| joints == 1) {
-                self.of_joint.insert(self.joints[joint].prim, (index, 0));
+            if let Some((_, joint)) = branch.joint {
+                let all = graph.stacked.get(&joint).map_or(std::slice::from_ref(&joint), |all| all);
+                let mut prims: Vec<usize> = all.iter().map(|at| self.joints[*at].prim).collect();
+                if branch.is_turned {
+                    prims.reverse();
+                }
+                if joints == all.len() {
+                    self.of_joint
+                        .extend(prims.into_iter().enumerate().map(|(k, prim)| (prim, (index, k))));
+                }
             }
             if let Some(prim) = branch.body {
                 made.index.insert(prim, index);
@@ -121,7 +131,13 @@ impl Maker<'_, '_> {
         Ok(made)
     }
 
-    fn body(&mut self, branch: &Branch, made: &mut Made, tally: &mut Tally) -> Fallible<Body> {
+    fn body(
+        &mut self,
+        branch: &Branch,
+        graph: &Graph,
+        made: &mut Made,
+        tally: &mut Tally,
+    ) -> Fallible<Body> {
         let scene = self.scene;
         let Some(prim) = branch.body else {
             made.shifts.push(Vector3::zeros());
@@ -132,11 +148,11 @@ impl Maker<'_, '_> {
         let place = scene.place(prim);
         let too_much = |why| at(place, why);
         let name = self.names[0].free(scene.name(prim)).map_err(too_much)?;
-        let Some((parent, joint)) = branch.joint else {
+        let Some((parent, main)) = branch.joint else {
             made.shifts.push(Vector3::zeros());
             return Ok(Body::new(name, None, Isometry3::identity(), place));
         };
-        let joint = &self.joints[joint];
+        let joint = &self.joints[main];
         let [in_parent, in_child] = match branch.is_turned {
             false => [&joint.ends[0], &joint.ends[1]],
             true => [&joint.ends[1], &joint.ends[0]],
@@ -160,8 +176,30 @@ impl Maker<'_, '_> {
             body.fixed_by = Some(name);
             return Ok(body);
         }
-        for moving in self.moves(joint, &name, in_child, branch.is_turned, tally)? {
-            body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+        let Some(stacked) = graph.stacked.get(&main) else {
+            for moving in self.moves(joint, &name, in_child, branch.is_turned, tally)? {
+                body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+            }
+            return Ok(body);
+        };
+        tally.count(features::MORE_JOINTS);
+        let mut stacked = stacked.clone();
+        if branch.is_turned {
+            stacked.reverse();
+        }
+        for one in stacked {
+            let one = &self.joints[one];
+            let of = scene.place(one.prim);
+            let name = match one.prim == joint.prim {
+                true => name.clone(),
+                false => self.names[1].free(scene.name(one.prim)).map_err(|why| at(of, why))?,
+            };
+            let end = &one.ends[usize::from(!branch.is_turned)];
+            let offset = end.frame.translation.vector - shift;
+            for mut moving in self.moves(one, &name, end, branch.is_turned, tally)? {
+                moving.frame = Translation3::from(offset).into();
+                body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+            }
         }
         Ok(body)
     }

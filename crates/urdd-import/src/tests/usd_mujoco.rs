@@ -1,0 +1,104 @@
+//! What Newton's and MuJoCo's schemas say of joints in a USD, against closed forms.
+
+use nalgebra::Vector3;
+
+use super::usd::{body, inside, joint};
+use crate::features;
+use crate::model::{JointKind, Model};
+
+/// Two bodies with two joints between them, on an articulation of which one attribute is given. `ends` are the bodies of each
+/// joint.
+fn stacked(attribute: &str, ends: [&str; 2]) -> Model {
+    let joint = |name: &str, axis: &str, positions: [&str; 2]| {
+        format!(
+            "def PhysicsRevoluteJoint \"{name}\" {{ uniform token physics:axis = \"{axis}\"
+            rel physics:body0 = </{}>\n rel physics:body1 = </{}>
+            point3f physics:localPos0 = {}\n point3f physics:localPos1 = {} }}\n",
+            ends[0], ends[1], positions[0], positions[1]
+        )
+    };
+    let text = format!(
+        "def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsArticulationRootAPI\"]) {{
+            {attribute}
+            def PhysicsFixedJoint \"w\" {{ rel physics:body1 = </a> }}
+        }}
+        def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}
+        def Scope \"joints\" (apiSchemas = [\"NewtonArticulationRootAPI\"]) {{ {attribute}\n {} {} }}",
+        joint("x", "X", ["(0, 0, 1)", "(0, 0, 0.25)"]),
+        joint("y", "Y", ["(0.5, 0, 1)", "(0.5, 0, 0.25)"]),
+    );
+    inside(&text)
+}
+
+#[test]
+fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
+    let said = "uniform bool newton:jointsAddMobility = 1";
+    let model = stacked(said, ["a", "b"]);
+    let moving = body(&model, "b");
+    let found: Vec<_> =
+        moving.joints.iter().map(|joint| (&*joint.name, joint.axis, joint.frame)).collect();
+    let [x, y] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((x.0, x.1, y.0, y.1), ("x", Vector3::x(), "y", Vector3::y()));
+    // Half a metre apart in the body, whose link is where the first turns.
+    assert_eq!(moving.pose.translation.vector, Vector3::z());
+    let between = y.2.translation.vector - x.2.translation.vector;
+    assert_eq!(between, Vector3::new(0.5, 0.0, 0.0));
+    assert!(model.closings.is_empty());
+
+    // From the other end, the last is the first.
+    let turned = stacked(said, ["b", "a"]);
+    let names: Vec<&str> = body(&turned, "b").joints.iter().map(|joint| &*joint.name).collect();
+    assert_eq!(names, ["y", "x"]);
+    assert_eq!(joint(&turned, "x").1.axis, -Vector3::x());
+
+    // By UsdPhysics itself, each of the two takes the motion of the other.
+    let model = stacked("", ["a", "b"]);
+    assert_eq!((body(&model, "b").joints.len(), model.closings.len()), (1, 1));
+}
+
+#[test]
+fn actuators_of_mujoco_are_those_of_an_mjcf() {
+    let text = "
+        def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsArticulationRootAPI\"]) {}
+        def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}
+        def Xform \"c\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}
+        def PhysicsFixedJoint \"w\" { rel physics:body1 = </a> }
+        def PhysicsRevoluteJoint \"j\" ( apiSchemas = [\"MjcJointAPI\"] ) {
+            rel physics:body0 = </a>\n rel physics:body1 = </b>
+            uniform double mjc:armature = 0.02\n uniform double mjc:damping = 0.1
+            uniform double mjc:frictionloss = 0.3\n uniform double mjc:stiffness = 4
+            float newton:effortLimit = 7
+        }
+        def PhysicsPrismaticJoint \"k\" { rel physics:body0 = </b>\n rel physics:body1 = </c> }
+        def MjcActuator \"servo\" {
+            rel mjc:target = </j>
+            uniform double[] mjc:gainPrm = [100, 0, 0]
+            uniform double[] mjc:biasPrm = [0, -100, -10]
+            uniform token mjc:biasType = \"affine\"
+            uniform double[] mjc:gear = [2, 0, 0, 0, 0, 0]
+            uniform double mjc:ctrlRange:min = -1\n uniform double mjc:ctrlRange:max = 1
+            uniform double mjc:forceRange:min = -5\n uniform double mjc:forceRange:max = 5
+        }
+        def MjcActuator \"motor\" {
+            rel mjc:target = </k>
+            uniform double[] mjc:gear = [2, 0, 0, 0, 0, 0]
+            uniform double mjc:ctrlRange:min = -3\n uniform double mjc:ctrlRange:max = 2
+        }
+        def MjcActuator \"of_a_tendon\" { rel mjc:target = </t> }
+        def MjcTendon \"t\" {}";
+    let model = inside(text);
+    let (_, servo) = joint(&model, "j");
+    // Gains at the joint: of the gear, squared.
+    assert_eq!((servo.kp, servo.kv, servo.armature), (Some(400.0), Some(40.0), Some(0.02)));
+    assert_eq!((servo.damping, servo.friction), (0.1, 0.3));
+    // 10 N m by the gear, and 7 by the joint.
+    assert_eq!(servo.effort, Some(7.0));
+    assert_eq!(servo.actuator.control, Some([-0.5, 0.5]));
+    assert_eq!(servo.actuator.name.as_deref(), Some("servo"));
+    let (_, motor) = joint(&model, "k");
+    assert_eq!((motor.kind, motor.kp, motor.effort), (JointKind::Slide, None, Some(6.0)));
+    assert_eq!(motor.actuator.force, Some([-6.0, 4.0]));
+    let counted = |what| model.tally.number_of(what);
+    assert_eq!(counted(features::OTHER_ACTUATORS), 1);
+    assert_eq!((counted(features::TENDONS), counted(features::SPRINGS)), (1, 1));
+}

@@ -1,0 +1,97 @@
+//! What MuJoCo's own schema says of actuators: they are read as those of an MJCF.
+
+use std::collections::HashMap;
+
+use urdd_directory::account::Account;
+use urdd_usd::{Prim, Value};
+
+use super::super::features::{self, Tally};
+use super::super::mjcf::{Actuator, Compiler, Driven, Element, give_all};
+use super::super::model::{Body, JointKind};
+use super::super::refusal::{Fallible, at};
+use super::scene::{Scene, number, word};
+
+/// An actuator as an element, as bytes.
+const ELEMENT: usize = 1000;
+/// Attributes with one word or number, and with several numbers: of an MJCF, and of the schema.
+const WORDS: [(&str, &str); 5] = [
+    ("gaintype", "gainType"),
+    ("biastype", "biasType"),
+    ("dyntype", "dynType"),
+    ("forcelimited", "forceLimited"),
+    ("ctrllimited", "ctrlLimited"),
+];
+const LISTS: [(&str, &str); 3] = [("gainprm", "gainPrm"), ("biasprm", "biasPrm"), ("gear", "gear")];
+const RANGES: [(&str, &str); 2] = [("forcerange", "forceRange"), ("ctrlrange", "ctrlRange")];
+
+/// Gives joints what these actuators say. `of_joint` has the joints of the robot by their prims.
+pub fn actuators(
+    scene: &Scene<'_>,
+    of_joint: &HashMap<usize, (usize, usize)>,
+    bodies: &mut [Body],
+    is_floating: bool,
+    account: &Account,
+    tally: &mut Tally,
+) -> Fallible<()> {
+    let mut found: Vec<(Element, (usize, usize))> = Vec::new();
+    // MuJoCo's numbers are in SI.
+    let is_si = scene.metre == 1.0 && scene.kilogram == 1.0;
+    for (index, prim) in scene.stage.prims.iter().enumerate() {
+        if &*prim.type_name != "MjcActuator" {
+            continue;
+        }
+        let joint = scene.target(prim, "mjc:target").and_then(|target| of_joint.get(&target));
+        let is_one = |(body, joint): &&(usize, usize)| {
+            let joint = &bodies[*body].joints[*joint];
+            // Of a joint with a drive, the drive counts.
+            matches!(joint.kind, JointKind::Hinge | JointKind::Slide)
+                && joint.kp.or(joint.kv).is_none()
+        };
+        let Some(joint) = joint.filter(is_one).filter(|_| is_si) else {
+            tally.count(features::OTHER_ACTUATORS);
+            continue;
+        };
+        account.charge(ELEMENT).map_err(|why| at(scene.place(index), why))?;
+        found.push((element(scene, index, prim), *joint));
+    }
+    let compiler = Compiler::new();
+    let mut driven = Vec::new();
+    for (element, joint) in &found {
+        let Ok(actuator) = Actuator::of(element, &[]) else {
+            tally.count(features::OTHER_ACTUATORS);
+            continue;
+        };
+        let of = &mut bodies[joint.0].joints[joint.1];
+        of.actuator.force = of.effort.map(|most| [-most, most]);
+        driven.push(Driven { element, suffix: "", actuator, compiler: &compiler, joint: *joint });
+    }
+    let charge =
+        |element: &Element, cost: usize| account.charge(cost).map_err(|why| at(element.place, why));
+    give_all(&driven, bodies, is_floating, &charge, tally)
+}
+
+/// An actuator as the `<general>` of an MJCF.
+fn element(scene: &Scene<'_>, index: usize, prim: &Prim) -> Element {
+    let mut attributes = vec![("name".to_owned(), scene.name(index).to_owned())];
+    let mut set = |name: &str, value: Option<String>| {
+        attributes.extend(value.map(|value| (name.to_owned(), value)));
+    };
+    for (name, own) in WORDS {
+        set(name, word(prim, &format!("mjc:{own}")).map(str::to_owned));
+    }
+    for (name, own) in LISTS {
+        let numbers = prim.value(&format!("mjc:{own}")).and_then(Value::numbers);
+        set(name, numbers.map(|numbers| text(numbers)));
+    }
+    for (name, own) in RANGES {
+        let ends = ["min", "max"].map(|end| number(prim, &format!("mjc:{own}:{end}")));
+        let is_said = ends.iter().any(Option::is_some);
+        set(name, is_said.then(|| text(&ends.map(Option::unwrap_or_default))));
+    }
+    set("inheritrange", number(prim, "mjc:inheritRange").map(|part| part.to_string()));
+    Element::new("general".to_owned(), attributes, scene.place(index))
+}
+
+fn text(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
+}
