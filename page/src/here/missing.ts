@@ -3,6 +3,7 @@
 import type { State } from "../state";
 import { MAY_DESCRIBE } from "../drop";
 import type { Taken } from "../drop";
+import { USD_TEXT } from "./reader";
 import type { Given } from "./protocol";
 
 /** Maximum number of characters of a text that is searched for names, and of names. */
@@ -26,7 +27,10 @@ export function unmet(text: string, files: readonly Given[]): string[] {
     const last = name?.trim().split(/[\\/]/).pop();
     if (name && last && !known.has(last) && !/^https?:/.test(name)) found.add(name.trim());
   };
-  for (const [, name] of text.startsWith("#usda") ? text.matchAll(/@([^@\n]+)@/g) : []) look(name ?? null);
+  if (text.startsWith(USD_TEXT)) {
+    for (const [, name] of text.matchAll(/@([^@\n]+)@/g)) if (found.size < MAX_NAMES) look(name ?? null);
+    return [...found];
+  }
   for (const element of new DOMParser().parseFromString(text, "application/xml").getElementsByTagName("*")) {
     if (found.size >= MAX_NAMES) break;
     if (NAMES_FILE.test(element.tagName) && element.parentElement?.tagName !== "script") look(element.textContent);

@@ -7,7 +7,7 @@ import { lost } from "./protocol";
 import type { Description, Given } from "./protocol";
 
 /** How a USD begins that is a text. */
-const USD_TEXT = "#usda";
+export const USD_TEXT = "#usda";
 
 export class Reader {
   /** Texts that a person changed, by path. */
