@@ -76,18 +76,24 @@ pub fn is_second(option: &str, word: &str, [first, second]: [&str; 2]) -> Result
     }
 }
 
-/// The name of the URDF, the files with it, by path, and the report as JSON.
-type Made<'py> = (String, Vec<(String, Bound<'py, PyBytes>)>, String);
+/// The name of the URDF, the files with it, by path, the report as JSON, and what else is in the folder.
+type Made<'py> = (String, Vec<(String, Bound<'py, PyBytes>)>, String, Vec<String>);
 
 /// What an MJCF, SDF or USD becomes, in memory.
 #[pyfunction]
-pub fn import_robot<'py>(py: Python<'py>, file: PathBuf, source: Source) -> PyResult<Made<'py>> {
+pub fn import_robot<'py>(
+    py: Python<'py>,
+    file: PathBuf,
+    folder: PathBuf,
+    source: Source,
+) -> PyResult<Made<'py>> {
     let settings = source.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| import_whole(&file, &settings, cancellation))?;
     let (imported, _) = outcome.map_err(|error| of_generate(py, &GenerateError::Source(error)))?;
     let files = imported.files.iter();
     let files = files.map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes))).collect();
-    Ok((imported.urdf.clone(), files, imported.report.to_json()))
+    let left = imported.left_in(&folder);
+    Ok((imported.urdf.clone(), files, imported.report.to_json(), left))
 }
 
 /// The robots below these paths: for each its file, and a unique name.

@@ -59,7 +59,8 @@ pub fn run(arguments: &ImportArguments) -> Result<String, Failure> {
     let count = files.len() + usize::from(report.is_some());
     let report = report.as_ref().map(|(file, text)| (file.as_path(), text.as_bytes()));
     output::write_files(Target::Folder(&arguments.output), files, report, arguments.force, "")?;
-    for note in notes(&imported) {
+    let left = imported.left_in(&arguments.output).into_iter().map(|left| format!("note: {left}"));
+    for note in notes(&imported).into_iter().chain(left) {
         output::error(&note);
     }
     let [links, joints] = [(robot.links.len(), "link"), (robot.joints.len(), "joint")]

@@ -57,6 +57,13 @@ fn files_are_written_once_and_never_over_those_of_a_person() {
     assert_eq!(status, 2);
     assert!(said.contains("tabletop_arm.srdf already exists: --force overwrites it"), "{said}");
     assert_eq!(import(&["--force"]).0, 0);
+    // A companion of another import would be read with this URDF.
+    fs::write(there("tabletop_arm.loops.toml"), "[[loop]]").expect("written");
+    let (status, _, said) = import(&[]);
+    assert!(
+        status == 0 && said.contains("tabletop_arm.loops.toml: is not of this import"),
+        "{said}"
+    );
 }
 
 #[test]

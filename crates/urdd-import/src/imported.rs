@@ -132,6 +132,17 @@ impl Imported {
         self.beside(SRDF)
     }
 
+    /// What is in the folder that the files are written to, and will be read with the URDF, though this import has none of
+    /// its kind: an earlier import may have left it. A sentence for each.
+    pub fn left_in(&self, folder: &Path) -> Vec<String> {
+        let base = self.urdf.strip_suffix(".urdf").unwrap_or(&self.urdf);
+        let names = [SRDF, LOOPS, SETUP].map(|ending| format!("{base}{ending}"));
+        let left = names.iter().filter(|name| !self.files.contains_key(*name));
+        let left = left.map(|name| folder.join(name)).filter(|path| path.exists());
+        let words = "is not of this import, and commands read it with the URDF: delete it if an earlier import made it";
+        left.map(|path| format!("{}: {words}", path.display())).collect()
+    }
+
     fn beside(&self, ending: &str) -> Option<&[u8]> {
         self.files.get(&self.at(ending)?).map(|bytes| &**bytes)
     }

@@ -70,9 +70,11 @@ def import_robot(
         FileExistsError: if a file exists with other content, unless ``force``.
     """
     options = source(packages, allowed_folders, body=body, model=model, ball=ball, massless=massless)
-    urdf, files, report = _urdd.import_robot(Path(file), options)
     folder = Path(output)
+    urdf, files, text, left = _urdd.import_robot(Path(file), folder, options)
+    report = json.loads(text)
+    report["notes"] += left
     # The URDF, which names the others, is last.
     contents = sorted(files, key=lambda file: file[0] == urdf)
     _urdd.write_files(folder, True, [(Path(name), content) for name, content in contents], force)
-    return Imported(urdf=folder / urdf, files=sorted(folder / name for name, _ in files), report=json.loads(report))
+    return Imported(urdf=folder / urdf, files=sorted(folder / name for name, _ in files), report=report)
