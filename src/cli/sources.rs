@@ -25,7 +25,7 @@ pub(super) struct PackageArguments {
     #[arg(long = "allow-folder", value_name = "DIR")]
     allowed_folders: Vec<PathBuf>,
 
-    /// The body of an MJCF that is the root of the robot; default: told by the structure.
+    /// The body of an MJCF or USD that is the root of the robot; default: told by the structure.
     #[arg(long, value_name = "NAME")]
     body: Option<String>,
 

@@ -62,7 +62,7 @@ export function folder(path: string): Promise<Source>;
 
 /** What is chosen of a description that is no URDF. */
 export interface ImportOptions {
-  /** The body of an MJCF that is the root of the robot. By default it is told by the structure. */
+  /** The body of an MJCF or USD that is the root of the robot. By default it is told by the structure. */
   body?: string;
   /** The model of an SDF that has several. */
   model?: string;

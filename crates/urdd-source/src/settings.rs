@@ -39,7 +39,7 @@ impl Settings {
 /// What a person can choose of an import.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ImportOptions {
-    /// The body of an MJCF that is the root of the robot. By default it is told by the structure.
+    /// The body of an MJCF or USD that is the root of the robot. By default it is told by the structure.
     pub body: Option<String>,
     /// The model of an SDF. By default it is the only one.
     pub model: Option<String>,

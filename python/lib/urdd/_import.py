@@ -56,7 +56,7 @@ def import_robot(
     Args:
         file: the MJCF, SDF or USD.
         output: the folder to write.
-        body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
+        body: the body of an MJCF or USD that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint is written: as a spherical joint, which few programs read, or as three revolute joints.
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m², which MuJoCo

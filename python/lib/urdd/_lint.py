@@ -57,7 +57,7 @@ def lint(
         xacro: also expands xacro files in folders, macros in .urdf files, and SRDFs of robots that are xacro.
         xacro_arguments: arguments of the xacro files, by name.
         xacro_timeout: time limit of the program xacro, seconds.
-        body: the body of an MJCF that is the root of the robot. By default it is told by the structure.
+        body: the body of an MJCF or USD that is the root of the robot. By default it is told by the structure.
         model: the model of an SDF file that has several.
         ball: how a ball joint of an MJCF, SDF or USD is written: as a spherical joint, or as three revolute joints.
         massless: the mass of links between several joints of one body: none, or 1e-9 kg and 1e-9 kg m².

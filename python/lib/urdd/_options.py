@@ -64,7 +64,7 @@ class MakingOptions(TypedDict, total=False):
     xacro_timeout: float
     """Time limit of the program xacro, seconds."""
     body: str | None
-    """The body of an MJCF that is the root of the robot."""
+    """The body of an MJCF or USD that is the root of the robot."""
     model: str | None
     """The model of an SDF file that has several."""
     ball: Literal["spherical", "revolute"]
