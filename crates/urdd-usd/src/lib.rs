@@ -27,5 +27,5 @@ pub use binary::START as CRATE_START;
 pub use door::{Door, beside};
 pub use error::{Fault, Place, UsdError};
 pub use layer::MAX_LEVELS;
-pub use stage::{Prim, Property, Stage, open};
+pub use stage::{Prim, Property, Stage, file, open};
 pub use value::{Item, ListOp, Name, Value};

@@ -12,3 +12,4 @@ mod mjcf_meaning;
 mod mjcf_seen;
 mod sdf;
 mod usd;
+mod usd_shapes;

@@ -24,6 +24,8 @@ pub struct Branch {
 pub struct Graph {
     /// A parent stands before its children.
     pub branches: Vec<Branch>,
+    /// Further joints between a joint's bodies that follow it, by that joint.
+    pub further: HashMap<usize, Vec<usize>>,
     /// The joints that close chains.
     pub outside: Vec<usize>,
     pub is_floating: bool,
@@ -65,12 +67,19 @@ pub fn graph(
     }
     order.sort_unstable();
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
-    let mut outside = Vec::new();
+    let (mut outside, mut further) = (Vec::new(), HashMap::<usize, Vec<usize>>::new());
+    let mut direct: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
         if sets.join(parent, child) {
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
+            direct.insert((parent, child), at);
+        } else if let Some(first) = direct
+            .get(&(parent, child))
+            .filter(|_| !joints[at].is_excluded && scene.adds_mobility[bodies[child]])
+        {
+            further.entry(*first).or_default().push(at);
         } else if !joints[at].is_free {
             outside.push(at);
         }
@@ -112,8 +121,11 @@ pub fn graph(
             }
         }
     }
-    outside.extend(main.others.iter().filter(|joint| Some(**joint) != main.moves));
-    Ok(Graph { branches, outside, is_floating: !main.is_fixed && main.moves.is_none() })
+    match main.moves.filter(|_| scene.adds_mobility[bodies[main.root]]) {
+        Some(first) => drop(further.insert(first, main.others)),
+        None => outside.extend(main.others),
+    }
+    Ok(Graph { branches, further, outside, is_floating: !main.is_fixed && main.moves.is_none() })
 }
 
 /// The bodies that are the robot.
