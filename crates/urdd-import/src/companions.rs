@@ -19,16 +19,18 @@ use super::tree::{Edge, Tree};
 
 /// The group whose states are the named configurations.
 const GROUP: &str = "all";
-/// What is put behind the name of a spherical joint for each of its DOFs: SPEC 5.8.
-const TURNS: [&str; 3] = ["/rot_x", "/rot_y", "/rot_z"];
 
 /// The joints of the URDF that are DOFs: each with the values that it has in the configurations.
 fn movable(tree: &Tree) -> impl Iterator<Item = &Edge> {
     tree.joints.iter().filter(|edge| edge.joint.is_some() && edge.mimic.is_none())
 }
 
-/// The values of the joints of the URDF in a configuration, by joint.
-fn values<'t>(model: &Model, tree: &'t Tree, at: usize) -> Vec<(&'t str, Vec<f64>)> {
+/// The values of the joints of the URDF in a configuration, by joint, with what its DOFs add to its name.
+fn values<'t>(
+    model: &Model,
+    tree: &'t Tree,
+    at: usize,
+) -> Vec<(&'t str, Vec<f64>, &'static [&'static str])> {
     let configuration = &model.configurations[at].values;
     let by_joint: HashMap<(usize, usize), &[f64]> =
         configuration.iter().map(|value| (value.joint, &*value.values)).collect();
@@ -39,16 +41,16 @@ fn values<'t>(model: &Model, tree: &'t Tree, at: usize) -> Vec<(&'t str, Vec<f64
         let joint = &model.bodies[body].joints[place];
         let Some(values) = by_joint.get(&(body, place)) else { continue };
         let is_split = joint.kind == JointKind::Ball && edge.kind != "spherical";
-        let own = match (is_split, values) {
+        let (own, dofs) = match (is_split, values) {
             (true, [x, y, z]) => {
                 let turn = turns.entry((body, place)).or_default();
                 let angles = in_turn([*x, *y, *z]);
                 *turn += 1;
-                vec![angles[(*turn - 1).min(2)]]
+                (vec![angles[(*turn - 1).min(2)]], JointKind::Hinge.dofs())
             }
-            _ => values.to_vec(),
+            _ => (values.to_vec(), joint.kind.dofs()),
         };
-        all.push((&*edge.name, own));
+        all.push((&*edge.name, own, dofs));
     }
     all
 }
@@ -65,15 +67,9 @@ fn in_turn(vector: [f64; 3]) -> [f64; 3] {
 /// The named configurations, as a URDD has them.
 pub fn configurations(model: &Model, tree: &Tree) -> Vec<ConfigurationEdit> {
     let edit = |at: usize| {
-        let positions = values(model, tree, at).into_iter().flat_map(|(joint, values)| {
-            let names: Vec<String> = match values.len() {
-                1 => vec![joint.to_owned()],
-                _ => TURNS.iter().map(|turn| format!("{joint}{turn}")).collect(),
-            };
-            names
-                .into_iter()
-                .zip(values)
-                .map(|(dof_name, position)| DofPosition { dof_name, position })
+        let positions = values(model, tree, at).into_iter().flat_map(|(joint, values, dofs)| {
+            let names = dofs.iter().map(move |dof| format!("{joint}{dof}"));
+            names.zip(values).map(|(dof_name, position)| DofPosition { dof_name, position })
         });
         let name = ConfigurationName::new(&model.configurations[at].name)?;
         Some(ConfigurationEdit { name, positions: positions.collect() })
@@ -106,7 +102,7 @@ pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
     }
     for (at, configuration) in model.configurations.iter().enumerate() {
         let values = values(model, tree, at).into_iter();
-        let values = values.map(|(joint, values)| (joint, numbers(&values)));
+        let values = values.map(|(joint, values, _)| (joint, numbers(&values)));
         robot.push(write::state(&configuration.name, GROUP, values));
     }
     for apart in &model.apart {

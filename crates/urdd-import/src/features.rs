@@ -38,6 +38,7 @@ const BALL: How =
 const CAPSULE: How = Otherwise("as a cylinder and two spheres");
 const ELLIPSOID: How = Otherwise("as a mesh of a sphere, scaled");
 const STL: How = Otherwise("as STL");
+const STL_OBJ: How = Otherwise("as STL, or with an image as OBJ");
 const SLIDE: How = Otherwise("with limits of ±10 m");
 const SRDF: How = Otherwise("in the SRDF");
 const SETUP: How = Otherwise("in `NAME.export.toml`");
@@ -59,15 +60,16 @@ features! {
     SLIDES = "slides with limits", Yes, Yes, Yes;
     FREE_SLIDES = "slides without limits", SLIDE, SLIDE, SLIDE;
     BALLS = "balls", BALL, BALL, BALL;
+    PLANAR = "planar joints, and floating ones below the root", Elsewhere, Elsewhere, Yes;
     FREE = "the free joint of the root", SETUP, Elsewhere, SETUP;
     MORE_JOINTS = "more joints of a body, and joints away from its frame", EMPTY, EMPTY, EMPTY;
     MASSES = "masses and inertias", Yes, Yes, Yes;
     BOXES = "boxes, spheres and cylinders", Yes, Yes, Yes;
     CAPSULES = "capsules", CAPSULE, CAPSULE, CAPSULE;
     ELLIPSOIDS = "ellipsoids", ELLIPSOID, ELLIPSOID, ELLIPSOID;
-    MESHES = "meshes", Yes, Yes, STL;
+    MESHES = "meshes", Yes, Yes, STL_OBJ;
     COLOURS = "colours", Yes, Yes, Yes;
-    TEXTURES = "textures", Yes, Yes, No;
+    TEXTURES = "textures", Yes, Yes, Yes;
     FRAMES = "sites, cameras and frames", FRAME, FRAME, FRAME;
     POSES = "named configurations", SRDF, Elsewhere, SRDF;
     MIMICS = "joints that follow others", Yes, Yes, Yes;
@@ -120,7 +122,8 @@ features! {
     KEPT = "plugins, sensors and settings of Gazebo", Elsewhere, GAZEBO, Elsewhere;
     DETACHED_BODIES = "bodies that no joint holds, and other robots", Elsewhere, Elsewhere, No;
     ALONE = "shapes that belong to no body", Elsewhere, Elsewhere, No;
-    DISTANCES = "joints that hold a distance, and joints that are not active", Elsewhere, Elsewhere, No;
+    MISSING_PARTS = "references that are not found, of prims without bodies and joints", Elsewhere, Elsewhere, No;
+    DISTANCES = "joints that hold a distance, that are not active, or whose body is not there", Elsewhere, Elsewhere, No;
     OTHER_SHAPES = "curves, points and other shapes that are not solid", Elsewhere, Elsewhere, No;
     SAMPLES = "values by time, but the first", Elsewhere, Elsewhere, No;
 }

@@ -17,6 +17,7 @@ mod place;
 mod refusal;
 pub mod report;
 mod sdf;
+mod sets;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -106,6 +106,23 @@ pub enum JointKind {
     Slide,
     /// About a point.
     Ball,
+    /// In the plane whose normal is its axis, and about it.
+    Planar,
+    /// In all ways.
+    Floating,
+}
+
+impl JointKind {
+    /// What is put behind the name of a joint for each of its DOFs: SPEC 5.8.
+    pub fn dofs(self) -> &'static [&'static str] {
+        const ALL: [&str; 6] = ["/trans_x", "/trans_y", "/trans_z", "/rot_x", "/rot_y", "/rot_z"];
+        match self {
+            JointKind::Hinge | JointKind::Slide => &[""],
+            JointKind::Ball => &ALL[3..],
+            JointKind::Planar => &["/trans_x", "/trans_y", "/rot"],
+            JointKind::Floating => &ALL,
+        }
+    }
 }
 
 /// A joint.
@@ -117,7 +134,7 @@ pub struct Joint {
     pub kind: JointKind,
     /// Its frame in the body's, which moves with the body.
     pub frame: Isometry3<f64>,
-    /// Its axis in its frame; not zero. Of no meaning for a ball.
+    /// Its axis in its frame; not zero. Of no meaning for a ball and for what floats.
     pub axis: Vector3<f64>,
     /// Its value in the pose of [`Body::pose`], rad or m.
     pub reference: f64,
@@ -272,7 +289,7 @@ pub struct JointValue {
     pub joint: (usize, usize),
     /// Its name.
     pub name: String,
-    /// In rad or m; of a ball, the components x, y, z of its rotation vector.
+    /// Of each DOF, rad or m; of rotations about a point, the components of the rotation vector.
     pub values: Vec<f64>,
 }
 

@@ -208,6 +208,8 @@ fn moves(of: usize, joint: &Joint, options: &ImportOptions) -> Vec<Move> {
             each.collect()
         }
         JointKind::Ball => one("spherical", still, None),
+        JointKind::Planar => one("planar", still, axis),
+        JointKind::Floating => one("floating", still, None),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3};
 
-use super::model::{Geometry, Inertial, Material, Model, Shape, Use};
+use super::model::{Geometry, Inertial, JointKind, Material, Model, Shape, Use};
 use super::names::Titles;
 use super::place::Place;
 use super::tree::{Edge, Link, Tree};
@@ -158,7 +158,7 @@ fn joint_element(model: &Model, edge: &Edge) -> Element {
         return element;
     };
     let joint = &model.bodies[body].joints[joint];
-    if edge.kind != "spherical" {
+    if joint.kind != JointKind::Floating && edge.kind != "spherical" {
         let range = edge.range.or((edge.kind == "prismatic").then_some([-FAR, FAR]));
         let [lower, upper] = match range {
             Some([lower, upper]) => [Some(lower), Some(upper)],

@@ -97,7 +97,7 @@ pub(super) fn fault_of_side_file(
 }
 
 /// Whether a file is an image, by its header and pixel size.
-pub(crate) fn is_image(bytes: &[u8]) -> bool {
+pub fn is_image(bytes: &[u8]) -> bool {
     imagesize::blob_size(bytes).is_ok_and(|size| size.width > 0 && size.height > 0)
 }
 

@@ -27,5 +27,5 @@ pub use binary::START as CRATE_START;
 pub use door::{Door, beside};
 pub use error::{Fault, Place, UsdError};
 pub use layer::MAX_LEVELS;
-pub use stage::{Outline, Prim, Property, Stage, open, outline};
+pub use stage::{Outline, Prim, Property, Stage, file, open, outline};
 pub use value::{Item, ListOp, Name, Value};

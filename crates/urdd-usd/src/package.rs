@@ -3,6 +3,7 @@
 use std::io::{Cursor, Read};
 use std::sync::Arc;
 
+use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
 
 use super::door::Door;
@@ -33,8 +34,12 @@ impl Package {
 
     /// The content of an entry.
     pub fn read(&mut self, name: &str, door: &mut dyn Door) -> Result<Arc<[u8]>, Fault> {
-        let entry =
-            self.archive.by_name(name).map_err(|why| Fault::Zip(format!("`{name}`: {why}")))?;
+        let entry = self.archive.by_name(name).map_err(|why| match why {
+            ZipError::FileNotFound => {
+                Fault::File { asset: name.to_owned(), why: "it is not in the package".to_owned() }
+            }
+            why => Fault::Zip(format!("`{name}`: {why}")),
+        })?;
         // Stored entries are not larger than the package, whatever they say.
         if entry.compression() != CompressionMethod::Stored || entry.size() > self.size {
             return Err(Fault::Zip(format!("`{name}` is not stored as it is")));

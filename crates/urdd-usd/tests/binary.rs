@@ -3,10 +3,13 @@
 
 mod common;
 
+use std::io::{Cursor, Write};
 use std::sync::Arc;
 
 use common::{Memory, memory, said};
-use urdd_usd::{Stage, UsdError, Value, open};
+use urdd_usd::{Stage, UsdError, Value, file, open};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 const ARM: &str = include_str!("fixtures/arm.usda");
 const ARM_CRATE: &[u8] = include_bytes!("fixtures/arm.usdc");
@@ -73,6 +76,32 @@ fn a_package_is_its_first_layer() {
     assert_eq!(&*package.layers[0], "arm.usdz[arm.usdc]");
     let nothing = binary("arm.usdz", &ARM_ZIP[..100]).0.unwrap_err().to_string();
     assert!(nothing.contains("not a usdz that can be read"), "{nothing}");
+}
+
+/// A package of one file.
+fn packed(name: &str, bytes: &[u8]) -> Vec<u8> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let stored = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+    zip.start_file(name, stored).unwrap();
+    zip.write_all(bytes).unwrap();
+    zip.finish().unwrap().into_inner()
+}
+
+#[test]
+fn packages_in_packages() {
+    let mut bytes = packed("b.usdz", ARM_ZIP);
+    let (package, mut files) = binary("a.usdz", &bytes);
+    let package = package.unwrap();
+    assert_eq!(said(&package), said(&binary("arm.usdc", ARM_CRATE).0.unwrap()));
+    assert_eq!(&*package.layers[0], "a.usdz[b.usdz[arm.usdc]]");
+    assert_eq!(&*file("a.usdz[b.usdz[arm.usdc]]", &mut files).unwrap(), ARM_CRATE);
+    let gone = file("a.usdz[b.usdz[gone.png]]", &mut files).unwrap_err().to_string();
+    assert_eq!(gone, "cannot read `a.usdz[b.usdz[gone.png]]`: it is not in the package");
+    for _ in 0..7 {
+        bytes = packed("a.usdz", &bytes);
+    }
+    let deep = binary("a.usdz", &bytes).0.unwrap_err().to_string();
+    assert!(deep.ends_with("packages are nested more than 8 levels deep"), "{deep}");
 }
 
 /// Nothing panics, and no memory is made that the bytes do not account for.

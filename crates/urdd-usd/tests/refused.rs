@@ -34,12 +34,32 @@ fn text_that_is_not_usd() {
 #[test]
 fn composition_that_is_not_read() {
     for (text, error) in [
+        ("def \"a\" (references = @`${X}.usd`@) {}", "is an expression"),
+        ("( relocates = {</a>: </b>} )", "relocates are not read"),
+        ("( subLayers = [@root.usda@] )", "sublayers go round in a circle at `root.usda`"),
+        ("( subLayers = [@gone.usd@] )", "root.usda: cannot read `gone.usd`: no such file"),
+        ("( subLayers = [@https://a.b/c.usd@] )", "layers from the network are not read"),
+    ] {
+        let found = refused(text);
+        assert!(found.contains(error), "{text}: {found}");
+    }
+    // A sublayer of what is referenced.
+    let files = [
+        ("a.usda", "#usda 1.0\ndef \"a\" (references = @b.usda@) {}"),
+        ("b.usda", "#usda 1.0\n( subLayers = [@c.usda@] )"),
+    ];
+    let found = stage(&files).unwrap_err().to_string();
+    assert_eq!(found, "b.usda: cannot read `c.usda`: no such file");
+}
+
+#[test]
+fn references_that_are_not_there() {
+    for (text, error) in [
         (
             "def \"a\" (references = @https://a.b/c.usd@) {}",
             "root.usda:2:1: `https://a.b/c.usd` is not a file",
         ),
         ("def \"a\" (payload = @omniverse://a/c.usd@) {}", "layers from the network are not read"),
-        ("def \"a\" (references = @`${X}.usd`@) {}", "is an expression"),
         (
             "def \"a\" (references = @gone.usd@) {}",
             "root.usda:2:1: cannot read `gone.usd`: no such file",
@@ -47,12 +67,17 @@ fn composition_that_is_not_read() {
         ("def \"a\" (references = @../up.usd@) {}", "cannot read `../up.usd`"),
         ("def \"a\" (references = </gone>) {}", "prim `/gone` is not in `root.usda`"),
         ("def \"a\" (references = @root.usda@) {}", "`root.usda` has no default prim"),
-        ("( relocates = {</a>: </b>} )", "relocates are not read"),
-        ("( subLayers = [@root.usda@] )", "sublayers go round in a circle at `root.usda`"),
     ] {
-        let found = refused(text);
-        assert!(found.contains(error), "{text}: {found}");
+        let stage = composed(text);
+        let [(Some(0), found)] = &stage.missing[..] else { panic!("{:?}", stage.missing) };
+        assert!(found.to_string().contains(error), "{text}: {found}");
     }
+    // What is not a prim without it: the prim above has it.
+    let stage = composed(
+        "def \"a\" { over \"b\" (references = @gone.usd@) {} }\nover \"c\" (references = @gone.usd@) {}",
+    );
+    let holders: Vec<_> = stage.missing.iter().map(|(holder, _)| *holder).collect();
+    assert_eq!((stage.prims.len(), holders), (1, vec![Some(0), None]));
 }
 
 #[test]
@@ -152,6 +177,7 @@ fn paths_of_files() {
         ("x/a.usda", "/b.usda", "/b.usda"),
         ("/x/a.usda", "../b.usda", "/b.usda"),
         ("p.usdz[x/a.usda]", "../b.usda", "p.usdz[b.usda]"),
+        ("p.usdz[q.usdz[x/a.usda]]", "../b.usda", "p.usdz[q.usdz[b.usda]]"),
         ("a.usda", r"x\b.usda", "x/b.usda"),
     ] {
         assert_eq!(beside(layer, asset), path, "{layer} {asset}");

@@ -40,6 +40,21 @@ def turn(axis, angles):
     return np.eye(3) + sines * cross + (1 - cosines) * (cross @ cross)
 
 
+def along(joint):
+    axis = joint.find("axis")
+    xyz = floats(axis.get("xyz"), 3) if axis is not None else np.array([1.0, 0, 0])
+    return xyz / max(np.linalg.norm(xyz), 1e-300)
+
+
+def plane(normal):
+    """SPEC's two axes of a plane: x and y, turned on the shortest way that takes z to the normal."""
+    x, y, z = normal / np.linalg.norm(normal)
+    if np.hypot(x, y) < 1e-12:
+        return np.array([[1, 0, 0], [0, np.sign(z), 0]])
+    around = np.array([-y, x, 0])
+    return (turn(around, np.arctan2([np.hypot(x, y)], [z]))[0] @ np.eye(3)[:, :2]).T
+
+
 def of_quaternion(q):
     w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
     rows = [
@@ -88,11 +103,18 @@ class Urdf:
                 moved = np.broadcast_to(np.eye(4), (count, 4, 4)).copy()
                 kind = joint.get("type")
                 if kind in ("revolute", "continuous"):
-                    moved[:, :3, :3] = turn(floats(joint.find("axis").get("xyz"), 3), value(joint))
+                    moved[:, :3, :3] = turn(along(joint), value(joint))
                 elif kind == "prismatic":
-                    moved[:, :3, 3] = value(joint)[:, None] * floats(joint.find("axis").get("xyz"), 3)
+                    moved[:, :3, 3] = value(joint)[:, None] * along(joint)
                 elif kind == "spherical":
                     moved[:, :3, :3] = value(joint)
+                elif kind == "planar":
+                    # SPEC 5.8: along two axes of the plane, then about its normal.
+                    normal, places = along(joint), value(joint)
+                    moved[:, :3, :3] = turn(normal, places[:, 2])
+                    moved[:, :3, 3] = places[:, :2] @ plane(normal)
+                elif kind == "floating":
+                    moved[:] = value(joint)
                 elif kind != "fixed":
                     raise ValueError(f"a joint of type {kind}")
                 parent = found[joint.find("parent").get("link")]

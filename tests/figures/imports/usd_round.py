@@ -15,7 +15,7 @@ import tempfile
 import numpy as np
 import trimesh
 
-from kinematics import Urdf, floats, origin
+from kinematics import Urdf, floats, of_quaternion, origin, pose
 
 # Of lengths in m, angles, masses against themselves.
 FAR = 2e-6
@@ -46,6 +46,15 @@ def limits(joint):
     if element is None or element.get("lower") is None:
         return None
     return float(element.get("lower", 0)), float(element.get("upper", 0))
+
+
+def drawn(rng, kind):
+    """20 values of a joint, as `kinematics` takes them."""
+    quaternions = rng.normal(size=(20, 4))
+    rotations = of_quaternion(quaternions / np.linalg.norm(quaternions, axis=1)[:, None])
+    if kind == "floating":
+        return np.stack([pose(of, rng.uniform(-1, 1, 3)) for of in rotations])
+    return rotations if kind == "spherical" else rng.uniform(-1, 1, (20, 3) if kind == "planar" else 20)
 
 
 def leader(robot, joint):
@@ -127,6 +136,11 @@ def compare(one, other, wrong):
         if own is None:
             wrong.append(f"joint {name} is missing")
             return
+        span = limits(joint) if kind in ("revolute", "prismatic") else None
+        if span and span[0] == span[1] and own.get("type") == "fixed":
+            # It cannot move.
+            values[name] = np.full(20, span[0])
+            continue
         if own.get("type") != kind:
             wrong.append(f"joint {name} is {own.get('type')} for {kind}")
         theirs, ours = (limits(of) if of.get("type") in ("revolute", "prismatic") else None for of in (joint, own))
@@ -134,14 +148,15 @@ def compare(one, other, wrong):
             wrong.append(f"joint {name}: limits {ours} for {theirs}")
         follows = joint.find("mimic") is not None
         # What follows is not driven: `urdd export` leaves its effort out.
-        for attribute in ("velocity",) if follows else ("effort", "velocity"):
+        # Nor those of planar joints are in USD.
+        for attribute in () if kind == "planar" else ("velocity",) if follows else ("effort", "velocity"):
             theirs, ours = ((of.find("limit").get(attribute) if of.find("limit") is not None else None) for of in (joint, own))
             if theirs and float(theirs) > 0 and abs(float(ours or 1000) - float(theirs)) > 1e-5 * float(theirs):
                 wrong.append(f"joint {name}: {attribute} {ours} for {theirs}")
         theirs, ours = leader({of.get("name"): of for of in one.joints}, joint), leader(joints, own)
         if theirs[0] != ours[0] or np.abs(np.subtract(theirs[1:], ours[1:])).max() > FAR * max(1, abs(theirs[1])):
             wrong.append(f"joint {name} follows {ours} for {theirs}")
-        values[name] = rng.uniform(-1, 1, 20)
+        values[name] = drawn(rng, kind)
     for link in links:
         (mass, centre, inertia), (mass2, centre2, inertia2) = one.inertial(link), other.inertial(link)
         if mass == 0 and mass2 < 2e-6:

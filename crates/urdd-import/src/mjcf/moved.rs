@@ -118,6 +118,8 @@ fn axes(joint: &Joint, pose: &Isometry3<f64>) -> Vec<Vector6<f64>> {
         JointKind::Hinge => vec![about(axis)],
         JointKind::Slide => vec![six(Vector3::zeros(), axis)],
         JointKind::Ball => [Vector3::x(), Vector3::y(), Vector3::z()].map(about).into(),
+        // MJCF has neither.
+        JointKind::Planar | JointKind::Floating => Vec::new(),
     }
 }
 

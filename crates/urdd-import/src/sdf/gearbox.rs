@@ -120,7 +120,7 @@ fn turned<'b>(
             let own = poses[body].rotation * joint.frame.rotation * joint.axis;
             match joint.kind {
                 JointKind::Slide => {}
-                JointKind::Ball => return None,
+                JointKind::Ball | JointKind::Planar | JointKind::Floating => return None,
                 JointKind::Hinge => {
                     let along = own.try_normalize(0.0)?.dot(&axis);
                     if along.abs() < 1.0 - PARALLEL {

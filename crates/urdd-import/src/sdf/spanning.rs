@@ -2,6 +2,7 @@
 
 use super::super::features::{self, Tally};
 use super::super::refusal::Refusal;
+use super::super::sets::Sets;
 use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
 
@@ -124,28 +125,4 @@ fn ends(scene: &Scene, frames: &Frames) -> Result<[Vec<Outside>; 3], Refusal> {
         }
     }
     Ok([first, further, gearboxes])
-}
-
-/// Sets of links that joints connect.
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Sets((0..count).collect())
-    }
-
-    fn of(&mut self, mut link: usize) -> usize {
-        while self.0[link] != link {
-            self.0[link] = self.0[self.0[link]];
-            link = self.0[link];
-        }
-        link
-    }
-
-    /// Makes one of two sets; false if they are one.
-    fn join(&mut self, left: usize, right: usize) -> bool {
-        let (left, right) = (self.of(left), self.of(right));
-        self.0[left.max(right)] = left.min(right);
-        left != right
-    }
 }

@@ -89,6 +89,7 @@ fn moved(joint: &Joint, values: &[f64]) -> Isometry3<f64> {
         }
         JointKind::Slide => Translation3::from(axis.into_inner() * by).into(),
         JointKind::Ball => Isometry3::from_parts(Translation3::identity(), rotation(values)),
+        other => panic!("MJCF has no {other:?}"),
     };
     joint.frame * motion * joint.frame.inverse()
 }
@@ -155,6 +156,7 @@ fn compare(name: &str, model: &Model, expected: &Value) {
                 JointKind::Hinge => "hinge",
                 JointKind::Slide => "slide",
                 JointKind::Ball => "ball",
+                other => panic!("MJCF has no {other:?}"),
             };
             assert_eq!(of["kind"], kind, "{what}");
             if let Some(named) = of["name"].as_str().filter(|name| !name.is_empty()) {

@@ -13,3 +13,4 @@ mod mjcf_seen;
 mod sdf;
 mod usd;
 mod usd_mujoco;
+mod usd_shapes;

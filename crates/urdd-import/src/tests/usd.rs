@@ -13,8 +13,12 @@ use crate::model::{Body, Geometry, Joint, JointKind, Mimic, Model, Use};
 use crate::place::TextFile;
 use crate::usd;
 
-fn given(text: &str, files: &[(&str, &str)], options: &ImportOptions) -> Result<Model, String> {
-    let file = |(path, text): &(&str, &str)| ((*path).to_owned(), Arc::from(text.as_bytes()));
+pub(super) fn given(
+    text: &str,
+    files: &[(&str, &[u8])],
+    options: &ImportOptions,
+) -> Result<Model, String> {
+    let file = |(path, bytes): &(&str, &[u8])| ((*path).to_owned(), Arc::from(*bytes));
     let files = Files::in_memory(files.iter().map(file)).expect("files");
     let gate = Gate::of_project(Path::new("/"), &Settings { files, ..Settings::default() });
     gate.account().deposit(text.len());
@@ -25,12 +29,12 @@ fn given(text: &str, files: &[(&str, &str)], options: &ImportOptions) -> Result<
 }
 
 /// What is in a stage in metres, whose z is up.
-pub fn inside(text: &str) -> Model {
+pub(super) fn inside(text: &str) -> Model {
     let head = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n";
     given(&format!("{head}{text}"), &[], &ImportOptions::default()).expect("a model")
 }
 
-pub fn body<'m>(model: &'m Model, name: &str) -> &'m Body {
+pub(super) fn body<'m>(model: &'m Model, name: &str) -> &'m Body {
     model.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("no body {name}"))
 }
 
@@ -143,9 +147,23 @@ fn a_generic_joint_is_what_it_leaves_free() {
     let names: Vec<&str> = body(&several, "b").joints.iter().map(|joint| &*joint.name).collect();
     assert_eq!(names, ["j/transX", "j/rotZ"]);
     let free = generic(&["transX", "transY", "transZ", "rotX", "rotY", "rotZ"]);
-    let names: Vec<&str> = body(&free, "b").joints.iter().map(|joint| &*joint.name).collect();
-    assert_eq!(names, ["j/transX", "j/transY", "j/transZ", "j/rot"]);
-    assert_eq!(joint(&free, "j/rot").1.kind, JointKind::Ball);
+    assert_eq!(joint(&free, "j").1.kind, JointKind::Floating);
+    let planar = generic(&["transX", "transZ", "rotY"]);
+    let own = joint(&planar, "j").1;
+    assert_eq!((own.kind, own.axis), (JointKind::Planar, Vector3::y()));
+    // The rotation is not about the normal.
+    assert_eq!(body(&generic(&["transX", "transZ", "rotX"]), "b").joints.len(), 3);
+}
+
+#[test]
+fn configurations_have_a_value_for_each_dof() {
+    let values = "double \"j/rot_x\" = 1; double \"j/rot_y\" = 2; double \"j/rot_z\" = 3";
+    let text = format!(
+        "{}\ndef \"data\" ( customData = {{ dictionary urdd = {{ dictionary configurations = {{ dictionary \"home\" = {{ {values} }} }} }} }} ) {{}}",
+        two("PhysicsSphericalJoint", "")
+    );
+    let [home] = &inside(&text).configurations[..] else { panic!("one configuration") };
+    assert_eq!((&*home.name, &*home.values[0].values), ("home", &[1.0, 2.0, 3.0][..]));
 }
 
 #[test]
@@ -241,6 +259,38 @@ fn a_circle_of_followers_is_broken() {
 }
 
 #[test]
+fn joints_that_add_mobility_follow_each_other() {
+    let joint_of = |name: &str, kind: &str, parent: &str, at: &str| {
+        format!(
+            "def {kind} \"{name}\" {{ {parent} rel physics:body1 = </r/b>
+            point3f physics:localPos0 = {at}\n point3f physics:localPos1 = {at} }}\n"
+        )
+    };
+    let text = |parent: &str, flag: &str| {
+        let joints = joint_of("s", "PhysicsPrismaticJoint", parent, "(0, 0, 0)")
+            + &joint_of("h", "PhysicsRevoluteJoint", parent, "(0, 1, 0)");
+        format!(
+            "def Xform \"r\" {{ {flag} def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}
+            def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}} }}\n{joints}"
+        )
+    };
+    let adds = "uniform bool newton:jointsAddMobility = 1";
+    // Of the world, and of another body.
+    for parent in ["", "rel physics:body0 = </r/a>\n"] {
+        let model = inside(&text(parent, adds));
+        let own = body(&model, "b");
+        let names: Vec<&str> = own.joints.iter().map(|joint| &*joint.name).collect();
+        assert_eq!((names, model.closings.len()), (vec!["s", "h"], 0));
+        // The body stays where it is, and turns about a point of it.
+        assert_eq!(own.pose, Isometry3::identity());
+        assert_eq!(own.joints[1].frame.translation.vector, Vector3::y());
+        assert!(!model.is_floating || !parent.is_empty());
+    }
+    let closed = inside(&text("rel physics:body0 = </r/a>\n", ""));
+    assert_eq!((body(&closed, "b").joints.len(), closed.closings.len()), (1, 1));
+}
+
+#[test]
 fn joints_that_articulations_exclude_close_chains() {
     let bodies: String = ["a", "b", "c"]
         .map(|name| format!("def Xform \"{name}\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}\n"))
@@ -299,48 +349,10 @@ fn the_robot_is_the_articulation() {
 }
 
 #[test]
-fn meshes_and_colours() {
-    let model = inside(
-        "def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {
-            rel material:binding = </looks/red>
-            def Mesh \"square\" (apiSchemas = [\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"]) {
-                uniform token physics:approximation = \"boundingCube\"
-                point3f[] points = [(0,0,0), (2,0,0), (2,1,0), (0,1,0), (0,0,1)]
-                int[] faceVertexCounts = [4, 3]
-                int[] faceVertexIndices = [0, 1, 2, 3, 0, 1, 4]
-                def GeomSubset \"side\" { int[] indices = [1]
-                    rel material:binding = </looks/blue> }
-            }
-        }
-        def Scope \"looks\" {
-            def Material \"red\" { token outputs:surface.connect = </looks/red/s.outputs:surface>
-                def Shader \"s\" { color3f inputs:diffuseColor = (0.8, 0.1, 0)\n float inputs:opacity = 0.5\n token outputs:surface } }
-            def Material \"blue\" { token outputs:surface.connect = </looks/blue/s.outputs:surface>
-                def Shader \"s\" { color3f inputs:diffuseColor.connect = </looks/blue.inputs:c> }
-                color3f inputs:c = (0, 0, 1) }
-        }",
-    );
-    let [solid, side, rest] = &body(&model, "a").shapes[..] else { panic!("{:?}", model.bodies) };
-    assert_eq!(
-        (solid.used, solid.geometry.clone()),
-        (Use::Collision, Geometry::Box([2.0, 1.0, 1.0]))
-    );
-    assert_eq!(solid.pose.translation.vector, Vector3::new(1.0, 0.5, 0.5));
-    let colour = |shape: &crate::model::Shape| shape.material.as_ref().and_then(|of| of.rgba);
-    assert_eq!(
-        (colour(side), colour(rest)),
-        (Some([0.0, 0.0, 1.0, 1.0]), Some([0.8, 0.1, 0.0, 0.5]))
-    );
-    // One triangle, and two of the square: 84 bytes of head, and 50 each.
-    let sizes: Vec<usize> = model.assets.iter().map(|asset| asset.bytes.len()).collect();
-    assert_eq!(sizes, [134, 184]);
-}
-
-#[test]
 fn refused() {
     let options = ImportOptions::default();
     let error = |text: &str| {
-        given(&format!("#usda 1.0\n{text}"), &[("/x.usda", "no")], &options).unwrap_err()
+        given(&format!("#usda 1.0\n{text}"), &[("/x.usda", b"no")], &options).unwrap_err()
     };
     for (text, found) in [
         ("def \"a\" {}", "robot.usda:1:1: no prim has `PhysicsRigidBodyAPI`"),
@@ -349,6 +361,7 @@ fn refused() {
             "def \"a\" (references = @gone.usda@) {}",
             "robot.usda:2:1: cannot read `gone.usda`: `gone.usda` was not found",
         ),
+        ("( subLayers = [@gone.usda@] )", "robot.usda:0:0: cannot read `gone.usda`"),
         (
             "def \"a\" (references = @../../gone.usda@) {}",
             "robot.usda:2:1: cannot read `../../gone.usda`",

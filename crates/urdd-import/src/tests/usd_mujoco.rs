@@ -23,7 +23,7 @@ fn stacked(attribute: &str, ends: [&str; 2]) -> Model {
             def PhysicsFixedJoint \"w\" {{ rel physics:body1 = </a> }}
         }}
         def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}
-        def Scope \"joints\" (apiSchemas = [\"NewtonArticulationRootAPI\"]) {{ {attribute}\n {} {} }}",
+        def Scope \"joints\" {{ {} {} }}",
         joint("x", "X", ["(0, 0, 1)", "(0, 0, 0.25)"]),
         joint("y", "Y", ["(0.5, 0, 1)", "(0.5, 0, 0.25)"]),
     );
@@ -39,10 +39,9 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
         moving.joints.iter().map(|joint| (&*joint.name, joint.axis, joint.frame)).collect();
     let [x, y] = &found[..] else { panic!("{found:?}") };
     assert_eq!((x.0, x.1, y.0, y.1), ("x", Vector3::x(), "y", Vector3::y()));
-    // Half a metre apart in the body, whose link is where the first turns.
-    assert_eq!(moving.pose.translation.vector, Vector3::z());
-    let between = y.2.translation.vector - x.2.translation.vector;
-    assert_eq!(between, Vector3::new(0.5, 0.0, 0.0));
+    // Half a metre apart in the body.
+    let frames = [x, y].map(|joint| moving.pose.translation.vector + joint.2.translation.vector);
+    assert_eq!(frames, [Vector3::z(), Vector3::new(0.5, 0.0, 1.0)]);
     assert!(model.closings.is_empty());
 
     // From the other end, the last is the first.

@@ -73,11 +73,11 @@ pub fn configurations(
                 Configuration { name: name.to_string(), values: Charged::default(), base: None };
             for (body, part) in made.bodies.iter().enumerate() {
                 for (which, joint) in part.joints.iter().enumerate() {
-                    let Some(value) = known.get(&*joint.name) else {
-                        continue;
-                    };
+                    let dofs = joint.kind.dofs().iter();
                     let name = joint.name.clone();
-                    let value = JointValue { joint: (body, which), name, values: vec![*value] };
+                    let values = dofs.map(|dof| known.get(&*format!("{name}{dof}")).copied());
+                    let Some(values) = values.collect() else { continue };
+                    let value = JointValue { joint: (body, which), name, values };
                     configuration.values.push(value, account).map_err(|why| at(place, why))?;
                 }
             }

@@ -4,24 +4,23 @@ use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Translation3};
-use sha2::{Digest, Sha256};
 use urdd_directory::account::Charged;
-use urdd_directory::path::file_name;
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
-use urdd_geometry::read::Part;
-use urdd_geometry::write::stl;
+use urdd_geometry::read::{Part, Texture};
+use urdd_geometry::write::{obj, stl};
 use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
 use super::super::features::{self, Tally};
 use super::super::model::{Asset, Geometry, Material, Shape, Use};
 use super::super::refusal::{Fallible, at};
+use super::assets::Assets;
 use super::form::{Form, bounding, form, reach};
 use super::look::{look, rubbed};
 use super::made::Made;
 use super::mesh::{Faces, faces};
-use super::scene::{Scene, flag, is_square, number, split, word};
+use super::scene::{Scene, flag, is_shape, is_square, number, split, word};
 
 /// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written.
 const MESH: usize = 60;
@@ -29,12 +28,19 @@ const MESH: usize = 60;
 /// The shapes of a robot, and the meshes of these.
 pub struct Shapes<'a, 's> {
     scene: &'a Scene<'s>,
-    gate: &'a Gate,
-    assets: Charged<Asset>,
-    known: HashMap<[u8; 32], usize>,
-    taken: BTreeSet<String>,
+    assets: Assets<'a>,
     /// The shapes that collide, by body: the prim, the shape in the frame of the link, and the mesh of it.
     pub solids: HashMap<usize, Vec<Solid>>,
+}
+
+/// A part of a mesh that is seen.
+struct Seen {
+    /// That of a subset.
+    name: Option<String>,
+    mesh: Mesh,
+    /// Places in an image, one for each vertex.
+    uv: Vec<[f64; 2]>,
+    material: Option<Material>,
 }
 
 /// A shape that collides.
@@ -47,49 +53,22 @@ pub struct Solid {
 
 impl<'a, 's> Shapes<'a, 's> {
     pub fn new(scene: &'a Scene<'s>, gate: &'a Gate) -> Self {
-        Shapes {
-            scene,
-            gate,
-            assets: Charged::default(),
-            known: HashMap::new(),
-            taken: BTreeSet::new(),
-            solids: HashMap::new(),
-        }
+        Shapes { scene, assets: Assets::new(gate), solids: HashMap::new() }
     }
 
     /// The meshes.
     pub fn into_assets(self) -> Charged<Asset> {
-        self.assets
+        self.assets.into_all()
     }
 
     /// Adds the shapes to their bodies.
     pub fn add(&mut self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
         for (at, prim) in self.scene.stage.prims.iter().enumerate() {
-            let is_shape = matches!(
-                &*prim.type_name,
-                "Cube"
-                    | "Sphere"
-                    | "Cylinder"
-                    | "Capsule"
-                    | "Cone"
-                    | "Mesh"
-                    | "Plane"
-                    | "Cylinder_1"
-                    | "Capsule_1"
-                    | "BasisCurves"
-                    | "Points"
-                    | "NurbsPatch"
-                    | "TetMesh"
-                    | "PointInstancer"
-            );
-            if !is_shape {
-                if prim.has("PhysicsCollisionAPI") && self.scene.body[at].is_some() {
-                    tally.unread("PhysicsCollisionAPI of prims that are not shapes");
-                }
+            if !is_shape(prim) {
                 continue;
             }
-            let collides =
-                prim.has("PhysicsCollisionAPI") && flag(prim, "physics:collisionEnabled", true);
+            let collider = self.scene.collider[at].map(|at| self.scene.prim(at));
+            let collides = collider.is_some_and(|of| flag(of, "physics:collisionEnabled", true));
             let is_seen = self.scene.is_seen[at];
             let Some(body) = self.scene.body[at] else {
                 if collides {
@@ -121,7 +100,7 @@ impl<'a, 's> Shapes<'a, 's> {
             .filter_map(|one| one.value.as_ref()?.numbers())
             .map(<[f64]>::len)
             .sum();
-        self.gate.account().charge(MESH * numbers).map_err(|why| at(place, why))?;
+        self.assets.gate.account().charge(MESH * numbers).map_err(|why| at(place, why))?;
         // In the frame of the link: its rotation and place, and what it is stretched by, in m.
         scene.frame(prim)?;
         let link = Translation3::from(-made.shifts[index]) * scene.frame(body)?.0.inverse();
@@ -142,7 +121,7 @@ impl<'a, 's> Shapes<'a, 's> {
         let mut push = |this: &mut Self,
                         used,
                         form: Form,
-                        material,
+                        (material, uv): (_, Vec<[f64; 2]>),
                         name: &str,
                         tally: &mut Tally|
          -> Fallible<()> {
@@ -150,7 +129,8 @@ impl<'a, 's> Shapes<'a, 's> {
                 Form::Nothing => return Ok(()),
                 Form::Plain(pose, geometry) => (frame * pose, geometry, None),
                 Form::Meshed(pose, mesh) => {
-                    let asset = this.asset(&mesh, &format!("{link_name}_{name}"), prim, tally)?;
+                    let file = format!("{link_name}_{name}");
+                    let asset = this.asset(&mesh, uv, &file, prim, tally)?;
                     let Some(asset) = asset else { return Ok(()) };
                     (frame * pose, Geometry::Mesh { asset, scale: [1.0; 3] }, Some(Arc::new(mesh)))
                 }
@@ -161,7 +141,8 @@ impl<'a, 's> Shapes<'a, 's> {
             }
             let shape =
                 Shape { name: Some(name.to_owned()), used, pose, geometry, material, place };
-            made.bodies[index].shapes.push(shape, this.gate.account()).map_err(|why| at(place, why))
+            let pushed = made.bodies[index].shapes.push(shape, this.assets.gate.account());
+            pushed.map_err(|why| at(place, why))
         };
         if &*of.type_name != "Mesh" {
             let form = form(of, &stretch, tally);
@@ -170,8 +151,12 @@ impl<'a, 's> Shapes<'a, 's> {
                 (true, false) => Use::Collision,
                 (false, _) => Use::Visual,
             };
-            let material = if is_seen { look(scene, prim, None, tally) } else { None };
-            return push(self, used, form, material, &name, tally);
+            let (material, image) =
+                if is_seen { look(scene, prim, None, tally) } else { (None, None) };
+            if image.is_some() {
+                unplaced(scene, prim, tally);
+            }
+            return push(self, used, form, (material, Vec::new()), &name, tally);
         }
         let faces = match faces(of, &stretch) {
             Ok(faces) => faces,
@@ -183,9 +168,9 @@ impl<'a, 's> Shapes<'a, 's> {
         };
         tally.count(features::MESHES);
         if collides {
-            let form = match word(of, "physics:approximation")
-                .filter(|_| of.has("PhysicsMeshCollisionAPI"))
-            {
+            let said = [Some(prim), scene.collider[prim]].into_iter().flatten();
+            let said = said.map(|at| scene.prim(at)).find(|of| of.has("PhysicsMeshCollisionAPI"));
+            let form = match said.and_then(|of| word(of, "physics:approximation")) {
                 Some("convexHull") => match ConvexHull::new(&faces.mesh.vertices) {
                     Ok(hull) => Form::Meshed(Isometry3::identity(), hull.into_mesh()),
                     Err(_) => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
@@ -196,31 +181,20 @@ impl<'a, 's> Shapes<'a, 's> {
                 }
                 _ => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
             };
-            push(self, Use::Collision, form, None, &name, tally)?;
+            push(self, Use::Collision, form, (None, Vec::new()), &name, tally)?;
         }
         if is_seen {
-            for (part, mesh, material) in self.parts(prim, faces, tally) {
-                let name = part.map_or(name.clone(), |part| format!("{name}_{part}"));
-                push(
-                    self,
-                    Use::Visual,
-                    Form::Meshed(Isometry3::identity(), mesh),
-                    material,
-                    &name,
-                    tally,
-                )?;
+            for part in self.parts(prim, &faces, tally)? {
+                let name = part.name.map_or(name.clone(), |part| format!("{name}_{part}"));
+                let form = Form::Meshed(Isometry3::identity(), part.mesh);
+                push(self, Use::Visual, form, (part.material, part.uv), &name, tally)?;
             }
         }
         Ok(())
     }
 
     /// The parts of a mesh that have materials of their own, and the rest.
-    fn parts(
-        &self,
-        prim: usize,
-        faces: Faces,
-        tally: &mut Tally,
-    ) -> Vec<(Option<String>, Mesh, Option<Material>)> {
+    fn parts(&mut self, prim: usize, faces: &Faces, tally: &mut Tally) -> Fallible<Vec<Seen>> {
         let scene = self.scene;
         let mut taken: BTreeSet<u32> = BTreeSet::new();
         let mut all = Vec::new();
@@ -235,27 +209,55 @@ impl<'a, 's> Shapes<'a, 's> {
                 .map(|index| *index as u32)
                 .filter(|face| !taken.contains(face))
                 .collect();
-            let mesh = faces.part(|face| own.contains(&face));
+            let is_own = |face| own.contains(&face);
+            let part = self.painted((prim, Some(*child)), faces, &is_own, tally)?;
             taken.extend(own);
-            if !mesh.triangles.is_empty() {
+            if !part.mesh.triangles.is_empty() {
                 tally.count(features::SUBMESHES);
-                all.push((Some(of.name.to_string()), mesh, look(scene, prim, Some(*child), tally)));
+                all.push(part);
             }
         }
-        if all.is_empty() {
-            return vec![(None, faces.mesh, look(scene, prim, None, tally))];
+        if taken.len() < faces.of_triangle.len() {
+            let rest = self.painted((prim, None), faces, &|face| !taken.contains(&face), tally)?;
+            if all.is_empty() || !rest.mesh.triangles.is_empty() {
+                all.push(rest);
+            }
         }
-        let rest = faces.part(|face| !taken.contains(&face));
-        if !rest.triangles.is_empty() {
-            all.push((None, rest, look(scene, prim, None, tally)));
-        }
-        all
+        Ok(all)
     }
 
-    /// A mesh as a file, once; none of a mesh without triangles.
+    /// A part of a mesh with its look, and places in its image if it has one.
+    fn painted(
+        &mut self,
+        (prim, subset): (usize, Option<usize>),
+        faces: &Faces,
+        is_of: &dyn Fn(u32) -> bool,
+        tally: &mut Tally,
+    ) -> Fallible<Seen> {
+        let (scene, place) = (self.scene, self.scene.place(prim));
+        let name = subset.map(|subset| scene.prim(subset).name.to_string());
+        let (material, image) = look(scene, prim, subset, tally);
+        if let Some(image) = image {
+            match faces.painted(scene.prim(prim), &image, is_of) {
+                Some((mesh, uv)) => {
+                    if let Some(texture) = self.assets.image(&image.file, place, tally)? {
+                        tally.count(features::TEXTURES);
+                        let (rgba, texture) = (Some(image.rgba), Some(texture));
+                        let material = material.map(|of| Material { rgba, texture, ..of });
+                        return Ok(Seen { name, mesh, uv, material });
+                    }
+                }
+                None => unplaced(scene, prim, tally),
+            }
+        }
+        Ok(Seen { name, mesh: faces.part(is_of), uv: Vec::new(), material })
+    }
+
+    /// A mesh as a file: STL, or OBJ where it has an image. None of a mesh without triangles.
     fn asset(
         &mut self,
         mesh: &Mesh,
+        uv: Vec<[f64; 2]>,
         name: &str,
         prim: usize,
         tally: &mut Tally,
@@ -264,36 +266,21 @@ impl<'a, 's> Shapes<'a, 's> {
         let mut rounded = mesh.clone();
         rounded.round_to_f32();
         rounded.drop_non_finite();
-        let bytes = match stl(&[Part::from(rounded.clone())]) {
-            Ok(bytes) if !rounded.triangles.is_empty() => bytes,
-            _ => {
-                tally.count(features::MISSING_MESHES);
-                tally.remark(
-                    place,
-                    format!(
-                        "the mesh `{}` is left out: it has no triangles",
-                        self.scene.name(prim)
-                    ),
-                );
-                return Ok(None);
+        let is_empty = rounded.triangles.is_empty();
+        let (written, ending) = match uv.is_empty() {
+            true => (stl(&[Part::from(rounded)]), ".stl"),
+            false => {
+                let texture = Some(Texture { uv, ..Texture::default() });
+                (obj(&[Part { texture, ..Part::from(rounded) }]), ".obj")
             }
         };
-        let key: [u8; 32] = Sha256::digest(&bytes).into();
-        if let Some(known) = self.known.get(&key) {
-            return Ok(Some(*known));
+        if let (Ok(bytes), false) = (written, is_empty) {
+            return self.assets.mesh(bytes, name, ending, place).map(Some);
         }
-        let mut path = format!("meshes/{}", file_name(name, ".stl"));
-        for number in 2.. {
-            if self.taken.insert(path.to_lowercase()) {
-                break;
-            }
-            path = format!("meshes/{}", file_name(&format!("{name}_{number}"), ".stl"));
-        }
-        let index = self.assets.len();
-        self.known.insert(key, index);
-        let asset = Asset { path, bytes: bytes.into() };
-        self.assets.push(asset, self.gate.account()).map_err(|why| at(place, why))?;
-        Ok(Some(index))
+        tally.count(features::MISSING_MESHES);
+        let name = self.scene.name(prim);
+        tally.remark(place, format!("the mesh `{name}` is left out: it has no triangles"));
+        Ok(None)
     }
 
     /// The coefficient of friction of all shapes that collide, if it is one.
@@ -310,4 +297,13 @@ impl<'a, 's> Shapes<'a, 's> {
         tally.count(if is_one { features::FRICTION } else { features::FRICTIONS });
         is_one.then_some(first)
     }
+}
+
+/// Says that an image is left out.
+fn unplaced(scene: &Scene<'_>, prim: usize, tally: &mut Tally) {
+    tally.count(features::MISSING_MESHES);
+    let name = scene.name(prim);
+    let text =
+        format!("the image on `{name}` is left out: the shape does not say where it is on it");
+    tally.remark(scene.place(prim), text);
 }

@@ -1,9 +1,10 @@
 //! The tree in the graph of bodies and joints: which bodies are the robot, which is its root, which joints close chains.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
 use super::super::refusal::{Fallible, at};
+use super::super::sets::Sets;
 use super::fault::UsdFault;
 use super::joint::UsdJoint;
 use super::scene::Scene;
@@ -24,8 +25,8 @@ pub struct Branch {
 pub struct Graph {
     /// A parent stands before its children.
     pub branches: Vec<Branch>,
-    /// The joints of one body by the one that is in the tree, all in order: each adds motions of the body.
-    pub stacked: HashMap<usize, Vec<usize>>,
+    /// Further joints between a joint's bodies that follow it, by that joint.
+    pub further: HashMap<usize, Vec<usize>>,
     /// The joints that close chains.
     pub outside: Vec<usize>,
     pub is_floating: bool,
@@ -67,24 +68,32 @@ pub fn graph(
     }
     order.sort_unstable();
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
-    let mut outside = Vec::new();
-    let mut stacked: HashMap<usize, Vec<usize>> = HashMap::new();
-    let mut first: HashMap<(usize, usize), usize> = HashMap::new();
+    let (mut outside, mut doubled) = (Vec::new(), Vec::new());
+    let mut direct: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
         if sets.join(parent, child) {
-            first.insert((parent, child), at);
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
-        } else if let Some(tree) =
-            first.get(&(parent, child)).filter(|tree| adds_motion(scene, joints, **tree, at))
+            direct.insert((parent, child), at);
+        } else if let Some(first) = direct.get(&(parent, child)).filter(|_| !joints[at].is_excluded)
         {
-            stacked.entry(*tree).or_insert_with(|| vec![*tree]).push(at);
+            doubled.push((*first, at, child));
         } else if !joints[at].is_free {
             outside.push(at);
         }
     }
-    stacked.values_mut().for_each(|all| all.sort_unstable());
+    // What is said of an articulation is said of all bodies that its joints connect.
+    let said = (0..bodies.len()).filter(|body| scene.adds_mobility[bodies[*body]]);
+    let adding: HashSet<usize> = said.map(|body| sets.of(body)).collect();
+    let mut further: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (first, at, child) in doubled {
+        match adding.contains(&sets.of(child)) {
+            true => further.entry(first).or_default().push(at),
+            false if !joints[at].is_free => outside.push(at),
+            false => {}
+        }
+    }
     around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
     outside.sort_unstable();
     let main = main_set(scene, joints, &bodies, &index, &around, wanted, &mut sets)?;
@@ -122,22 +131,11 @@ pub fn graph(
             }
         }
     }
-    outside.extend(main.others.iter().filter(|joint| Some(**joint) != main.moves));
-    Ok(Graph { branches, stacked, outside, is_floating: !main.is_fixed && main.moves.is_none() })
-}
-
-/// Whether a joint adds a motion to what another one of the same two bodies leaves free, as Newton's schema can say; by
-/// UsdPhysics itself, it would take motions away.
-fn adds_motion(scene: &Scene<'_>, joints: &[UsdJoint], tree: usize, at: usize) -> bool {
-    let [tree, one] = [tree, at].map(|joint| &joints[joint]);
-    let moves = |joint: &UsdJoint| matches!(joint.motions.len(), 1..6);
-    let mut above = Some(one.prim);
-    let said = std::iter::from_fn(|| {
-        let prim = scene.prim(above?);
-        above = prim.parent;
-        Some(super::scene::flag(prim, "newton:jointsAddMobility", false))
-    });
-    !one.is_excluded && moves(tree) && moves(one) && said.into_iter().any(|said| said)
+    match main.moves.filter(|_| adding.contains(&main.set)) {
+        Some(first) => drop(further.insert(first, main.others)),
+        None => outside.extend(main.others),
+    }
+    Ok(Graph { branches, further, outside, is_floating: !main.is_fixed && main.moves.is_none() })
 }
 
 /// The bodies that are the robot.
@@ -216,28 +214,4 @@ fn main_set(
     let still = of_set.iter().find(|at| kinematic(at));
     let root = wanted.or(still.or(marked).or(first).copied()).unwrap_or(chosen);
     Ok(Main { set, root, is_fixed: still == Some(&root), moves: None, others: Vec::new() })
-}
-
-/// Sets of bodies that joints connect.
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Sets((0..count).collect())
-    }
-
-    fn of(&mut self, mut body: usize) -> usize {
-        while self.0[body] != body {
-            self.0[body] = self.0[self.0[body]];
-            body = self.0[body];
-        }
-        body
-    }
-
-    /// Makes one of two sets; false if they are one.
-    fn join(&mut self, left: usize, right: usize) -> bool {
-        let (left, right) = (self.of(left), self.of(right));
-        self.0[left.max(right)] = left.min(right);
-        left != right
-    }
 }

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 use urdd_usd::Prim;
 
 use super::super::features::{self, Tally};
+use super::super::model::JointKind;
 use super::super::refusal::Fallible;
 use super::scene::{Scene, flag, number, triple, turn, word};
 
@@ -19,8 +20,8 @@ pub struct UsdJoint {
     pub prim: usize,
     /// What moves.
     pub motions: Vec<Motion>,
-    /// Whether all rotations are one ball.
-    pub is_ball: bool,
+    /// What the motions are together, if that is one joint.
+    pub whole: Option<JointKind>,
     /// The ends: body 0, and body 1, which moves.
     pub ends: [JointEnd; 2],
     /// Whether it closes a chain that the articulation leaves open.
@@ -56,25 +57,35 @@ impl Motion {
     }
 }
 
+/// Whether a prim is a joint.
+pub fn is_joint(prim: &Prim) -> bool {
+    prim.type_name.starts_with("Physics") && prim.type_name.ends_with("Joint")
+}
+
 /// The joints of a stage that hold bodies.
 pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
     let mut all = Vec::new();
     for (at, prim) in scene.stage.prims.iter().enumerate() {
-        if !(prim.type_name.starts_with("Physics") && prim.type_name.ends_with("Joint")) {
+        if !is_joint(prim) {
             continue;
         }
-        if !flag(prim, "physics:jointEnabled", true) || &*prim.type_name == "PhysicsDistanceJoint" {
+        let is_lost = |end| !prim.targets(end).is_empty() && scene.target(prim, end).is_none();
+        if !flag(prim, "physics:jointEnabled", true)
+            || &*prim.type_name == "PhysicsDistanceJoint"
+            || is_lost("physics:body0")
+            || is_lost("physics:body1")
+        {
             tally.count(features::DISTANCES);
             continue;
         }
-        let (motions, is_ball) = motions(scene, prim, tally);
+        let (motions, whole) = motions(scene, prim, tally);
         let ends = [end(scene, prim, 0)?, end(scene, prim, 1)?];
         if ends[0].body == ends[1].body {
             continue;
         }
         let is_excluded = flag(prim, "physics:excludeFromArticulation", false);
         let is_free = motions.len() == 6;
-        all.push(UsdJoint { prim: at, motions, is_ball, ends, is_excluded, is_free });
+        all.push(UsdJoint { prim: at, motions, whole, ends, is_excluded, is_free });
     }
     Ok(all)
 }
@@ -101,8 +112,8 @@ fn end(scene: &Scene<'_>, prim: &Prim, which: usize) -> Fallible<JointEnd> {
     })
 }
 
-/// What a joint leaves free, and whether that is a ball.
-fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, bool) {
+/// What a joint leaves free, and what that is if it is one joint.
+fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, Option<JointKind>) {
     let axis = match word(prim, "physics:axis") {
         Some("Y") => 1,
         Some("Z") => 2,
@@ -120,15 +131,15 @@ fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, b
         if is_locked { Vec::new() } else { vec![motion] }
     };
     match &*prim.type_name {
-        "PhysicsRevoluteJoint" => (single(3 + axis, "angular"), false),
-        "PhysicsPrismaticJoint" => (single(axis, "linear"), false),
+        "PhysicsRevoluteJoint" => (single(3 + axis, "angular"), None),
+        "PhysicsPrismaticJoint" => (single(axis, "linear"), None),
         "PhysicsSphericalJoint" => {
             let limits = ["physics:coneAngle0Limit", "physics:coneAngle1Limit"];
             if limits.iter().any(|name| number(prim, name).is_some_and(|limit| limit >= 0.0)) {
                 tally.count(features::BALL_RANGES);
             }
             let each = (3..6).map(free);
-            (each.collect(), true)
+            (each.collect(), Some(JointKind::Ball))
         }
         "PhysicsJoint" => {
             let mut all = Vec::new();
@@ -149,15 +160,31 @@ fn motions(scene: &Scene<'_>, prim: &Prim, tally: &mut Tally) -> (Vec<Motion>, b
             if prim.has("PhysicsLimitAPI:distance") {
                 tally.count(features::DISTANCES);
             }
-            let is_ball = all.len() == 3 && all.iter().all(|motion| !motion.is_slide());
-            if is_ball
-                && all.iter().any(|motion| motion.range.iter().any(|limit| limit.is_finite()))
-            {
-                tally.count(features::BALL_RANGES);
-            }
-            (all, is_ball)
+            let is_limited =
+                all.iter().any(|motion| motion.range.iter().any(|limit| limit.is_finite()));
+            // What is driven or limited along one axis stays a joint of its own.
+            let is_plain = !is_limited
+                && !prim.schemas.iter().any(|schema| schema.starts_with("PhysicsDriveAPI:"));
+            let normal = match &all[..] {
+                [one, other, hinge] if other.is_slide() && !hinge.is_slide() => {
+                    one.axis.cross(&other.axis).dot(&hinge.axis)
+                }
+                _ => 0.0,
+            };
+            let whole = match all.len() {
+                3 if all.iter().all(|motion| !motion.is_slide()) => {
+                    if is_limited {
+                        tally.count(features::BALL_RANGES);
+                    }
+                    Some(JointKind::Ball)
+                }
+                3 if is_plain && normal != 0.0 => Some(JointKind::Planar),
+                6 if is_plain => Some(JointKind::Floating),
+                _ => None,
+            };
+            (all, whole)
         }
-        _ => (Vec::new(), false),
+        _ => (Vec::new(), None),
     }
 }
 

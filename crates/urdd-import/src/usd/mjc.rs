@@ -81,7 +81,7 @@ fn element(scene: &Scene<'_>, index: usize, prim: &Prim) -> Element {
     }
     for (name, own) in LISTS {
         let numbers = prim.value(&format!("mjc:{own}")).and_then(Value::numbers);
-        set(name, numbers.map(|numbers| text(numbers)));
+        set(name, numbers.map(text));
     }
     for (name, own) in RANGES {
         let ends = ["min", "max"].map(|end| number(prim, &format!("mjc:{own}:{end}")));

@@ -1,5 +1,6 @@
 //! Reads USD: the bodies and joints of UsdPhysics in a stage as a robot.
 
+mod assets;
 mod door;
 mod drive;
 pub mod fault;
@@ -7,11 +8,13 @@ mod form;
 mod frames;
 mod gprim;
 mod graph;
+mod groups;
 mod joint;
 mod look;
 mod made;
 mod mass;
 mod mesh;
+mod missing;
 mod mjc;
 mod pairs;
 mod robot;
@@ -23,7 +26,7 @@ use std::collections::BTreeMap;
 
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
-use urdd_usd::Place as LayerPlace;
+use urdd_usd::{Place as LayerPlace, UsdError};
 
 use super::model::Model;
 use super::place::TextFile;
@@ -40,7 +43,8 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
     let shown = file.shown.clone();
     let files = BTreeMap::from([(name.clone(), file)]);
     let mut door = GateDoor { gate, files };
-    let stage = urdd_usd::open(&name, &mut door).map_err(|error| {
+    let opened = urdd_usd::open(&name, &mut door);
+    let refused = |error: UsdError| {
         let own = door.file(&error.layer).map_or(&*shown, |file| &*file.shown);
         let (line, column) = match error.place {
             LayerPlace::Text(line, column) => (line, column),
@@ -53,7 +57,11 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
         };
         let fault = UsdFault::Layer(format!("{place}{}", error.fault)).into();
         Placed { file: own.to_owned(), line, column, fault }
-    })?;
+    };
+    let stage = opened.map_err(refused)?;
+    if let Some(error) = missing::needed(&stage) {
+        return Err(refused(error.clone()));
+    }
     let files: Vec<TextFile> =
         stage.layers.iter().filter_map(|layer| door.file(layer).cloned()).collect();
     let made = (|| {

@@ -1,12 +1,14 @@
 //! Pairs of bodies that never collide, or do though a joint connects them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
 use super::super::model::Apart;
 use super::super::refusal::{Fallible, at};
+use super::gprim::Solid;
+use super::groups::Groups;
 use super::joint::UsdJoint;
 use super::made::Made;
 use super::scene::{Scene, flag};
@@ -16,6 +18,7 @@ pub fn pairs(
     scene: &Scene<'_>,
     joints: &[UsdJoint],
     made: &Made,
+    solids: &HashMap<usize, Vec<Solid>>,
     account: &Account,
     tally: &mut Tally,
 ) -> Fallible<(Charged<Apart>, Charged<Apart>)> {
@@ -41,6 +44,17 @@ pub fn pairs(
                 tally.count(features::APART);
                 let pair = Apart { bodies: [one, two], reason: "User" };
                 apart.push(pair, account).map_err(|why| at(scene.place(prim), why))?;
+            }
+        }
+    }
+    let too_much = |why| at(Default::default(), why);
+    let groups = Groups::of(scene, account, tally).map_err(too_much)?;
+    if !groups.is_empty() {
+        for pair in groups.pairs(scene, solids, account, tally).map_err(too_much)? {
+            if known.insert(pair) {
+                tally.count(features::APART);
+                let pair = Apart { bodies: [pair.0, pair.1], reason: "User" };
+                apart.push(pair, account).map_err(too_much)?;
             }
         }
     }

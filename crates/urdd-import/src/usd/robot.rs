@@ -21,7 +21,7 @@ use super::graph::{Branch, Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{frames, mass, mjc, pairs, said, upright};
+use super::{frames, mass, missing, mjc, pairs, said, upright};
 
 /// How far the other limit is from one that stands alone, rad and m.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
@@ -33,6 +33,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
         tally.count(features::SAMPLES);
     }
     said::say(scene, &mut tally);
+    missing::say(scene, &mut tally);
     let joints = joints(scene, &mut tally)?;
     let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
     let mut maker = Maker {
@@ -53,7 +54,8 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     let (moving, of_joint) = (&mut made.bodies, &maker.of_joint);
     mjc::actuators(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
     let closings = maker.closings(&graph, &made, &mut tally)?;
-    let (apart, checked) = pairs::pairs(scene, &joints, &made, account, &mut tally)?;
+    let (apart, checked) =
+        pairs::pairs(scene, &joints, &made, &shapes.solids, account, &mut tally)?;
     frames::frames(scene, &mut maker.names[0], &mut made, account, &mut tally)?;
     let configurations = frames::configurations(scene, &made, account, &mut tally)?;
     let friction = shapes.friction(&made, &mut tally);
@@ -108,20 +110,10 @@ impl Maker<'_, '_> {
         let mut made =
             Made { bodies: Charged::default(), index: HashMap::new(), shifts: Vec::new() };
         for branch in &graph.branches {
-            let body = self.body(branch, graph, &mut made, tally)?;
-            let place = body.place;
-            let (index, joints) = (made.bodies.len(), body.joints.len());
-            if let Some((_, joint)) = branch.joint {
-                let all = graph.stacked.get(&joint).map_or(std::slice::from_ref(&joint), |all| all);
-                let mut prims: Vec<usize> = all.iter().map(|at| self.joints[*at].prim).collect();
-                if branch.is_turned {
-                    prims.reverse();
-                }
-                if joints == all.len() {
-                    self.of_joint
-                        .extend(prims.into_iter().enumerate().map(|(k, prim)| (prim, (index, k))));
-                }
-            }
+            let further = branch.joint.and_then(|(_, joint)| graph.further.get(&joint));
+            let further = further.map_or(&[][..], Vec::as_slice);
+            let body = self.body(branch, further, &mut made, tally)?;
+            let (index, place) = (made.bodies.len(), body.place);
             if let Some(prim) = branch.body {
                 made.index.insert(prim, index);
             }
@@ -134,7 +126,7 @@ impl Maker<'_, '_> {
     fn body(
         &mut self,
         branch: &Branch,
-        graph: &Graph,
+        further: &[usize],
         made: &mut Made,
         tally: &mut Tally,
     ) -> Fallible<Body> {
@@ -148,17 +140,17 @@ impl Maker<'_, '_> {
         let place = scene.place(prim);
         let too_much = |why| at(place, why);
         let name = self.names[0].free(scene.name(prim)).map_err(too_much)?;
-        let Some((parent, main)) = branch.joint else {
+        let Some((parent, joint)) = branch.joint else {
             made.shifts.push(Vector3::zeros());
             return Ok(Body::new(name, None, Isometry3::identity(), place));
         };
-        let joint = &self.joints[main];
+        let joint = &self.joints[joint];
         let [in_parent, in_child] = match branch.is_turned {
             false => [&joint.ends[0], &joint.ends[1]],
             true => [&joint.ends[1], &joint.ends[0]],
         };
-        // Where it turns is the frame of the link.
-        let is_still = joint.motions.iter().all(Motion::is_slide);
+        // Where it turns is the frame of the link, unless it turns about several points.
+        let is_still = joint.motions.iter().all(Motion::is_slide) || !further.is_empty();
         let shift = if is_still { Vector3::zeros() } else { in_child.frame.translation.vector };
         let above = made.shifts[parent];
         made.shifts.push(shift);
@@ -167,44 +159,42 @@ impl Maker<'_, '_> {
             * in_child.frame.inverse()
             * Translation3::from(shift);
         let mut body = Body::new(name, Some(parent), clean(pose), place);
-        let of = scene.place(joint.prim);
-        let name = self.names[1].free(scene.name(joint.prim)).map_err(|why| at(of, why))?;
         if branch.is_turned {
             tally.count(features::TURNED);
         }
-        if joint.motions.is_empty() {
-            body.fixed_by = Some(name);
-            return Ok(body);
-        }
-        let Some(stacked) = graph.stacked.get(&main) else {
-            for moving in self.moves(joint, &name, in_child, branch.is_turned, tally)? {
-                body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
-            }
-            return Ok(body);
-        };
-        tally.count(features::MORE_JOINTS);
-        let mut stacked = stacked.clone();
+        let further = further.iter().map(|at| &self.joints[*at]);
+        let mut all: Vec<&UsdJoint> = std::iter::once(joint).chain(further).collect();
         if branch.is_turned {
-            stacked.reverse();
+            all.reverse();
         }
-        for one in stacked {
-            let one = &self.joints[one];
-            let of = scene.place(one.prim);
-            let name = match one.prim == joint.prim {
-                true => name.clone(),
-                false => self.names[1].free(scene.name(one.prim)).map_err(|why| at(of, why))?,
-            };
-            let end = &one.ends[usize::from(!branch.is_turned)];
-            let offset = end.frame.translation.vector - shift;
-            for mut moving in self.moves(one, &name, end, branch.is_turned, tally)? {
-                moving.frame = Translation3::from(offset).into();
+        for joint in &all {
+            let of = scene.place(joint.prim);
+            let name = self.names[1].free(scene.name(joint.prim)).map_err(|why| at(of, why))?;
+            if all.len() == 1 && joint.motions.is_empty() {
+                body.fixed_by = Some(name);
+                return Ok(body);
+            }
+            let end = &joint.ends[usize::from(!branch.is_turned)];
+            let mut moves = self.moves(joint, &name, end, branch.is_turned, tally)?;
+            if let [_] = &moves[..] {
+                self.of_joint.insert(joint.prim, (made.bodies.len(), body.joints.len()));
+            }
+            for moving in &mut moves {
+                if all.len() > 1 {
+                    moving.frame = Translation3::from(end.frame.translation.vector).into();
+                }
+            }
+            for moving in moves {
                 body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
             }
+        }
+        if all.len() > 1 {
+            tally.count(features::MORE_JOINTS);
         }
         Ok(body)
     }
 
-    /// What a joint leaves free, one after the other; rotations that are all free are a ball.
+    /// What a joint leaves free, together or one after the other.
     fn moves(
         &mut self,
         joint: &UsdJoint,
@@ -214,10 +204,17 @@ impl Maker<'_, '_> {
         tally: &mut Tally,
     ) -> Fallible<Vec<Joint>> {
         let (scene, place) = (self.scene, self.scene.place(joint.prim));
-        let has_ball = joint.is_ball || joint.is_free;
-        let motions = joint.motions.iter().filter(|motion| !has_ball || motion.is_slide());
-        let mut parts: Vec<Option<&Motion>> = motions.map(Some).collect();
-        parts.extend(has_ball.then_some(None));
+        let axis_of = |motion: &Motion| {
+            let sign = if is_turned { -1.0 } else { 1.0 };
+            clean_axis(end.frame.rotation * motion.axis * sign)
+        };
+        if let (Some(kind), Some(last)) = (joint.whole, joint.motions.last()) {
+            let is_ball = kind == JointKind::Ball;
+            tally.count(if is_ball { features::BALLS } else { features::PLANAR });
+            let whole = Joint::new(name.to_owned(), kind, Isometry3::identity(), place);
+            return Ok(vec![Joint { axis: axis_of(last), ..whole }]);
+        }
+        let mut parts: Vec<&Motion> = joint.motions.iter().collect();
         if is_turned {
             parts.reverse();
         }
@@ -225,24 +222,17 @@ impl Maker<'_, '_> {
             tally.count(features::MORE_JOINTS);
         }
         let mut moves = Vec::new();
-        for part in &parts {
+        for motion in &parts {
             let own = match parts.len() {
                 1 => name.to_owned(),
                 _ => {
-                    let suffix = part.map_or("rot", |motion| MOTIONS[motion.which]);
-                    let own = self.names[1].free(&format!("{name}/{suffix}"));
+                    let own = self.names[1].free(&format!("{name}/{}", MOTIONS[motion.which]));
                     own.map_err(|why| at(place, why))?
                 }
             };
-            let Some(motion) = part else {
-                tally.count(features::BALLS);
-                moves.push(Joint::new(own, JointKind::Ball, Isometry3::identity(), place));
-                continue;
-            };
             let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
             let mut moving = Joint::new(own, kind, Isometry3::identity(), place);
-            let sign = if is_turned { -1.0 } else { 1.0 };
-            moving.axis = clean_axis(end.frame.rotation * motion.axis * sign);
+            moving.axis = axis_of(motion);
             moving.range = range(motion, &moving.name, place, tally);
             drive(scene, joint.prim, motion, &mut moving, tally);
             tally.count(match (kind, moving.range) {
@@ -324,7 +314,9 @@ impl Maker<'_, '_> {
             let slides = joint.motions.iter().filter(|motion| motion.is_slide()).count();
             let axes: Vec<Vector3<f64>> = joint.motions.iter().map(|motion| motion.axis).collect();
             let (kind, axis) = match (slides, &axes[..]) {
-                _ if joint.is_ball => (Some(LoopKind::Spherical), Vector3::z()),
+                _ if joint.whole == Some(JointKind::Ball) => {
+                    (Some(LoopKind::Spherical), Vector3::z())
+                }
                 (0, []) => (Some(LoopKind::Fixed), Vector3::z()),
                 (0, [axis]) => (Some(LoopKind::Revolute), *axis),
                 (1, [axis]) => (Some(LoopKind::Prismatic), *axis),

@@ -29,10 +29,14 @@ pub struct Scene<'s> {
     pub world: Vec<Matrix4<f64>>,
     /// The nearest body that a prim is, or is in.
     pub body: Vec<Option<usize>>,
+    /// The prim whose `PhysicsCollisionAPI` a shape has: its own, or that of what it is in.
+    pub collider: Vec<Option<usize>>,
     /// Whether a prim is rendered.
     pub is_seen: Vec<bool>,
     /// Whether a prim is in an articulation.
     pub is_articulated: Vec<bool>,
+    /// Whether several joints of two bodies in a prim follow each other, and do not close a chain.
+    pub adds_mobility: Vec<bool>,
     /// The material that a prim has, by [`BINDINGS`].
     pub material: [Vec<Option<usize>>; 3],
     /// The offset of each line of each file.
@@ -66,11 +70,20 @@ impl<'s> Scene<'s> {
             is_y_up: up.is_none_or(|up| **up == *"Y"),
             world: Vec::new(),
             body: Vec::new(),
+            collider: Vec::new(),
             is_seen: Vec::new(),
             is_articulated: Vec::new(),
+            adds_mobility: Vec::new(),
             material: Default::default(),
             lines: lines.collect(),
         };
+        // Whether shapes in a prim say themselves that they collide.
+        let mut has_own = vec![false; stage.prims.len()];
+        for (at, prim) in stage.prims.iter().enumerate().rev() {
+            if let Some(parent) = prim.parent {
+                has_own[parent] |= has_own[at] || is_shape(prim) && prim.has("PhysicsCollisionAPI");
+            }
+        }
         for (at, prim) in stage.prims.iter().enumerate() {
             let above = prim.parent.map_or(Matrix4::identity(), |parent| scene.world[parent]);
             scene.world.push(placed(prim, &above));
@@ -78,6 +91,10 @@ impl<'s> Scene<'s> {
                 prim.has("PhysicsRigidBodyAPI") && flag(prim, "physics:rigidBodyEnabled", true);
             let inherited = prim.parent.and_then(|parent| scene.body[parent]);
             scene.body.push(if is_body { Some(at) } else { inherited });
+            let collides = prim.has("PhysicsCollisionAPI") && (is_shape(prim) || !has_own[at]);
+            let inherited = prim.parent.and_then(|parent| scene.collider[parent]);
+            let inherited = inherited.filter(|above| !is_body && !is_shape(scene.prim(*above)));
+            scene.collider.push(if collides { Some(at) } else { inherited });
             let is_seen = prim.parent.is_none_or(|parent| scene.is_seen[parent])
                 && word(prim, "visibility") != Some("invisible")
                 && !matches!(word(prim, "purpose"), Some("guide" | "proxy"));
@@ -85,6 +102,8 @@ impl<'s> Scene<'s> {
             let is_articulated = prim.has("PhysicsArticulationRootAPI")
                 || prim.parent.is_some_and(|parent| scene.is_articulated[parent]);
             scene.is_articulated.push(is_articulated);
+            let above = prim.parent.is_some_and(|parent| scene.adds_mobility[parent]);
+            scene.adds_mobility.push(flag(prim, "newton:jointsAddMobility", above));
             for (kind, name) in BINDINGS.into_iter().enumerate() {
                 let above = prim.parent.and_then(|parent| scene.material[kind][parent]);
                 let own = scene.target(prim, name).or(above);
@@ -132,6 +151,27 @@ impl<'s> Scene<'s> {
         let shown = prim.field("displayName").and_then(Value::text).map(|name| &**name);
         shown.filter(|name| !name.trim().is_empty()).unwrap_or(&prim.name)
     }
+}
+
+/// Whether a prim is a shape.
+pub fn is_shape(prim: &Prim) -> bool {
+    matches!(
+        &*prim.type_name,
+        "Cube"
+            | "Sphere"
+            | "Cylinder"
+            | "Capsule"
+            | "Cone"
+            | "Mesh"
+            | "Plane"
+            | "Cylinder_1"
+            | "Capsule_1"
+            | "BasisCurves"
+            | "Points"
+            | "NurbsPatch"
+            | "TetMesh"
+            | "PointInstancer"
+    )
 }
 
 /// The rotation and the scales along the axes of a matrix. A mirror is a scale below 0 along x.

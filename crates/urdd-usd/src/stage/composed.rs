@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::super::error::UsdError;
 use super::super::layer::field;
 use super::super::value::{Name, Value};
 
@@ -15,6 +16,9 @@ pub struct Stage {
     pub metadata: Vec<(Name, Value)>,
     /// Prims that are defined and active; each stands before its children, and these in order.
     pub prims: Vec<Prim>,
+    /// References and payloads that are not there: the prim that brings them in, or the one above if without them it is
+    /// not one; and why.
+    pub missing: Vec<(Option<usize>, UsdError)>,
     /// Properties whose value is the first of several by time.
     pub sampled: usize,
     /// Specializes that count as inherits.

@@ -12,6 +12,8 @@ use super::super::{binary, text};
 
 /// Bytes that are made of each byte of text, at most: `int a` becomes a property with a field.
 const OF_TEXT: usize = 60;
+/// The most packages in each other.
+const MAX_PACKAGES: usize = 8;
 /// The most layers of a stack.
 const MAX_LAYERS: usize = 1000;
 
@@ -128,11 +130,12 @@ impl<'d> Layers<'d> {
         let wrong = |(place, fault)| error(path, place, fault);
         let layer = |fault| (Place::Layer, fault);
         let bytes = self.bytes(path).map_err(|fault| wrong(layer(fault)))?;
-        let at = if bytes.starts_with(package::START) && !path.ends_with(']') {
+        let at = if bytes.starts_with(package::START) {
             let mut package = Package::open(bytes).map_err(|fault| wrong(layer(fault)))?;
             let root = package.root().map_err(|fault| wrong(layer(fault)))?;
             self.packages.insert(path.to_owned(), package);
-            self.load(&format!("{path}[{root}]"))?
+            let (outer, ends) = path.split_at(path.trim_end_matches(']').len());
+            self.load(&format!("{outer}[{root}]{ends}"))?
         } else {
             let read = if bytes.starts_with(binary::START) {
                 binary::read(&bytes, self.door).map_err(wrong)?
@@ -156,18 +159,27 @@ impl<'d> Layers<'d> {
         Ok(at)
     }
 
-    fn bytes(&mut self, path: &str) -> Result<Arc<[u8]>, Fault> {
+    /// The content of a file, which may be in a package, and this in another one: `a.usdz[b.usdz[c.usda]]`.
+    pub fn bytes(&mut self, path: &str) -> Result<Arc<[u8]>, Fault> {
         let file = |why| Fault::File { asset: path.to_owned(), why };
-        let Some((package, inside)) = path.strip_suffix(']').and_then(|path| path.split_once('['))
-        else {
+        let (outer, ends) = path.split_at(path.trim_end_matches(']').len());
+        let Some((package, inside)) = outer.rsplit_once('[').filter(|_| !ends.is_empty()) else {
             return self.door.read(path).map_err(file);
         };
-        if !self.packages.contains_key(package) {
-            let bytes = self.door.read(package).map_err(file)?;
-            self.packages.insert(package.to_owned(), Package::open(bytes)?);
+        if ends.len() > MAX_PACKAGES {
+            let why = format!("packages are nested more than {MAX_PACKAGES} levels deep");
+            return Err(Fault::Zip(why));
         }
-        match self.packages.get_mut(package) {
-            Some(package) => package.read(inside, self.door),
+        let package = format!("{package}{}", &ends[1..]);
+        if !self.packages.contains_key(&package) {
+            let bytes = self.bytes(&package)?;
+            self.packages.insert(package.clone(), Package::open(bytes)?);
+        }
+        match self.packages.get_mut(&package) {
+            Some(package) => package.read(inside, self.door).map_err(|fault| match fault {
+                Fault::File { why, .. } => file(why),
+                fault => fault,
+            }),
             None => Err(file("the package is missing".to_owned())),
         }
     }

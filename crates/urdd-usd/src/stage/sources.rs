@@ -17,6 +17,8 @@ pub const MAX_SITES: usize = 1000;
 const MAX_CHAIN: usize = 64;
 /// Bytes of a site in memory, about.
 pub const SITE: usize = 120;
+/// The same of an error.
+const MISSING: usize = 200;
 
 /// Fields that bring in other sites.
 const ARCS: [(&str, Arc); 4] = [
@@ -31,13 +33,15 @@ pub struct Composer<'d> {
     pub layers: Layers<'d>,
     /// What is being looked up, so that circles are seen.
     chain: Vec<(usize, Name)>,
+    /// What the prim that is composed brings in and is not there.
+    missing: Vec<UsdError>,
     pub specialized: usize,
     pub sampled: usize,
 }
 
 impl<'d> Composer<'d> {
     pub fn new(layers: Layers<'d>) -> Self {
-        Composer { layers, chain: Vec::new(), specialized: 0, sampled: 0 }
+        Composer { layers, chain: Vec::new(), missing: Vec::new(), specialized: 0, sampled: 0 }
     }
 
     /// All prims of a stack.
@@ -56,7 +60,11 @@ impl<'d> Composer<'d> {
             drop(above);
             self.charge(&tree, &names, SITE * tree.0.len())?;
             self.expand(&mut tree, &names, true)?;
-            let Some(prim) = self.prim(&tree, &names, parent)? else { continue };
+            let prim = self.prim(&tree, &names, parent)?;
+            let next = stage.prims.len();
+            let holder = if prim.is_some() { Some(next) } else { parent };
+            stage.missing.extend(self.missing.drain(..).map(|error| (holder, error)));
+            let Some(prim) = prim else { continue };
             let is_instance = prim.is_instance;
             let at = stage.push(prim);
             if is_instance {
@@ -155,7 +163,7 @@ impl<'d> Composer<'d> {
                 continue;
             }
             let mut items = Vec::new();
-            let mut fault = None;
+            let mut faults = Vec::new();
             for (layer, spec) in specs.iter().rev() {
                 let Some(Value::List(list)) = field(&self.spec((*layer, *spec)).fields, name)
                 else {
@@ -168,7 +176,7 @@ impl<'d> Composer<'d> {
                                 Some(Item::Reference { asset: asset.into(), path: path.clone() })
                             }
                             Err(why) => {
-                                fault.get_or_insert(why);
+                                faults.push(why);
                                 None
                             }
                         }
@@ -177,8 +185,8 @@ impl<'d> Composer<'d> {
                 });
                 anchored.apply(&mut items);
             }
-            if let Some(fault) = fault {
-                return Err(self.wrong(tree, names, fault));
+            for fault in faults {
+                self.miss(tree, names, fault)?;
             }
             for item in items {
                 self.bring(tree, at, names, arc, &item)?;
@@ -187,6 +195,17 @@ impl<'d> Composer<'d> {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Keeps why something is not there that a prim brings in; an expression is an error at once.
+    fn miss(&mut self, tree: &Tree, names: &[Name], fault: Fault) -> Result<(), UsdError> {
+        let error = self.wrong(tree, names, fault);
+        if matches!(error.fault, Fault::Expression(_)) {
+            return Err(error);
+        }
+        self.charge(tree, names, MISSING + 2 * error.to_string().len())?;
+        self.missing.push(error);
         Ok(())
     }
 
@@ -239,18 +258,20 @@ impl<'d> Composer<'d> {
         }
         let stack = match asset {
             "" => tree.0[at].stack,
-            asset => self.layers.stack(asset).map_err(|mut fault| {
-                if matches!(fault.fault, Fault::File { .. }) && &*fault.layer == asset {
-                    fault = self.wrong(tree, names, fault.fault);
+            asset => match self.layers.stack(asset) {
+                Ok(stack) => stack,
+                Err(error) if matches!(&error.fault, Fault::File { asset: gone, .. } if gone == asset) =>
+                {
+                    return self.miss(tree, names, error.fault);
                 }
-                fault
-            })?,
+                Err(error) => return Err(error),
+            },
         };
         let root = self.layers.stacks[stack][0] as usize;
         let path = match path {
             "" => match self.layers.all[root].layer.metadata("defaultPrim").and_then(Value::text) {
                 Some(name) if !name.is_empty() => format!("/{}", name.trim_start_matches('/')),
-                _ => return Err(self.wrong(tree, names, Fault::NoDefault(asset.to_owned()))),
+                _ => return self.miss(tree, names, Fault::NoDefault(asset.to_owned())),
             },
             path => absolute(&own, path),
         };
@@ -276,7 +297,7 @@ impl<'d> Composer<'d> {
                 return Ok(());
             }
             let asset = self.layers.all[root].path.to_string();
-            return Err(self.wrong(tree, names, Fault::Missing { asset, path }));
+            return self.miss(tree, names, Fault::Missing { asset, path });
         }
         if tree.0.len() + inside.0.len() > MAX_SITES {
             return Err(self.wrong(tree, names, Fault::Sources(MAX_SITES)));

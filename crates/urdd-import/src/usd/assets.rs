@@ -1,0 +1,110 @@
+//! The files that the URDF names: meshes, which are written, and images, which are there or in packages.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
+
+use sha2::{Digest, Sha256};
+use urdd_directory::account::Charged;
+use urdd_directory::path::file_name;
+use urdd_source::gate::Gate;
+use urdd_source::sniff::is_image;
+
+use super::super::features::{self, Tally};
+use super::super::model::Asset;
+use super::super::place::Place;
+use super::super::refusal::{Fallible, at};
+use super::door::GateDoor;
+
+/// The files.
+pub struct Assets<'g> {
+    pub gate: &'g Gate,
+    door: GateDoor<'g>,
+    all: Charged<Asset>,
+    meshes: HashMap<[u8; 32], usize>,
+    images: HashMap<String, Option<usize>>,
+    taken: BTreeSet<String>,
+}
+
+impl<'g> Assets<'g> {
+    pub fn new(gate: &'g Gate) -> Self {
+        Assets {
+            gate,
+            door: GateDoor { gate, files: BTreeMap::new() },
+            all: Charged::default(),
+            meshes: HashMap::new(),
+            images: HashMap::new(),
+            taken: BTreeSet::new(),
+        }
+    }
+
+    pub fn into_all(self) -> Charged<Asset> {
+        self.all
+    }
+
+    /// A mesh, once.
+    pub fn mesh(
+        &mut self,
+        bytes: Vec<u8>,
+        name: &str,
+        ending: &str,
+        place: Place,
+    ) -> Fallible<usize> {
+        let key: [u8; 32] = Sha256::digest(&bytes).into();
+        if let Some(known) = self.meshes.get(&key) {
+            return Ok(*known);
+        }
+        self.meshes.insert(key, self.all.len());
+        self.add("meshes", name, ending, bytes.into(), place)
+    }
+
+    /// The image at a path; none if it is not there or is not an image.
+    pub fn image(
+        &mut self,
+        path: &str,
+        place: Place,
+        tally: &mut Tally,
+    ) -> Fallible<Option<usize>> {
+        if let Some(known) = self.images.get(path) {
+            return Ok(*known);
+        }
+        let bytes = urdd_usd::file(path, &mut self.door).map_err(|fault| fault.to_string());
+        let image = match bytes {
+            Ok(bytes) if is_image(&bytes) => {
+                let name = path.trim_end_matches(']').rsplit(['/', '[']).next().unwrap_or(path);
+                let (stem, ending) = name.split_at(name.rfind('.').unwrap_or(name.len()));
+                Some(self.add("textures", stem, ending, bytes, place)?)
+            }
+            other => {
+                let charged = self.gate.account().charge(other.as_ref().map_or(0, |of| of.len()));
+                charged.map_err(|why| at(place, why))?;
+                let why = other.err().unwrap_or_else(|| format!("`{path}` is not an image"));
+                tally.count(features::MISSING_MESHES);
+                tally.remark(place, format!("an image is left out: {why}"));
+                None
+            }
+        };
+        self.images.insert(path.to_owned(), image);
+        Ok(image)
+    }
+
+    /// Adds a file under a name that is free.
+    fn add(
+        &mut self,
+        folder: &str,
+        name: &str,
+        ending: &str,
+        bytes: Arc<[u8]>,
+        place: Place,
+    ) -> Fallible<usize> {
+        let mut path = format!("{folder}/{}", file_name(name, ending));
+        for number in 2.. {
+            if self.taken.insert(path.to_lowercase()) {
+                break;
+            }
+            path = format!("{folder}/{}", file_name(&format!("{name}_{number}"), ending));
+        }
+        let added = self.all.push(Asset { path, bytes }, self.gate.account());
+        added.map_err(|why| at(place, why))?;
+        Ok(self.all.len() - 1)
+    }
+}
