@@ -88,9 +88,12 @@ pub fn configurations(
     Ok(all)
 }
 
-/// A pose without what rounding alone made of 0.
+/// A pose without what rounding alone made, when frames of a stage became those of a body: to 1e-12 m.
 pub fn clean(pose: Isometry3<f64>) -> Isometry3<f64> {
-    let vector = pose.translation.vector.map(|value| if value.abs() < 1e-12 { 0.0 } else { value });
+    // Further away, the digits do not reach so far.
+    let round =
+        |value: f64| if value.abs() < 1e3 { (value * 1e12).round() / 1e12 + 0.0 } else { value };
+    let vector = pose.translation.vector.map(round);
     let rotation = if pose.rotation.angle() < 1e-9 { Default::default() } else { pose.rotation };
     Isometry3::from_parts(Translation3::from(vector), rotation)
 }

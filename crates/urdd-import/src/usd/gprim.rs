@@ -17,6 +17,7 @@ use super::super::model::{Asset, Geometry, Material, Shape, Use};
 use super::super::refusal::{Fallible, at};
 use super::assets::Assets;
 use super::form::{Form, bounding, form, reach};
+use super::frames::clean;
 use super::look::{look, rubbed};
 use super::made::Made;
 use super::mesh::{Faces, faces};
@@ -110,7 +111,7 @@ impl<'a, 's> Shapes<'a, 's> {
             * world.fixed_view::<3, 3>(0, 0).into_owned()
             * scene.metre;
         let (rotation, scale) = split(&linear);
-        let frame = Isometry3::from_parts(Translation3::from(place_in), rotation);
+        let frame = clean(Isometry3::from_parts(Translation3::from(place_in), rotation));
         // What is left of the matrix in that frame: scales, and a shear.
         let stretch = match is_square(&linear) {
             true => Matrix3::from_diagonal(&scale),
