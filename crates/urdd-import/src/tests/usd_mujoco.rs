@@ -1,6 +1,6 @@
 //! What Newton's and MuJoCo's schemas say of joints in a USD, against closed forms.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::usd::{body, inside, joint};
 use crate::features;
@@ -56,7 +56,7 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
 }
 
 #[test]
-fn actuators_of_mujoco_are_those_of_an_mjcf() {
+fn actuators_masses_and_sites_of_these_schemas() {
     let text = "
         def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsArticulationRootAPI\"]) {}
         def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}
@@ -97,6 +97,31 @@ fn actuators_of_mujoco_are_those_of_an_mjcf() {
     let (_, motor) = joint(&model, "k");
     assert_eq!((motor.kind, motor.kp, motor.effort), (JointKind::Slide, None, Some(6.0)));
     assert_eq!(motor.actuator.force, Some([-6.0, 4.0]));
+    // Newton's: the same gains, and what both schemas say of damping counts once.
+    let text = "
+        def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsArticulationRootAPI\"]) {
+            def Sphere \"tip\" (apiSchemas = [\"NewtonSiteAPI\"]) { double3 xformOp:translate = (0, 0, 2)
+                uniform token[] xformOpOrder = [\"xformOp:translate\"] } }
+        def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"NewtonMassAPI\"]) {
+            float physics:mass = 2\n point3f physics:centerOfMass = (0, 0, 0.5)
+            float3 physics:diagonalInertia = (9, 9, 9)
+            double[] newton:inertia = [1, 2, 3, 0.1, 0.2, 0.3] }
+        def PhysicsFixedJoint \"w\" { rel physics:body1 = </a> }
+        def PhysicsRevoluteJoint \"j\" { rel physics:body0 = </a>\n rel physics:body1 = </b>
+            uniform double mjc:damping = 0.5\n float newton:damping = 0.0087266462599716 }
+        def NewtonActuator \"pd\" ( apiSchemas = [\"NewtonPDControlAPI\", \"NewtonMaxEffortClampingAPI\"] ) {
+            rel newton:targets = </j>\n float newton:kp = 30\n float newton:kd = 3\n float newton:maxEffort = 12 }
+        def NewtonActuator \"pid\" ( apiSchemas = [\"NewtonPIDControlAPI\"] ) { rel newton:targets = </j> }";
+    let of_newton = inside(text);
+    let (_, pd) = joint(&of_newton, "j");
+    assert_eq!((pd.kp, pd.kv, pd.effort), (Some(30.0), Some(3.0), Some(12.0)));
+    assert!((pd.damping - 0.5).abs() < 1e-7);
+    assert_eq!(of_newton.tally.number_of(features::OTHER_ACTUATORS), 1);
+    let inertia = body(&of_newton, "b").inertial.as_ref().expect("an inertial").inertia;
+    assert_eq!(inertia, Matrix3::new(1.0, 0.1, 0.2, 0.1, 2.0, 0.3, 0.2, 0.3, 3.0));
+    let tip = body(&of_newton, "tip");
+    assert!(tip.is_frame && body(&of_newton, "a").shapes.is_empty());
+    assert_eq!(tip.pose.translation.vector, Vector3::new(0.0, 0.0, 2.0));
     let counted = |what| model.tally.number_of(what);
     assert_eq!(counted(features::OTHER_ACTUATORS), 1);
     assert_eq!((counted(features::TENDONS), counted(features::SPRINGS)), (1, 1));

@@ -29,11 +29,11 @@ pub fn drive(
         .map(|speed| speed * unit);
     joint.armature = positive(value(&["newton:armature", "physxJoint:armature", "mjc:armature"]))
         .map(|armature| armature * inertia);
-    joint.damping =
-        positive(value(&["newton:damping"])).map_or(0.0, |damping| damping * force / unit);
-    // MuJoCo's are of radians.
+    // MuJoCo's is of radians. What both say is the same.
     let radian = if motion.is_slide() { force / metre } else { force };
-    joint.damping += positive(value(&["mjc:damping"])).map_or(0.0, |damping| damping * radian);
+    let damping = positive(value(&["newton:damping"])).map(|damping| damping * force / unit);
+    let of_mujoco = || positive(value(&["mjc:damping"])).map(|damping| damping * radian);
+    joint.damping = damping.or_else(of_mujoco).unwrap_or(0.0);
     joint.friction = positive(value(&["newton:friction", "mjc:frictionloss"]))
         .map_or(0.0, |friction| friction * force);
     if positive(value(&["mjc:stiffness"])).is_some() {

@@ -11,7 +11,7 @@ use super::super::model::{Body, Configuration, JointValue};
 use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
 use super::made::Made;
-use super::scene::Scene;
+use super::scene::{Scene, is_site};
 
 /// Looking for the values of a body in a configuration, as bytes.
 const BODY: usize = 20;
@@ -30,12 +30,12 @@ pub fn frames(
         else {
             continue;
         };
-        let is_frame = &*of.type_name == "Xform"
+        let is_plain = &*of.type_name == "Xform"
             && of.children.is_empty()
             && !made.index.contains_key(&prim)
             && !of.properties.is_empty()
             && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
-        if !is_frame {
+        if !is_plain && !is_site(of) {
             continue;
         }
         let place = scene.place(prim);

@@ -1,7 +1,7 @@
 //! Masses of bodies: what they say, and what follows from the shapes that collide.
 
-use nalgebra::{Point3, UnitQuaternion, Vector3};
-use urdd_usd::Prim;
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use urdd_usd::{Prim, Value};
 
 use super::super::features::{self, Tally};
 use super::super::mass::{Mass, moments, volume};
@@ -37,13 +37,14 @@ pub fn add(
         let centre = centre.map(|centre| centre.component_mul(&scale) * scene.metre - shift);
         let diagonal = triple(of, "physics:diagonalInertia")
             .filter(|moments| moments.iter().any(|moment| *moment != 0.0));
-        let inertia = diagonal.map(|diagonal| {
+        let unit = scene.kilogram * scene.metre.powi(2);
+        let tensor = of.value("newton:inertia").and_then(Value::numbers).and_then(tensor);
+        let along_axes = diagonal.map(|diagonal| {
             let axes = turn(of, "physics:principalAxes").unwrap_or_else(UnitQuaternion::identity);
             let own = Mass::along_axes(1.0, Vector3::zeros(), diagonal.into());
             own.at(&nalgebra::Isometry3::from_parts(Default::default(), axes)).inertia
-                * scene.kilogram
-                * scene.metre.powi(2)
         });
+        let inertia = tensor.or(along_axes).map(|inertia| inertia * unit);
         let whole = match (mass, centre, inertia) {
             (Some(mass), Some(centre), Some(inertia)) => Some(Mass { mass, centre, inertia }),
             _ => {
@@ -78,6 +79,13 @@ pub fn add(
             Some(Inertial { mass: whole.mass, centre: Point3::from(whole.centre), inertia, place });
     }
     Ok(())
+}
+
+/// The inertia that Newton's schema says: xx, yy, zz, xy, xz, yz. None of an empty array, which says nothing.
+fn tensor(numbers: &[f64]) -> Option<Matrix3<f64>> {
+    let [xx, yy, zz, xy, xz, yz] = *numbers else { return None };
+    let is_said = numbers.iter().all(|number| number.is_finite()) && xx.max(yy).max(zz) > 0.0;
+    is_said.then(|| Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }
 
 /// A ball of the density of water: of a body that says its mass alone, and has no shapes.

@@ -1,5 +1,6 @@
 //! Reads USD: the bodies and joints of UsdPhysics in a stage as a robot.
 
+mod actuators;
 mod assets;
 mod door;
 mod drive;
@@ -15,7 +16,6 @@ mod made;
 mod mass;
 mod mesh;
 mod missing;
-mod mjc;
 mod pairs;
 mod robot;
 mod said;

@@ -21,7 +21,7 @@ use super::graph::{Branch, Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{frames, mass, missing, mjc, pairs, said, upright};
+use super::{actuators, frames, mass, missing, pairs, said, upright};
 
 /// How far the other limit is from one that stands alone, rad and m.
 const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
@@ -52,7 +52,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     shapes.add(&mut made, &mut tally)?;
     mass::add(scene, &mut made, &shapes, &mut tally)?;
     let (moving, of_joint) = (&mut made.bodies, &maker.of_joint);
-    mjc::actuators(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
+    actuators::give(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
     let closings = maker.closings(&graph, &made, &mut tally)?;
     let (apart, checked) =
         pairs::pairs(scene, &joints, &made, &shapes.solids, account, &mut tally)?;

@@ -7,7 +7,6 @@ use super::scene::Scene;
 pub fn say(scene: &Scene<'_>, tally: &mut Tally) {
     for prim in &scene.stage.prims {
         match &*prim.type_name {
-            "NewtonActuator" => tally.count(features::OTHER_ACTUATORS),
             "MjcTendon" => tally.count(features::TENDONS),
             "MjcKeyframe" => tally.unread("keyframes of MuJoCo"),
             _ => {}

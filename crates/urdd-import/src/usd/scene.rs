@@ -153,25 +153,31 @@ impl<'s> Scene<'s> {
     }
 }
 
+/// Whether a prim is a frame alone, by Newton's schema or MuJoCo's, whatever shape it has.
+pub fn is_site(prim: &Prim) -> bool {
+    prim.has("NewtonSiteAPI") || prim.has("MjcSiteAPI")
+}
+
 /// Whether a prim is a shape.
 pub fn is_shape(prim: &Prim) -> bool {
-    matches!(
-        &*prim.type_name,
-        "Cube"
-            | "Sphere"
-            | "Cylinder"
-            | "Capsule"
-            | "Cone"
-            | "Mesh"
-            | "Plane"
-            | "Cylinder_1"
-            | "Capsule_1"
-            | "BasisCurves"
-            | "Points"
-            | "NurbsPatch"
-            | "TetMesh"
-            | "PointInstancer"
-    )
+    !is_site(prim)
+        && matches!(
+            &*prim.type_name,
+            "Cube"
+                | "Sphere"
+                | "Cylinder"
+                | "Capsule"
+                | "Cone"
+                | "Mesh"
+                | "Plane"
+                | "Cylinder_1"
+                | "Capsule_1"
+                | "BasisCurves"
+                | "Points"
+                | "NurbsPatch"
+                | "TetMesh"
+                | "PointInstancer"
+        )
 }
 
 /// The rotation and the scales along the axes of a matrix. A mirror is a scale below 0 along x.

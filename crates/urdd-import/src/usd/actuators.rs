@@ -1,4 +1,4 @@
-//! What MuJoCo's own schema says of actuators: they are read as those of an MJCF.
+//! Actuators of MuJoCo's schema and of Newton's: they are read as those of an MJCF.
 
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ const LISTS: [(&str, &str); 3] = [("gainprm", "gainPrm"), ("biasprm", "biasPrm")
 const RANGES: [(&str, &str); 2] = [("forcerange", "forceRange"), ("ctrlrange", "ctrlRange")];
 
 /// Gives joints what these actuators say. `of_joint` has the joints of the robot by their prims.
-pub fn actuators(
+pub fn give(
     scene: &Scene<'_>,
     of_joint: &HashMap<usize, (usize, usize)>,
     bodies: &mut [Body],
@@ -37,10 +37,12 @@ pub fn actuators(
     // MuJoCo's numbers are in SI.
     let is_si = scene.metre == 1.0 && scene.kilogram == 1.0;
     for (index, prim) in scene.stage.prims.iter().enumerate() {
-        if &*prim.type_name != "MjcActuator" {
-            continue;
-        }
-        let joint = scene.target(prim, "mjc:target").and_then(|target| of_joint.get(&target));
+        let target = match &*prim.type_name {
+            "MjcActuator" => "mjc:target",
+            "NewtonActuator" => "newton:targets",
+            _ => continue,
+        };
+        let joint = scene.target(prim, target).and_then(|target| of_joint.get(&target));
         let is_one = |(body, joint): &&(usize, usize)| {
             let joint = &bodies[*body].joints[*joint];
             // Of a joint with a drive, the drive counts.
@@ -52,7 +54,17 @@ pub fn actuators(
             continue;
         };
         account.charge(ELEMENT).map_err(|why| at(scene.place(index), why))?;
-        found.push((element(scene, index, prim), *joint));
+        let attributes = match target {
+            "mjc:target" => of_mujoco(prim),
+            _ => of_newton(prim),
+        };
+        let Some(mut attributes) = attributes else {
+            tally.count(features::OTHER_ACTUATORS);
+            continue;
+        };
+        attributes.push(("name".to_owned(), scene.name(index).to_owned()));
+        let element = Element::new("general".to_owned(), attributes, scene.place(index));
+        found.push((element, *joint));
     }
     let compiler = Compiler::new();
     let mut driven = Vec::new();
@@ -70,9 +82,11 @@ pub fn actuators(
     give_all(&driven, bodies, is_floating, &charge, tally)
 }
 
-/// An actuator as the `<general>` of an MJCF.
-fn element(scene: &Scene<'_>, index: usize, prim: &Prim) -> Element {
-    let mut attributes = vec![("name".to_owned(), scene.name(index).to_owned())];
+type Attributes = Vec<(String, String)>;
+
+/// The attributes of a `<general>` of an MJCF, by MuJoCo's schema.
+fn of_mujoco(prim: &Prim) -> Option<Attributes> {
+    let mut attributes = Attributes::new();
     let mut set = |name: &str, value: Option<String>| {
         attributes.extend(value.map(|value| (name.to_owned(), value)));
     };
@@ -80,8 +94,7 @@ fn element(scene: &Scene<'_>, index: usize, prim: &Prim) -> Element {
         set(name, word(prim, &format!("mjc:{own}")).map(str::to_owned));
     }
     for (name, own) in LISTS {
-        let numbers = prim.value(&format!("mjc:{own}")).and_then(Value::numbers);
-        set(name, numbers.map(text));
+        set(name, prim.value(&format!("mjc:{own}")).and_then(Value::numbers).map(text));
     }
     for (name, own) in RANGES {
         let ends = ["min", "max"].map(|end| number(prim, &format!("mjc:{own}:{end}")));
@@ -89,7 +102,26 @@ fn element(scene: &Scene<'_>, index: usize, prim: &Prim) -> Element {
         set(name, is_said.then(|| text(&ends.map(Option::unwrap_or_default))));
     }
     set("inheritrange", number(prim, "mjc:inheritRange").map(|part| part.to_string()));
-    Element::new("general".to_owned(), attributes, scene.place(index))
+    Some(attributes)
+}
+
+/// The same, of a spring and a damper of Newton's schema; other laws have none.
+fn of_newton(prim: &Prim) -> Option<Attributes> {
+    let gain = |name: &str| number(prim, name).filter(|gain| *gain > 0.0).unwrap_or(0.0);
+    let [stiffness, damping] = ["newton:kp", "newton:kd"].map(gain);
+    let control = if stiffness > 0.0 { stiffness } else { damping };
+    let is_servo = prim.has("NewtonPDControlAPI") && control > 0.0;
+    let constant = number(prim, "newton:constEffort").unwrap_or(0.0);
+    let most = number(prim, "newton:maxEffort").filter(|most| most.is_finite());
+    let most = most.filter(|_| prim.has("NewtonMaxEffortClampingAPI"));
+    let mut attributes = vec![
+        ("biastype", "affine".to_owned()),
+        ("gainprm", control.to_string()),
+        ("biasprm", text(&[constant, -stiffness, -damping])),
+    ];
+    attributes.extend(most.map(|most| ("forcerange", text(&[-most, most]))));
+    let owned = |(name, value): (&str, String)| (name.to_owned(), value);
+    is_servo.then(|| attributes.into_iter().map(owned).collect())
 }
 
 fn text(numbers: &[f64]) -> String {
