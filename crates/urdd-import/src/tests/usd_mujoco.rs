@@ -1,5 +1,7 @@
 //! What Newton's and MuJoCo's schemas say of joints in a USD, against closed forms.
 
+use std::f64::consts::FRAC_PI_4;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::usd::{body, inside, joint};
@@ -50,6 +52,20 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
     assert_eq!(names, ["y", "x"]);
     assert_eq!(joint(&turned, "x").1.axis, -Vector3::x());
 
+    // To the world, as MuJoCo has joints.
+    let joint_to_world = |name: &str, axis: &str| {
+        format!(
+            "def PhysicsPrismaticJoint \"{name}\" (apiSchemas = [\"MjcJointAPI\"]) {{
+            uniform token physics:axis = \"{axis}\"\n rel physics:body1 = </a> }}\n"
+        )
+    };
+    let text = "def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}\n".to_owned()
+        + &joint_to_world("forward", "X")
+        + &joint_to_world("side", "Y");
+    let base = inside(&text);
+    let names: Vec<&str> = body(&base, "a").joints.iter().map(|joint| &*joint.name).collect();
+    assert_eq!((names, base.closings.len()), (vec!["forward", "side"], 0));
+
     // By UsdPhysics itself, each of the two takes the motion of the other.
     let model = stacked("", ["a", "b"]);
     assert_eq!((body(&model, "b").joints.len(), model.closings.len()), (1, 1));
@@ -78,6 +94,14 @@ fn actuators_masses_and_sites_of_these_schemas() {
             uniform double mjc:ctrlRange:min = -1\n uniform double mjc:ctrlRange:max = 1
             uniform double mjc:forceRange:min = -5\n uniform double mjc:forceRange:max = 5
         }
+        def PhysicsRevoluteJoint \"h\" { rel physics:body0 = </a>\n rel physics:body1 = </d>
+            float physics:lowerLimit = -90\n float physics:upperLimit = 90 }
+        def Xform \"d\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}
+        def MjcActuator \"of_range\" {
+            rel mjc:target = </h>\n uniform double mjc:inheritRange = 0.5
+            uniform double[] mjc:gainPrm = [8]\n uniform double[] mjc:biasPrm = [0, -8]
+            uniform token mjc:biasType = \"affine\"
+        }
         def MjcActuator \"motor\" {
             rel mjc:target = </k>
             uniform double[] mjc:gear = [2, 0, 0, 0, 0, 0]
@@ -94,6 +118,10 @@ fn actuators_masses_and_sites_of_these_schemas() {
     assert_eq!(servo.effort, Some(7.0));
     assert_eq!(servo.actuator.control, Some([-0.5, 0.5]));
     assert_eq!(servo.actuator.name.as_deref(), Some("servo"));
+    let told = joint(&model, "h").1.actuator.control.expect("a range");
+    assert!(
+        told.iter().zip([-FRAC_PI_4, FRAC_PI_4]).all(|(one, other)| (one - other).abs() < 1e-9)
+    );
     let (_, motor) = joint(&model, "k");
     assert_eq!((motor.kind, motor.kp, motor.effort), (JointKind::Slide, None, Some(6.0)));
     assert_eq!(motor.actuator.force, Some([-6.0, 4.0]));

@@ -54,8 +54,9 @@ pub fn give(
             continue;
         };
         account.charge(ELEMENT).map_err(|why| at(scene.place(index), why))?;
+        let range = bodies[joint.0].joints[joint.1].range;
         let attributes = match target {
-            "mjc:target" => of_mujoco(prim),
+            "mjc:target" => of_mujoco(prim, range),
             _ => of_newton(prim),
         };
         let Some(mut attributes) = attributes else {
@@ -84,8 +85,8 @@ pub fn give(
 
 type Attributes = Vec<(String, String)>;
 
-/// The attributes of a `<general>` of an MJCF, by MuJoCo's schema.
-fn of_mujoco(prim: &Prim) -> Option<Attributes> {
+/// The attributes of a `<general>` of an MJCF, by MuJoCo's schema. `range` is that of the joint.
+fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Option<Attributes> {
     let mut attributes = Attributes::new();
     let mut set = |name: &str, value: Option<String>| {
         attributes.extend(value.map(|value| (name.to_owned(), value)));
@@ -101,7 +102,13 @@ fn of_mujoco(prim: &Prim) -> Option<Attributes> {
         let is_said = ends.iter().any(Option::is_some);
         set(name, is_said.then(|| text(&ends.map(Option::unwrap_or_default))));
     }
-    set("inheritrange", number(prim, "mjc:inheritRange").map(|part| part.to_string()));
+    // Of a servo of position, control is told in the units of the joint.
+    let part = number(prim, "mjc:inheritRange").filter(|part| *part > 0.0);
+    if let (Some(part), Some([least, most])) = (part, range) {
+        let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0 * part);
+        attributes.retain(|(name, _)| !name.starts_with("ctrl"));
+        attributes.push(("ctrlrange".to_owned(), text(&[middle - half, middle + half])));
+    }
     Some(attributes)
 }
 

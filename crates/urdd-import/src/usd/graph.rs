@@ -86,9 +86,12 @@ pub fn graph(
     // What is said of an articulation is said of all bodies that its joints connect.
     let said = (0..bodies.len()).filter(|body| scene.adds_mobility[bodies[*body]]);
     let adding: HashSet<usize> = said.map(|body| sets.of(body)).collect();
+    // Those of MuJoCo always add.
+    let are_mujocos =
+        |all: &[usize]| all.iter().all(|joint| scene.prim(joints[*joint].prim).has("MjcJointAPI"));
     let mut further: HashMap<usize, Vec<usize>> = HashMap::new();
     for (first, at, child) in doubled {
-        match adding.contains(&sets.of(child)) {
+        match adding.contains(&sets.of(child)) || are_mujocos(&[first, at]) {
             true => further.entry(first).or_default().push(at),
             false if !joints[at].is_free => outside.push(at),
             false => {}
@@ -131,7 +134,8 @@ pub fn graph(
             }
         }
     }
-    match main.moves.filter(|_| adding.contains(&main.set)) {
+    let is_adding = || adding.contains(&main.set) || are_mujocos(&main.others);
+    match main.moves.filter(|_| is_adding()) {
         Some(first) => drop(further.insert(first, main.others)),
         None => outside.extend(main.others),
     }
