@@ -102,8 +102,11 @@ fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Option<Attributes> {
         let is_said = ends.iter().any(Option::is_some);
         set(name, is_said.then(|| text(&ends.map(Option::unwrap_or_default))));
     }
-    // Of a servo of position, control is told in the units of the joint.
-    let part = number(prim, "mjc:inheritRange").filter(|part| *part > 0.0);
+    // Of a servo of position, which alone has it, control is told in the units of the joint.
+    let first = |name: &str, place: usize| prim.value(name)?.numbers()?.get(place).copied();
+    let is_servo = word(prim, "mjc:biasType") == Some("affine")
+        && first("mjc:biasPrm", 1) == first("mjc:gainPrm", 0).map(|gain| -gain);
+    let part = number(prim, "mjc:inheritRange").filter(|part| *part > 0.0 && is_servo);
     if let (Some(part), Some([least, most])) = (part, range) {
         let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0 * part);
         attributes.retain(|(name, _)| !name.starts_with("ctrl"));
