@@ -60,3 +60,26 @@ fn the_outermost_element_says_what_it_is_behind_any_comment() {
         assert_eq!(status, 0, "{file}: {said}");
     }
 }
+
+/// The page chooses from a drop before it asks the program: its list is that of the program.
+#[test]
+fn the_page_takes_the_same_endings_for_descriptions() {
+    let text = |file: &str| fs::read_to_string(repository().join(file)).expect("a source");
+    let (program, page) =
+        (text("crates/urdd-directory/src/file_type.rs"), text("page/src/drop.ts"));
+    let pairs = program.lines().filter_map(|line| {
+        let (ending, kind) = line.trim().strip_prefix("(\"")?.split_once("\", ")?;
+        Some((ending, kind.strip_suffix("),")?))
+    });
+    let describes =
+        pairs.filter(|(_, kind)| ["Xacro", "Xml", "Urdf", "Sdf", "Mjcf", "Usd"].contains(kind));
+    let mut of_program: Vec<&str> = describes.map(|(ending, _)| ending).collect();
+    let (_, list) = page.split_once("MAY_DESCRIBE = /\\.(?:").expect("the list of the page");
+    let (list, _) = list.split_once(')').expect("an end");
+    let list = list.replace("usd[acz]?", "usd|usda|usdc|usdz");
+    let mut of_page: Vec<&str> = list.split('|').collect();
+    of_program.sort_unstable();
+    of_page.sort_unstable();
+    assert!(of_program.len() > 8);
+    assert_eq!(of_program, of_page);
+}
