@@ -196,9 +196,9 @@ def record(compute: Callable[[], Any], pure: bool, kept: Any) -> Entry:
     KEPT.append(kept)
     outer = HITS.blocks, HITS.asked
     HITS.start()
-    start = time.perf_counter()
+    start = time.process_time()
     entry.result = outcome(compute)
-    entry.seconds = time.perf_counter() - start
+    entry.seconds = time.process_time() - start
     entry.asked = tuple(HITS.asked.values())
     entry.own = HITS.mask()
     entry.all = entry.own
@@ -383,6 +383,14 @@ class Loaded:
                 inside = "\n".join(lines[node.lineno - 1 : node.end_lineno])
                 near |= dict.fromkeys(re.findall(r"\b[A-Z]{3}[0-9]{3}\b", inside), 0)
         return near
+
+    def blocks_of_function(self, name: str) -> set[int]:
+        """The blocks with which functions of a name begin."""
+        return {
+            self.block_of[id(node.body[-1])]
+            for node in ast.walk(self.tree)
+            if isinstance(node, ast.FunctionDef) and node.name == name.rpartition(".")[2]
+        }
 
     def code(self) -> types.CodeType:
         return compile(self.tree, self.path, "exec")

@@ -86,6 +86,7 @@ def remember_trees(loaded: dict[str, Loaded]) -> None:
         return tree
 
     validator.open_tree = by_identity(open_case)
+    validator.open_tree.function = open_tree  # what a mutant changes
 
 
 def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
@@ -97,8 +98,8 @@ def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
     def stop(*_: object) -> None:
         raise TooSlow
 
-    signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)  # of this process: others may be busy
     try:
         try:
             if CHANGED.mask and not case.may_differ():
@@ -106,7 +107,7 @@ def says_of(case: Case, loaded: dict[str, Loaded], seconds: float) -> Any:
             codes = loaded["validator"].module.validate(case.place).codes()
             return bool(codes), case.code in codes
         finally:
-            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     except TooSlow:
         return "too slow"
     except Exception as fault:
@@ -117,9 +118,9 @@ def run_baseline(cases: list[Case], loaded: dict[str, Loaded]) -> None:
     """Judges all cases with the validator as it is."""
     for case in cases:
         HITS.start()
-        start = time.perf_counter()
+        start = time.process_time()
         case.says = says_of(case, loaded, 600)
-        case.seconds = time.perf_counter() - start
+        case.seconds = time.process_time() - start
         case.asked = tuple(HITS.asked.values())
         case.own = case.all = HITS.mask()
         for entry in case.asked:
@@ -128,17 +129,17 @@ def run_baseline(cases: list[Case], loaded: dict[str, Loaded]) -> None:
         case.seconds = max(case.seconds, sum(entry.seconds for entry in case.asked))
 
 
-def functions_of(loaded: Loaded) -> dict[str, Any]:
+def functions_of(module: types.ModuleType) -> dict[str, Any]:
     """The functions of a module by qualified name, as they are under what remembers."""
     found: dict[str, Any] = {}
-    scopes: list[Any] = [loaded.module]
+    scopes: list[Any] = [module]
     while scopes:
         for value in vars(scopes.pop()).values():
             function = getattr(value, "function", value)
-            if isinstance(value, type) and value.__module__ == loaded.module.__name__:
+            if isinstance(value, type) and value.__module__ == module.__name__:
                 scopes.append(value)
             elif isinstance(function, types.FunctionType):
-                if function.__module__ == loaded.module.__name__:
+                if function.__module__ == module.__name__:
                     found[function.__qualname__] = function
     return found
 
@@ -167,18 +168,28 @@ class Patch:
             restore()
         if mutant.block:
             codes = codes_in(code)
-            for name, function in functions_of(own).items():
+            for name, function in functions_of(own.module).items():
                 if function.__code__.co_code and name in codes:
                     self.undo.append((function, function.__code__))
                     function.__code__ = codes[name]
         else:
             self.change_names(own, code, loaded)
 
+    def change_defaults(self, own: Loaded, fresh: types.ModuleType) -> None:
+        """The default of a parameter, which is made where the module is read."""
+        changed = functions_of(fresh)
+        for name, function in functions_of(own.module).items():
+            if function.__defaults__ != changed[name].__defaults__:
+                self.undo.append((function, "__defaults__", function.__defaults__))
+                function.__defaults__ = changed[name].__defaults__
+                self.blocks |= own.blocks_of_function(name)
+
     def change_names(self, own: Loaded, code: types.CodeType, loaded: dict[str, Loaded]) -> None:
         """A constant of a module: it changes wherever it was imported."""
         fresh = types.ModuleType(own.module.__name__)
         fresh.__dict__.update(__file__=own.path, __package__=own.module.__package__, _hits=HITS)
         exec(code, fresh.__dict__)
+        self.change_defaults(own, fresh)
         for name in own.constants:
             old, new = own.module.__dict__[name], fresh.__dict__[name]
             if old == new:
@@ -212,7 +223,7 @@ def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], mos
         patch = Patch(mutant, loaded)
     except Exception as fault:
         return f"killed: {type(fault).__name__} where the module is read"
-    ran, spent = 0, time.perf_counter()
+    ran, spent = 0, time.process_time()
     CHANGED.begin(patch.blocks)
     try:
         near = nearness(mutant, loaded)
@@ -220,7 +231,7 @@ def try_mutant(mutant: Mutant, cases: list[Case], loaded: dict[str, Loaded], mos
         recent = RECENT.setdefault(mutant.module, [])
         chosen.sort(key=lambda case: (case not in recent, near.get(case.code, 3), case.seconds))
         for case in chosen:
-            if time.perf_counter() - spent + case.seconds > most:
+            if time.process_time() - spent + case.seconds > most:
                 break
             ran += 1
             seconds = max(LEAST_SECONDS, TIMES_SLOWER * case.seconds)

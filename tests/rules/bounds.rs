@@ -36,6 +36,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         valid(BND001, "no-dofs", || star(&[("j", JointType::Fixed)])),
         valid(BND003, "one-limit-alone", || limited(JointType::Revolute, Some(-1.0), None)),
+        valid(BND003, "upper-limit-alone", || limited(JointType::Revolute, None, Some(1.0))),
         valid(BND003, "locked", || limited(JointType::Prismatic, Some(0.3), Some(0.3))),
         valid(BND005, "velocity-of-a-floating-joint-and-a-limit-of-0", || {
             let mut robot = limited(JointType::Floating, None, None);

@@ -11,9 +11,10 @@ use urdd_validate::settings::Settings;
 use urdd_validate::solids::Solids;
 use urdd_validate::{rules, validate, validate_with};
 
+use crate::shapes::set_pair;
 use crate::{Case, changed, findings_in};
 use testkit::fixture::Fixture;
-use testkit::model::{MODEL, Said, fixture, fixture_with};
+use testkit::model::{MODEL, Said, fixture, fixture_with, trained_on};
 use testkit::trials::trials;
 
 /// A case with some values changed.
@@ -241,6 +242,19 @@ pub fn cases() -> Vec<Case> {
     vec![
         case(LRN005, "a-hundred-and-one-test-vectors", true, &[("/test_vectors", vectors(101))]),
         case(LRN005, "a-hundred-test-vectors", false, &[("/test_vectors", vectors(100))]),
+        changed(LRN007, "pieces-of-one-link-not-skipped", false, fixture, |f| {
+            let reasons = json!(["Always", "Adjacent", "Default"]);
+            f.set("link_shapes_skips_module", "/skipped_reasons", reasons);
+            for shape in ["convex_hulls", "obbs", "bounding_spheres"] {
+                let matrix = format!("/decomposition_{shape}_skips");
+                for pair in [(0, 1), (3, 4), (6, 7)] {
+                    set_pair(f, "link_shapes_skips_module", &matrix, pair, json!(false));
+                }
+            }
+            f.seal();
+            let digest = trained_on(f);
+            f.set(MODEL, "/trained_on", json!(digest));
+        }),
         changed(
             LRN011,
             "learned-by-heart",

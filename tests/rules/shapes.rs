@@ -1,6 +1,7 @@
 //! SHP.
 
 mod distances;
+mod exact;
 pub mod fits;
 
 use serde_json::{Value, json};
@@ -69,6 +70,7 @@ fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
 
 pub fn cases() -> Vec<Case> {
     let mut cases = distances::cases();
+    cases.extend(exact::cases());
     cases.extend([
         changed(
             SHP003,

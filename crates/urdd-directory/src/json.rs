@@ -31,14 +31,13 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     let kinds = [TextFaultKind::ByteOrderMark, TextFaultKind::NotUtf8];
     let text = match decode(bytes, kinds, &mut faults) {
         Ok(text) => text.to_owned(),
-        Err(fault) => return Err(unreadable(faults, fault)),
+        Err(fault) => {
+            let first = fault_before(bytes).unwrap_or(fault);
+            return Err(unreadable(faults, first));
+        }
     };
     let state = State::default();
-    let mut deserializer = serde_json::Deserializer::from_str(&text);
-    let parsed = Seed::new(&state)
-        .deserialize(&mut deserializer)
-        .and_then(|value| deserializer.end().map(|()| value));
-    let value = match parsed {
+    let value = match parse(&text, &state) {
         Ok(value) => value,
         Err(error) => {
             return Err(unreadable(faults, explain(&text, &error, state.too_deep.get())));
@@ -48,6 +47,21 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
         report_repeated_keys(&text, &mut faults);
     }
     Ok(JsonDocument { text, value, faults })
+}
+
+fn parse(text: &str, state: &State) -> serde_json::Result<Value> {
+    let mut deserializer = serde_json::Deserializer::from_str(text);
+    let value = Seed::new(state).deserialize(&mut deserializer)?;
+    deserializer.end().map(|()| value)
+}
+
+/// The fault of a text that is not UTF-8 before its first byte that is not: the first fault of a file is its cause.
+fn fault_before(bytes: &[u8]) -> Option<TextFault> {
+    let rest = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let text = rest.utf8_chunks().next()?.valid();
+    let state = State::default();
+    let error = parse(text, &state).err().filter(|error| !error.is_eof())?;
+    Some(explain(text, &error, state.too_deep.get()))
 }
 
 fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {

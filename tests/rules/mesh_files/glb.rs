@@ -56,6 +56,15 @@ fn chunks() -> Vec<Case> {
         invalid(MSH010, "bytes-after-the-last-chunk", |f| {
             change_bytes(f, HULLS, |bytes| bytes.extend([0; 4]));
         }),
+        invalid(MSH010, "chunk-one-byte-beyond-the-end", |f| {
+            change_bytes(f, HULLS, |bytes| {
+                let at = second(bytes);
+                lengthen(bytes, at, 1);
+            });
+        }),
+        invalid(MSH010, "version-1", |f| {
+            change_bytes(f, HULLS, |bytes| bytes[4] = 1);
+        }),
         near_miss(MSH010, "empty-chunk-at-the-end", |f| {
             change_bytes(f, HULLS, |bytes| bytes.extend(*b"\0\0\0\0XTRA"));
         }),
@@ -78,6 +87,13 @@ fn open() -> Vec<Case> {
                     gltf[key] = json!(["EXT_textures"]);
                 }
             });
+        }),
+        near_miss(MSH013, "no-weights-of-morph-targets", |f| {
+            change_gltf(f, PLAIN, |gltf| gltf["meshes"][0]["weights"] = json!([]));
+        }),
+        invalid(MSH013, "no-triangle", |f| {
+            let path = path(f, HULLS, BASE, "stl");
+            f.put_file(&path, vec![0; 84]);
         }),
         near_miss(MSH013, "skin-that-no-scene-reaches", |f| {
             change_gltf(f, PLAIN, |gltf| {

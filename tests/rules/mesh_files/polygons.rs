@@ -22,6 +22,12 @@ const STAR: [Corner; 5] = [[11, 4, 1], [6, 6, 1], [9, 1, 1], [9, 7, 1], [6, 2, 1
 /// A convex face.
 const QUAD: [Corner; 4] = [[4, 1, 1], [12, 1, 1], [10, 4, 1], [5, 4, 1]];
 
+/// The same, with the second corner twice.
+const TWICE: [Corner; 5] = [[4, 1, 1], [12, 1, 1], [12, 1, 1], [10, 4, 1], [5, 4, 1]];
+
+/// Two triangles that meet in a corner, on an edge: it touches itself, and does not cross itself.
+const TOUCHING: [Corner; 5] = [[4, 1, 1], [12, 1, 1], [12, 5, 1], [8, 1, 1], [4, 5, 1]];
+
 fn corners(face: &[Corner]) -> Vec<Point> {
     let inside = face.iter().map(|corner| corner.map(|x| f64::from(x) / 64.0));
     CORNERS.into_iter().chain(inside).collect()
@@ -73,6 +79,14 @@ fn mirrored(mesh: Mesh) -> Mesh {
     }
 }
 
+/// In a node that leans, and does not mirror.
+const LEANING: [[f64; 3]; 3] = [[-1.0, -1.0, -1.0], [0.0, 1.0, -1.0], [1.0, -1.0, 2.0]];
+
+fn leaning(mesh: Mesh) -> Mesh {
+    let moved = |p: Point| LEANING.map(|row| (0..3).map(|i| row[i] * p[i]).sum());
+    Mesh { vertices: mesh.vertices.into_iter().map(moved).collect(), ..mesh }
+}
+
 fn case(name: &'static str, caught: bool, file: String, shown: Mesh) -> Case {
     changed(MSH015, name, caught, base, move |f| show(f, file.as_bytes(), &shown, &shown))
 }
@@ -115,6 +129,32 @@ pub fn cases() -> Vec<Case> {
             true,
             plain(&LONG_DART),
             with(&LONG_DART, &[[5, 6, 8], [6, 7, 8]]),
+        ),
+        case("dart-left-out", true, plain(&DART), with(&DART, &[])),
+        case("corner-twice", false, plain(&TWICE), with(&TWICE, &[[4, 5, 7], [4, 7, 8]])),
+        case(
+            "corner-twice-and-cut-from-another",
+            true,
+            plain(&TWICE),
+            with(&TWICE, &[[5, 7, 8], [5, 8, 4]]),
+        ),
+        case(
+            "face-that-touches-itself",
+            false,
+            plain(&TOUCHING),
+            with(&TOUCHING, &[[5, 6, 7], [4, 7, 8]]),
+        ),
+        case(
+            "half-of-a-face-that-touches-itself",
+            true,
+            plain(&TOUCHING),
+            with(&TOUCHING, &[[5, 6, 7]]),
+        ),
+        case(
+            "leaning-quad",
+            false,
+            collada(&QUAD, "<matrix>-1 -1 -1 0 0 1 -1 0 1 -1 2 0 0 0 0 1</matrix>"),
+            leaning(with(&QUAD, &[[4, 5, 6], [4, 6, 7]])),
         ),
         case("star-left-out", false, plain(&STAR), with(&STAR, &[])),
         case("star-as-some-triangle", false, plain(&STAR), with(&STAR, &[[4, 7, 8]])),

@@ -121,6 +121,19 @@ fn side_files() -> Vec<Case> {
             f.set(ORIGINAL, "/files/0/side_files", json!([path]));
         }));
     }
+    // Of what is no mesh, any may stand there; an STL without triangles names nothing.
+    let cut = stl(1, &[TRIANGLE])[..114].to_vec();
+    for (name, caught, file, bytes) in [
+        ("any-side-file-of-a-comment", false, "part.words", b"# a note\n".to_vec()),
+        ("any-side-file-of-an-stl-that-is-cut-off", false, "part.stl", cut),
+        ("side-file-of-an-stl-without-triangles", true, "part.stl", stl(0, &[])),
+    ] {
+        cases.push(changed(MSH016, name, caught, base, move |f| {
+            carry(f, file, &bytes, false);
+            f.put_file("materials/steel.mtl", *b"newmtl steel\n");
+            f.set(ORIGINAL, "/files/0/side_files", json!(["materials/steel.mtl"]));
+        }));
+    }
     cases
 }
 
@@ -199,6 +212,43 @@ fn stl_rows() -> Vec<Row> {
         row("binary-stl-that-begins-with-a-space", "part.stl", begins(b" ply\n"), true),
         row("binary-stl-that-begins-in-capitals", "part.stl", begins(b"PLY\n"), true),
         row("binary-stl-that-begins-with-ply", "part.stl", begins(b"ply\n"), false),
+        row("binary-stl-that-begins-as-utf-16", "part.stl", begins(b"\xff\xfe"), true),
+        row(
+            "binary-stl-with-words-of-stl",
+            "part.stl",
+            begins(b"solid part facet\n\0 endsolid"),
+            true,
+        ),
+        row(
+            "stl-as-text-without-the-word-facet",
+            "part.stl",
+            text(&facet("0 1 0")).replace("facet normal 0 0 1\n", "").replace("endfacet\n", ""),
+            true,
+        ),
+        row(
+            "stl-as-text-without-its-end",
+            "part.stl",
+            format!("solid part\n{}", facet("0 1 0")),
+            true,
+        ),
+        row(
+            "stl-as-text-with-a-byte-that-is-no-text",
+            "part.mesh",
+            text(&format!("{}\u{1}\n", facet("0 1 0"))),
+            true,
+        ),
+        row(
+            "stl-as-text-with-other-words-between-corners",
+            "part.stl",
+            text(&facet("0 1 0")).replace("vertex 1", "edge vertex 1"),
+            true,
+        ),
+        row(
+            "stl-as-text-of-a-loop-of-two-corners",
+            "part.stl",
+            text(&facet("0 1 0")).replace("vertex 1 0 0\n", ""),
+            false,
+        ),
     ]
 }
 
@@ -248,6 +298,14 @@ fn obj_rows() -> Vec<Row> {
             true,
         ),
         row("obj-without-faces", "part.obj", obj(""), false),
+        row("obj-of-a-face-of-two-corners", "part.obj", obj("f 1 2"), false),
+        row("obj-with-words-of-stl", "part.obj", obj("# facet endsolid\nf 1 2 3"), true),
+        row(
+            "obj-that-begins-with-solid",
+            "part.obj",
+            format!("solid part\n{}", obj("f 1 2 3")),
+            true,
+        ),
         row("obj-named-so-of-other-words", "part.obj", "a shopping list\n", false),
     ]
 }

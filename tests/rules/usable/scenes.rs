@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Row, row};
+use super::{Row, TRIANGLE, row};
 use crate::mesh_files::placed_scenes::glb;
 
 /// A COLLADA document of one triangle; `scene` stands where the scene is.
@@ -100,8 +100,36 @@ pub fn collada_rows() -> Vec<Row> {
             of("r", 271, "a").replace("</node>", r##"<instance_geometry url="#g"/></node>"##);
         collada(&format!("{library}{}{scene}", nodes(&format!("{inside}{more}"))))
     };
+    let light = r##"<library_controllers><controller id="c"><skin source="#g"/></controller></library_controllers>"##;
+    let polylist = |counts: &str| {
+        changed("<triangles", "<polylist")
+            .replace("</triangles>", "</polylist>")
+            .replace("<p>", &format!("<vcount>{counts}</vcount><p>"))
+    };
     vec![
         row("collada", "part.dae", whole.clone(), true),
+        row(
+            "collada-of-a-light-that-names-a-controller",
+            "part.dae",
+            collada(&format!(
+                "{light}{}{scene}",
+                nodes(r##"<node><instance_light url="#c"/></node>"##)
+            )),
+            false,
+        ),
+        row("collada-of-a-list-of-polygons", "part.dae", polylist("3"), true),
+        row("collada-of-counts-that-are-no-whole-numbers", "part.dae", polylist("x 1.5 3"), true),
+        row(
+            "collada-moved-without-end-beside-another-node",
+            "part.dae",
+            collada(&format!(
+                "{}{scene}",
+                nodes(
+                    r##"<node><translate>inf 0 0</translate></node><node><instance_geometry url="#g"/></node>"##
+                )
+            )),
+            false,
+        ),
         row("collada-of-an-offset-of-1023", "part.dae", far(1023), true),
         row("collada-of-an-offset-of-1024-with-all-indices", "part.dae", far(1024), false),
         row("collada-of-100000-visits", "part.dae", visits(""), true),
@@ -349,6 +377,31 @@ pub fn gltf_rows() -> Vec<Row> {
         gltf["nodes"] = json!(nodes);
         gltf.to_string()
     };
+    let escaped = |bytes: &[u8]| {
+        let bytes: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
+        format!("data:application/octet-stream,{bytes}")
+    };
+    let corners = TRIANGLE.as_flattened().iter();
+    let percent = escaped(&corners.flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>());
+    // A second view, of indices.
+    let indexed = |accessor: Value, view: Value, bytes: &[u8]| {
+        let mut gltf = gltf();
+        gltf["meshes"][0]["primitives"][0]["indices"] = json!(1);
+        let list = gltf["accessors"].as_array_mut().expect("a list");
+        list.push(accessor);
+        let list = gltf["bufferViews"].as_array_mut().expect("a list");
+        list.push(view);
+        let list = gltf["buffers"].as_array_mut().expect("a list");
+        list.push(json!({"uri": escaped(bytes), "byteLength": bytes.len()}));
+        gltf.to_string()
+    };
+    let bytes =
+        |kind: &str| json!({"bufferView": 1, "componentType": 5121, "count": 3, "type": kind});
+    let of_bytes = json!({"buffer": 1, "byteLength": 3});
+    let mut replaced_indices = bytes("SCALAR");
+    replaced_indices["sparse"] = json!({
+        "count": 1, "indices": {"bufferView": 1, "componentType": 5121}, "values": {"bufferView": 1},
+    });
     let mut without_uri = gltf();
     without_uri["buffers"][0] = json!({"byteLength": 36});
     vec![
@@ -436,5 +489,44 @@ pub fn gltf_rows() -> Vec<Row> {
             true,
         ),
         row("gltf-of-a-node-in-itself", "part.gltf", with("/nodes/0/children", json!([0])), false),
+        row("gltf-of-a-scene-where-there-is-none", "part.gltf", with("/scenes", json!([])), false),
+        row(
+            "gltf-of-a-buffer-shorter-than-it-states",
+            "part.gltf",
+            with("/buffers/0/byteLength", json!(40)),
+            false,
+        ),
+        row(
+            "gltf-of-a-buffer-with-percent-signs",
+            "part.gltf",
+            with("/buffers/0/uri", json!(percent)),
+            true,
+        ),
+        row(
+            "gltf-of-indices",
+            "part.gltf",
+            indexed(bytes("SCALAR"), of_bytes.clone(), &[0, 1, 2]),
+            true,
+        ),
+        row(
+            "gltf-of-sparse-indices",
+            "part.gltf",
+            indexed(replaced_indices, of_bytes, &[0, 1, 2]),
+            false,
+        ),
+        row(
+            "gltf-of-indices-in-pairs",
+            "part.gltf",
+            indexed(bytes("VEC2"), json!({"buffer": 1, "byteLength": 6}), &[0, 1, 2, 0, 1, 2]),
+            false,
+        ),
+        row(
+            "gltf-of-positions-of-two-numbers",
+            "part.gltf",
+            with("/accessors/0/type", json!("VEC2")),
+            false,
+        ),
+        row("glb-of-a-header-alone", "part.glb", glb(&gltf(), &[])[..12].to_vec(), false),
+        row("glb-of-half-a-header", "part.glb", glb(&gltf(), &[])[..8].to_vec(), false),
     ]
 }

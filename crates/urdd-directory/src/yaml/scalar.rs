@@ -91,10 +91,12 @@ pub fn classify(text: &str) -> Readings {
         _ => {}
     }
     let (yaml12, yaml11) = (yaml12(text), yaml11(text));
-    // Octal in YAML 1.1, decimal in YAML 1.2, and a string to some readers.
+    // Octal in YAML 1.1, decimal in YAML 1.2: the same for one digit behind the zeros.
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
-    let leading_zero =
-        yaml12 == Reading::Integer && matches!(digits.as_bytes(), [b'0', b'0'..=b'9', ..]);
+    let leading_zero = yaml12 == Reading::Integer
+        && digits.starts_with('0')
+        && digits.bytes().all(|digit| digit.is_ascii_digit())
+        && digits.trim_start_matches('0').len() > 1;
     Readings { yaml12, yaml11, ambiguous: yaml12 != yaml11 || leading_zero }
 }
 

@@ -98,3 +98,13 @@ fn what_is_not_utf8_says_which_byte() {
     assert_eq!(place(&fault), (2, 3));
     assert!(only_fault(b"\xFF\xFE{\0").message.contains("UTF-16"));
 }
+
+#[test]
+fn the_first_fault_of_a_text_is_its_cause() {
+    let before = |text: &[u8]| only_fault(text).kind;
+    assert_eq!(before(b"{\"a\": 01, \"b\": \"\xFF\"}"), TextFaultKind::Syntax);
+    assert_eq!(before(b"{\"a\": NaN, \"b\": \"\xFF\"}"), TextFaultKind::NonFiniteNumber);
+    for text in [&b"{\"a\": 1, \"b\": \"\xFF\"}"[..], b"[tr\xFF", b"{}\xFF", b"[1, \xFF 01]"] {
+        assert_eq!(before(text), TextFaultKind::NotUtf8);
+    }
+}

@@ -45,9 +45,9 @@ pub fn judging<'i>(
             }
             Judged::Length => {
                 let things = annotations::of_length(text).unwrap_or_default();
-                let pieces_inside = things == [Thing::Link] && has_pieces_inside(schema);
+                let pieces_from = pieces_inside(schema).filter(|_| things == [Thing::Link]);
                 Box::new(Asserted(move |value: &Value| {
-                    length_fault(&things, pieces_inside, &counts, value.as_array()?)
+                    length_fault(&things, pieces_from, &counts, value.as_array()?)
                 }))
             }
         })
@@ -67,11 +67,13 @@ impl<'i, F: Fn(&Value) -> Option<String> + Send + Sync> Keyword<'i> for Asserted
     }
 }
 
-/// Whether the elements of a list are lists over the pieces of one link each.
-fn has_pieces_inside(schema: &Map<String, Value>) -> bool {
+/// From which element on the elements of a list are lists over the pieces of one link each: `items` does not describe
+/// those that `prefixItems` does.
+fn pieces_inside(schema: &Map<String, Value>) -> Option<usize> {
     let inside = schema.get("items").and_then(|items| items.get(LENGTH));
-    let things = inside.and_then(Value::as_str).and_then(annotations::of_length);
-    things.is_some_and(|things| things == [Thing::Piece])
+    let things = inside.and_then(Value::as_str).and_then(annotations::of_length)?;
+    let first = schema.get("prefixItems").and_then(Value::as_array).map_or(0, Vec::len);
+    (things == [Thing::Piece]).then_some(first)
 }
 
 /// What is wrong with an index of one of the things; `None` if it is below their number, or is not a number.
@@ -99,10 +101,11 @@ fn index_fault(things: &[Thing], counts: &Counts, value: &Value) -> Option<Strin
     Some(format!("`{INDEX}` of schema.json asks for the index of a {}", all.join(" or ")))
 }
 
-/// What is wrong with the length of a list, or (`pieces_inside`) of its element i, a list over the pieces of link i.
+/// What is wrong with the length of a list, or of its element i, from `pieces_from` on a list over the pieces
+/// of link i.
 fn length_fault(
     things: &[Thing],
-    pieces_inside: bool,
+    pieces_from: Option<usize>,
     counts: &Counts,
     list: &[Value],
 ) -> Option<String> {
@@ -124,8 +127,8 @@ fn length_fault(
             "`{LENGTH}` of schema.json asks for a list of {all}, and this has {length}"
         ));
     }
-    let pieces = counts.pieces.as_ref().filter(|_| pieces_inside)?;
-    let lists = list.iter().map(Value::as_array).zip(&pieces.of_link).enumerate();
+    let (first, pieces) = (pieces_from?, counts.pieces.as_ref()?);
+    let lists = list.iter().map(Value::as_array).zip(&pieces.of_link).enumerate().skip(first);
     let mut wrong = lists.filter_map(|(link, (inside, pieces))| {
         let length = inside?.len();
         (length != *pieces).then_some((link, length, pieces))

@@ -241,17 +241,28 @@ impl<'r, 'f> Buffers<'r, 'f> {
     fn buffer(&mut self, index: usize, assembly: &mut Assembly) -> Result<&[u8], Failure> {
         let missing = || Fault::malformed(format!("buffer {index} does not exist"));
         let buffer = self.root.buffers.get(index).ok_or_else(missing)?;
+        let whole = |bytes: &[u8]| match bytes.len() < buffer.byte_length {
+            true => Err(Fault::Truncated(format!(
+                "buffer {index} has {} bytes, but states {}",
+                bytes.len(),
+                buffer.byte_length
+            ))),
+            false => Ok(()),
+        };
         let Some(uri) = &buffer.uri else {
             // Only the first buffer may be the GLB chunk.
             let data = self.data.filter(|_| index == 0);
-            return data.ok_or_else(|| {
+            let data = data.ok_or_else(|| {
                 Fault::malformed(format!("buffer {index} has neither a file nor data"))
-            });
+            })?;
+            whole(data)?;
+            return Ok(data);
         };
         let slot = &mut self.loaded[index];
         if slot.is_none() {
             let bytes = if is_data(uri) {
-                let invalid = || Fault::malformed(format!("buffer {index} is not valid base64"));
+                let invalid =
+                    || Fault::malformed(format!("the data URI of buffer {index} is broken"));
                 decode(uri).ok_or_else(invalid)?
             } else {
                 let path = path_of_url(uri);
@@ -260,6 +271,7 @@ impl<'r, 'f> Buffers<'r, 'f> {
                     .or_else(|| if path == *uri { None } else { (self.fetch)(uri) });
                 found.ok_or(Fault::NoSideFile(path))?
             };
+            whole(&bytes)?;
             *slot = Some(bytes);
         }
         Ok(slot.as_deref().unwrap_or_default())
@@ -273,5 +285,9 @@ pub(super) fn is_data(uri: &str) -> bool {
 
 pub(super) fn decode(uri: &str) -> Option<Vec<u8>> {
     let (head, data) = uri.split_once(',')?;
-    head.ends_with(";base64").then(|| BASE64.decode(data.trim()).ok())?
+    let data: Vec<u8> = percent_encoding::percent_decode_str(data).collect();
+    match head.ends_with(";base64") {
+        true => BASE64.decode(data.trim_ascii()).ok(),
+        false => Some(data),
+    }
 }

@@ -130,5 +130,7 @@ pub(super) struct BufferView {
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct File {
     pub(super) uri: Option<String>,
+    /// Of a buffer.
+    pub(super) byte_length: usize,
     pub(super) buffer_view: Value,
 }

@@ -33,7 +33,7 @@ pub(super) fn walk(buffers: &mut Buffers<'_, '_>, assembly: &mut Assembly) -> Re
             )
         }
     };
-    let nodes = if root.scenes.is_empty() {
+    let nodes = if root.scenes.is_empty() && root.scene.is_none() {
         assembly.notes.add(NoteCode::Assumed, "the file has no scene; all its nodes were used");
         let mut is_child = vec![false; root.nodes.len()];
         for child in root.nodes.iter().flat_map(|node| &node.children) {

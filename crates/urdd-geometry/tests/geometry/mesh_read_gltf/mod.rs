@@ -122,6 +122,17 @@ fn buffers_in_files_and_data_uris() {
             [1.0, 2.0, 3.0]
         );
     }
+    let escaped: String = longer.iter().map(|byte| format!("%{byte:02X}")).collect();
+    root["buffers"][0]["uri"] = json!(format!("data:application/octet-stream,{escaped}"));
+    let load = |root: &Value| load_bytes(root.to_string().as_bytes(), "a.gltf", GltfUp::Keep, &[]);
+    assert_eq!(high(&load(&root).unwrap()), [1.0, 2.0, 3.0]);
+    root["buffers"][0]["byteLength"] = json!(longer.len() + 1);
+    let short = load(&root).unwrap_err();
+    assert!(matches!(short.fault, Fault::Truncated(_)), "{short}");
+    root["buffers"][0]["byteLength"] = json!(longer.len());
+    root["scene"] = json!(0);
+    root.as_object_mut().unwrap().remove("scenes");
+    assert!(matches!(load(&root).unwrap_err().fault, Fault::Malformed(_)));
 }
 
 #[test]
