@@ -66,18 +66,29 @@ pub fn graph(
         order.push((rank, at));
     }
     order.sort_unstable();
+    // Whether a joint holds a body of the set in the world.
+    let mut is_anchored = vec![false; bodies.len()];
+    for joint in joints.iter().filter(|joint| !joint.is_free && !joint.is_excluded) {
+        let [one, other] = joint.ends.map(|end| end.body);
+        if let (Some(body), None) = (one.or(other), one.and(other)) {
+            is_anchored[index[&body]] = true;
+        }
+    }
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
     let (mut outside, mut further) = (Vec::new(), HashMap::<usize, Vec<usize>>::new());
     let mut direct: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
-        if sets.join(parent, child) {
+        let both = [sets.of(parent), sets.of(child)];
+        // What closes a chain does not make one robot of two that are held.
+        let is_apart = joints[at].is_excluded && both.iter().all(|set| is_anchored[*set]);
+        if !is_apart && sets.join(parent, child) {
+            is_anchored[sets.of(parent)] = both.iter().any(|set| is_anchored[*set]);
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
             direct.insert((parent, child), at);
-        } else if let Some(first) = direct
-            .get(&(parent, child))
-            .filter(|_| !joints[at].is_excluded && scene.adds_mobility[bodies[child]])
+        } else if let Some(first) =
+            direct.get(&(parent, child)).filter(|_| joints[at].adds_mobility)
         {
             further.entry(*first).or_default().push(at);
         } else if !joints[at].is_free {
@@ -121,8 +132,13 @@ pub fn graph(
             }
         }
     }
-    match main.moves.filter(|_| scene.adds_mobility[bodies[main.root]]) {
-        Some(first) => drop(further.insert(first, main.others)),
+    match main.moves.filter(|first| joints[*first].adds_mobility) {
+        Some(first) => {
+            let (others, closing): (Vec<_>, Vec<_>) =
+                main.others.into_iter().partition(|at| joints[*at].adds_mobility);
+            outside.extend(closing);
+            further.insert(first, others);
+        }
         None => outside.extend(main.others),
     }
     Ok(Graph { branches, further, outside, is_floating: !main.is_fixed && main.moves.is_none() })
