@@ -181,7 +181,7 @@ def main():
     urdd, way, work = sys.argv[1:4]
     totals = dict(robots=0, right=0, refused=0, unconverted=0, boxes=0)
     for urdf in map(pathlib.Path, sys.argv[4:]):
-        folder = pathlib.Path(work) / urdf.stem
+        folder = pathlib.Path(work) / f"{totals['robots']}_{urdf.stem}"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         totals["robots"] += 1
@@ -189,23 +189,26 @@ def main():
             usd = usd_of(urdd, way, urdf.resolve(), folder)
         except Exception as why:
             totals["unconverted"] += 1
-            print(f"{urdf.name}: not converted: {why}")
+            print(f"{urdf}: not converted: {str(why)[:200]}", flush=True)
             continue
         try:
             run(urdd, "import", usd, "-o", folder / "back", "--report", folder / "report.json")
         except RuntimeError as why:
             totals["refused"] += 1
-            print(f"{urdf.name}: {why}")
+            print(f"{urdf}: refused: {why}", flush=True)
             continue
         wrong = []
         one, other = Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf")))
-        compare(one, other, wrong)
+        try:
+            compare(one, other, wrong)
+        except Exception as why:
+            wrong.append(f"not compared: {why!r}")
         # `urdd export` writes pieces of ours.
         if way == "converter":
             totals["boxes"] += compare_shapes(one, other, wrong)
         totals["right"] += not wrong
         for line in wrong[:6]:
-            print(f"{urdf.name}: {line}")
+            print(f"{urdf}: {line}", flush=True)
     print(json.dumps(totals))
 
 

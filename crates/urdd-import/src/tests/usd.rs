@@ -220,6 +220,7 @@ fn drives_and_mimics() {
             float drive:angular:physics:damping = 0.5
             float drive:angular:physics:maxForce = 30
             float newton:velocityLimit = 90
+            double mjc:ref = 45
         }
         def PhysicsRevoluteJoint \"k\" ( apiSchemas = [\"PhysxMimicJointAPI:rotX\"]
             displayName = \"k-2\" ) {
@@ -235,6 +236,7 @@ fn drives_and_mimics() {
     assert!((driven.kp.unwrap() - 2.0 / degree).abs() < 1e-9);
     assert!((driven.kv.unwrap() - 0.5 / degree).abs() < 1e-9);
     assert_eq!((driven.effort, driven.velocity, driven.range), (Some(30.0), Some(FRAC_PI_2), None));
+    assert!((driven.reference - FRAC_PI_2 / 2.0).abs() < 1e-9);
     let mimic = joint(&model, "k-2").1.mimic.clone();
     assert_eq!(mimic, Some(Mimic { joint: "j".to_owned(), multiplier: -2.0, offset: FRAC_PI_2 }));
 }

@@ -20,16 +20,22 @@ use super::form::{Form, bounding, form, reach};
 use super::frames::clean;
 use super::look::{look, rubbed};
 use super::made::Made;
-use super::mesh::{Faces, faces};
+use super::mesh::{Faces, Problem, faces};
 use super::scene::{Scene, flag, is_shape, is_square, number, split, word};
 
-/// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written.
+/// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written; and of a copy.
 const MESH: usize = 60;
+const COPY: usize = 8;
+/// What makes two meshes one: where their points, counts and indices are in memory, what they are stretched by, and how
+/// their faces are turned.
+type MeshKey = ([usize; 3], [u64; 9], bool);
 
 /// The shapes of a robot, and the meshes of these.
 pub struct Shapes<'a, 's> {
     scene: &'a Scene<'s>,
     assets: Assets<'a>,
+    /// Meshes that were read: instances share them.
+    read: HashMap<MeshKey, Arc<Faces>>,
     /// The shapes that collide, by body: the prim, the shape in the frame of the link, and the mesh of it.
     pub solids: HashMap<usize, Vec<Solid>>,
 }
@@ -54,7 +60,7 @@ pub struct Solid {
 
 impl<'a, 's> Shapes<'a, 's> {
     pub fn new(scene: &'a Scene<'s>, gate: &'a Gate) -> Self {
-        Shapes { scene, assets: Assets::new(gate), solids: HashMap::new() }
+        Shapes { scene, assets: Assets::new(gate), read: HashMap::new(), solids: HashMap::new() }
     }
 
     /// The meshes.
@@ -95,13 +101,6 @@ impl<'a, 's> Shapes<'a, 's> {
     ) -> Fallible<()> {
         let (scene, of) = (self.scene, self.scene.prim(prim));
         let place = scene.place(prim);
-        let numbers: usize = of
-            .properties
-            .iter()
-            .filter_map(|one| one.value.as_ref()?.numbers())
-            .map(<[f64]>::len)
-            .sum();
-        self.assets.gate.account().charge(MESH * numbers).map_err(|why| at(place, why))?;
         // In the frame of the link: its rotation and place, and what it is stretched by, in m.
         scene.frame(prim)?;
         let link = Translation3::from(-made.shifts[index]) * scene.frame(body)?.0.inverse();
@@ -159,7 +158,7 @@ impl<'a, 's> Shapes<'a, 's> {
             }
             return push(self, used, form, (material, Vec::new()), &name, tally);
         }
-        let faces = match faces(of, &stretch) {
+        let faces = match self.faces(prim, &stretch)? {
             Ok(faces) => faces,
             Err(problem) => {
                 tally.count(features::MISSING_MESHES);
@@ -168,6 +167,7 @@ impl<'a, 's> Shapes<'a, 's> {
             }
         };
         tally.count(features::MESHES);
+        let is_of_mujoco = word(of, "mjc:inertia").is_some();
         if collides {
             let said = [Some(prim), scene.collider[prim]].into_iter().flatten();
             let said = said.map(|at| scene.prim(at)).find(|of| of.has("PhysicsMeshCollisionAPI"));
@@ -183,6 +183,11 @@ impl<'a, 's> Shapes<'a, 's> {
                 _ => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
             };
             push(self, Use::Collision, form, (None, Vec::new()), &name, tally)?;
+            // MuJoCo weighs the mesh, whatever collides for it.
+            let solid = self.solids.get_mut(&index).and_then(|solids| solids.last_mut());
+            if let Some(solid) = solid.filter(|of| of.prim == prim && is_of_mujoco) {
+                (solid.pose, solid.mesh) = (frame, Some(Arc::new(faces.mesh.clone())));
+            }
         }
         if is_seen {
             for part in self.parts(prim, &faces, tally)? {
@@ -192,6 +197,41 @@ impl<'a, 's> Shapes<'a, 's> {
             }
         }
         Ok(())
+    }
+
+    /// The triangles of a mesh.
+    fn faces(
+        &mut self,
+        prim: usize,
+        stretch: &Matrix3<f64>,
+    ) -> Fallible<Result<Arc<Faces>, Problem>> {
+        let of = self.scene.prim(prim);
+        let shape = of.properties.iter().filter(|of| !of.name.contains("normals"));
+        let numbers = shape.filter_map(|of| of.value.as_ref()?.numbers());
+        let numbers: usize = numbers.map(<[f64]>::len).sum();
+        let address = |name| {
+            let numbers = of.value(name).and_then(Value::numbers);
+            numbers.map_or(0, |numbers| numbers.as_ptr().addr())
+        };
+        let mut bits = [0; 9];
+        bits.iter_mut().zip(stretch.iter()).for_each(|(bits, of)| *bits = of.to_bits());
+        let key = (
+            ["points", "faceVertexCounts", "faceVertexIndices"].map(address),
+            bits,
+            word(of, "orientation") == Some("leftHanded"),
+        );
+        let known = self.read.get(&key).cloned();
+        let cost = if known.is_some() { COPY } else { MESH };
+        let charged = self.assets.gate.account().charge(cost * numbers);
+        charged.map_err(|why| at(self.scene.place(prim), why))?;
+        if let Some(known) = known {
+            return Ok(Ok(known));
+        }
+        Ok(faces(of, stretch).map(|faces| {
+            let faces = Arc::new(faces);
+            self.read.insert(key, Arc::clone(&faces));
+            faces
+        }))
     }
 
     /// The parts of a mesh that have materials of their own, and the rest.

@@ -67,12 +67,24 @@ pub fn graph(
         order.push((rank, at));
     }
     order.sort_unstable();
+    // Whether a joint holds a body of the set in the world.
+    let mut is_anchored = vec![false; bodies.len()];
+    for joint in joints.iter().filter(|joint| !joint.is_free && !joint.is_excluded) {
+        let [one, other] = joint.ends.map(|end| end.body);
+        if let (Some(body), None) = (one.or(other), one.and(other)) {
+            is_anchored[index[&body]] = true;
+        }
+    }
     let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
     let (mut outside, mut doubled) = (Vec::new(), Vec::new());
     let mut direct: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
-        if sets.join(parent, child) {
+        let both = [sets.of(parent), sets.of(child)];
+        // What closes a chain does not make one robot of two that are held.
+        let is_apart = joints[at].is_excluded && both.iter().all(|set| is_anchored[*set]);
+        if !is_apart && sets.join(parent, child) {
+            is_anchored[sets.of(parent)] = both.iter().any(|set| is_anchored[*set]);
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
             direct.insert((parent, child), at);
@@ -86,12 +98,9 @@ pub fn graph(
     // What is said of an articulation is said of all bodies that its joints connect.
     let said = (0..bodies.len()).filter(|body| scene.adds_mobility[bodies[*body]]);
     let adding: HashSet<usize> = said.map(|body| sets.of(body)).collect();
-    // Those of MuJoCo always add.
-    let are_mujocos =
-        |all: &[usize]| all.iter().all(|joint| scene.prim(joints[*joint].prim).has("MjcJointAPI"));
     let mut further: HashMap<usize, Vec<usize>> = HashMap::new();
     for (first, at, child) in doubled {
-        match adding.contains(&sets.of(child)) || are_mujocos(&[first, at]) {
+        match joints[at].adds_mobility || adding.contains(&sets.of(child)) {
             true => further.entry(first).or_default().push(at),
             false if !joints[at].is_free => outside.push(at),
             false => {}
@@ -134,9 +143,13 @@ pub fn graph(
             }
         }
     }
-    let is_adding = || adding.contains(&main.set) || are_mujocos(&main.others);
-    match main.moves.filter(|_| is_adding()) {
-        Some(first) => drop(further.insert(first, main.others)),
+    let adds = |at: &usize| joints[*at].adds_mobility || adding.contains(&main.set);
+    match main.moves.filter(adds) {
+        Some(first) => {
+            let (others, closing): (Vec<_>, Vec<_>) = main.others.into_iter().partition(adds);
+            outside.extend(closing);
+            further.insert(first, others);
+        }
         None => outside.extend(main.others),
     }
     Ok(Graph { branches, further, outside, is_floating: !main.is_fixed && main.moves.is_none() })

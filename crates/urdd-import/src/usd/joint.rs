@@ -28,6 +28,8 @@ pub struct UsdJoint {
     pub is_excluded: bool,
     /// Whether it moves in all ways.
     pub is_free: bool,
+    /// Whether it follows another one between its bodies, and does not close a chain: as Newton says it, and in MuJoCo.
+    pub adds_mobility: bool,
 }
 
 /// Where a joint is in a body.
@@ -85,7 +87,10 @@ pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
         }
         let is_excluded = flag(prim, "physics:excludeFromArticulation", false);
         let is_free = motions.len() == 6;
-        all.push(UsdJoint { prim: at, motions, whole, ends, is_excluded, is_free });
+        let moved = ends[1].body.or(ends[0].body);
+        let adds_mobility = !is_excluded
+            && (prim.has("MjcJointAPI") || moved.is_some_and(|body| scene.adds_mobility[body]));
+        all.push(UsdJoint { prim: at, motions, whole, ends, is_excluded, is_free, adds_mobility });
     }
     Ok(all)
 }

@@ -103,8 +103,13 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
     let mut parts = Vec::new();
     for solid in solids {
         let own = scene.prim(solid.prim);
-        let is_shell = word(own, "newton:massModel") == Some("shell");
-        let unit = of_density_one(solid, is_shell)?;
+        let mode = match (word(own, "newton:massModel"), word(own, "mjc:inertia")) {
+            (Some("shell"), _) | (_, Some("shell")) => Mode::Shell,
+            (_, Some("convex")) => Mode::Convex,
+            (_, Some("legacy")) => Mode::Legacy,
+            _ => Mode::Exact,
+        };
+        let unit = of_density_one(solid, mode)?;
         let material = || {
             let material = rubbed(scene, solid.prim);
             density(scene.prim(material?), "physics:density")
@@ -123,12 +128,11 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
 }
 
 /// The mass of a shape whose density is 1, in the frame of its link; of a shell, that of its surface.
-fn of_density_one(solid: &Solid, is_shell: bool) -> Option<Mass> {
+fn of_density_one(solid: &Solid, mode: Mode) -> Option<Mass> {
+    let is_shell = mode == Mode::Shell;
     let own = match &solid.mesh {
         Some(mesh) => {
-            let measures = measure(mesh, if is_shell { Mode::Shell } else { Mode::Exact })
-                .or_else(|_| measure(mesh, Mode::Convex))
-                .ok()?;
+            let measures = measure(mesh, mode).or_else(|_| measure(mesh, Mode::Convex)).ok()?;
             Mass { mass: measures.volume, centre: measures.centre, inertia: measures.inertia }
         }
         None => {

@@ -233,6 +233,9 @@ impl Maker<'_, '_> {
             let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
             let mut moving = Joint::new(own, kind, Isometry3::identity(), place);
             moving.axis = axis_of(motion);
+            let reference = number(scene.prim(joint.prim), "mjc:ref").unwrap_or(0.0);
+            moving.reference =
+                reference * if motion.is_slide() { scene.metre } else { scene.mujoco_angle };
             moving.range = range(motion, &moving.name, place, tally);
             drive(scene, joint.prim, motion, &mut moving, tally);
             tally.count(match (kind, moving.range) {

@@ -23,6 +23,8 @@ pub struct Scene<'s> {
     /// Metres and kilograms of a unit.
     pub metre: f64,
     pub kilogram: f64,
+    /// Radians of a unit of the angles that MuJoCo alone reads.
+    pub mujoco_angle: f64,
     /// Whether y is up, and not z.
     pub is_y_up: bool,
     /// Where each prim is, in units: columns, as points are.
@@ -59,6 +61,8 @@ impl<'s> Scene<'s> {
             return Err(at(Place::default(), UsdFault::Units));
         }
         let up = stage.metadata("upAxis").and_then(Value::text);
+        let has_radians =
+            (stage.prims.iter()).any(|prim| word(prim, "mjc:compiler:angle") == Some("radian"));
         let lines = texts.iter().map(|text| {
             let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
             std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect()
@@ -67,6 +71,7 @@ impl<'s> Scene<'s> {
             stage,
             metre,
             kilogram,
+            mujoco_angle: if has_radians { 1.0 } else { 1f64.to_radians() },
             is_y_up: up.is_none_or(|up| **up == *"Y"),
             world: Vec::new(),
             body: Vec::new(),
