@@ -187,7 +187,7 @@ class Parser(Cursor):
             before = self.at
             ended = self.skip(floor)
             match = PLAIN_IN_FLOW.match(self.text, self.at) if ended else None
-            if not match or "#" in self.text[before : self.at] or self.dashed("-"):
+            if not match or "#" in self.text[before : self.at]:
                 self.at = before
                 break
             self.at = match.end()

@@ -15,7 +15,7 @@ use urdd_geometry::write;
 use urdd_validate::code::Code::*;
 
 use crate::meshes::{HULLS, ORIGINAL, PIECES, PLAIN, boxy, robot_of, text};
-use crate::{Case, invalid, near_miss};
+use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::{Fixture, ROOT};
 use testkit::robot::*;
 
@@ -207,6 +207,23 @@ fn files() -> Vec<Case> {
             bytes[84 + 3] ^= 0x80;
             f.put_file(&path, bytes);
         }),
+        // Of a body so small that a height of a metre would be thin if lengths counted the other way round.
+        changed(
+            MSH013,
+            "normal-of-another-triangle-of-a-small-box",
+            true,
+            || {
+                let mut small = link("b");
+                small.visual.push(visual(None, cuboid([0.01, 0.01, 0.02])));
+                Fixture::full(&robot_of(vec![link("a"), small]))
+            },
+            |f| {
+                let path = path(f, HULLS, BASE, "stl");
+                let mut bytes = f.file(&path).to_vec();
+                bytes[84 + 3] ^= 0x80;
+                f.put_file(&path, bytes);
+            },
+        ),
         invalid(MSH013, "obj-holds-stl", |f| {
             let stl = f.file(&path(f, HULLS, BASE, "stl")).to_vec();
             let path = path(f, HULLS, BASE, "obj");

@@ -88,6 +88,13 @@ fn files() -> Vec<Case> {
         ),
         changed(
             MSH006,
+            "link-of-an-empty-name",
+            false,
+            || Fixture::full(&robot_of(["a", ""].map(boxy).into())),
+            |_| {},
+        ),
+        changed(
+            MSH006,
             "odd-names",
             false,
             || {

@@ -4,7 +4,7 @@
 use urdd_geometry::Mesh;
 use urdd_validate::code::Code::MSH015;
 
-use super::placed_scenes::{CORNERS, FACES, Point, base, show};
+use super::placed_scenes::{CORNERS, FACES, Point, base, scaled, show};
 use crate::{Case, changed};
 
 /// A corner, in 64ths of a metre.
@@ -91,13 +91,30 @@ fn case(name: &'static str, caught: bool, file: String, shown: Mesh) -> Case {
     changed(MSH015, name, caught, base, move |f| show(f, file.as_bytes(), &shown, &shown))
 }
 
+/// A file of one triangle, and its mesh where the third coordinate is this.
+fn one_triangle(z: f64) -> (String, Mesh) {
+    let file = "v 0 0 0.25\nv 0.5 0 0.25\nv 0 0.5 0.25\nf 1 2 3\n".to_owned();
+    let vertices = vec![[0.0, 0.0, z], [0.5, 0.0, z], [0.0, 0.5, z]];
+    (file, Mesh { vertices, triangles: vec![[0, 1, 2]] })
+}
+
 pub fn cases() -> Vec<Case> {
+    let (triangle, shown) = one_triangle(0.25);
+    let flat = one_triangle(0.0).1;
     let plain = |face: &[Corner]| collada(face, "");
     let mirror = collada(&QUAD, "<scale>-1 1 1</scale>");
     let twice = [FACES, FACES].concat();
     let body =
         |triangles: &[[u32; 3]]| Mesh { vertices: CORNERS.to_vec(), triangles: triangles.to_vec() };
     vec![
+        case("one-triangle", false, triangle.clone(), shown),
+        changed(
+            MSH015,
+            "one-triangle-that-its-scale-makes-flat",
+            false,
+            || scaled(Some([1.0, 1.0, 0.0])),
+            move |f| show(f, triangle.as_bytes(), &flat, &flat),
+        ),
         case("dart", false, plain(&DART), with(&DART, &[[5, 6, 7], [5, 7, 4]])),
         case(
             "dart-in-a-list-of-its-own",

@@ -148,12 +148,64 @@ pub fn numbers() -> Vec<Number> {
     ]
 }
 
-/// Cases beside the numbers: a cylinder that faces inward.
+/// A link that shows a cylinder of 1 mm, so far along x, as this prism.
+fn small_cylinder(x: f64, mesh: &Mesh) -> Fixture {
+    let mut f = thirty_two();
+    let size = json!({"Cylinder": {"radius": SMALL, "length": 2.0 * SMALL}});
+    f.set("urdf_module", "/links/1/visual/0/geometry", size);
+    f.urdf_replace(
+        &format!("<cylinder radius=\"{RADIUS}\" length=\"{LENGTH}\"/>"),
+        &format!("<cylinder radius=\"{SMALL}\" length=\"{}\"/>", 2.0 * SMALL),
+    );
+    if x != 0.0 {
+        let origin = json!({"xyz": [x, 0.0, 0.0], "rpy": null, "quat_xyzw": null});
+        f.set("urdf_module", "/links/1/visual/0/origin", origin);
+        let placed = format!("<origin xyz=\"{x} 0 0\"/>\n<geometry>\n<cylinder");
+        f.urdf_replace("<geometry>\n<cylinder", &placed);
+    }
+    let hull = ConvexHull::new(&mesh.vertices).expect("a prism").into_mesh();
+    for format in ALL {
+        put(&mut f, PLAIN, 1, format, mesh);
+        put(&mut f, HULLS, 1, format, &hull);
+        put(&mut f, PIECES, 1, format, &hull);
+    }
+    f
+}
+
+const SMALL: f64 = 1e-3;
+
+/// A prism around the axis at `x`, from `low` to `high`.
+fn small_prism(sides: usize, x: f64, [low, high]: [f64; 2]) -> Mesh {
+    let corner = |angle: &f64, z: f64| {
+        [x + SMALL * angle.cos(), SMALL * angle.sin(), z].map(|x| f64::from(x as f32))
+    };
+    let angles = even(sides);
+    let corners: Vec<[f64; 3]> =
+        angles.iter().flat_map(|angle| [low, high].map(|z| corner(angle, z))).collect();
+    ConvexHull::new(&corners).expect("a prism").into_mesh()
+}
+
+/// Cases beside the numbers: a cylinder that faces inward, and what the tolerance of corners adds.
 pub fn cases() -> Vec<Case> {
     vec![
         changed(MSH015, "cylinder-that-faces-inward", true, thirty_two, |f| {
             change_plain(f, &even(32), Mesh::flip);
         }),
         changed(MSH015, "cylinder-of-thirty-two-sides", false, thirty_two, |_| {}),
+        // 10 m away, corners are known to 9.5e-6 m: sides that are inside by 2.5 % of the radius, and an end by as much.
+        changed(
+            MSH015,
+            "small-cylinder-far-away",
+            false,
+            || small_cylinder(10.0, &small_prism(14, 10.0, [-SMALL, SMALL - 2.5e-5])),
+            |_| {},
+        ),
+        // Here to 1e-7 m.
+        changed(MSH015, "small-cylinder-with-a-corner-off", true, thirty_two, |f| {
+            let mut mesh = small_prism(32, 0.0, [-SMALL, SMALL]);
+            let far = mesh.vertices.iter_mut().max_by(|a, b| a[0].total_cmp(&b[0]));
+            far.expect("a corner")[0] += 1.5e-7;
+            *f = small_cylinder(0.0, &mesh);
+        }),
     ]
 }
