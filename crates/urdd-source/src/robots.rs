@@ -63,7 +63,9 @@ pub enum BatchError {
         "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
     TooDeep { path: String },
-    #[error("{path}: there is no .urdf or .xacro file, and no MJCF, SDF or USD of a robot, at any depth")]
+    #[error(
+        "{path}: there is no .urdf or .xacro file, and no MJCF, SDF or USD of a robot, at any depth"
+    )]
     Empty { path: String },
     #[error(
         "{path}: there is no .urdf or .xacro file, and no MJCF, SDF or USD of a robot, but in folders that colcon passes over too: `{folder}` has a file `{mark}`; give that folder itself"

@@ -66,7 +66,8 @@ def compare(path, folder, wrong):
     compared = 0
     for step in range(5):
         q = model.joint_q.numpy().copy()
-        values = {name: np.zeros(1) if joint.get("type") != "spherical" else np.eye(3)[None] for name, joint in ours.items()}
+        none = {"spherical": np.eye(3)[None], "floating": np.eye(4)[None], "planar": np.zeros((1, 3))}
+        values = {name: none.get(joint.get("type"), np.zeros(1)) for name, joint in ours.items()}
         for at, name in enumerate(joint_labels):
             if int(types[at]) in one:
                 free = name in ours and ours[name].find("mimic") is None

@@ -24,20 +24,26 @@ pub fn frames(
     account: &Account,
     tally: &mut Tally,
 ) -> Fallible<()> {
-    for (prim, of) in scene.stage.prims.iter().enumerate() {
-        let Some((body, index)) =
-            of.parent.and_then(|parent| Some((parent, *made.index.get(&parent)?)))
+    let prims = &scene.stage.prims;
+    // What is a transform or a site, and has nothing but such in it.
+    let mut is_frame = vec![false; prims.len()];
+    for (prim, of) in prims.iter().enumerate().rev() {
+        let is_plain = &*of.type_name == "Xform"
+            && !of.properties.is_empty()
+            && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
+        is_frame[prim] = (is_plain || is_site(of))
+            && scene.body[prim] != Some(prim)
+            && of.children.iter().all(|child| is_frame[*child]);
+    }
+    for (prim, of) in prims.iter().enumerate() {
+        // In a body, or in a frame of it.
+        let is_in =
+            of.parent.is_some_and(|parent| scene.body[parent] == Some(parent) || is_frame[parent]);
+        let body = scene.body[prim].filter(|_| is_in && is_frame[prim]);
+        let Some((body, index)) = body.and_then(|body| Some((body, *made.index.get(&body)?)))
         else {
             continue;
         };
-        let is_plain = &*of.type_name == "Xform"
-            && of.children.is_empty()
-            && !made.index.contains_key(&prim)
-            && !of.properties.is_empty()
-            && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
-        if !is_plain && !is_site(of) {
-            continue;
-        }
         let place = scene.place(prim);
         let too_much = |why| at(place, why);
         let pose = scene.frame(body)?.0.inverse() * scene.frame(prim)?.0;
