@@ -7,7 +7,6 @@ so that no test needs these programs.
 """
 
 import pathlib
-import shutil
 import struct
 import subprocess
 import tempfile

@@ -15,6 +15,7 @@ from .faces import (
     Face,
     NotMesh,
     Vertex,
+    count_triangles,
     then,
 )
 from .numeric import cross, dot, from_axis_angle, norm, number, scaled, sub
@@ -177,7 +178,7 @@ class ColladaReader:
         if id(mesh) not in self.meshes:
             self.meshes[id(mesh)] = self.mesh(mesh)
         found = self.meshes[id(mesh)]
-        self.triangles += sum(len(face.corners) - 2 for face in found)
+        self.triangles += count_triangles(found)
         if self.triangles > MAX_TRIANGLES:
             raise NotMesh
         self.faces += [Face(face.corners, place) for face in found]

@@ -162,13 +162,16 @@ class Work:
         self.allowed = max(MAX_COMPARISONS, COMPARISONS_A_VALUE * size_of(document))
         self.met = 0
         self.active: set[tuple[int, int]] = set()
+        self.known: dict[tuple[int, int], int] = {}
 
     def of(self, schema: Any, value: Any) -> int:
         self.met += 1
-        require(self.met <= self.allowed and len(self.active) < MAX_NESTED)
+        require(self.met <= self.allowed and len(self.active) + 1 < MAX_NESTED)
         key = (id(schema), id(value))
         if isinstance(schema, bool) or key in self.active:
             return 1
+        if key in self.known:
+            return self.known[key]
         self.active.add(key)
         work = len(schema) + self.alone(schema, value)
         for name in ("$ref", "$dynamicRef"):
@@ -182,6 +185,7 @@ class Work:
             work += self.of(one, value)
         work += self.inside(schema, value)
         self.active.discard(key)
+        self.known[key] = work
         return work
 
     def alone(self, schema: dict[str, Any], value: Any) -> int:

@@ -25,6 +25,11 @@ class Face:
     place: Affine = UNPLACED
 
 
+def count_triangles(faces: list[Face]) -> int:
+    """7.5: each face is a fan, and nothing where it has fewer than three corners."""
+    return sum(len(face.corners[2:]) for face in faces)
+
+
 def then(outer: Affine, inner: Affine) -> Affine:
     """The transform that does `inner` first."""
     rows = []

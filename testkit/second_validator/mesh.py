@@ -8,7 +8,7 @@ import struct
 from collections.abc import Callable
 
 from .collada import read_collada
-from .faces import MAX_TRIANGLES, Face, NotMesh, Vertex, triangles_of
+from .faces import MAX_TRIANGLES, Face, NotMesh, Vertex, count_triangles, triangles_of
 from .gltf import read_glb, read_gltf
 from .numeric import cross, norm, number, sub
 
@@ -164,7 +164,7 @@ def read_mesh(data: bytes, name: str, fetch: Callable[[str], bytes | None]) -> l
         faces = read_glb(data, fetch)
     else:
         raise NotMesh
-    if sum(len(face.corners) - 2 for face in faces) > MAX_TRIANGLES:
+    if count_triangles(faces) > MAX_TRIANGLES:
         raise NotMesh
     return faces
 

@@ -85,19 +85,24 @@ def sound_stl(data: bytes) -> list[Triangle]:
     return triangles
 
 
+def is_face(line: list[str]) -> bool:
+    """7.5: a face of fewer than three corners is nothing."""
+    return line[0] in ("f", "fo") and len(line) > 3
+
+
 def sound_obj(data: bytes) -> list[Face]:
     """7.6: OBJ."""
     words = [line.split() for line in data.decode("latin-1").replace("\\\n", " ").splitlines()]
     lines = [line for line in words if line]
     require(all(line[0] != "mtllib" for line in lines))
     faces = read_obj(data)
-    require(len(faces) == len([line for line in lines if line[0] in ("f", "fo")]))
+    require(len(faces) == len([line for line in lines if is_face(line)]))
     used: set[int] = set()
     count = 0
     for line in lines:
         if line[0] == "v":
             count += 1
-        if line[0] in ("f", "fo"):
+        if is_face(line):
             places = [int(word.split("/")[0]) for word in line[1:]]
             used |= {place - 1 if place > 0 else count + place for place in places}
     require(used == set(range(count)))

@@ -20,15 +20,9 @@ class Tree:
         self.links: dict[str, str] = {}
         self.special: set[str] = set()
 
-    def children(self, folder: str) -> list[str]:
-        """The paths of what lies directly in a folder."""
-        prefix = folder + "/" if folder else ""
-        found = [*self.files, *self.folders, *self.links, *self.special]
-        return sorted(
-            path
-            for path in found
-            if path and path.startswith(prefix) and "/" not in path[len(prefix) :]
-        )
+    def top(self) -> list[str]:
+        """The folders directly in the root."""
+        return sorted(path for path in self.folders if path and "/" not in path)
 
     def below(self, folder: str) -> list[str]:
         """The paths of all that lies in a folder, at any depth; links are not followed."""

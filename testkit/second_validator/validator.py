@@ -43,7 +43,7 @@ def open_tree(place: str) -> Tree:
         raise Unreadable(str(fault)) from fault
     if is_root(tree, ""):
         return tree
-    roots = [folder for folder in tree.children("") if is_root(tree, folder)]
+    roots = [folder for folder in tree.top() if is_root(tree, folder)]
     if len(roots) != 1:
         raise Unreadable("not one URDD in the archive")
     return subtree(tree, roots[0])

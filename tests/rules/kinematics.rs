@@ -33,8 +33,26 @@ fn off(by: f64) -> Fixture {
     fixture
 }
 
+/// The same where all links but the first are at one place, and are turned about x by so much, each from the one before.
+fn turned(by: f64) -> Fixture {
+    let of = |turn: f64| {
+        let mut robot = line(0.0);
+        for joint in &mut robot.urdf.joints {
+            joint.origin = origin([0.0; 3], [turn, 0.0, 0.0]);
+        }
+        robot.joint_mut("j1").origin = origin([1.0, 0.0, 0.0], [turn, 0.0, 0.0]);
+        Fixture::core(&robot)
+    };
+    let (mut fixture, right) = (of(by), of(0.0));
+    *fixture.doc_mut("urdf_module") = right.doc("urdf_module").clone();
+    fixture.put_file(URDF, right.file(URDF));
+    fixture
+}
+
 pub fn cases() -> Vec<Case> {
     vec![
+        changed(KIN001, "many-small-turns", true, || turned(5e-10), |_| {}),
+        changed(KIN001, "many-smaller-turns", false, || turned(0.9e-10), |_| {}),
         // The reach is 1.1 m: each origin is within tolerance, but the last link is not.
         changed(KIN001, "many-small-differences", true, || off(1e-9), |_| {}),
         changed(KIN001, "many-smaller-differences", false, || off(0.9e-10), |_| {}),

@@ -4,6 +4,8 @@ use serde_json::{Value, json};
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
 
+use crate::mesh_files::{ALL, put, read};
+use crate::meshes::PIECES;
 use crate::{Case, changed};
 use testkit::fixture::Fixture;
 use testkit::meshes::{Meshes, Solid, minus};
@@ -158,6 +160,25 @@ pub fn set_outermost(f: &mut Fixture, part: f64) {
 pub fn cases() -> Vec<Case> {
     vec![
         right(SPH001, "as-it-is", |_, _| {}),
+        // A piece with a triangle that has no height, between the two parts of an edge.
+        changed(
+            SPH006,
+            "triangle-without-height",
+            false,
+            || with(|_, _| {}),
+            |f| {
+                let mut mesh = read(f, PIECES, CAMERA);
+                let [a, b, c] = mesh.triangles.remove(0);
+                let [from, to, _] = mesh.corners([a, b, c]);
+                let middle = [0, 1, 2].map(|i| f64::from(((from[i] + to[i]) / 2.0) as f32));
+                let m = mesh.vertices.len() as u32;
+                mesh.vertices.push(middle);
+                mesh.triangles.extend([[a, m, c], [m, b, c], [a, b, m]]);
+                for format in ALL {
+                    put(f, PIECES, CAMERA, format, &mesh);
+                }
+            },
+        ),
         right(SPH001, "one-level", |_, levels| levels.truncate(1)),
         changed(
             SPH001,

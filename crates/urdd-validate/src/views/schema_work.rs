@@ -9,7 +9,7 @@ use serde_json::Value;
 const WORK: u64 = 1_000_000;
 const WORK_PER_VALUE: u64 = 20;
 
-/// Maximum depth of references through references.
+/// So many schemas inside one another are too many.
 const MAX_DEPTH: usize = 5_000;
 
 /// Keywords whose value is a schema, for the same value or for the values inside it.
@@ -149,7 +149,7 @@ impl<'a> Estimate<'a> {
     /// The work of checking a value against a schema; `None` if the estimate itself takes too much work.
     fn work(&mut self, schema: &'a Value, value: &'a Value, depth: usize) -> Option<u64> {
         self.steps += 1;
-        if depth > MAX_DEPTH || self.steps > self.allowed {
+        if depth + 1 >= MAX_DEPTH || self.steps > self.allowed {
             return None;
         }
         let Value::Object(keywords) = schema else { return Some(1) };
