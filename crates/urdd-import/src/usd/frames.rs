@@ -25,14 +25,17 @@ pub fn frames(
     tally: &mut Tally,
 ) -> Fallible<()> {
     let prims = &scene.stage.prims;
-    // What is a transform, and has nothing but such in it.
+    // What is a transform, and has nothing but such in it, and bodies.
     let mut is_frame = vec![false; prims.len()];
     for (prim, of) in prims.iter().enumerate().rev() {
         is_frame[prim] = &*of.type_name == "Xform"
             && scene.body[prim] != Some(prim)
             && !of.properties.is_empty()
             && of.properties.iter().all(|property| property.name.starts_with("xformOp"))
-            && of.children.iter().all(|child| is_frame[*child]);
+            && of
+                .children
+                .iter()
+                .all(|child| is_frame[*child] || scene.body[*child] == Some(*child));
     }
     for (prim, of) in prims.iter().enumerate() {
         // In a body, or in a frame of it.
