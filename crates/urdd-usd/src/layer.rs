@@ -43,8 +43,6 @@ pub struct PropertySpec {
     pub name: Name,
     /// Whether it is a relationship.
     pub is_relationship: bool,
-    /// The line, from 1; 0 of crate files.
-    pub line: u32,
     /// `default`, `typeName`, `targetPaths`, `connectionPaths` and others.
     pub fields: Vec<(Name, Value)>,
 }

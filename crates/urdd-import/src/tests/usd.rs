@@ -328,7 +328,9 @@ fn the_robot_is_the_articulation() {
             def Xform \"base\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsFilteredPairsAPI\"]) {
                 rel physics:filteredPairs = </robot/tip>
                 def Xform \"camera\" { double3 xformOp:translate = (0, 0, 2)
-                    uniform token[] xformOpOrder = [\"xformOp:translate\"] }
+                    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+                    def Xform \"lens\" { double3 xformOp:translate = (1, 0, 0)
+                        uniform token[] xformOpOrder = [\"xformOp:translate\"] } }
             }
             def Xform \"tip\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {}
             def PhysicsSphericalJoint \"ball\" { rel physics:body0 = </robot/base>
@@ -337,9 +339,9 @@ fn the_robot_is_the_articulation() {
         }";
     let model = inside(text);
     let names: Vec<&str> = model.bodies.iter().map(|body| &*body.name).collect();
-    assert_eq!(names, ["base", "tip", "camera"]);
+    assert_eq!(names, ["base", "tip", "camera", "lens"]);
     assert!(body(&model, "camera").is_frame);
-    assert_eq!(body(&model, "camera").pose.translation.vector.z, 2.0);
+    assert_eq!(body(&model, "lens").pose.translation.vector, Vector3::new(1.0, 0.0, 2.0));
     assert_eq!((model.apart[0].bodies, model.checked[0].bodies), ([0, 1], [0, 1]));
     let chosen = ImportOptions { body: Some("crate".to_owned()), ..ImportOptions::default() };
     let head = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n";

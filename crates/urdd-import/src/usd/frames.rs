@@ -25,15 +25,16 @@ pub fn frames(
     tally: &mut Tally,
 ) -> Fallible<()> {
     let prims = &scene.stage.prims;
-    // What is a transform or a site, and has nothing but such in it.
+    // What is a transform or a site, and has nothing but such in it, and bodies.
     let mut is_frame = vec![false; prims.len()];
     for (prim, of) in prims.iter().enumerate().rev() {
         let is_plain = &*of.type_name == "Xform"
             && !of.properties.is_empty()
             && of.properties.iter().all(|property| property.name.starts_with("xformOp"));
+        let is_one = |child: &usize| is_frame[*child] || scene.body[*child] == Some(*child);
         is_frame[prim] = (is_plain || is_site(of))
             && scene.body[prim] != Some(prim)
-            && of.children.iter().all(|child| is_frame[*child]);
+            && of.children.iter().all(is_one);
     }
     for (prim, of) in prims.iter().enumerate() {
         // In a body, or in a frame of it.

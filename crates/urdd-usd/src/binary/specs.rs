@@ -55,7 +55,7 @@ pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
                 let fields = file.field_set(&cursor, set)?;
                 let is_relationship = kind == RELATIONSHIP;
                 let all = &mut specs.layer.specs[spec as usize].properties;
-                all.push(PropertySpec { name, is_relationship, line: 0, fields });
+                all.push(PropertySpec { name, is_relationship, fields });
             }
             _ => {}
         }

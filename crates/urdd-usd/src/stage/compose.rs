@@ -153,7 +153,7 @@ impl Composer<'_> {
     }
 
     fn property(&self, opinions: &[Opinion<'_>], tree: &Tree, names: &[Name]) -> (Property, bool) {
-        let (_, layer, strongest) = opinions[0];
+        let (_, _, strongest) = opinions[0];
         let find = |name: &str| {
             opinions.iter().find_map(|(_, layer, of)| Some((*layer, field(&of.fields, name)?)))
         };
@@ -182,11 +182,9 @@ impl Composer<'_> {
         let property = Property {
             name: strongest.name.clone(),
             type_name: type_name.unwrap_or_else(|| Name::from("")),
-            is_relationship: strongest.is_relationship,
             value: value.filter(|value| *value != Value::Blocked),
             targets: targets.iter().map(|item| item.text().clone()).collect(),
             fields: self.fields(fields, OF_PROPERTY),
-            place: Self::property_place(layer, strongest),
         };
         (property, is_sampled)
     }

@@ -21,8 +21,6 @@ pub struct Stage {
     pub missing: Vec<(Option<usize>, UsdError)>,
     /// Properties whose value is the first of several by time.
     pub sampled: usize,
-    /// Specializes that count as inherits.
-    pub specialized: usize,
     inside: HashMap<(u32, Name), u32>,
 }
 
@@ -56,16 +54,12 @@ pub struct Property {
     pub name: Name,
     /// The type of an attribute, such as `point3f[]`; empty of a relationship.
     pub type_name: Name,
-    /// Whether it is a relationship.
-    pub is_relationship: bool,
     /// The value, if it is authored.
     pub value: Option<Value>,
     /// What it points or is connected to.
     pub targets: Vec<Name>,
     /// Other metadata.
     pub fields: Vec<(Name, Value)>,
-    /// The layer of the strongest opinion, and the line, or 0.
-    pub place: (usize, u32),
 }
 
 impl Stage {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::sync;
 
 use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{PropertySpec, Spec, field};
+use super::super::layer::{Spec, field};
 use super::super::value::{Item, Name, Value};
 use super::composed::Stage;
 use super::layers::{Layers, error};
@@ -35,13 +35,12 @@ pub struct Composer<'d> {
     chain: Vec<(usize, Name)>,
     /// What the prim that is composed brings in and is not there.
     missing: Vec<UsdError>,
-    pub specialized: usize,
     pub sampled: usize,
 }
 
 impl<'d> Composer<'d> {
     pub fn new(layers: Layers<'d>) -> Self {
-        Composer { layers, chain: Vec::new(), missing: Vec::new(), specialized: 0, sampled: 0 }
+        Composer { layers, chain: Vec::new(), missing: Vec::new(), sampled: 0 }
     }
 
     /// All prims of a stack.
@@ -73,7 +72,7 @@ impl<'d> Composer<'d> {
             self.wait(&mut waiting, Some(at), &Rc::new(tree), level + 1)?;
         }
         stage.layers = self.layers.all.iter().map(|layer| layer.path.clone()).collect();
-        (stage.sampled, stage.specialized) = (self.sampled, self.specialized);
+        stage.sampled = self.sampled;
         Ok(stage)
     }
 
@@ -112,11 +111,6 @@ impl<'d> Composer<'d> {
     pub fn place(&self, tree: &Tree) -> (usize, u32) {
         let first = tree.ordered().into_iter().find_map(|at| tree.0[at].specs.first().copied());
         first.map_or((0, 0), |(layer, spec)| (layer as usize, self.spec((layer, spec)).line))
-    }
-
-    /// The place of a property.
-    pub fn property_place(layer: u32, property: &PropertySpec) -> (usize, u32) {
-        (layer as usize, property.line)
     }
 
     /// An error at the strongest opinion of a prim.
@@ -303,7 +297,6 @@ impl<'d> Composer<'d> {
             return Err(self.wrong(tree, names, Fault::Sources(MAX_SITES)));
         }
         self.charge(tree, names, inside.0.len() * (SITE + path.len()))?;
-        self.specialized += usize::from(arc == Arc::Specialize);
         let depth = names.len() as i32;
         let mut site = Site::new(at, arc, depth, stack, target.clone(), names.len());
         site.map = Some((target, own.into()));

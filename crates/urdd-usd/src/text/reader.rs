@@ -158,7 +158,6 @@ impl Reader<'_> {
     }
 
     fn property(&mut self, spec: u32, first: &str) -> Result<(), Wrong> {
-        let line = self.lexer.word_line();
         let (mut edit, mut word) = (Edit::Explicit, first);
         let mut fields = Vec::new();
         loop {
@@ -204,7 +203,7 @@ impl Reader<'_> {
             fields.extend(self.assigned(kind, is_array, part, edit)?);
         }
         fields.extend(self.metadata()?);
-        self.set_property(spec, name, is_relationship, line, fields);
+        self.set_property(spec, name, is_relationship, fields);
         Ok(())
     }
 
@@ -243,13 +242,12 @@ impl Reader<'_> {
         spec: u32,
         name: Name,
         is_relationship: bool,
-        line: u32,
         fields: Vec<(Name, Value)>,
     ) {
         let all = &mut self.layer.specs[spec as usize].properties;
         let at = *self.properties.entry((spec, name.clone())).or_insert(all.len());
         if at == all.len() {
-            all.push(PropertySpec { name, is_relationship, line, fields });
+            all.push(PropertySpec { name, is_relationship, fields });
             return;
         }
         for (name, value) in fields {
