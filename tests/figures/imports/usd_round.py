@@ -81,7 +81,7 @@ def points(shape, folder):
         made = trimesh.creation.cylinder(**size, sections=256).vertices
     else:
         name = geometry.get("filename")
-        name = name.split("://")[1].split("/", 1)[1] if "://" in name else name
+        name = name.split("://")[1].split("/", 1)[-1] if "://" in name else name
         if not (folder / name).is_file():
             raise KeyError
         made = trimesh.load(folder / name, force="mesh").vertices
@@ -218,8 +218,8 @@ def main():
             print(f"{urdf}: refused: {why}", flush=True)
             continue
         wrong = []
-        one, other = Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf")))
         try:
+            one, other = Urdf(urdf), Urdf(next((folder / "back").glob("*.urdf")))
             compare(one, other, wrong)
             # `urdd export` writes pieces of ours.
             if way == "converter":
