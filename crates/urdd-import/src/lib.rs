@@ -8,6 +8,7 @@ mod cone;
 mod fault;
 mod features;
 mod imported;
+mod limits;
 mod mass;
 mod mesh_mass;
 mod mjcf;

@@ -42,7 +42,7 @@ impl Package {
         })?;
         // Stored entries are not larger than the package, whatever they say.
         if entry.compression() != CompressionMethod::Stored || entry.size() > self.size {
-            return Err(Fault::Zip(format!("`{name}` is not stored as it is")));
+            return Err(Fault::Zip(format!("`{name}` is compressed, or longer than the package")));
         }
         let size = entry.size();
         door.charge(size as usize).map_err(Fault::TooMuch)?;

@@ -80,9 +80,12 @@ fn a_package_is_its_first_layer() {
 
 /// A package of one file.
 fn packed(name: &str, bytes: &[u8]) -> Vec<u8> {
+    packed_as(CompressionMethod::Stored, name, bytes)
+}
+
+fn packed_as(method: CompressionMethod, name: &str, bytes: &[u8]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let stored = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
-    zip.start_file(name, stored).unwrap();
+    zip.start_file(name, SimpleFileOptions::default().compression_method(method)).unwrap();
     zip.write_all(bytes).unwrap();
     zip.finish().unwrap().into_inner()
 }
@@ -102,6 +105,25 @@ fn packages_in_packages() {
     }
     let deep = binary("a.usdz", &bytes).0.unwrap_err().to_string();
     assert!(deep.ends_with("packages are nested more than 8 levels deep"), "{deep}");
+}
+
+#[test]
+fn packages_that_lie() {
+    // A megabyte of spaces in a kilobyte.
+    let bomb = packed_as(CompressionMethod::Deflated, "a.usda", &[b' '; 1 << 20]);
+    assert!(bomb.len() < 2000);
+    // An entry that says that it is 2 GB long: in its own head, and in the list.
+    let mut long = packed("a.usda", ARM.as_bytes());
+    let list = long.windows(4).position(|of| of == b"PK\x01\x02").unwrap();
+    for at in [18, list + 20] {
+        long[at..at + 8].copy_from_slice(&[255, 255, 255, 127, 255, 255, 255, 127]);
+    }
+    for bytes in [bomb, long] {
+        let (stage, files) = binary("a.usdz", &bytes);
+        let error = stage.unwrap_err().to_string();
+        assert!(error.ends_with("`a.usda` is compressed, or longer than the package"), "{error}");
+        assert!(files.most < 1 << 16, "{}", files.most);
+    }
 }
 
 /// Nothing panics, and no memory is made that the bytes do not account for.

@@ -3,15 +3,13 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::super::features::{self, Tally};
+use super::super::limits::limits;
 use super::super::model::{Joint as Moving, JointKind, Mimic};
 use super::super::place::Place;
 use super::super::refusal::Refusal;
 use super::fault::SdfFault;
 use super::poses::Frames;
 use super::scene::{Axis, Joint, NodeKind, Scene, SdfJointKind};
-
-/// How far the other limit is from one that stands alone.
-const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
 
 /// The joints of a body by which a joint moves it. `body` is the node of the body's link; none of the world.
 pub fn moving(
@@ -49,7 +47,7 @@ pub fn moving(
                 }
                 None
             }
-            _ => range(axis, kind, node.name.as_str(), tally),
+            _ => limits(axis.range, kind, (node.name.as_str(), axis.place), tally),
         };
         (made.effort, made.velocity) = (axis.effort, axis.velocity);
         (made.damping, made.friction) = (axis.damping, axis.friction);
@@ -120,22 +118,6 @@ pub fn direction(
 /// A direction without components that rounding alone made.
 fn clean(direction: Vector3<f64>) -> Vector3<f64> {
     direction.map(|value| if value.abs() < 1e-15 { 0.0 } else { value })
-}
-
-/// The limits of an axis; `None` without any.
-fn range(axis: &Axis, kind: JointKind, joint: &str, tally: &mut Tally) -> Option<[f64; 2]> {
-    let [lower, upper] = axis.range;
-    let far = FAR[usize::from(kind == JointKind::Slide)];
-    let (range, missing) = match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => return Some([lower, upper]),
-        (false, false) => return None,
-        (true, false) => ([lower, far.max(lower + far)], "upper"),
-        (false, true) => ([(-far).min(upper - far), upper], "lower"),
-    };
-    tally.count(features::ONE_SIDED);
-    let text = format!("joint `{joint}` has no {missing} limit: it is written with {range:?}");
-    tally.remark(axis.place, text);
-    Some(range)
 }
 
 fn mimic(

@@ -304,7 +304,7 @@ fn joints_that_articulations_exclude_close_chains() {
     };
     // The first of the file is left out of the tree.
     let excluded = "bool physics:excludeFromArticulation = 1\n uniform token physics:axis = \"X\"\n point3f physics:localPos0 = (1, 0, 0)";
-    let text = bodies
+    let text = bodies.clone()
         + &joint_of("x", "a", "c", excluded)
         + &joint_of("i", "a", "b", "")
         + &joint_of("j", "b", "c", "point3f physics:localPos1 = (0, 0, 1)");
@@ -318,6 +318,17 @@ fn joints_that_articulations_exclude_close_chains() {
     assert!((one.frame.translation.vector - Vector3::x()).amax() < 1e-9);
     // The link is where its joint is.
     assert!((other.frame.translation.vector - Vector3::new(0.0, 0.0, -1.0)).amax() < 1e-9);
+    // It does not make one robot of two that the world holds.
+    let held = |name: &str| {
+        format!("def PhysicsFixedJoint \"w{name}\" {{ rel physics:body1 = </{name}> }}\n")
+    };
+    let two = bodies
+        + &held("a")
+        + &held("c")
+        + &joint_of("i", "a", "b", "")
+        + &joint_of("x", "a", "c", excluded);
+    let names: Vec<String> = inside(&two).bodies.iter().map(|body| body.name.clone()).collect();
+    assert_eq!(names, ["a", "b"]);
 }
 
 #[test]

@@ -233,3 +233,20 @@ fn references_that_are_not_there() {
     let lost = read(&format!("{robot}\n{joint}")).expect("a model");
     assert!(lost.is_floating && lost.tally.number_of(features::DISTANCES) == 1);
 }
+
+/// A robot of many like parts is not refused: their mesh is read once.
+#[test]
+fn instances_share_a_mesh() {
+    let points: String = (0..4000).map(|at| format!("({at},{},0),", at % 7)).collect();
+    let corners: String = (2..4000).map(|at| format!("0,{},{at},", at - 1)).collect();
+    let uses: String =
+        (0..150).map(|at| format!("def \"m{at}\" (references = </mesh>) {{}}\n")).collect();
+    let model = inside(&format!(
+        "class Mesh \"mesh\" {{ point3f[] points = [{points}]
+            int[] faceVertexCounts = [{}]
+            int[] faceVertexIndices = [{corners}] }}
+        def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{ {uses} }}",
+        "3,".repeat(3998)
+    ));
+    assert_eq!((body(&model, "a").shapes.len(), model.assets.len()), (150, 1));
+}

@@ -11,6 +11,7 @@ use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
 use super::super::features::{self, Tally};
+use super::super::limits::limits;
 use super::super::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
 use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
@@ -22,9 +23,6 @@ use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
 use super::{actuators, frames, mass, missing, pairs, said, upright};
-
-/// How far the other limit is from one that stands alone, rad and m.
-const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
 
 /// Reads the robot.
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
@@ -236,7 +234,7 @@ impl Maker<'_, '_> {
             let reference = number(scene.prim(joint.prim), "mjc:ref").unwrap_or(0.0);
             moving.reference =
                 reference * if motion.is_slide() { scene.metre } else { scene.mujoco_angle };
-            moving.range = range(motion, &moving.name, place, tally);
+            moving.range = limits(motion.range, kind, (&moving.name, place), tally);
             drive(scene, joint.prim, motion, &mut moving, tally);
             tally.count(match (kind, moving.range) {
                 (JointKind::Slide, None) => features::FREE_SLIDES,
@@ -360,29 +358,6 @@ impl Maker<'_, '_> {
         }
         Ok(closings)
     }
-}
-
-/// The limits of a joint; `None` without any.
-fn range(
-    motion: &Motion,
-    name: &str,
-    place: super::super::place::Place,
-    tally: &mut Tally,
-) -> Option<[f64; 2]> {
-    let [lower, upper] = motion.range;
-    let far = FAR[usize::from(motion.is_slide())];
-    let (range, missing) = match (lower.is_finite(), upper.is_finite()) {
-        (true, true) => return Some([lower, upper]),
-        (false, false) => return None,
-        (true, false) => ([lower, far.max(lower + far)], "upper"),
-        (false, true) => ([(-far).min(upper - far), upper], "lower"),
-    };
-    tally.count(features::ONE_SIDED);
-    tally.remark(
-        place,
-        format!("joint `{name}` has no {missing} limit: it is written with {range:?}"),
-    );
-    Some(range)
 }
 
 /// An axis without components that the rounding of a rotation to single precision made of 0.
