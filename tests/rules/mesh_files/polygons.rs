@@ -28,6 +28,9 @@ const TWICE: [Corner; 5] = [[4, 1, 1], [12, 1, 1], [12, 1, 1], [10, 4, 1], [5, 4
 /// Two triangles that meet in a corner, on an edge: it touches itself, and does not cross itself.
 const TOUCHING: [Corner; 5] = [[4, 1, 1], [12, 1, 1], [12, 5, 1], [8, 1, 1], [4, 5, 1]];
 
+/// The same, from another corner on.
+const TOUCHED: [Corner; 5] = [[12, 5, 1], [8, 1, 1], [4, 5, 1], [4, 1, 1], [12, 1, 1]];
+
 fn corners(face: &[Corner]) -> Vec<Point> {
     let inside = face.iter().map(|corner| corner.map(|x| f64::from(x) / 64.0));
     CORNERS.into_iter().chain(inside).collect()
@@ -115,6 +118,19 @@ pub fn cases() -> Vec<Case> {
             || scaled(Some([1.0, 1.0, 0.0])),
             move |f| show(f, triangle.as_bytes(), &flat, &flat),
         ),
+        changed(
+            MSH015,
+            "one-triangle-that-its-scale-makes-flat-in-y",
+            false,
+            || scaled(Some([1.0, 0.0, 1.0])),
+            |f| {
+                let mesh = Mesh {
+                    vertices: vec![[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 0.5]],
+                    triangles: vec![[0, 1, 2]],
+                };
+                show(f, b"v 0 1 0\nv 0.5 1 0\nv 0 1 0.5\nf 1 2 3\n", &mesh, &mesh);
+            },
+        ),
         case("dart", false, plain(&DART), with(&DART, &[[5, 6, 7], [5, 7, 4]])),
         case(
             "dart-in-a-list-of-its-own",
@@ -166,6 +182,18 @@ pub fn cases() -> Vec<Case> {
             true,
             plain(&TOUCHING),
             with(&TOUCHING, &[[5, 6, 7]]),
+        ),
+        case(
+            "half-of-a-face-that-touches-itself-later",
+            true,
+            plain(&TOUCHED),
+            with(&TOUCHED, &[[4, 5, 8]]),
+        ),
+        case(
+            "face-that-touches-itself-later",
+            false,
+            plain(&TOUCHED),
+            with(&TOUCHED, &[[4, 5, 8], [5, 6, 7]]),
         ),
         case(
             "leaning-quad",
