@@ -50,8 +50,8 @@ def import_robot(
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
     force: bool = False,
 ) -> Imported:
-    """Writes an MJCF, SDF or USD as a URDF with its meshes, an SRDF with named configurations and pairs of links that never
-    collide, and an ``export.toml`` with the kind of base and gains. What the file is, its content says.
+    """Writes an MJCF, SDF or USD as a URDF with its meshes, an SRDF with named configurations and pairs of links that
+    never collide, and an ``export.toml`` with the kind of base and gains. What the file is, its content says.
 
     Args:
         file: the MJCF, SDF or USD.
