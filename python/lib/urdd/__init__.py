@@ -11,7 +11,8 @@
 Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link: see :class:`Robot`.
 :func:`generate` generates a URDD from a URDF, MJCF, SDF or USD, :func:`combine` one from several robots,
 :func:`validate` validates one, :func:`export` writes it in the formats of other programs, :func:`import_robot` makes a
-URDF of MJCF, SDF and USD, :func:`diff` compares two. :func:`lint` finds what is wrong with a URDF, and what programs do with it.
+URDF of MJCF, SDF and USD, :func:`diff` compares two. :func:`lint` finds what is wrong with a URDF, and what programs do
+with it.
 :class:`World` holds obstacles.
 """
 

@@ -112,8 +112,8 @@ def generate(
     force: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> Generated:
-    """Generates a URDD from a URDF, xacro, MJCF, SDF or USD file, in the folder ``output``, which is replaced atomically
-    and unchanged on error.
+    """Generates a URDD from a URDF, xacro, MJCF, SDF or USD file, in the folder ``output``, which is replaced
+    atomically and unchanged on error.
 
     A second run generates only what changed, and keeps the user's edits of skips.
 
