@@ -76,11 +76,13 @@ impl GivenFiles {
         }
         let mut packages = Packages::none();
         // A USD names files beside it.
-        if FileType::Usd.is_of(Path::new(path)) {
-            return Ok(Settings { packages, files: self.files.clone(), ..Settings::default() });
-        }
-        let text = self.files.read(&self.place(path), MAX_SOURCE_BYTES);
-        let text = text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?;
+        let text = match FileType::Usd.is_of(Path::new(path)) {
+            true => Vec::new(),
+            false => {
+                let text = self.files.read(&self.place(path), MAX_SOURCE_BYTES);
+                text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?
+            }
+        };
         let folders = PackageFolders::of(self.paths.iter().map(|path| &**path).collect());
         for (name, folder) in folders.of_text(&String::from_utf8_lossy(&text), self.is_searched) {
             packages.put(name, self.place(&folder));

@@ -66,6 +66,17 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
     let names: Vec<&str> = body(&base, "a").joints.iter().map(|joint| &*joint.name).collect();
     assert_eq!((names, base.closings.len()), (vec!["forward", "side"], 0));
 
+    // What an articulation leaves open closes a chain in any case.
+    let text = "def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {
+            uniform bool newton:jointsAddMobility = 1 }
+        def PhysicsPrismaticJoint \"forward\" { rel physics:body1 = </a> }
+        def PhysicsPrismaticJoint \"open\" { rel physics:body1 = </a>
+            uniform bool physics:excludeFromArticulation = 1 }";
+    let base = inside(text);
+    assert_eq!(body(&base, "a").joints.len(), 1);
+    let said: Vec<&str> = base.tally.remarks.iter().map(|of| &*of.text).collect();
+    assert!(said.contains(&"the joint `open` is left out: it closes a chain"), "{said:?}");
+
     // By UsdPhysics itself, each of the two takes the motion of the other.
     let model = stacked("", ["a", "b"]);
     assert_eq!((body(&model, "b").joints.len(), model.closings.len()), (1, 1));

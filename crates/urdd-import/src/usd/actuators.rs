@@ -56,7 +56,7 @@ pub fn give(
         account.charge(ELEMENT).map_err(|why| at(scene.place(index), why))?;
         let range = bodies[joint.0].joints[joint.1].range;
         let attributes = match target {
-            "mjc:target" => of_mujoco(prim, range),
+            "mjc:target" => Some(of_mujoco(prim, range)),
             _ => of_newton(prim),
         };
         let Some(mut attributes) = attributes else {
@@ -86,7 +86,7 @@ pub fn give(
 type Attributes = Vec<(String, String)>;
 
 /// The attributes of a `<general>` of an MJCF, by MuJoCo's schema. `range` is that of the joint.
-fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Option<Attributes> {
+fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Attributes {
     let mut attributes = Attributes::new();
     let mut set = |name: &str, value: Option<String>| {
         attributes.extend(value.map(|value| (name.to_owned(), value)));
@@ -112,7 +112,7 @@ fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Option<Attributes> {
         attributes.retain(|(name, _)| !name.starts_with("ctrl"));
         attributes.push(("ctrlrange".to_owned(), text(&[middle - half, middle + half])));
     }
-    Some(attributes)
+    attributes
 }
 
 /// The same, of a spring and a damper of Newton's schema; other laws have none.

@@ -88,8 +88,7 @@ pub fn graph(
             around[parent].push((child, at, false));
             around[child].push((parent, at, true));
             direct.insert((parent, child), at);
-        } else if let Some(first) = direct.get(&(parent, child)).filter(|_| !joints[at].is_excluded)
-        {
+        } else if let Some(first) = direct.get(&(parent, child)) {
             doubled.push((*first, at, child));
         } else if !joints[at].is_free {
             outside.push(at);
@@ -98,9 +97,13 @@ pub fn graph(
     // What is said of an articulation is said of all bodies that its joints connect.
     let said = (0..bodies.len()).filter(|body| scene.adds_mobility[bodies[*body]]);
     let adding: HashSet<usize> = said.map(|body| sets.of(body)).collect();
+    // Whether a joint follows another one of its two bodies, which are of this set.
+    let adds = |at: usize, set: usize| {
+        !joints[at].is_excluded && (joints[at].is_mujocos || adding.contains(&set))
+    };
     let mut further: HashMap<usize, Vec<usize>> = HashMap::new();
     for (first, at, child) in doubled {
-        match joints[at].adds_mobility || adding.contains(&sets.of(child)) {
+        match adds(at, sets.of(child)) {
             true => further.entry(first).or_default().push(at),
             false if !joints[at].is_free => outside.push(at),
             false => {}
@@ -143,10 +146,10 @@ pub fn graph(
             }
         }
     }
-    let adds = |at: &usize| joints[*at].adds_mobility || adding.contains(&main.set);
-    match main.moves.filter(adds) {
+    let to_world = |at: &usize| adds(*at, main.set);
+    match main.moves.filter(to_world) {
         Some(first) => {
-            let (others, closing): (Vec<_>, Vec<_>) = main.others.into_iter().partition(adds);
+            let (others, closing): (Vec<_>, Vec<_>) = main.others.into_iter().partition(to_world);
             outside.extend(closing);
             further.insert(first, others);
         }

@@ -28,8 +28,8 @@ pub struct UsdJoint {
     pub is_excluded: bool,
     /// Whether it moves in all ways.
     pub is_free: bool,
-    /// Whether it follows another one between its bodies, and does not close a chain: as Newton says it, and in MuJoCo.
-    pub adds_mobility: bool,
+    /// Whether it is one of MuJoCo, which follows another one between its bodies, and does not close a chain.
+    pub is_mujocos: bool,
 }
 
 /// Where a joint is in a body.
@@ -87,10 +87,8 @@ pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
         }
         let is_excluded = flag(prim, "physics:excludeFromArticulation", false);
         let is_free = motions.len() == 6;
-        let moved = ends[1].body.or(ends[0].body);
-        let adds_mobility = !is_excluded
-            && (prim.has("MjcJointAPI") || moved.is_some_and(|body| scene.adds_mobility[body]));
-        all.push(UsdJoint { prim: at, motions, whole, ends, is_excluded, is_free, adds_mobility });
+        let is_mujocos = prim.has("MjcJointAPI");
+        all.push(UsdJoint { prim: at, motions, whole, ends, is_excluded, is_free, is_mujocos });
     }
     Ok(all)
 }
