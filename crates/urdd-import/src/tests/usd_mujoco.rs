@@ -83,6 +83,16 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
 }
 
 #[test]
+fn names_that_no_urdf_can_hold_are_not_taken() {
+    let text = "def Xform \"a\" (displayName = \"ev\\x1b[31mil\"
+        apiSchemas = [\"PhysicsRigidBodyAPI\"]) {
+            def Cube \"c\" (displayName = \"two\\nlines\" apiSchemas = [\"PhysicsCollisionAPI\"]) {} }";
+    let model = inside(text);
+    let (link, shape) = (&model.bodies[0], &model.bodies[0].shapes[0]);
+    assert_eq!((&*link.name, shape.name.as_deref()), ("a", Some("c")));
+}
+
+#[test]
 fn actuators_masses_and_sites_of_these_schemas() {
     let text = "
         def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsArticulationRootAPI\"]) {}

@@ -11,7 +11,7 @@ use super::super::model::{Body, Configuration, JointValue};
 use super::super::names::Names;
 use super::super::refusal::{Fallible, at};
 use super::made::Made;
-use super::scene::{Scene, is_site};
+use super::scene::{Scene, is_name, is_site};
 
 /// Looking for the values of a body in a configuration, as bytes.
 const BODY: usize = 20;
@@ -71,6 +71,9 @@ pub fn configurations(
         let place = scene.place(prim);
         for (name, values) in named.iter() {
             let Value::Dictionary(values) = values else { continue };
+            if !is_name(name) {
+                continue;
+            }
             account.charge(BODY * made.bodies.len()).map_err(|why| at(place, why))?;
             let known: HashMap<&str, f64> = values
                 .iter()

@@ -276,7 +276,7 @@ impl<'a, 's> Shapes<'a, 's> {
         tally: &mut Tally,
     ) -> Fallible<Seen> {
         let (scene, place) = (self.scene, self.scene.place(prim));
-        let name = subset.map(|subset| scene.prim(subset).name.to_string());
+        let name = subset.map(|subset| scene.name(subset).to_owned());
         let (material, image) = look(scene, prim, subset, tally);
         if let Some(image) = image {
             match faces.painted(scene.prim(prim), &image, is_of) {

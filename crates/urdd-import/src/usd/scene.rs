@@ -4,6 +4,7 @@ use nalgebra::{
     Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
 };
 use urdd_usd::{Prim, Property, Stage, Value};
+use urdd_xml::is_character;
 
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
@@ -150,12 +151,19 @@ impl<'s> Scene<'s> {
         prim.targets(name).iter().find_map(|path| self.stage.find(path))
     }
 
-    /// The name that a prim shows, or its own.
+    /// The name that a prim shows, or its own, or one for all: the first that XML can hold.
     pub fn name(&self, at: usize) -> &'s str {
         let prim = self.prim(at);
         let shown = prim.field("displayName").and_then(Value::text).map(|name| &**name);
-        shown.filter(|name| !name.trim().is_empty()).unwrap_or(&prim.name)
+        let mut names = [shown, Some(&*prim.name)].into_iter().flatten();
+        names.find(|name| is_name(name)).unwrap_or("unnamed")
     }
+}
+
+/// Whether a name can stand in a URDF: it has no control characters, which a text of USD escapes.
+pub fn is_name(name: &str) -> bool {
+    let is_plain = |c: char| is_character(c) && !c.is_control();
+    !name.trim().is_empty() && name.chars().all(is_plain)
 }
 
 /// Whether a prim is a frame alone, by Newton's schema or MuJoCo's, whatever shape it has.
