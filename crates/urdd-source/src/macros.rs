@@ -3,14 +3,12 @@
 use std::collections::HashSet;
 
 use urdd_directory::position::LineIndex;
+use urdd_srdf::vocabulary::is_of_robot;
 use urdd_xml::element::{children, name};
 use urdd_xml::{Document, Node, Xml, XmlError};
 
 /// The prefix of elements that xacro reads.
 const PREFIX: &str = "xacro:";
-/// Elements of an SRDF directly in `<robot>`.
-const OF_SRDF: &[&str] =
-    &["group", "group_state", "end_effector", "virtual_joint", "disable_collisions"];
 
 /// What a xacro file has.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -111,15 +109,20 @@ pub fn has_open_ends(expansion: &Xml<'_>) -> bool {
         || links.difference(&held).count() > 1
 }
 
+/// The names behind each `<` of a text that is not parsed.
+pub(crate) fn tags(text: &str) -> impl Iterator<Item = &str> {
+    let names = text.split('<').filter(|rest| rest.starts_with(char::is_alphabetic));
+    names.filter_map(|rest| rest.split(|c: char| c.is_whitespace() || "/>".contains(c)).next())
+}
+
 impl MacroFile {
     /// A text without anything of xacro, which need not be parsed.
     pub fn plain(text: &str) -> Self {
         let root = urdd_xml::root_name(text).unwrap_or("robot").to_owned();
-        let mut elements = text.split('<').filter(|rest| rest.starts_with(char::is_alphabetic));
         let content = Content {
-            is_some: elements.nth(1).is_some(),
-            has_link: text.contains("<link"),
-            has_srdf: text.contains("<group"),
+            is_some: tags(text).nth(1).is_some(),
+            has_link: tags(text).any(|tag| tag == "link"),
+            has_srdf: tags(text).any(is_of_robot),
             ..Content::default()
         };
         MacroFile { root, content, ..MacroFile::default() }
@@ -134,7 +137,7 @@ impl MacroFile {
                 content.is_some = true;
                 let Some(of_xacro) = tag.strip_prefix(PREFIX) else {
                     content.has_link |= is_beside_links && tag == "link";
-                    content.has_srdf |= is_beside_links && OF_SRDF.contains(&tag);
+                    content.has_srdf |= is_beside_links && is_of_robot(tag);
                     waiting.push((child, false));
                     continue;
                 };

@@ -69,6 +69,11 @@ pub fn known(name: &str, inside: &str) -> Option<&'static Known> {
     ELEMENTS.iter().find(|known| known.name == name && known.inside == inside)
 }
 
+/// Whether an element of this name stands directly in the robot of an SRDF. None of a URDF has such a name.
+pub fn is_of_robot(name: &str) -> bool {
+    known(name, ROBOT).is_some()
+}
+
 /// The links and joints that an element names, wherever it is: each attribute with whether it is of a link, and the name.
 pub fn parts<'n>(node: Node<'n, '_>) -> impl Iterator<Item = (&'static str, bool, &'n str)> {
     let known = ELEMENTS.iter().find(|known| known.name == node.tag_name().name());

@@ -37,11 +37,14 @@ fn macros_leave_every_rule_but_one_not_checked() {
 
 #[test]
 fn an_srdf_is_called_one() {
-    let open = not_checked("<robot name=\"r\"><group name=\"arm\"/></robot>", &["LNT001"]);
-    let [(_, reason)] = &open[..] else {
-        panic!("{open:?}");
-    };
-    assert!(reason.contains("elements of an SRDF"), "{reason}");
+    for element in ["<group name=\"arm\"/>", "<passive_joint name=\"elbow\"/>"] {
+        let text = format!("<robot name=\"r\">{element}</robot>");
+        let open = not_checked(&text, &["LNT001"]);
+        let [(_, reason)] = &open[..] else {
+            panic!("{open:?}");
+        };
+        assert!(reason.contains("elements of an SRDF"), "{reason}");
+    }
 }
 
 #[test]

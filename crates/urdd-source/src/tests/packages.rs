@@ -381,6 +381,7 @@ fn folders_say_what_they_have() {
             ("b/package.xml", &manifest("p")),
             ("a/robot.xacro", &robot("<link name=\"a\"/>")),
             ("a/robot.srdf.xacro", &robot("<group name=\"a\"/>")),
+            ("a/passive.xacro", &robot("<passive_joint name=\"a\"/>")),
             ("install/COLCON_IGNORE", ""),
             ("install/robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>"),
         ],
@@ -391,7 +392,7 @@ fn folders_say_what_they_have() {
     let asides = batch.asides(1);
     let [parts, srdfs, macros, packages] = &asides[..] else { panic!("{asides:?}") };
     assert_eq!(parts, "3 files define macros or other parts, and no robot");
-    assert_eq!(srdfs, "1 file makes an SRDF");
+    assert_eq!(srdfs, "2 files make SRDFs");
     assert!(macros.contains("`m` (") && macros.contains("macros.xacro:1)"), "{macros}");
     assert!(packages.starts_with("2 packages are named `p`: "), "{packages}");
 }

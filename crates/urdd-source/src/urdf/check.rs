@@ -6,11 +6,13 @@ use super::reader::UrdfReader;
 use super::reading::written_axis;
 use crate::cycles::cycles;
 use crate::fault::Fault;
+use crate::macros::tags;
 use crate::note::NoteKind;
 use urdd_format::short::Short;
 use urdd_format::urdf::{Joint, JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 use urdd_kinematics::{has_axis, num_dofs};
+use urdd_srdf::vocabulary::is_of_robot;
 
 /// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
 pub(super) fn check(reader: &mut UrdfReader, robot_at: usize) {
@@ -116,15 +118,12 @@ fn plain(name: &str) -> String {
     name.trim().to_lowercase()
 }
 
-/// Elements of an SRDF.
-const SRDF: [&str; 4] = ["<group", "<disable_collisions", "<virtual_joint", "<end_effector"];
-
 fn one_root(reader: &mut UrdfReader, robot_at: usize) {
     let robot = &reader.reading.robot;
     let ends = &reader.reading.tree.ends;
     if robot.links.is_empty() {
-        let mut elements = robot.unknown_elements.iter();
-        let fault = match elements.any(|text| SRDF.iter().any(|tag| text.starts_with(tag))) {
+        let mut elements = robot.unknown_elements.iter().filter_map(|text| tags(text).next());
+        let fault = match elements.any(is_of_robot) {
             _ if reader.reading.has_xacro => Fault::OnlyMacros,
             true => Fault::IsSrdf,
             false => Fault::NoLinks,
