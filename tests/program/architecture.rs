@@ -61,6 +61,33 @@ fn the_wall_between_generate_and_validate_stands() {
     }
 }
 
+/// The table of `CONTRIBUTING.md` is the only list of floors: it names each crate once, and a crate uses only those above it.
+#[test]
+fn the_table_of_crates_has_all_of_them_lowest_first() {
+    let text = fs::read_to_string(repository().join("CONTRIBUTING.md")).expect("the page");
+    let rows = text.lines().skip_while(|line| !line.starts_with("| in `crates/` |")).skip(2);
+    let names = rows.take_while(|line| line.starts_with('|')).flat_map(|row| {
+        let cell = row.split('|').nth(1).expect("a first cell");
+        cell.split('`').filter(|name| name.starts_with("urdd-")).collect::<Vec<_>>()
+    });
+    let names: Vec<&str> = names.collect();
+    let folders = fs::read_dir(repository().join("crates")).expect("the crates");
+    let folders = folders.map(|entry| entry.expect("an entry").file_name());
+    let on_disk: BTreeSet<_> = folders.map(|name| name.into_string().expect("UTF-8")).collect();
+    assert_eq!(names.len(), on_disk.len(), "{names:?}");
+    assert_eq!(names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>(), on_disk);
+    for (floor, name) in names.iter().enumerate() {
+        let manifest = repository().join("crates").join(name).join("Cargo.toml");
+        let text = fs::read_to_string(&manifest).expect("a manifest");
+        let of_all = text.split("[dependencies]").nth(1).expect("dependencies");
+        let used = of_all.split("[dev-dependencies]").next().unwrap_or_default().lines();
+        for used in used.filter_map(|line| line.split('.').next()) {
+            let its = names.iter().position(|one| *one == used);
+            assert!(its.is_none_or(|its| its < floor), "{name} uses {used}, a row below it");
+        }
+    }
+}
+
 /// Clippy refuses what writes files (`clippy.toml`). Only these files say that they may, and no library makes temporary
 /// files in another way.
 #[test]
