@@ -88,6 +88,20 @@ fn the_table_of_crates_has_all_of_them_lowest_first() {
     }
 }
 
+/// What the validator computes by itself is in one room, and CONTRIBUTING.md says of each part what it is held by.
+#[test]
+fn each_part_that_is_computed_twice_is_in_the_table() {
+    let text = fs::read_to_string(repository().join("CONTRIBUTING.md")).expect("the page");
+    let table = text.split("## What is computed twice").nth(1).expect("the table");
+    let room = repository().join("crates/urdd-validate/src/reference");
+    let parts = fs::read_dir(&room).expect("the room").map(|entry| entry.expect("an entry").path());
+    for part in parts {
+        let name = part.file_name().and_then(|name| name.to_str()).expect("a name");
+        let shown = if part.is_dir() { format!("{name}/") } else { name.to_owned() };
+        assert!(table.contains(&format!("`reference/{shown}`")), "no row has {shown}");
+    }
+}
+
 /// Clippy refuses what writes files (`clippy.toml`). Only these files say that they may, and no library makes temporary
 /// files in another way.
 #[test]

@@ -9,7 +9,7 @@ use crate::{new_lint_rule, new_rule};
 
 /// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
-    ("spec_agrees::the_tables_of_fields", UPDATE),
+    ("spec_agrees::the_tables_of_fields", "cargo xtask update fields, and read what it wrote"),
     (
         "spec_agrees::the_table_of_modules",
         "list the module in the table of SPEC.md, clause 2.2.1, where the registry has it",
@@ -24,11 +24,11 @@ const TESTS: &[(&str, &str)] = &[
         "list the rule in the family's mod.rs, and its code in crates/urdd-findings/src/code.rs",
     ),
     ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
-    ("snapshots::", UPDATE),
-    ("cases::the_pages_say", UPDATE),
+    ("snapshots::", "cargo xtask update snapshots, and read what it wrote"),
+    ("cases::the_pages_say", "cargo xtask update counts, and read what it wrote"),
     (
         "cases::cases_are_judged",
-        "look which is right, the case or the validator; `cargo xtask update` writes what the validator finds now",
+        "look which is right, the case or the validator; `cargo xtask update cases` writes what the validator finds now",
     ),
     (
         "cases::every_rule_has",
@@ -37,7 +37,7 @@ const TESTS: &[(&str, &str)] = &[
     ("cases::", "see the message; conformance/README.md says what a case has"),
     (
         "computed::the_suite_has",
-        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules computed for one rule; read what it wrote",
+        "cargo xtask update cases, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules computed for one rule; read what it wrote",
     ),
     (
         "cases::a_rule_alone",
@@ -54,7 +54,10 @@ const TESTS: &[(&str, &str)] = &[
         "say in conformance/clauses which cases decide the statement, or why none can; URDD_UPDATE=1 cargo test --test rules clauses adds the line",
     ),
     ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
-    ("published_schemas::the_committed_schemas", UPDATE),
+    (
+        "published_schemas::the_committed_schemas",
+        "cargo xtask update schemas, and read what it wrote",
+    ),
     (
         "published_schemas::",
         "see the message; a released schema never changes: make a new version of the module",
@@ -63,8 +66,8 @@ const TESTS: &[(&str, &str)] = &[
         "annotations::every_field",
         "annotate the fields in crates/urdd-format/src: SPEC 11.3 and 11.4 have the words; what has none goes into a list in tests/program/annotations.rs, as a list with a length of its own",
     ),
-    ("typescript::", UPDATE),
-    ("cpp_types::", UPDATE),
+    ("typescript::", "cargo xtask update types, and read what it wrote"),
+    ("cpp_types::", "cargo xtask update types, and read what it wrote"),
     (
         "support_is_sound::toy_holds",
         "say in that test that the toy does not have the module, or make it in testkit/src/core_modules.rs",
@@ -75,19 +78,19 @@ const TESTS: &[(&str, &str)] = &[
     ),
     ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
-    ("carried::the_page", UPDATE),
-    ("front_ends::", UPDATE),
-    ("imports::the_page", UPDATE),
+    ("carried::the_page", "cargo xtask update exports, and read what it wrote"),
+    ("front_ends::users_are_told", "add a line to the first section of CHANGELOG.md"),
+    ("front_ends::", "cargo xtask update exports, and read what it wrote"),
+    ("imports::the_page", "cargo xtask update imports, and read what it wrote"),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];
 
 /// The programs that have these tests.
 const PROGRAMS: [&str; 6] = ["conformance", "export", "format", "lint", "program", "rules"];
 
-const UPDATE: &str = "cargo xtask update, and read what it wrote";
-
 /// Folders and files in which a scaffold leaves a TODO.
 const SCAFFOLDED: &[&str] = &[
+    "CHANGELOG.md",
     "SPEC.md",
     "crates/urdd-format/src",
     new_rule::RULES,
@@ -116,7 +119,9 @@ pub fn run(root: &Path) -> Result<bool, String> {
         fault("formatting", "", "cargo fmt");
     }
     match python_types(root, &["--check"]) {
-        Some(false) => fault("types for Python", "", UPDATE),
+        Some(false) => {
+            fault("types for Python", "", "cargo xtask update types, and read what it wrote")
+        }
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
@@ -134,6 +139,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
             .args(TESTS.iter().map(|(test, _)| test))
             // All cases of the suite, not a sample.
             .env("URDD_TRIALS", "4")
+            .env("RUST_BACKTRACE", "0")
             .output()
             .map_err(failed)?;
         let text = String::from_utf8_lossy(&output.stdout);

@@ -16,8 +16,8 @@ const USAGE: &str = "\
 cargo xtask check
     What you forgot, after a rule, a module or a message: each with its remedy.
 
-cargo xtask update
-    Writes again what is generated: cases, schemas, annexes of SPEC.md, snapshots, counts, types for Python.
+cargo xtask update [schemas|cases|clauses|counts|exports|types|imports|snapshots|fields]...
+    Writes again what is generated: all of it, or what is named. `check` says which is stale.
 
 cargo xtask clauses
     How many statements of SPEC.md cases decide, by chapter; which line of conformance/clauses is missing or wrong.
@@ -62,7 +62,7 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
     let plain: Vec<&str> = plain.iter().map(String::as_str).collect();
     let text = match (command, plain.as_slice()) {
         ("check", []) => return check::run(&root),
-        ("update", []) => return update::run(&root),
+        ("update", names) => return update::run(&root, names),
         ("clauses", []) => return check::clauses(&root),
         ("new-rule", [code, name]) if code.starts_with("LNT") => {
             if let Some(option) =

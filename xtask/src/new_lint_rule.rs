@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use crate::new_rule::{CODES, add_code, check_name, check_new, next_version, register, severity};
+use crate::new_rule::{
+    CODES, add_change, add_code, check_name, check_new, next_version, register, severity,
+};
 use crate::source::Edits;
 
 pub const RULES: &str = "crates/urdd-lint/src/rules";
@@ -23,6 +25,7 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
         candidates.lines().filter_map(|line| line.strip_prefix("## LNT")?.get(..3)?.parse().ok());
     let least = candidates.max().unwrap_or(0) + 1;
     edits.set(CODES, add_code(&edits.read(CODES)?, code, least)?);
+    add_change(&mut edits, &format!("what {code} finds"))?;
     check_new(root, RULES, name)?;
     let module = name.replace('-', "_");
     edits.create(
@@ -68,7 +71,12 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {{
 
 /// A robot without a fault.
 const CASE: &str = r#"<robot name="arm">
-  <link name="base"/>
+  <link name="base">
+    <inertial>
+      <mass value="5"/>
+      <inertia ixx="0.03" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>
+    </inertial>
+  </link>
   <joint name="turn" type="continuous">
     <parent link="base"/>
     <child link="upper"/>

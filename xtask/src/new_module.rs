@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::new_rule::add_change;
 use crate::source::{Edits, camel};
 
 const TYPES: &str = "crates/urdd-format/src";
@@ -62,6 +63,7 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
         "| `original_meshes_module` | `mesh_modules/",
         &format!("| `{name}` | `{name}` | (optional) | `urdf_module` |\n"),
     )?;
+    add_change(&mut edits, &format!("what {name} says"))?;
     edits.write()?;
     Ok(format!(
         "1. Write its type: {path}. Every key with its meaning, shape, unit and frame.\n\

@@ -57,6 +57,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         }
     };
     edits.set(CODES, add_code(&edits.read(CODES)?, code, 1)?);
+    add_change(&mut edits, &format!("what {code} finds"))?;
     check_new(root, RULES, name)?;
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
@@ -272,6 +273,20 @@ pub fn next_version(edits: &Edits) -> Result<String, String> {
     let first = text.lines().find_map(|line| line.strip_prefix("## ")?.split_once(','));
     let (version, _) = first.ok_or(format!("{CHANGES} has no version"))?;
     Ok(version.to_owned())
+}
+
+/// Leaves a line to write among what the next version adds: its section is the first.
+pub fn add_change(edits: &mut Edits, what: &str) -> Result<(), String> {
+    let text = edits.read(CHANGES)?;
+    let mut sections: Vec<&str> = text.splitn(3, "\n## ").collect();
+    let unexpected =
+        || format!("{CHANGES} is not as expected: its first version has no `### Added`");
+    let first = sections.get_mut(1).ok_or_else(unexpected)?;
+    let (head, tail) = first.split_once("### Added\n\n").ok_or_else(unexpected)?;
+    let changed = format!("{head}### Added\n\n- TODO: {what}, for users.\n{tail}");
+    *first = &changed;
+    edits.set(CHANGES, sections.join("\n## "));
+    Ok(())
 }
 
 /// A clause about another module would get the code in silence.

@@ -1,4 +1,4 @@
-//! `cargo xtask update`: regenerates everything that is generated from the source, and lists the changed files.
+//! `cargo xtask update`: regenerates what is generated from the source, and lists the changed files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -21,35 +21,53 @@ const GENERATED: &[&str] = &[
     "cpp/include/urdd_types.hpp",
 ];
 
-/// The tests that write what they compare with, by program. The cases first: their number appears on the pages.
-const WRITERS: &[(&str, &[&str])] = &[
-    ("rules", &["computed::the_suite_has", "clauses::"]),
-    ("conformance", &["cases::the_pages_say"]),
-    ("export", &["carried::the_page", "front_ends::"]),
-    ("format", &["typescript::", "cpp_types::"]),
-    ("program", &["imports::the_page", "snapshots::", "spec_agrees::the_tables_of_fields"]),
+/// What is written by tests that otherwise compare with it: its name, the program of these tests, and the tests. The cases
+/// first: their number appears on the pages.
+const WRITERS: &[(&str, &str, &[&str])] = &[
+    ("cases", "rules", &["computed::the_suite_has"]),
+    ("clauses", "rules", &["clauses::"]),
+    ("counts", "conformance", &["cases::the_pages_say"]),
+    ("exports", "export", &["carried::the_page", "front_ends::"]),
+    ("types", "format", &["typescript::", "cpp_types::"]),
+    ("imports", "program", &["imports::the_page"]),
+    ("snapshots", "program", &["snapshots::"]),
+    ("fields", "program", &["spec_agrees::the_tables_of_fields"]),
 ];
 
-/// Regenerates everything; returns whether that succeeded.
+/// What is written first, by no test.
+const SCHEMAS: &str = "schemas";
+/// Types for Python, which a script writes, are `types` too.
+const TYPES: &str = "types";
+
+/// Regenerates what these names are of, or everything without any; returns whether that succeeded.
 ///
 /// # Errors
-/// If cargo cannot be run.
-pub fn run(root: &Path) -> Result<bool, String> {
+/// If a name is of nothing, or cargo cannot be run.
+pub fn run(root: &Path, names: &[&str]) -> Result<bool, String> {
+    let all = || [SCHEMAS].into_iter().chain(WRITERS.iter().map(|(name, ..)| *name));
+    if let Some(unknown) = names.iter().find(|name| all().all(|one| one != **name)) {
+        let all = all().collect::<Vec<_>>().join(", ");
+        return Err(format!("there is nothing to update that is called {unknown}: {all}"));
+    }
+    let is_asked = |name: &str| names.is_empty() || names.contains(&name);
     let before = texts(root);
     let failed = |error| format!("cargo cannot be run: {error}");
-    let schemas = cargo(root)
-        .args(["run", "--quiet", "--locked", "--bin", "urdd", "--", "schema", "export", "schema"])
-        .output()
-        .map_err(failed)?;
-    let mut right = schemas.status.success();
-    if !right {
-        eprint!("{}", String::from_utf8_lossy(&schemas.stderr));
+    let mut right = true;
+    if is_asked(SCHEMAS) {
+        let words =
+            ["run", "--quiet", "--locked", "--bin", "urdd", "--", "schema", "export", "schema"];
+        let schemas = cargo(root).args(words).output().map_err(failed)?;
+        if !schemas.status.success() {
+            right = false;
+            eprint!("{}", String::from_utf8_lossy(&schemas.stderr));
+        }
     }
-    match python_types(root, &[]) {
-        Some(written) => right &= written,
-        None => println!("left out: types for Python (python3 is not installed)"),
+    match is_asked(TYPES).then(|| python_types(root, &[])) {
+        Some(Some(written)) => right &= written,
+        Some(None) => println!("left out: types for Python (python3 is not installed)"),
+        None => {}
     }
-    for (program, tests) in WRITERS {
+    for (_, program, tests) in WRITERS.iter().filter(|(name, ..)| is_asked(name)) {
         let tests = cargo(root)
             .args(["test", "--quiet", "--locked", "--workspace", "--no-fail-fast"])
             .args(["--test", program, "--"])

@@ -101,6 +101,10 @@ fn a_rule_gets_all_of_its_files() {
         .find(|clause| clause.trim_start().starts_with("**6.1.7**"))
         .expect("the clause");
     assert!(clause.trim_end().ends_with(&format!("[{code}]")), "{clause}");
+    let changes = text(root, "CHANGELOG.md");
+    let next = changes.split("\n## ").nth(1).expect("the next version");
+    let line = format!("### Added\n\n- TODO: what {code} finds, for users.\n");
+    assert!(next.contains(&line), "{next}");
     let cases = text(root, &format!("conformance/cases/{code}.json"));
     for words in [
         "\"rule\": \"made-of-cheese\"",
@@ -203,6 +207,15 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         assert_eq!(output.status.code(), Some(2), "{name}");
         assert!(said.contains(words), "{name}: {said}");
     }
+}
+
+#[test]
+fn what_is_not_generated_is_not_updated() {
+    let folder = source();
+    let output = xtask(folder.path(), "update", &["snapshot"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("called snapshot: schemas, cases"), "{said}");
 }
 
 #[test]

@@ -55,6 +55,21 @@ fn quoted(words: &[Word], between: &str) -> String {
     words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(between)
 }
 
+/// Options that CHANGELOG.md tells in other words.
+const TOLD_OTHERWISE: [&str; 4] = ["reasons", "total_spheres", "mesh_folder", "robot_file"];
+
+#[test]
+fn users_are_told_of_each_option() {
+    let changes = testkit::repository().join("CHANGELOG.md");
+    let changes = std::fs::read_to_string(changes).expect("the changes");
+    let words: Vec<&str> = changes.split(|c: char| !(c.is_alphanumeric() || c == '-')).collect();
+    for choice in CHOICES {
+        let flag = format!("--{}", choice.name.replace('_', "-"));
+        let is_told = words.contains(&flag.as_str()) || TOLD_OTHERWISE.contains(&choice.name);
+        assert!(is_told, "CHANGELOG.md does not say that there is `{flag}`");
+    }
+}
+
 #[test]
 fn python() {
     let file = "python/lib/urdd/_export.py";
