@@ -14,6 +14,7 @@ use super::output::{self, Failure};
 use super::words::value_of;
 use urdd_export::KINDS;
 use urdd_format::escape;
+use urdd_format::readable::counted;
 use urdd_robot::{Configurations, PairDistance, Proximity, Queries, RobotError, ShapeKind};
 
 /// Arguments of `urdd check-collisions`.
@@ -147,9 +148,10 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
 }
 
 fn totals(proximity: &Proximity, count: u64) -> String {
-    let configurations = if count == 1 { "configuration" } else { "configurations" };
-    let (shapes, kind, pairs) = (proximity.num_shapes(), proximity.kind(), proximity.num_pairs());
-    format!("{count} {configurations}, {shapes} shapes ({kind}), {pairs} pairs not skipped\n")
+    let shapes = counted(proximity.num_shapes(), "shape");
+    let (kind, pairs) = (proximity.kind(), counted(proximity.num_pairs(), "pair"));
+    let count = counted(count as usize, "configuration");
+    format!("{count}, {shapes} ({kind}), {pairs} not skipped\n")
 }
 
 /// The names of a pair, with the pieces if there can be several.
@@ -171,7 +173,7 @@ fn as_text(
     let links = links_of(touching);
     let verdict = match links.len() {
         0 => "free".to_owned(),
-        count => format!("collides: {} of links", output::counted(count, "pair")),
+        count => format!("collides: {} of links", counted(count, "pair")),
     };
     let _ = writeln!(text, "configuration {number}: {verdict}");
     for (links, pairs) in &links {

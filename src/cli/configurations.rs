@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::output::{Failure, one_line, shown};
 use urdd_directory::regular;
 use urdd_format::escape;
+use urdd_format::readable::counted;
 use urdd_robot::Robot;
 
 /// Maximum size of the input, in bytes.
@@ -194,7 +195,8 @@ fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, Failure> {
         let (found, expected) = (values.len(), dofs.len());
         let names: Vec<_> = dofs.iter().map(|name| escape::line(name)).collect();
         let names = names.join(", ");
-        Err(format!("{found} values, but the robot has {expected} DOFs: {names}"))?;
+        let (found, expected) = (counted(found, "value"), counted(expected, "DOF"));
+        Err(format!("{found}, but the robot has {expected}: {names}"))?;
     }
     if let Some(dof) = values.iter().position(|value| !value.is_finite()) {
         let (name, value) = (escape::line(&dofs[dof]), values[dof]);

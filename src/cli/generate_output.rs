@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::output::{self, Failure};
 use urdd_format::escape;
+use urdd_format::readable::counted;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::Observer;
 use urdd_generate::combine::{CombineError, Combined};
@@ -85,7 +86,7 @@ impl Printer {
                 "meshes": { "named": totals.meshes.named, "not_found": totals.meshes.not_found },
             }})),
             ResultFormat::Human => {
-                let robots = output::counted(total, "robot");
+                let robots = counted(total, "robot");
                 let meshes = not_found(totals.meshes);
                 format!(
                     "{robots}: {generated} generated, {unchanged} unchanged, {failed} failed{meshes}\n"
@@ -239,10 +240,10 @@ fn summary(job: &Job, made: &Generated) -> String {
     let mut text = format!(
         "{}: {}, {}, {}; {}",
         escape::line(&job.name),
-        output::counted(made.num_links, "link"),
-        output::counted(made.num_joints, "joint"),
-        output::counted(made.num_dofs, "DOF"),
-        output::counted(made.modules.len(), "module"),
+        counted(made.num_links, "link"),
+        counted(made.num_joints, "joint"),
+        counted(made.num_dofs, "DOF"),
+        counted(made.modules.len(), "module"),
     );
     if !made.changed {
         text += ", unchanged";

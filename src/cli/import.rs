@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::output::{self, Failure, counted, shown};
+use super::output::{self, Failure, shown};
 use super::sources::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
+use urdd_format::readable::counted;
 use urdd_import::{Imported, import_whole};
 
 /// Maximum number of notes that are printed; the report has all.

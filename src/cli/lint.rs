@@ -13,6 +13,7 @@ use super::sources::{LoopsArguments, PackageArguments, XacroArguments, split};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
+use urdd_format::readable::counted;
 use urdd_lint::{LeftAlone, LintSettings, Mended, declared};
 use urdd_validate::Run;
 
@@ -157,7 +158,7 @@ fn write(mended: &[Mended]) -> Result<(), Failure> {
         let Some(target) = target(one) else { continue };
         one.check(target).map_err(about(&one.path))?;
         output::write_file(target, &one.after)?;
-        let places = output::counted(one.places, "place");
+        let places = counted(one.places, "place");
         output::error(&format!("mended {places} in {}", shown(&one.path)));
     }
     Ok(())
@@ -192,7 +193,7 @@ fn write_robots(
         0 => "nothing to add".to_owned(),
         _ => {
             output::write_file(file, &SettingsFile::with_lines(file, &lines)?)?;
-            format!("added {}", output::counted(count, "robot file"))
+            format!("added {}", counted(count, "robot file"))
         }
     };
     output::print(&format!("{told}{}: {done}\n", shown(file)))?;
@@ -207,7 +208,7 @@ fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
     let baseline = Baseline::of(run, file.parent().unwrap_or(Path::new(".")));
     output::write_file(file, &baseline.to_json())?;
     let shown = shown(file);
-    let findings = output::counted(baseline.count(), "finding");
+    let findings = counted(baseline.count(), "finding");
     output::print(&format!(
         "{shown}: {findings}, which `urdd lint --baseline {shown}` leaves out\n"
     ))?;

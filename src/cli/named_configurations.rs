@@ -10,6 +10,7 @@ use urdd_export::import_states;
 use urdd_format::escape;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_format::nearest::nearest;
+use urdd_format::readable::counted;
 use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;
 
@@ -136,12 +137,12 @@ fn import(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Fail
         let mut told = format!(
             "{}: {} imported; {} of the SRDF unchanged\n",
             shown(urdd),
-            output::counted(imported.changed, "configuration"),
+            counted(imported.changed, "configuration"),
             imported.already
         );
         told += &left_out(&imported.wrong);
         if imported.left_out > 0 {
-            let positions = output::counted(imported.left_out, "position");
+            let positions = counted(imported.left_out, "position");
             told += &format!(
                 "  {positions} left out: of joints with no DOF of their own, or with several\n"
             );
@@ -168,7 +169,7 @@ fn change(
         let mut edits: Vec<ConfigurationEdit> = named.iter().map(Into::into).collect();
         let done = change(&mut edits).map_err(about(urdd))?;
         let edited = robot.with_named_configurations(&edits).map_err(about(urdd))?;
-        let count = output::counted(edits.len(), "named configuration");
+        let count = counted(edits.len(), "named configuration");
         Ok(Edited { files: edited.files, told: format!("{}: {done}; {count}\n", shown(urdd)) })
     })
 }

@@ -136,12 +136,6 @@ impl Color {
     }
 }
 
-/// A number of things: `1 pair`, `2 pairs`.
-pub fn counted(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {thing}{plural}")
-}
-
 /// The width of the terminal on standard output, in characters; `None` if it is not a terminal.
 pub fn width() -> Option<usize> {
     let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0);

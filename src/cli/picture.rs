@@ -11,6 +11,7 @@ use super::signals::{self, Signals};
 use super::sources::{PackageArguments, XacroArguments, split};
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, is_archive};
+use urdd_format::readable::counted;
 use urdd_generate::{Selection, Settings, generate_in_memory};
 use urdd_robot::Robot;
 use urdd_source::note::{Note, NoteKind};
@@ -80,7 +81,7 @@ pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
     signals::run(None, |signals| {
         let (paths, words) = split(&arguments.paths);
         let [path] = paths.as_slice() else {
-            let count = output::counted(paths.len(), "path");
+            let count = counted(paths.len(), "path");
             return Err(format!("a picture is of one robot; found {count}").into());
         };
         let robot = match path.is_file() && !is_archive(path) {

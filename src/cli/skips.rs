@@ -3,8 +3,9 @@
 use clap::Subcommand;
 
 use super::inputs::{Edited, SrdfArguments, edited, left_out, some_read, with_srdf};
-use super::output::{self, Failure, about, shown};
+use super::output::{Failure, about, shown};
 use urdd_export::{ImportedSkips, import_srdf};
+use urdd_format::readable::counted;
 use urdd_format::registry::ModuleKind;
 
 /// The commands of `urdd skips`.
@@ -51,14 +52,14 @@ fn import(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Fail
 fn told(urdd: &str, imported: &ImportedSkips, stale: &[ModuleKind]) -> String {
     let mut told = format!(
         "{urdd}: {} added; {} of the SRDF unchanged\n",
-        output::counted(imported.added, "edit"),
-        output::counted(imported.already, "pair")
+        counted(imported.added, "edit"),
+        counted(imported.already, "pair")
     );
     told += &left_out(&imported.wrong);
     if imported.unlisted > 0 {
         told += &format!(
             "  {} skipped that the SRDF does not disable\n",
-            output::counted(imported.unlisted, "pair")
+            counted(imported.unlisted, "pair")
         );
     }
     if stale.contains(&ModuleKind::SelfCollisionModel) {

@@ -12,6 +12,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
+use urdd_format::readable::{counted, first_of};
 use urdd_format::registry::ModuleKind;
 use urdd_format::self_collision_model::LinkPair;
 use urdd_format::urdf::Geometry;
@@ -51,11 +52,8 @@ pub fn run(command: &SpheresCommand) -> Result<u8, Failure> {
         let told = edited(urdd, ModuleKind::LinkShapesSpheres, |robot| {
             let imported = import_spheres(robot, &spheres, &cancellation).map_err(about(list))?;
             let last = imported.module.levels.last();
-            let mut told = format!(
-                "{}: {} imported\n",
-                shown(urdd),
-                output::counted(imported.taken, "sphere")
-            );
+            let mut told =
+                format!("{}: {} imported\n", shown(urdd), counted(imported.taken, "sphere"));
             if let Some(level) = last {
                 let of = &level.evaluation;
                 told += &format!(
@@ -80,18 +78,13 @@ fn always(pairs: &[LinkPair], links: &[String]) -> String {
         return String::new();
     }
     let name = |link: usize| one_line(links.get(link).map_or("", String::as_str));
-    let names = pairs.iter().take(MOST_NAMED).map(|LinkPair { link_a_idx, link_b_idx }| {
+    let names = pairs.iter().map(|LinkPair { link_a_idx, link_b_idx }| {
         format!("`{}` with `{}`", name(link_a_idx.get()), name(link_b_idx.get()))
     });
-    let names: Vec<String> = names.collect();
-    let others = match pairs.len().saturating_sub(MOST_NAMED) {
-        0 => String::new(),
-        others => format!(" and {others} more"),
-    };
     format!(
-        "  in every configuration these links touch, so that a check by this list always says that the robot collides: {}{others}\n  \
+        "  in every configuration these links touch, so that a check by this list always says that the robot collides: {}\n  \
          if they need no check, disable them by `urdd skips import` of an SRDF, and import the list again\n",
-        names.join(", ")
+        first_of(names, MOST_NAMED)
     )
 }
 

@@ -17,6 +17,7 @@ use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
 use urdd_directory::temporary::Temporary;
 use urdd_format::escape;
+use urdd_format::readable::counted;
 use urdd_robot::Robot;
 use urdd_source::robots::{self, BatchError, Job};
 use urdd_source::{Files, Settings, format_of, process};
@@ -90,7 +91,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     process::adopt_orphans();
     let (paths, xacro_arguments) = split(&arguments.paths);
     if arguments.compare && paths.len() != 2 {
-        let count = output::counted(paths.len(), "path");
+        let count = counted(paths.len(), "path");
         Err(format!(
             "--compare takes two robots, before and after: `urdd view --compare BEFORE AFTER`; found {count}"
         ))?;
@@ -144,7 +145,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         if unmade.is_empty() {
             return Ok(0);
         }
-        let count = output::counted(unmade.len(), "robot");
+        let count = counted(unmade.len(), "robot");
         output::error(&format!("without {count} that could not be made: {}", unmade.join(", ")));
         return Ok(FAILED);
     }
@@ -174,7 +175,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         }
         let begin = opens.map(|view| format!("&{view}")).unwrap_or_default();
         let address = format!("{}{begin}", server.address());
-        let count = output::counted(robots.len(), "robot");
+        let count = counted(robots.len(), "robot");
         let printed = output::print(&format!("{count}: {address}\nCtrl-C stops it.\n"));
         if printed.is_err() {
             signals.cancellation().cancel();
@@ -292,9 +293,9 @@ fn write_site(
     }
     let shown = folder.display();
     let told = format!(
-        "{shown}: a site of {} robots. Browsers fetch nothing from file://: put it on a web server, or try\n  \
+        "{shown}: a site of {}. Browsers fetch nothing from file://: put it on a web server, or try\n  \
          python3 -m http.server --bind 127.0.0.1 --directory {shown}\n",
-        collection.robots().len()
+        counted(collection.robots().len(), "robot")
     );
     Ok(output::print(&escape::lines(&told))?)
 }
@@ -362,7 +363,7 @@ fn add_folder(path: &Path, settings: &Settings, collection: &Collection) -> Resu
     }
     let left = count - jobs.len();
     if left > 0 {
-        let files = output::counted(left, ".xacro file");
+        let files = counted(left, ".xacro file");
         let told = format!("{}: left out {files}; --xacro runs them", path.display());
         if jobs.is_empty() {
             return Err(told);

@@ -1,6 +1,7 @@
 //! Inverse kinematics.
 
 use std::mem;
+use urdd_format::readable::counted;
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::pose;
@@ -166,7 +167,8 @@ impl FreeOf<'_> {
         let world = self.world.map(|world| ("free_of_world", world.0.num_dofs()));
         let other = itself.into_iter().chain(world).find(|(_, found)| *found != dofs);
         if let Some((what, found)) = other {
-            let message = format!("`{what}` is of a robot with {found} DOFs: expected {dofs}");
+            let found = counted(found, "DOF");
+            let message = format!("`{what}` is of a robot with {found}: expected {dofs}");
             return Err(Failure::new(Status::Length, message));
         }
         Ok(check_margin(self.margin).map(drop)?)
@@ -198,7 +200,8 @@ unsafe fn settings<'a>(
         let posture = array("posture", settings.posture, settings.posture_length, dofs)?;
         let locked = values("locked", settings.locked, settings.locked_length)?;
         if locked.len() > dofs {
-            let message = format!("`locked_length` is {}: there are {dofs} DOFs", locked.len());
+            let (length, dofs) = (locked.len(), counted(dofs, "DOF"));
+            let message = format!("`locked_length` is {length}: the robot has {dofs}");
             return Err(Failure::new(Status::Length, message));
         }
         let free_of = FreeOf {

@@ -1,4 +1,6 @@
-//! Numbers formatted for people, the same in every message and report.
+//! Numbers, counts and lists formatted for people, the same in every message and report.
+
+use std::fmt::Display;
 
 /// Rounds to `digits` significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
 /// Uses an exponent only below 1e-3 and from 1e6.
@@ -40,6 +42,20 @@ pub fn grouped(number: impl Into<f64>) -> String {
         out.push(c);
     }
     out
+}
+
+/// A number of things: `1 pair`, `2 pairs`. A thing whose name ends in `s`, as `dynamics`, is its own plural.
+pub fn counted(number: usize, thing: &str) -> String {
+    let stays = number == 1 || thing.ends_with('s');
+    format!("{number} {thing}{}", if stays { "" } else { "s" })
+}
+
+/// The first `most` of these names, and the number of the others: `a, b and 3 more`.
+pub fn first_of(names: impl ExactSizeIterator<Item: Display>, most: usize) -> String {
+    let more = names.len().saturating_sub(most);
+    let shown: Vec<String> = names.take(most).map(|name| name.to_string()).collect();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    shown.join(", ") + &more
 }
 
 fn trimmed(text: &str) -> &str {

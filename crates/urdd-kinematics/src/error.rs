@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use urdd_format::readable::counted;
 use urdd_format::registry::ModuleKind;
 
 /// A fault in a module that prevents kinematics.
@@ -39,7 +40,11 @@ impl KinematicsError {
 #[non_exhaustive]
 pub enum ConfigurationError {
     /// The number of values is not the number of DOFs.
-    #[error("the configuration has {found} values, but the robot has {expected} DOFs")]
+    #[error(
+        "the configuration has {}, but the robot has {}",
+        counted(*.found, "value"),
+        counted(*.expected, "DOF")
+    )]
     Length {
         /// Number of DOFs.
         expected: usize,

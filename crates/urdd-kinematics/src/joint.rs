@@ -8,6 +8,7 @@ use super::rotation::{from_rotation_vector, planar_basis};
 use urdd_format::chain::{ChainModule, JointInChain};
 use urdd_format::dof::DofModule;
 use urdd_format::index::DofIdx;
+use urdd_format::readable::counted;
 use urdd_format::urdf::JointType;
 
 /// A unit vector.
@@ -187,11 +188,11 @@ pub(super) fn joint_dofs(
 ) -> Result<Vec<usize>, KinematicsError> {
     let expected = num_dofs(joint_type);
     let listed = &dof.joint_idx_to_dof_idxs_mapping[idx];
-    let found = listed.len();
+    let found = counted(listed.len(), "DOF");
     let fault = match &dof.joint_idx_to_mimic_mapping[idx] {
-        Some(_) if found > 0 => Some(format!("{found} DOFs, expected 0 of a mimic joint")),
-        None if found != expected => {
-            Some(format!("{found} DOFs, expected {expected} of a {joint_type} joint"))
+        Some(_) if !listed.is_empty() => Some(format!("{found}, expected 0 of a mimic joint")),
+        None if listed.len() != expected => {
+            Some(format!("{found}, expected {expected} of a {joint_type} joint"))
         }
         _ => None,
     };

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::network::ModelError;
 use urdd_format::index::DofIdx;
+use urdd_format::readable::counted;
 use urdd_format::self_collision_model::ModelInput;
 
 /// An input with valid indices.
@@ -32,7 +33,8 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
         if dof.get() < num_dofs {
             return Ok(dof.get());
         }
-        let fault = format!("DOF {} is out of range: the robot has {num_dofs} DOFs", dof.get());
+        let dofs = counted(num_dofs, "DOF");
+        let fault = format!("DOF {} is out of range: the robot has {dofs}", dof.get());
         Err(ModelError::new(format!("/inputs/{place}/{key}"), fault))
     };
     let read = |(place, input): (usize, &ModelInput)| {

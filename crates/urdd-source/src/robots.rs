@@ -21,6 +21,7 @@ use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
 use urdd_directory::path;
 use urdd_format::escape;
+use urdd_format::readable::first_of;
 use urdd_format::short::Short;
 
 /// A robot of a batch.
@@ -147,14 +148,11 @@ impl Batch {
         ));
         lines.extend(counted(of(FileKind::Neither(Reason::Srdf)), "makes an SRDF", "make SRDFs"));
         let uncalled = &self.description.uncalled;
-        let named = uncalled.iter().take(MAX_NAMED).map(|(file, one)| {
+        let named = uncalled.iter().map(|(file, one)| {
             format!("`{}` ({}:{})", Short::of(&one.name), file.display(), one.line)
         });
-        let named: Vec<String> = named.collect();
-        if !named.is_empty() {
-            let others = uncalled.len() - named.len();
-            let others = if others > 0 { format!(", and {others} more") } else { String::new() };
-            lines.push(format!("no robot here calls the macro {}{others}", named.join(", ")));
+        if !uncalled.is_empty() {
+            lines.push(format!("no robot here calls the macro {}", first_of(named, MAX_NAMED)));
         }
         for (name, folders) in self.packages.iter().filter(|(_, folders)| folders.len() > 1) {
             let all: Vec<String> =

@@ -16,6 +16,7 @@ use thiserror::Error;
 use urdd_directory::root::ReadError;
 use urdd_directory::staging::StagingError;
 use urdd_directory::{digest, regular};
+use urdd_format::readable::first_of;
 use urdd_format::registry::PROGRAM_VERSION;
 
 /// The list itself. Its presence identifies a site.
@@ -70,12 +71,7 @@ pub enum ExportError {
 
 fn shown(paths: &[PathBuf]) -> String {
     const MOST: usize = 8;
-    let first = paths.iter().take(MOST);
-    let mut names: Vec<String> = first.map(|path| path.display().to_string()).collect();
-    if paths.len() > MOST {
-        names.push(format!("and {} more", paths.len() - MOST));
-    }
-    names.join(", ")
+    first_of(paths.iter().map(|path| path.display()), MOST)
 }
 
 /// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.

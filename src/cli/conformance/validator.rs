@@ -16,6 +16,7 @@ use urdd_format::conformance::{
     ValidatorResult,
 };
 use urdd_format::index::Count;
+use urdd_format::readable::first_of;
 use urdd_format::registry::SPEC_VERSION;
 
 /// Arguments of `urdd conformance validator`.
@@ -203,13 +204,8 @@ fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {
         (&printed.missing, "not printed"),
         (&printed.extra, "printed for a near miss, or for what cannot be read"),
     ] {
-        let named: Vec<&str> = cases.iter().take(MAX_NAMED).map(String::as_str).collect();
-        let more = match cases.len().saturating_sub(MAX_NAMED) {
-            0 => String::new(),
-            more => format!(", and {more} more"),
-        };
-        if !named.is_empty() {
-            writeln!(out, "  {what}: {}{more}", named.join(", "))?;
+        if !cases.is_empty() {
+            writeln!(out, "  {what}: {}", first_of(cases.iter(), MAX_NAMED))?;
         }
     }
     Ok(())

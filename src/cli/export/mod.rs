@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::inputs;
-use super::output::{self, Failure, about, counted, shown};
+use super::output::{self, Failure, about, shown};
 pub use arguments::ExportArguments;
 use arguments::name_of;
 use urdd_directory::outputs::{self, Output, Target as Place};
 use urdd_export::{Choices, Export, Format, Note, Setup, export};
+use urdd_format::readable::counted;
 use urdd_robot::Robot;
 use urdd_srdf::merge_srdf;
 

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use urdd_document::urdd::Urdd;
 use urdd_format::escape::line as safe;
+use urdd_format::readable::counted;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 /// Maximum number of DOFs that are named.
@@ -47,10 +48,8 @@ impl LoopsInfo {
     pub fn write(&self, out: &mut impl Write) -> fmt::Result {
         let mut parts: Vec<String> =
             self.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        match self.couplings {
-            0 => {}
-            1 => parts.push("1 coupling".to_owned()),
-            count => parts.push(format!("{count} couplings")),
+        if self.couplings > 0 {
+            parts.push(counted(self.couplings, "coupling"));
         }
         let parts = if parts.is_empty() { "none".to_owned() } else { parts.join(", ") };
         let free = self.independent.len();
@@ -58,7 +57,7 @@ impl LoopsInfo {
             self.independent.iter().take(MOST_NAMED).map(|name| safe(name).to_string()).collect();
         let more = if free > MOST_NAMED { " and others" } else { "" };
         let named = if free == 0 { String::new() } else { format!(": {}{more}", named.join(", ")) };
-        let freely = if free == 1 { "1 DOF moves" } else { &*format!("{free} DOFs move") };
-        writeln!(out, "  loops     {parts}; {freely} freely{named}")
+        let (dofs, moves) = (counted(free, "DOF"), if free == 1 { "moves" } else { "move" });
+        writeln!(out, "  loops     {parts}; {dofs} {moves} freely{named}")
     }
 }

@@ -5,7 +5,7 @@ use urdd_format::diff_report::{
     ModuleDifference, PairChange, PairDifference, PartDifference, PoseDifference, Presence,
     ValueChange,
 };
-use urdd_format::readable::{metres, number};
+use urdd_format::readable::{counted, metres, number};
 use urdd_format::report::{Kind, Verdict};
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,8 +66,7 @@ pub(crate) fn count(report: &DiffReport) -> usize {
 pub(super) fn headline(report: &DiffReport) -> String {
     match count(report) {
         0 => "no difference in meaning".to_owned(),
-        1 => "1 difference".to_owned(),
-        count => format!("{count} differences"),
+        count => counted(count, "difference"),
     }
 }
 

@@ -3,10 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use super::guesser::{Chains, FINGER, Guesser, joints, with_side};
+use super::guesser::{Chains, FINGER, Guesser, with_side};
 use super::words::{self, Part};
 use super::{Curobo, EndEffector, Gains, Guess, Members, Setup};
 use crate::{ExportError, Structure};
+use urdd_format::readable::counted;
 use urdd_format::urdf::JointType;
 use urdd_robot::Robot;
 
@@ -158,7 +159,7 @@ impl Guesser<'_> {
         let name = self.named(chain, "leg");
         let why = format!(
             "{} at the root link that lead down, as others do",
-            joints(self.chains.all[chain].joints.len())
+            counted(self.chains.all[chain].joints.len(), "joint")
         );
         let members = if self.chains.all[chain].children.is_empty() {
             let of = &self.chains.all[chain];
@@ -226,8 +227,8 @@ impl Guesser<'_> {
             None => tool,
         };
         let why = match palm {
-            Some(_) => format!("{} in a row, then the fingers of a hand", joints(driven)),
-            None => format!("{} in a row, and none after them", joints(driven)),
+            Some(_) => format!("{} in a row, then the fingers of a hand", counted(driven, "joint")),
+            None => format!("{} in a row, and none after them", counted(driven, "joint")),
         };
         let name = self.named(chain, "arm");
         self.tools.push(tool);
@@ -291,7 +292,7 @@ impl Guesser<'_> {
         } else {
             "other chains begin at their end"
         };
-        let why = format!("{} in a row, and {after}", joints(driven));
+        let why = format!("{} in a row, and {after}", counted(driven, "joint"));
         let of = &self.chains.all[chain];
         let (base, tip) = (of.base, of.last);
         if self.structure.is_chain(base, tip) {

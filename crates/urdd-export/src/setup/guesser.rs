@@ -102,13 +102,6 @@ pub(super) fn with_side(side: Option<&str>, kind: &str) -> String {
     side.map_or_else(|| kind.to_owned(), |side| format!("{side}_{kind}"))
 }
 
-pub(super) fn joints(count: usize) -> String {
-    match count {
-        1 => "1 joint".to_owned(),
-        count => format!("{count} joints"),
-    }
-}
-
 /// Moving joints of one DOF in a row without a branch, or one of several DOFs.
 pub(super) struct Chain {
     /// At least one, from the root outwards.

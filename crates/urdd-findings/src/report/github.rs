@@ -6,8 +6,9 @@ use std::fmt::{self, Write};
 use super::human::{self, times};
 use super::place::{file_in, is_inside};
 use super::programs::cell;
-use super::words::{plural, unit};
+use super::words::unit;
 use urdd_format::escape;
+use urdd_format::readable::counted;
 use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};
 
 /// Writes the report. `places` are the folders of its URDDs (see [`super::place::places`]).
@@ -89,11 +90,11 @@ pub fn markdown(report: &Report, out: &mut impl Write) -> fmt::Result {
     writeln!(
         out,
         "### `urdd`: {}, {} failed\n\n{}, {}, {}.\n",
-        plural(totals.urdds.get(), unit(report)),
+        counted(totals.urdds.get(), unit(report)),
         report.urdds.iter().filter(|urdd| urdd.verdict != Verdict::Pass).count(),
-        plural(totals.error.get(), "error"),
-        plural(totals.warning.get(), "warning"),
-        plural(totals.info.get(), "info"),
+        counted(totals.error.get(), "error"),
+        counted(totals.warning.get(), "warning"),
+        counted(totals.info.get(), "info"),
     )?;
     let asked = report.urdds.iter().map(|urdd| &urdd.programs).find(|all| !all.is_empty());
     let programs = || asked.into_iter().flatten();
@@ -108,7 +109,7 @@ pub fn markdown(report: &Report, out: &mut impl Write) -> fmt::Result {
     }
     let more = report.urdds.len().saturating_sub(ROWS);
     if more > 0 {
-        writeln!(out, "\n{} more are left out here.", plural(more, unit(report)))?;
+        writeln!(out, "\n{} more are left out here.", counted(more, unit(report)))?;
     }
     Ok(())
 }
@@ -135,10 +136,10 @@ fn findings(urdd: &Urdd) -> String {
     match [Severity::Error, Severity::Warning].map(count) {
         _ if urdd.verdict == Verdict::Unreadable => "unreadable".to_owned(),
         [0, 0] => String::new(),
-        [0, warnings] => plural(warnings, "warning"),
-        [errors, 0] => plural(errors, "error"),
+        [0, warnings] => counted(warnings, "warning"),
+        [errors, 0] => counted(errors, "error"),
         [errors, warnings] => {
-            format!("{}, {}", plural(errors, "error"), plural(warnings, "warning"))
+            format!("{}, {}", counted(errors, "error"), counted(warnings, "warning"))
         }
     }
 }

@@ -7,12 +7,12 @@ use std::cmp::Reverse;
 use std::fmt::{self, Write};
 
 use urdd_format::escape::{self, line as safe};
-use urdd_format::readable::number;
+use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
 
 use super::fill::by_reason;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{list, plural, unit, unverified};
+use super::words::{list, unit, unverified};
 use super::{programs, summary};
 use crate::code::Code;
 use crate::skip::SkipReason;
@@ -136,11 +136,11 @@ fn describe(urdd: &Urdd) -> String {
         parts.push(format!("robot {}", escape::quoted(name)));
     }
     let sizes = [(urdd.size.links, "link"), (urdd.size.joints, "joint"), (urdd.size.dofs, "DOF")];
-    parts.extend(sizes.into_iter().filter_map(|(size, unit)| Some(plural(size?.get(), unit))));
+    parts.extend(sizes.into_iter().filter_map(|(size, unit)| Some(counted(size?.get(), unit))));
     let legacy = urdd.modules.iter().any(|module| module.profile.as_deref() == Some("legacy"));
     if !urdd.modules.is_empty() {
         let family = if legacy { " (legacy)" } else { "" };
-        parts.push(format!("{}{family}", plural(urdd.modules.len(), "module")));
+        parts.push(format!("{}{family}", counted(urdd.modules.len(), "module")));
     }
     parts.join(", ")
 }
@@ -276,7 +276,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
     };
     let absent = urdd.checks.iter().filter(absent).count();
     if absent > 0 {
-        let rules = plural(absent, "rule");
+        let rules = counted(absent, "rule");
         writeln!(out, "  {label} {rules} about modules that are not here")?;
     }
     Ok(())
@@ -329,12 +329,12 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
     writeln!(
         out,
         "{}: {}. {}: {}, {}, {}.",
-        style.paint(BOLD, plural(totals.urdds.get(), unit(report))),
+        style.paint(BOLD, counted(totals.urdds.get(), unit(report))),
         verdicts.join(", "),
-        plural(totals.error.get() + totals.warning.get() + totals.info.get(), "finding"),
-        plural(totals.error.get(), "error"),
-        plural(totals.warning.get(), "warning"),
-        plural(totals.info.get(), "info"),
+        counted(totals.error.get() + totals.warning.get() + totals.info.get(), "finding"),
+        counted(totals.error.get(), "error"),
+        counted(totals.warning.get(), "warning"),
+        counted(totals.info.get(), "info"),
     )?;
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     if let Some(worst) = findings.min_by_key(|finding| Reverse(finding.severity)) {

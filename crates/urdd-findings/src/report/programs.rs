@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use urdd_format::readable::counted;
 use urdd_format::report::{Deed, Does, Place, ProgramResult, Report, Severity, Urdd};
 
 use super::fill;
-use super::words::plural;
 use crate::examined::Examined;
 use crate::programs::{kind, listed, owner, subject};
 
@@ -202,7 +202,7 @@ impl Lost {
             _ => kind.replace('_', " "),
         };
         if self.names.is_empty() {
-            return plural(self.count, &words);
+            return counted(self.count, &words);
         }
         let s = if self.count > 1 && !words.ends_with('s') { "s" } else { "" };
         let of = if self.is_inside { "of " } else { "" };
@@ -220,7 +220,7 @@ fn losses(lost: &BTreeMap<String, Lost>, [others, cut]: [usize; 2]) -> Vec<Strin
     let lost: Vec<String> = lost.iter().map(|(kind, lost)| lost.words(kind)).collect();
     let lost: Vec<&str> = lost.iter().map(String::as_str).collect();
     let without = (!lost.is_empty()).then(|| format!("without {}", listed(&lost)));
-    let otherwise = (others > 0).then(|| format!("{} read otherwise", plural(others, "value")));
+    let otherwise = (others > 0).then(|| format!("{} read otherwise", counted(others, "value")));
     let more = (cut > 0).then(|| format!("and {cut} more"));
     without.into_iter().chain(otherwise).chain(more).collect()
 }

@@ -8,9 +8,10 @@ use std::fmt::{self, Write};
 use super::causes::{Cause, causes};
 use super::programs;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{MODEL_NOT_VERIFIED, not_verified, plural, unit};
+use super::words::{MODEL_NOT_VERIFIED, not_verified, unit};
 use crate::code::Code;
 use urdd_format::escape::line as safe;
+use urdd_format::readable::counted;
 use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
 /// The column of a family of rules in the table. Most families have their own.
@@ -47,7 +48,7 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
     let (errors, lesser): (Vec<_>, Vec<_>) =
         all.iter().partition(|cause| cause.first.severity == Severity::Error);
     if !errors.is_empty() {
-        let title = format!("What to fix first ({} of errors)", plural(errors.len(), "cause"));
+        let title = format!("What to fix first ({} of errors)", counted(errors.len(), "cause"));
         writeln!(out, "{}", style.paint(BOLD, title))?;
         let mut above = None;
         write_some(&errors, CAUSES, style, out, |cause, out| {
@@ -135,12 +136,12 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
         1 => "once".to_owned(),
         times => format!("{times} times"),
     };
-    let mut text = format!("{times} in {}", plural(cause.urdds.len(), unit));
+    let mut text = format!("{times} in {}", counted(cause.urdds.len(), unit));
     if cause.subjects > 1 && cause.subjects < cause.times {
         text += &format!(", at {} {}", cause.subjects, kinds(cause));
     }
     if cause.borrowed > 0 {
-        let text_of = |count| plural(count, unit);
+        let text_of = |count| counted(count, unit);
         text += &format!(", {} only by the parts that it names", text_of(cause.borrowed));
     }
     writeln!(out, "    {word} {code} {}: {text}", cause.first.name)?;
@@ -179,19 +180,19 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     }
     writeln!(out, "{}", style.paint(BOLD, "Not checked"))?;
     if !unverified.is_empty() {
-        let urdds = plural(unverified.len(), unit(report));
+        let urdds = counted(unverified.len(), unit(report));
         let text = not_verified(unverified.iter().sum());
         writeln!(out, "    {text}, in {urdds}")?;
     }
     if models > 0 {
-        let urdds = plural(models, unit(report));
+        let urdds = counted(models, unit(report));
         writeln!(out, "    {}, in {urdds}", MODEL_NOT_VERIFIED)?;
     }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
     reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));
     write_some(&reasons, LESSER, style, out, |(reason, (urdds, codes)), out| {
-        let rules = plural(codes.len(), "rule");
-        let text = format!("    {rules} in {}: {}", plural(*urdds, unit(report)), safe(reason));
+        let rules = counted(codes.len(), "rule");
+        let text = format!("    {rules} in {}: {}", counted(*urdds, unit(report)), safe(reason));
         writeln!(out, "{}", shorten(&text, style.width))
     })
 }
@@ -254,7 +255,7 @@ fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Resu
     }
     if clean > 0 {
         let others = if rows.is_empty() { "" } else { " more" };
-        let text = format!("{}{others} without findings", plural(clean, unit(report)));
+        let text = format!("{}{others} without findings", counted(clean, unit(report)));
         writeln!(out, "{}", style.paint(GREEN, text))?;
     }
     writeln!(out)

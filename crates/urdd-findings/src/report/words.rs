@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use urdd_format::escape::line as safe;
+use urdd_format::readable::{counted, first_of};
 use urdd_format::report::{Kind, LinkNotVerified, Report, Urdd};
 
 /// A list of codes; if there are many, their number and families.
@@ -14,7 +15,7 @@ pub(super) fn list(codes: &[String]) -> String {
     let mut families: Vec<&str> = codes.iter().map(|code| &code[..code.len().min(3)]).collect();
     families.sort_unstable();
     families.dedup();
-    format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
+    format!("{} ({})", counted(codes.len(), "rule"), families.join(", "))
 }
 
 /// What a report is about.
@@ -23,19 +24,12 @@ pub(super) fn unit(report: &Report) -> &'static str {
     if !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) { "URDF" } else { "URDD" }
 }
 
-/// A count with its unit.
-pub(super) fn plural(count: usize, unit: &str) -> String {
-    // `dynamics` is its own plural.
-    let stays = count == 1 || unit.ends_with('s');
-    format!("{count} {unit}{}", if stays { "" } else { "s" })
-}
-
 /// Maximum number of links listed per reason.
 const LINKS: usize = 8;
 
 /// States how many links were not verified.
 pub(super) fn not_verified(links: usize) -> String {
-    format!("the geometry of {} was not verified", plural(links, "link"))
+    format!("the geometry of {} was not verified", counted(links, "link"))
 }
 
 /// States that a self-collision model was not verified.
@@ -62,11 +56,7 @@ fn describe_links(urdd: &Urdd) -> Option<String> {
         by_reasons.entry(&link.reasons).or_default().push(link);
     }
     let described = by_reasons.into_iter().map(|(reasons, links)| {
-        let named = links.iter().take(LINKS).map(|link| link.link.to_string());
-        let mut text = named.collect::<Vec<_>>().join(", ");
-        if links.len() > LINKS {
-            text += &format!(" and {} more", links.len() - LINKS);
-        }
+        let text = first_of(links.iter().map(|link| link.link), LINKS);
         let codes: BTreeSet<String> = links.iter().flat_map(|link| link.codes.clone()).collect();
         let codes = Vec::from_iter(codes);
         let word = if links.len() == 1 { "link" } else { "links" };

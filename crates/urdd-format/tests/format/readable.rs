@@ -1,6 +1,6 @@
 //! Numbers in messages.
 
-use urdd_format::readable::{metres, number};
+use urdd_format::readable::{counted, first_of, metres, number};
 
 #[test]
 fn an_exponent_stands_only_where_a_number_is_small_or_large() {
@@ -35,4 +35,21 @@ fn any_number_reads_back_as_nearly_itself() {
         assert!((read / value - 1.0).abs() < 1e-5, "{value} {read}");
         value *= 3.7;
     }
+}
+
+#[test]
+fn one_thing_is_one() {
+    assert_eq!(
+        [counted(0, "DOF"), counted(1, "DOF"), counted(2, "DOF"), counted(3, "dynamics")],
+        ["0 DOFs", "1 DOF", "2 DOFs", "3 dynamics"]
+    );
+}
+
+#[test]
+fn what_is_not_listed_is_counted() {
+    let listed = |names: &[&str]| first_of(names.iter(), 2);
+    assert_eq!(listed(&[]), "");
+    assert_eq!(listed(&["a"]), "a");
+    assert_eq!(listed(&["a", "b"]), "a, b");
+    assert_eq!(listed(&["a", "b", "c", "d"]), "a, b and 2 more");
 }

@@ -14,6 +14,7 @@ use super::body::{Bodies, RawBody, WORLD};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::joint::MjcfJointKind;
+use urdd_format::readable::first_of;
 use urdd_format::short::Short;
 
 /// The robot of a model.
@@ -161,14 +162,10 @@ fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, t
         (1..all.len()).filter(|body| trees[*body] == *body && !chosen.contains(body)).collect();
     let place = |index: usize| -> Place { all[index].place };
     if let Some(first) = left.first() {
-        let names: Vec<String> = left.iter().take(5).map(|body| title(&all[*body])).collect();
-        let more = match left.len() - names.len() {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
+        let names = left.iter().map(|body| title(&all[*body]));
         let text = format!(
-            "bodies of the world that are not the robot are left out: {}{more}; `--body NAME` takes one of them, `--body world` all",
-            names.join(", ")
+            "bodies of the world that are not the robot are left out: {}; `--body NAME` takes one of them, `--body world` all",
+            first_of(names, 5)
         );
         tally.remark(place(*first), text);
     }

@@ -111,7 +111,7 @@ fn lists_that_do_not_go_with_the_chain() {
     );
     fault(
         |_, dof| dof.joint_idx_to_dof_idxs_mapping[2].push(DofIdx(0)),
-        "dof_module/joint_idx_to_dof_idxs_mapping/2: 1 DOFs, expected 0 of a mimic joint",
+        "dof_module/joint_idx_to_dof_idxs_mapping/2: 1 DOF, expected 0 of a mimic joint",
     );
 }
 

@@ -1,5 +1,6 @@
 use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
+use urdd_format::readable::counted;
 
 use nalgebra::Isometry3;
 
@@ -104,8 +105,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     };
     let more = match pairs.len() - 1 {
         0 => String::new(),
-        1 => ", and 1 more pair".to_owned(),
-        more => format!(", and {more} more pairs"),
+        more => format!(", and {}", counted(more, "more pair")),
     };
     // Fewer samples of a robot with very many joints.
     let joints = above_joints(&bodies.tree, a).count() + above_joints(&bodies.tree, b).count();
