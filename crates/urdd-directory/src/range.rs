@@ -22,7 +22,7 @@ pub struct Range {
 
 /// A number that an option does not take.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("`{}` must be {range}, not {given}", .range.option)]
+#[error("`{}` must be {range}, not {}", .range.option, as_given(*given))]
 pub struct OutOfRange {
     /// The option, and what it takes.
     pub range: Range,
@@ -68,6 +68,12 @@ impl Range {
         let number = number.filter(|number: &T| self.check((*number).into()).is_ok());
         number.ok_or_else(|| format!("it must be {self}"))
     }
+}
+
+/// With all digits, and no hundreds of zeros.
+fn as_given(number: f64) -> String {
+    let is_usual = number == 0.0 || (1e-5..1e15).contains(&number.abs());
+    if is_usual || !number.is_finite() { number.to_string() } else { format!("{number:e}") }
 }
 
 impl fmt::Display for Range {

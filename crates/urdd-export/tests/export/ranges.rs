@@ -23,9 +23,17 @@ fn of_actuators(bandwidth: f64) -> Choices {
 #[test]
 fn a_bandwidth() {
     for format in [Format::Mjcf, Format::Usd] {
-        for wrong in [-5.0, 0.0, 1e300, f64::NAN, f64::INFINITY] {
+        for (wrong, shown) in [
+            (-5.0, "-5"),
+            (0.0, "0"),
+            (0.001, "0.001"),
+            (1e-300, "1e-300"),
+            (1e300, "1e300"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
             let said = refused(format, of_actuators(wrong)).expect("refused");
-            let expected = format!("`bandwidth` must be from 0.01 to 1,000 Hz, not {wrong}");
+            let expected = format!("`bandwidth` must be from 0.01 to 1,000 Hz, not {shown}");
             assert_eq!(said, expected);
         }
         assert_eq!(refused(format, of_actuators(100.0)), None);
