@@ -83,6 +83,7 @@ impl fmt::Display for Range {
         }
         match (self.least, self.most) {
             (f64::MIN_POSITIVE, f64::MAX) => f.write_str("above 0")?,
+            (f64::MIN_POSITIVE, most) => write!(f, "above 0 and at most {}", grouped(most))?,
             (least, f64::MAX) => write!(f, "at least {least}")?,
             (least, most) => write!(f, "from {} to {}", grouped(least), grouped(most))?,
         }

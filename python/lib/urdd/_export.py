@@ -117,11 +117,14 @@ def export(
             such a pair is disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each
             piece, and USD then does.
         spheres: maximum number of spheres per link. Default: 12 on average and at most 150 in total; with ``cover``, 8.
-        total_spheres: maximum number of spheres for all links together; each link has at least one.
+            It is a whole number from 1 to 10,000.
+        total_spheres: maximum number of spheres for all links together; each link has at least one. It is a whole
+            number from 1 to 65,535.
         cover: makes the spheres enclose each link completely. No collision is missed then, but often every
             configuration is in contact; the file states how often. By default, spheres are fitted to give the same
             answers as the shapes.
-        samples: number of sampled configurations in which spheres are measured; fewer where that would take long.
+        samples: number of sampled configurations in which spheres are measured; fewer where that would take long. It is
+            a whole number from 100 to 1,000,000.
         visuals: visual geometry with fewer triangles: at most a part of them (``0.1``), or at most as many in total
             (``20000``). ``False`` leaves it out.
         mesh_folder: the folder of the mesh files, relative to the file. Default: the name of the file without its
@@ -138,7 +141,7 @@ def export(
             inertias, for ``bandwidth``. ``position``: they are told positions, rad or m; ``velocity``: they are told
             velocities, rad/s or m/s; ``motor``: they are told torques or forces, N m or N.
         bandwidth: MJCF and USD: the frequency below which a joint follows its actuator, Hz. Default: that of
-            ``NAME.export.toml``, or 10.
+            ``NAME.export.toml``, or 10. It is from 0.01 to 1,000 Hz.
         sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``NAME.export.toml``.
         scene: MJCF: writes a scene with floor and light beside the file: ``NAME_scene.xml``.
         robot_file: cuRobo: writes the whole robot file, for the URDF of this path.

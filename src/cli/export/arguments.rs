@@ -137,7 +137,7 @@ fn argument(of: &'static Choice) -> Arg {
         Kind::Words(words) => (argument.value_parser(parser(words).map(Value::String)))
             .action(ArgAction::Append)
             .value_delimiter(','),
-        _ => argument.value_parser(|word: &str| of.parse(word)),
+        _ => argument.value_parser(|word: &str| of.parse(word)).allow_negative_numbers(true),
     };
     let argument = argument.value_name(of.shown);
     match (of.name, (of.default)()) {

@@ -29,6 +29,9 @@ fn an_error_names_the_option_and_its_range() {
     assert_eq!(said(SAMPLES, 7.0).as_deref(), Some(expected));
     let expected = "`bandwidth` must be from 0.01 to 1,000 Hz, not -5";
     assert_eq!(said(BANDWIDTH, -5.0).as_deref(), Some(expected));
+    let step = Range::real("step", f64::MIN_POSITIVE, 0.1, "s");
+    let expected = "`step` must be above 0 and at most 0.1 s, not 0";
+    assert_eq!(said(step, 0.0).as_deref(), Some(expected));
     assert_eq!(SAMPLES.parse::<u32>("100"), Ok(100));
     for word in ["x", "99", "100.0", "-1"] {
         let expected = "it must be a whole number from 100 to 1,000,000";

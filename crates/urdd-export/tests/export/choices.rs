@@ -1,6 +1,8 @@
 //! What fits which format is said once, in the library.
 
-use urdd_export::{ActuatorKind, Choices, Fit, Format, Ros};
+use std::collections::BTreeSet;
+
+use urdd_export::{ActuatorKind, CHOICES, Choices, Fit, Format, Ros};
 
 /// Each option that only some formats have is refused by all others, and named.
 #[test]
@@ -19,6 +21,9 @@ fn what_a_format_does_not_have_is_refused() {
         ("ros", Choices { ros: Some(Ros::Humble), ..none() }, "moveit"),
         ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
     ];
+    let few = CHOICES.iter().filter(|choice| choice.of.len() < Format::ALL.len());
+    let few: BTreeSet<&str> = few.map(|choice| choice.name).collect();
+    assert_eq!(few, cases.iter().map(|(option, ..)| *option).collect());
     for format in Format::ALL {
         assert_eq!(none().options(*format).map(|options| options.format), Ok(*format));
         for (option, choices, formats) in &cases {

@@ -27,6 +27,14 @@ fn about(choice: &Choice, code: &str) -> String {
     parts.collect::<Vec<_>>().join(code)
 }
 
+/// What a number may be, in a sentence.
+fn its_range(choice: &Choice) -> String {
+    match choice.kind {
+        Kind::Number(range) => format!(" It is {range}."),
+        _ => String::new(),
+    }
+}
+
 /// In a sentence: names keep their capitals.
 fn lower(text: &str) -> String {
     let (word, rest) = text.split_once(' ').unwrap_or((text, ""));
@@ -55,7 +63,7 @@ fn quoted(words: &[Word], between: &str) -> String {
     words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(between)
 }
 
-/// Options that CHANGELOG.md tells in other words.
+/// Options that CHANGELOG.md tells in other words: three are older, and `robot_file` is `--config`.
 const TOLD_OTHERWISE: [&str; 4] = ["reasons", "total_spheres", "mesh_folder", "robot_file"];
 
 #[test]
@@ -104,7 +112,7 @@ fn python() {
         };
         let (or, default) = default.map_or((" | None", "None".to_owned()), |default| ("", default));
         signature += &format!("    {}: {of}{or} = {default},\n", choice.name);
-        let text = lower(&about(choice, "``"));
+        let text = lower(&about(choice, "``")) + &its_range(choice);
         docs += &wrapped(&text, &format!("        {}:", choice.name), &" ".repeat(12));
     }
     let marks = [
@@ -129,13 +137,9 @@ fn javascript() {
             Kind::Fit => "[number, number]".to_owned(),
             Kind::Detail => "boolean | number".to_owned(),
         };
-        let range = match choice.kind {
-            Kind::Number(range) => format!(" It is {range}."),
-            _ => String::new(),
-        };
         text += "  /**\n";
         let about = about(choice, "`").replace("`False`", "`false`");
-        text += &wrapped(&(about + &range), "   *", "   * ");
+        text += &wrapped(&(about + &its_range(choice)), "   *", "   * ");
         text += &format!("   */\n  {}?: {of};\n", choice.name);
     }
     let marks = ["  // `cargo xtask update` writes these.\n", "  // These are written by hand.\n"];

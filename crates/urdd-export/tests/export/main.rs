@@ -6,6 +6,7 @@
 mod carried;
 mod choices;
 mod drake;
+mod effects;
 mod fitted;
 mod fitted_spheres;
 mod front_ends;
