@@ -68,6 +68,11 @@ pub(super) fn gains(
     Ok((all, said))
 }
 
+/// A value above 0.
+pub(super) fn positive(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| *value > 0.0)
+}
+
 /// To four significant digits: more would say more than is known.
 fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)

@@ -106,9 +106,8 @@ pub use spheres::SphereRates;
 pub use spheres::import::{
     ImportedSpheres, ListError, SphereFault, SpheresError, import_spheres, read_spheres,
 };
-pub use srdf::error::SrdfError;
 pub use srdf::groups::joint_groups_of_srdf;
-pub use srdf::import::{ImportedSkips, ImportedStates, import_srdf, import_states};
+pub use srdf::import::{ImportedSkips, ImportedStates, SrdfError, import_srdf, import_states};
 pub use urdd_directory::export_toml::ActuatorKind;
 pub use urdd_format::word::{UnknownWord, Word};
 pub use urdd_spheres::list::SphereList;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::Isometry3;
 
-use crate::names::FileNames;
+use crate::names::{FileNames, last};
 use crate::simplify::simplify_all;
 use crate::textures::{Image, Images};
 use crate::{Detail, ExportError, Format, Note, Shapes, Subject};
@@ -81,12 +81,10 @@ impl<'a> MeshFiles<'a> {
         let mut bytes = Vec::new();
         // MJCF names the texture itself.
         if self.subject.format != Format::Mjcf {
-            let file = image.rsplit('/').next().unwrap_or(&image);
-            let library = format!("newmtl texture\nKa 1 1 1\nKd 1 1 1\nmap_Kd {file}\n");
+            let library = format!("newmtl texture\nKa 1 1 1\nKd 1 1 1\nmap_Kd {}\n", last(&image));
             let library =
                 self.file(link, &format!("material_{place}"), "mtl", library.into_bytes());
-            let library = library.rsplit('/').next().unwrap_or(&library);
-            bytes = format!("mtllib {library}\nusemtl texture\n").into_bytes();
+            bytes = format!("mtllib {}\nusemtl texture\n", last(&library)).into_bytes();
         }
         bytes.extend(MeshFormat::Obj.write(look.part).map_err(self.fault(link))?);
         Ok((self.file(link, &what, "obj", bytes), Some(image)))

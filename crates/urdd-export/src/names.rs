@@ -129,6 +129,11 @@ fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -
     ExportError::Name { format, what, name: name.to_owned(), reason }
 }
 
+/// The last name of a path.
+pub(super) fn last(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
+}
+
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.
 #[derive(Debug, Default)]
 pub struct FileNames {

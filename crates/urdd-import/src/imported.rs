@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use super::model::{Geometry, Model};
 use super::place::TextFile;
-use super::refusal::{Placed, Positions, placed};
+use super::refusal::{Placed, Positions, Refusal, placed};
 use super::report::Report;
 use super::tree::Tree;
 use super::urdf::{UNIT_SPHERE, urdf};
@@ -268,7 +268,7 @@ fn written(
     options: &ImportOptions,
     gate: &Gate,
 ) -> Result<Imported, SourceError> {
-    let too_much = |(place, why)| refused(placed(&model.files, place, why));
+    let too_much = |why: Refusal| refused(placed(&model.files, why));
     let tree = Tree::of(&model, options, gate.account()).map_err(too_much)?;
     let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
     let base = match model.name.trim_start_matches(['.', '-']) {
@@ -282,15 +282,16 @@ fn written(
     let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
     let text = urdf(&model, &tree, &original, options, gate.account()).map_err(too_much)?;
     files.insert(name.clone(), text.into_bytes().into());
-    if let Some(srdf) = companions::srdf(&model, &tree, &original) {
-        files.insert(base.to_owned() + SRDF, srdf.into_bytes().into());
-    }
-    if let Some(loops) = companions::loops(&model) {
-        files.insert(base.to_owned() + LOOPS, loops.into_bytes().into());
-    }
-    if let Some(setup) = companions::setup(&model, &tree) {
-        files.insert(base.to_owned() + SETUP, setup.into_bytes().into());
-    }
+    let companions = [
+        (SRDF, companions::srdf(&model, &tree, &original)),
+        (LOOPS, companions::loops(&model)),
+        (SETUP, companions::setup(&model, &tree)),
+    ];
+    files.extend(
+        companions.into_iter().filter_map(|(ending, text)| {
+            Some((base.to_owned() + ending, text?.into_bytes().into()))
+        }),
+    );
     let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
     if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
         let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
@@ -313,14 +314,12 @@ fn written(
     });
     let mut report = Report::of(&model, format, &positions, &gate.all_elsewhere());
     if base != model.name {
-        report.remarks.push(Note {
-            kind: NoteKind::Otherwise,
-            file: shown.clone(),
-            line: 0,
-            column: 0,
-            problem: "the name of the robot is not one that all file systems take".to_owned(),
-            assumed: format!("its files are named after `{base}`"),
-        });
+        report.remarks.push(Note::of_file(
+            &shown,
+            NoteKind::Otherwise,
+            "the name of the robot is not one that all file systems take",
+            format!("its files are named after `{base}`"),
+        ));
     }
     Ok(Imported {
         places: places.collect(),

@@ -7,6 +7,7 @@ mod companions;
 mod cone;
 mod fault;
 mod features;
+mod forest;
 mod imported;
 mod limits;
 mod mass;
@@ -15,10 +16,11 @@ mod mjcf;
 mod model;
 mod names;
 mod place;
+mod price;
 mod refusal;
 pub mod report;
 mod sdf;
-mod sets;
+
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -26,3 +26,18 @@ pub fn limits(
     tally.remark(place, text);
     Some(range)
 }
+
+/// Says that a joint closes a chain, in which its limits are left out.
+pub fn say_closed(
+    ranges: impl IntoIterator<Item = [f64; 2]>,
+    (joint, place): (&str, Place),
+    tally: &mut Tally,
+) {
+    tally.count(features::CLOSED);
+    if ranges.into_iter().flatten().any(f64::is_finite) {
+        let text = format!(
+            "the limits of joint `{joint}` are left out: it closes a chain, and moves as the others let it"
+        );
+        tally.remark(place, text);
+    }
+}

@@ -1,52 +1,63 @@
-//! Masses with their centres and inertias, and many as one; those of primitives, and of shells as MuJoCo has them.
+//! Masses with their centres and inertias: many as one, and those of primitives, and of shells as MuJoCo has them.
 
 use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
 
-use super::model::Geometry;
+use super::model::{Geometry, Inertial};
 
-/// A mass, its centre, and the inertia about it along the axes of the frame.
-#[derive(Debug, Clone, Copy)]
-pub struct Mass {
-    /// kg.
-    pub mass: f64,
-    /// m.
-    pub centre: Vector3<f64>,
-    /// kg m².
-    pub inertia: Matrix3<f64>,
+/// The density of what says none, kg/m³.
+pub const WATER: f64 = 1000.0;
+
+/// The inertia of moments and products: xx, yy, zz, xy, xz, yz.
+pub fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-impl Mass {
-    /// A mass with these moments about the axes of its frame.
-    pub fn along_axes(mass: f64, centre: Vector3<f64>, moments: [f64; 3]) -> Self {
-        Mass { mass, centre, inertia: Matrix3::from_diagonal(&moments.into()) }
+/// An inertia along axes that are turned.
+pub fn turned(inertia: &Matrix3<f64>, by: &UnitQuaternion<f64>) -> Matrix3<f64> {
+    let rotation = by.to_rotation_matrix();
+    rotation.matrix() * inertia * rotation.matrix().transpose()
+}
+
+impl Inertial {
+    /// A mass about the origin, with these moments about the axes of its frame.
+    pub fn along_axes(mass: f64, moments: [f64; 3]) -> Self {
+        let inertia = Matrix3::from_diagonal(&moments.into());
+        Inertial { mass, centre: Point3::origin(), inertia }
+    }
+
+    /// That of a primitive; of a shell, by its area.
+    pub fn of_primitive(shape: &Geometry, is_shell: bool, density: f64) -> Self {
+        let mass = density * volume(shape, is_shell);
+        Inertial::along_axes(mass, moments(shape, is_shell, mass))
     }
 
     /// As it is where its frame has a pose.
     pub fn at(&self, pose: &Isometry3<f64>) -> Self {
-        let rotation = pose.rotation.to_rotation_matrix();
-        Mass {
-            mass: self.mass,
-            centre: (pose * Point3::from(self.centre)).coords,
-            inertia: rotation.matrix() * self.inertia * rotation.matrix().transpose(),
-        }
+        let inertia = turned(&self.inertia, &pose.rotation);
+        Inertial { mass: self.mass, centre: pose * self.centre, inertia }
+    }
+
+    /// The same at another density.
+    pub fn weighing(&self, mass: f64) -> Self {
+        Inertial { mass, centre: self.centre, inertia: self.inertia * (mass / self.mass) }
     }
 
     /// Masses as one; none without any.
-    pub fn together(parts: &[Mass]) -> Option<Mass> {
+    pub fn together(parts: &[Inertial]) -> Option<Inertial> {
         if let [only] = parts {
             return Some(*only);
         }
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
-        let weighted: Vector3<f64> = parts.iter().map(|part| part.centre * part.mass).sum();
-        let centre = (!parts.is_empty()).then(|| weighted / mass)?;
+        let weighted: Vector3<f64> = parts.iter().map(|part| part.centre.coords * part.mass).sum();
+        let centre = (!parts.is_empty()).then(|| Point3::from(weighted / mass))?;
         let inertia = parts.iter().map(|part| {
             let off = part.centre - centre;
             let around = Matrix3::identity() * off.norm_squared() - off * off.transpose();
             part.inertia + around * part.mass
         });
-        Some(Mass { mass, centre, inertia: inertia.sum() })
+        Some(Inertial { mass, centre, inertia: inertia.sum() })
     }
 }
 

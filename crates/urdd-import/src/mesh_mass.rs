@@ -1,5 +1,6 @@
 //! Volume, centre and inertia of meshes, as MuJoCo has them.
 
+use super::model::Inertial;
 use nalgebra::{Matrix3, Vector3};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
@@ -20,18 +21,8 @@ pub enum Mode {
     Shell,
 }
 
-/// The measures of a mesh.
-#[derive(Debug, Clone, Copy)]
-pub struct Measures {
-    /// Of a shell, the area.
-    pub volume: f64,
-    pub centre: Vector3<f64>,
-    /// About the centre, at a density of 1.
-    pub inertia: Matrix3<f64>,
-}
-
-/// Measures a mesh, or says what is wrong with it.
-pub fn measure(mesh: &Mesh, mode: Mode) -> Result<Measures, &'static str> {
+/// The mass of a mesh at a density of 1, which is its volume, or of a shell its area; or what is wrong with it.
+pub fn measure(mesh: &Mesh, mode: Mode) -> Result<Inertial, &'static str> {
     let hull = match mode {
         Mode::Convex => Some(ConvexHull::new(&mesh.vertices).map_err(|_| "has no convex hull")?),
         Mode::Legacy | Mode::Exact | Mode::Shell => None,
@@ -76,7 +67,7 @@ pub fn measure(mesh: &Mesh, mode: Mode) -> Result<Measures, &'static str> {
         });
     }
     centre /= total;
-    let (mut squares, mut volume) = (Matrix3::zeros(), 0.0);
+    let (mut squares, mut mass) = (Matrix3::zeros(), 0.0);
     for corners in &triangles {
         let part = weight(corners, centre);
         let [d, e, f] = corners.map(|corner| corner - centre);
@@ -84,10 +75,10 @@ pub fn measure(mesh: &Mesh, mode: Mode) -> Result<Measures, &'static str> {
         let own = d * d.transpose() + e * e.transpose() + f * f.transpose();
         let share = if mode == Mode::Shell { 12.0 } else { 20.0 };
         squares += (own + sum * sum.transpose()) * (part / share);
-        volume += part;
+        mass += part;
     }
     let inertia = Matrix3::identity() * squares.trace() - squares;
-    Ok(Measures { volume, centre, inertia })
+    Ok(Inertial { mass, centre: centre.into(), inertia })
 }
 
 /// Twice the area, along the normal. That of a needle is 0.

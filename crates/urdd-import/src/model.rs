@@ -7,10 +7,10 @@
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use urdd_directory::account::{Charged, Cost};
+use urdd_directory::account::Charged;
 use urdd_format::loops::LoopKind;
 
-use super::features::Tally;
+use super::features::{self, Feature, Tally};
 use super::place::{Place, TextFile};
 
 /// A robot.
@@ -84,17 +84,15 @@ impl Body {
     }
 }
 
-/// Mass, centre of mass and inertia about it, in the body's frame.
-#[derive(Debug, Clone, PartialEq)]
+/// Mass, centre of mass and inertia about it, in the frame of a body or of a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inertial {
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass.
     pub centre: Point3<f64>,
-    /// The inertia about the centre of mass, along the axes of the body.
+    /// The inertia about the centre of mass, along the axes of the frame.
     pub inertia: Matrix3<f64>,
-    /// Where it stands.
-    pub place: Place,
 }
 
 /// How a joint moves.
@@ -195,6 +193,17 @@ impl Joint {
             place,
         }
     }
+
+    /// What is counted of it.
+    pub fn feature(&self) -> Feature {
+        match (self.kind, self.range) {
+            (JointKind::Hinge, _) => features::HINGES,
+            (JointKind::Slide, None) => features::FREE_SLIDES,
+            (JointKind::Slide, Some(_)) => features::SLIDES,
+            (JointKind::Ball, _) => features::BALLS,
+            (JointKind::Planar | JointKind::Floating, _) => features::PLANAR,
+        }
+    }
 }
 
 /// `value = multiplier × leader + offset`.
@@ -249,6 +258,18 @@ pub enum Geometry {
     Ellipsoid([f64; 3]),
     /// A mesh: an index in [`Model::assets`], and the factors by which it is scaled.
     Mesh { asset: usize, scale: [f64; 3] },
+}
+
+impl Geometry {
+    /// What is counted of it.
+    pub fn feature(&self) -> Feature {
+        match self {
+            Geometry::Capsule { .. } => features::CAPSULES,
+            Geometry::Ellipsoid(_) => features::ELLIPSOIDS,
+            Geometry::Mesh { .. } => features::MESHES,
+            Geometry::Box(_) | Geometry::Cylinder { .. } | Geometry::Sphere(_) => features::BOXES,
+        }
+    }
 }
 
 /// How a shape looks.
@@ -335,75 +356,4 @@ pub struct Apart {
     pub bodies: [usize; 2],
     /// The reason; of those that are never checked in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
     pub reason: &'static str,
-}
-
-/// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
-pub const ENTRY: usize = 3000;
-/// The same, of a value of a joint or a pair.
-pub const PART: usize = 500;
-/// The same, of each byte of a name.
-pub const LETTER: usize = 12;
-
-impl Cost for Body {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.len()
-    }
-}
-
-impl Cost for Joint {
-    fn cost(&self) -> usize {
-        let leader = self.mimic.as_ref().map(|of| &of.joint);
-        let others = leader.into_iter().chain(&self.actuator.name);
-        ENTRY + LETTER * (self.name.len() + others.map(String::len).sum::<usize>())
-    }
-}
-
-impl Cost for Shape {
-    fn cost(&self) -> usize {
-        let material = self.material.as_ref().and_then(|material| material.name.as_ref());
-        ENTRY + LETTER * self.name.iter().chain(material).map(String::len).sum::<usize>()
-    }
-}
-
-impl Cost for Asset {
-    fn cost(&self) -> usize {
-        self.path.len() + self.bytes.len()
-    }
-}
-
-impl Cost for Configuration {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.len()
-    }
-}
-
-impl Cost for JointValue {
-    fn cost(&self) -> usize {
-        PART + LETTER * self.name.len()
-    }
-}
-
-impl Cost for Apart {
-    fn cost(&self) -> usize {
-        PART
-    }
-}
-
-impl Cost for Closing {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.as_ref().map_or(0, String::len)
-    }
-}
-
-impl Cost for Coupled {
-    fn cost(&self) -> usize {
-        let names = self.name.iter().chain(self.terms.iter().map(|(name, _)| name));
-        ENTRY + LETTER * names.map(String::len).sum::<usize>()
-    }
-}
-
-impl Cost for GazeboElement {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.0.len()
-    }
 }

@@ -19,9 +19,15 @@ pub fn at(place: Place, fault: impl Into<ImportFault>) -> Refusal {
     Refusal { place, fault: fault.into() }
 }
 
-impl Refusal {
-    pub fn at<T>(place: Place, fault: impl Into<ImportFault>) -> Result<T, Self> {
-        Err(at(place, fault))
+/// What fails without a place, and is given one.
+pub trait Placing<T> {
+    /// Its fault at a place.
+    fn at(self, place: Place) -> Fallible<T>;
+}
+
+impl<T, E: Into<ImportFault>> Placing<T> for Result<T, E> {
+    fn at(self, place: Place) -> Fallible<T> {
+        self.map_err(|fault| at(place, fault))
     }
 }
 
@@ -38,12 +44,12 @@ pub struct Placed {
     pub fault: ImportFault,
 }
 
-/// A fault at a place of one of the files.
-pub fn placed(files: &[TextFile], place: Place, fault: impl Into<ImportFault>) -> Placed {
+/// A fault in one of the files.
+pub fn placed(files: &[TextFile], Refusal { place, fault }: Refusal) -> Placed {
     let file = files.get(place.file).map_or(&[][..], std::slice::from_ref);
     let there = Positions::of(file).at(Place { file: 0, ..place });
     let (file, line, column) = there.unwrap_or_default();
-    Placed { file: file.to_owned(), line, column, fault: fault.into() }
+    Placed { file: file.to_owned(), line, column, fault }
 }
 
 /// The lines of files, for places in them.

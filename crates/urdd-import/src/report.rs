@@ -9,7 +9,7 @@ use super::place::Place;
 use super::refusal::Positions;
 use urdd_format::carried::{self, How, Part, table};
 use urdd_source::Format;
-use urdd_source::note::{Note, NoteKind};
+use urdd_source::note::{Note, NoteKind, SourcePlace};
 
 /// What became of a description.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,27 +42,14 @@ impl Report {
         parts.extend(unread.map(|(name, count)| (name.clone(), *count, How::No)));
         let note = |remark: &Remark| {
             let (file, line, column) = positions.at(remark.place).unwrap_or_default();
-            let (problem, assumed) = (remark.text.clone(), String::new());
-            Note {
-                kind: NoteKind::Otherwise,
-                file: file.to_owned(),
-                line,
-                column,
-                problem,
-                assumed,
-            }
+            let place = SourcePlace { file: file.to_owned(), line, column };
+            Note::at(place, NoteKind::Otherwise, &*remark.text, "")
         };
         let first = positions.at(Place::default()).map_or("", |(file, ..)| file);
-        let outside = elsewhere.iter().map(|(path, why)| Note {
-            kind: NoteKind::Outside,
-            file: first.to_owned(),
-            line: 0,
-            column: 0,
-            problem: format!(
-                "{} is outside of the description's folder and project",
-                path.display()
-            ),
-            assumed: format!("read, {why}"),
+        let outside = elsewhere.iter().map(|(path, why)| {
+            let path = path.display();
+            let problem = format!("{path} is outside of the description's folder and project");
+            Note::of_file(first, NoteKind::Outside, problem, format!("read, {why}"))
         });
         let remarks = model.tally.remarks.iter().map(note).chain(outside).collect();
         Report { robot: model.name.clone(), format, parts, remarks }
@@ -84,20 +71,12 @@ impl Report {
 
     /// All that is lost or carried otherwise, as notes; `file` is the description.
     pub fn notes(&self, file: &str) -> Vec<Note> {
-        let whole = |kind, problem, assumed: &str| Note {
-            kind,
-            file: file.to_owned(),
-            line: 0,
-            column: 0,
-            problem,
-            assumed: assumed.to_owned(),
+        let note = |kind, (what, count, how): (&str, usize, &str)| {
+            Note::of_file(file, kind, format!("{what} ({count})"), how)
         };
-        let lost = self.lost().map(|(what, count)| {
-            whole(NoteKind::Lost, format!("{what} ({count})"), "lost; a URDF cannot say it")
-        });
-        let otherwise = self
-            .otherwise()
-            .map(|(what, count, how)| whole(NoteKind::Otherwise, format!("{what} ({count})"), how));
+        let lost = self.lost().map(|(what, count)| (what, count, "lost; a URDF cannot say it"));
+        let lost = lost.map(|part| note(NoteKind::Lost, part));
+        let otherwise = self.otherwise().map(|part| note(NoteKind::Otherwise, part));
         lost.chain(otherwise).chain(self.remarks.iter().cloned()).collect()
     }
 

@@ -3,9 +3,11 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use urdd_directory::account::{Account, Charged, Cost, Overdrawn};
 
-use super::model::{Body, Joint, JointKind, LETTER, Mimic, Model, PART};
+use super::model::{Body, Joint, JointKind, Mimic, Model};
 use super::names::Names;
 use super::place::Place;
+use super::price::{LETTER, PART};
+use super::refusal::{Fallible, Placing};
 use urdd_source::ImportOptions;
 
 /// The axes about which the three joints of a ball turn, and what is put behind its name.
@@ -64,18 +66,13 @@ impl Tree {
     ///
     /// # Errors
     /// If the account does not have what names cost that are made of others; with the place of the body.
-    pub fn of(
-        model: &Model,
-        options: &ImportOptions,
-        account: &Account,
-    ) -> Result<Self, (Place, Overdrawn)> {
+    pub fn of(model: &Model, options: &ImportOptions, account: &Account) -> Fallible<Self> {
         let (links, joints) = (Names::new(account), Names::new(account));
         let mut names = Taken { links, joints, account };
         for body in &model.bodies {
-            let too_much = |why| (body.place, why);
-            names.links.take(&body.name).map_err(too_much)?;
+            names.links.take(&body.name).at(body.place)?;
             for joint in &body.joints {
-                names.joints.take(&joint.name).map_err(too_much)?;
+                names.joints.take(&joint.name).at(body.place)?;
             }
         }
         let mut tree = Tree::default();
@@ -83,10 +80,10 @@ impl Tree {
             let parent = body.parent.and_then(|parent| model.bodies.get(parent));
             if let Some(parent) = parent {
                 let connected = tree.connect(at, body, &parent.name, options, &mut names);
-                connected.map_err(|why| (body.place, why))?;
+                connected.at(body.place)?;
             }
             let link = Link { name: body.name.clone(), body: Some(at), place: body.place };
-            tree.links.push(link, account).map_err(|why| (body.place, why))?;
+            tree.links.push(link, account).at(body.place)?;
         }
         Ok(tree)
     }

@@ -1,10 +1,10 @@
 //! Writes the URDF of a [`Model`].
 
-use nalgebra::{Isometry3, Matrix3, Point3, Translation3};
+use nalgebra::{Isometry3, Translation3};
 
 use super::model::{Geometry, Inertial, JointKind, Material, Model, Shape, Use};
 use super::names::Titles;
-use super::place::Place;
+use super::refusal::{Fallible, Placing};
 use super::tree::{Edge, Link, Tree};
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_kinematics::rotation::to_rpy;
@@ -31,13 +31,12 @@ pub fn urdf(
     original: &str,
     options: &ImportOptions,
     account: &Account,
-) -> Result<String, (Place, Overdrawn)> {
+) -> Fallible<String> {
     let mut titles = Titles::new(account);
     let mut robot = Element::new("robot").with("name", &*model.name);
     let mut edges = tree.joints.iter();
     for link in &tree.links {
-        let element = link_element(model, link, options, &mut titles);
-        robot.push(element.map_err(|why| (link.place, why))?);
+        robot.push(link_element(model, link, options, &mut titles).at(link.place)?);
         // Each link but the root follows the joint that leads to it.
         if link.name == tree.links[0].name {
             continue;
@@ -61,7 +60,8 @@ fn link_element(
 ) -> Result<Element, Overdrawn> {
     let mut element = Element::new("link").with("name", &*link.name);
     let Some(body) = link.body.map(|body| &model.bodies[body]) else {
-        element.extend(options.has_tiny_masses.then(|| inertial(&tiny(link.place))));
+        let tiny = Inertial::along_axes(TINY, [TINY; 3]);
+        element.extend(options.has_tiny_masses.then(|| inertial(&tiny)));
         return Ok(element);
     };
     element.extend(body.inertial.as_ref().map(inertial));
@@ -86,11 +86,6 @@ fn link_element(
         }
     }
     Ok(element)
-}
-
-fn tiny(place: Place) -> Inertial {
-    let inertia = Matrix3::from_diagonal_element(TINY);
-    Inertial { mass: TINY, centre: Point3::origin(), inertia, place }
 }
 
 /// A shape as shapes of URDF 1.0, each with what is put behind its name.

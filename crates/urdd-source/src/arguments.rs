@@ -346,7 +346,6 @@ impl<'a> Texts<'a> {
         let folder = package.join("launch");
         let mut names = files.names(&folder);
         names.retain(|name| name.to_string_lossy().ends_with(".py"));
-        names.sort();
         let mut all = BTreeMap::new();
         for name in names.into_iter().take(MAX_LAUNCHES) {
             let Ok(found) = self.gate.at(&folder.join(name)) else { continue };

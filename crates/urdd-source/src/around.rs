@@ -66,7 +66,6 @@ pub fn around(urdf_folder: &Path, files: &Files) -> Vec<Around> {
         urdf_folder.ancestors().filter_map(|folder| of(folder, true)).collect();
     for above in urdf_folder.ancestors().take(LEVELS) {
         let mut names = files.names(above);
-        names.sort();
         names.truncate(MOST_NAMES);
         let beside = names.into_iter().map(|name| above.join(name));
         let beside =

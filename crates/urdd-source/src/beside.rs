@@ -42,7 +42,8 @@ impl Beside {
     }
 }
 
-fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companion> {
+/// The text of a file that is found by its name: no link leads out of the robot's folders. `None` if it is not there.
+pub(super) fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companion> {
     let found = match gate.at(path) {
         Ok(found) => found,
         Err(missing) => {
@@ -54,5 +55,10 @@ fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companion> {
         }
     };
     let bytes = gate.bytes(&found, limit).map_err(|error| error.to_string());
-    Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
+    Some(bytes.and_then(text))
+}
+
+/// Bytes as a text.
+pub(super) fn text(bytes: Vec<u8>) -> Companion {
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
 }

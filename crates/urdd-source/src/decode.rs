@@ -35,21 +35,14 @@ pub fn decode(
         _ => None,
     };
     let encoding = mark.or(guessed).or(declared.filter(|encoding| *encoding != UTF_8));
-    let mut note = |problem: String, assumed: String| {
-        notes.push(Note {
-            kind: NoteKind::Encoding,
-            file: shown.to_owned(),
-            line: 0,
-            column: 0,
-            problem,
-            assumed,
-        });
+    let mut note = |problem: String, assumed: &str| {
+        notes.push(Note::of_file(shown, NoteKind::Encoding, problem, assumed));
     };
     let encoding = match encoding {
         Some(encoding) => {
             let name = encoding.name();
             let problem = format!("the file is encoded in {name}, but URDDs are in UTF-8");
-            note(problem, "carried in UTF-8".to_owned());
+            note(problem, "carried in UTF-8");
             encoding
         }
         None => {
@@ -60,7 +53,7 @@ pub fn decode(
                 });
             }
             let problem = "the file is not UTF-8, and declares no other encoding".to_owned();
-            note(problem, "read as windows-1252, carried in UTF-8".to_owned());
+            note(problem, "read as windows-1252, carried in UTF-8");
             WINDOWS_1252
         }
     };

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use crate::beside::text;
 use crate::files::MAX_SOURCE_BYTES;
 use crate::gate::Gate;
 use crate::installed::Installed;
@@ -152,12 +153,11 @@ impl Texts<'_> {
     }
 
     fn read(&self, path: &Path) -> Result<MacroFile, Reason> {
-        let unreadable = |why: String| Reason::Unreadable(why);
+        let unreadable = Reason::Unreadable;
         let bytes = self.settings.files.read(path, MAX_SOURCE_BYTES);
         let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
         self.account.deposit(bytes.len());
-        let text =
-            String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
+        let text = text(bytes).map_err(unreadable)?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         if !text.contains("xacro") {
             return Ok(MacroFile::plain(text));

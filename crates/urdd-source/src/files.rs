@@ -236,11 +236,13 @@ impl Files {
         matches!(self, Files::Disk) && path.is_symlink() && !path.exists()
     }
 
-    /// The names in a folder, in no order; none if it cannot be read.
+    /// The names in a folder, sorted; none if it cannot be read.
     pub fn names(&self, folder: &Path) -> Vec<OsString> {
         let Files::Memory(files) = self else {
             let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-            return entries.map(|entry| entry.file_name()).collect();
+            let mut names: Vec<OsString> = entries.map(|entry| entry.file_name()).collect();
+            names.sort();
+            return names;
         };
         let Some(folder) = plain(folder) else {
             return Vec::new();

@@ -1,6 +1,8 @@
 //! Where the files of a package are when it is installed: what its CMakeLists.txt or setup.py installs below `share/NAME`, as
 //! far as it says so literally. `$(find NAME)` and `package://NAME` mean that tree.
 
+use std::path::Path;
+
 /// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
 pub const MAX_VALUE: usize = 255;
 
@@ -42,6 +44,16 @@ impl Installed {
         };
         let slash = if inside.is_empty() || last.is_empty() { "" } else { "/" };
         self.rules.push(Rule { target: format!("{inside}{slash}{last}"), source: source_path });
+    }
+
+    /// That the package in a folder says in words which are not understood what it installs.
+    pub fn by_variables(&self, folder: &Path) -> Option<String> {
+        let (file, line) = self.unknown?;
+        let file = folder.join(file);
+        Some(format!(
+            "{}:{line} installs files by variables that only a build knows",
+            file.display()
+        ))
     }
 
     /// Whether everything is installed where it is in the sources.

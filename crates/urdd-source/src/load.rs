@@ -390,9 +390,8 @@ fn mend<T>(
 }
 
 fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = Note> {
-    remarks.iter().zip(places).map(|(remark, SourcePlace { file, line, column })| {
-        let (problem, assumed) = (remark.problem.clone(), remark.assumed.clone());
-        Note { kind: remark.kind, file, line, column, problem, assumed }
+    remarks.iter().zip(places).map(|(remark, place)| {
+        Note::at(place, remark.kind, remark.problem.clone(), remark.assumed.clone())
     })
 }
 

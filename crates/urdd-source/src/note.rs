@@ -127,6 +127,29 @@ pub struct Note {
     pub assumed: String,
 }
 
+impl Note {
+    /// A note about a place.
+    pub fn at(
+        place: SourcePlace,
+        kind: NoteKind,
+        problem: impl Into<String>,
+        assumed: impl Into<String>,
+    ) -> Self {
+        let SourcePlace { file, line, column } = place;
+        Note { kind, file, line, column, problem: problem.into(), assumed: assumed.into() }
+    }
+
+    /// A note about a file as a whole.
+    pub fn of_file(
+        file: &str,
+        kind: NoteKind,
+        problem: impl Into<String>,
+        assumed: impl Into<String>,
+    ) -> Self {
+        Note::at(SourcePlace { file: file.to_owned(), line: 0, column: 0 }, kind, problem, assumed)
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // One line: a name must not add line breaks.

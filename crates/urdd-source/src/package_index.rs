@@ -127,11 +127,10 @@ impl PackageIndex {
         let is_in =
             |one: &&Linked| one.at.to_str().is_some_and(|at| words.contains(&format!("{at}/")));
         self.linked.iter().filter(is_in).find_map(|one| {
-            let (file, line) = one.installed.unknown?;
-            let file = one.folder.join(file);
+            let why = one.installed.by_variables(&one.folder)?;
             let folder = one.folder.display();
             Some(format!(
-                "{}:{line} installs files by variables that only a build knows; if this is one of them, build {folder} and source its install/setup.bash", file.display()
+                "{why}; if this is one of them, build {folder} and source its install/setup.bash"
             ))
         })
     }

@@ -161,10 +161,8 @@ impl Packages {
         let mut found = Vec::new();
         for share in self.ament_prefix_path.iter().map(|prefix| prefix.join("share")) {
             let names = Files::Disk.names(&share.join("ament_index/resource_index/packages"));
-            let mut names: Vec<String> =
-                names.into_iter().filter_map(|name| name.into_string().ok()).collect();
-            names.sort();
-            found.extend(names.into_iter().map(|name| (name.clone(), share.join(name))));
+            let names = names.into_iter().filter_map(|name| name.into_string().ok());
+            found.extend(names.map(|name| (name.clone(), share.join(name))));
         }
         found.truncate(MOST_INSTALLED);
         found
@@ -188,7 +186,6 @@ pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
 /// The packages right in a folder, by name.
 fn beside(folder: &Path) -> Vec<(String, PathBuf)> {
     let mut names = Files::Disk.names(folder);
-    names.sort();
     names.truncate(MOST_NAMES);
     let folders = names.into_iter().map(|name| folder.join(name));
     folders.filter_map(|folder| Some((package_name(&folder, &Files::Disk)?, folder))).collect()
@@ -222,7 +219,6 @@ fn crawl(
     }
     let mut names = files.names(folder);
     names.retain(|name| !name.to_string_lossy().starts_with('.'));
-    names.sort();
     names.truncate(MOST_NAMES);
     let below = names.into_iter().map(|name| folder.join(name));
     let below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();

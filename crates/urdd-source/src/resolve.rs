@@ -213,24 +213,21 @@ impl Search<'_> {
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
         for folder in &folders {
-            let found = self.in_folder(folder, rest, package);
-            if found.is_some() {
-                return found;
+            if let Some(found) = self.in_folder(folder, rest, package) {
+                return Some(found);
             }
         }
         if let Some(folder) = self.roots.crawled(package, packages) {
-            let found = self.in_folder(folder, rest, package);
-            if found.is_some() {
-                return found;
+            if let Some(found) = self.in_folder(folder, rest, package) {
+                return Some(found);
             }
             folders.push(folder.to_owned());
         }
         let around = self.roots.around(urdf_folder);
         let beside = around.iter().find(|one| one.has_manifest && one.name == package);
         if let Some(folder) = beside.map(|one| &one.folder).filter(|one| !folders.contains(one)) {
-            let found = self.in_folder(folder, rest, package);
-            if found.is_some() {
-                return found;
+            if let Some(found) = self.in_folder(folder, rest, package) {
+                return Some(found);
             }
             folders.push(folder.clone());
         }
@@ -246,14 +243,11 @@ impl Search<'_> {
                 urdf_folder.display()
             ),
             false => {
-                let by_a_build = folders.iter().find_map(|folder| {
-                    let (file, line) = self.roots.installed(folder).unknown?;
-                    let file = folder.join(file);
-                    Some(format!(
-                        "{}:{line} installs files by variables that only a build knows: build the package and source its install/setup.bash; or, ", file.display()
-                    ))
+                let mut all = folders.iter();
+                let why = all.find_map(|one| self.roots.installed(one).by_variables(one));
+                let by_a_build = why.map_or_else(String::new, |why| {
+                    format!("{why}: build the package and source its install/setup.bash; or, ")
                 });
-                let by_a_build = by_a_build.unwrap_or_default();
                 format!("{by_a_build}if the package is elsewhere, give its folder: {option}")
             }
         };

@@ -41,6 +41,9 @@ impl fmt::Display for Place {
     }
 }
 
+/// What is wrong at a place.
+pub type Wrong = (Place, Fault);
+
 /// What is wrong with a layer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say it")]

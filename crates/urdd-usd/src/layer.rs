@@ -1,6 +1,7 @@
 //! A layer: what one file says, as a tree of specs.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::value::{Name, Value};
 
@@ -52,16 +53,23 @@ pub fn field<'f>(fields: &'f [(Name, Value)], name: &str) -> Option<&'f Value> {
     fields.iter().find(|(key, _)| **key == *name).map(|(_, value)| value)
 }
 
+/// Sets a field; of two edits of one list both count.
+pub fn put(fields: &mut Vec<(Name, Value)>, name: Name, value: Value) {
+    match fields.iter_mut().find(|(key, _)| *key == name) {
+        Some((_, Value::List(known))) => {
+            if let Value::List(more) = value {
+                *known = Arc::new(known.joined(&more));
+            }
+        }
+        Some(known) => known.1 = value,
+        None => fields.push((name, value)),
+    }
+}
+
 impl Spec {
     fn new(name: Name, level: u32, line: u32) -> Self {
         let (fields, children, properties) = (Vec::new(), Vec::new(), Vec::new());
         Spec { name, level, line, fields, children, properties }
-    }
-}
-
-impl Default for Layer {
-    fn default() -> Self {
-        Layer::new()
     }
 }
 

@@ -5,6 +5,9 @@ use std::sync::Arc;
 /// A name or text, shared.
 pub type Name = Arc<str>;
 
+/// The deepest nesting of dictionaries and tuples. Robots use three levels.
+pub(crate) const MAX_VALUE_LEVELS: usize = 32;
+
 /// A value.
 ///
 /// Numbers of all types are `f64`: those of half and single precision as they are rounded. Components of a quaternion are
@@ -82,6 +85,14 @@ impl Value {
     pub fn tuple<const N: usize>(&self) -> Option<[f64; N]> {
         match self {
             Value::Tuple(values) => values.as_ref().try_into().ok(),
+            _ => None,
+        }
+    }
+
+    /// The edit of a list.
+    pub(crate) fn list(&self) -> Option<&ListOp> {
+        match self {
+            Value::List(list) => Some(list),
             _ => None,
         }
     }

@@ -69,13 +69,11 @@ pub(super) fn actuators(urdf: &UrdfModule, of: &Structure) -> Vec<String> {
         joints.map(|(_, joint)| joint.name.clone()).collect()
     };
     let is_fixed = |joint: usize| of.view.joints[joint].num_dofs() == 0 || of.follows_fixed(joint);
-    // Drake drops the actuator of a joint without effort.
-    let is_weak = |joint: usize| {
-        let limit = of.view.joints[joint].limit;
-        limit.and_then(|limit| limit.effort) == Some(0.0)
+    let is_of_one = |joint: usize| {
+        let view = &of.view.joints[joint];
+        view.num_dofs() == 1 && !transmissions::is_weak(view)
     };
-    let is_of_one = |joint: usize| of.view.joints[joint].num_dofs() == 1;
-    let of_one = names(&|joint| is_of_one(joint) && !is_fixed(joint) && !is_weak(joint));
+    let of_one = names(&|joint| is_of_one(joint) && !is_fixed(joint));
     let driven = Driven { of_one, fixed: names(&is_fixed) };
     let mut kept = transmissions::kept(&urdf.unknown_elements, &driven, &mut Vec::new());
     kept.others(of);

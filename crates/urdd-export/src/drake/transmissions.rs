@@ -6,6 +6,7 @@ use urdd_xml::{Kind, Node};
 
 use super::joints::Driven;
 use crate::{Note, Structure, Taken};
+use urdd_document::robot::Joint;
 use urdd_xml::writer::Element;
 
 /// Elements directly under `robot`, without those that Drake rejects.
@@ -24,8 +25,7 @@ impl Kept {
     pub fn others(&mut self, of: &Structure) -> Vec<Element> {
         let mut others = Vec::new();
         for (index, joint) in of.view.joints.iter().enumerate() {
-            let is_weak = joint.limit.and_then(|limit| limit.effort) == Some(0.0);
-            if is_weak || !of.is_driven(index) || self.actuated.contains(&joint.name) {
+            if is_weak(joint) || !of.is_driven(index) || self.actuated.contains(&joint.name) {
                 continue;
             }
             let name = self.actuators.free(joint.name.clone());
@@ -41,6 +41,11 @@ impl Kept {
         }
         others
     }
+}
+
+/// Whether a joint is without effort: Drake drops its actuator.
+pub(super) fn is_weak(joint: &Joint) -> bool {
+    joint.limit.and_then(|limit| limit.effort) == Some(0.0)
 }
 
 pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Kept {

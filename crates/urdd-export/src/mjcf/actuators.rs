@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::gains::gains;
+use crate::gains::{gains, positive};
 use crate::names::{ANOTHER, check_names};
 use crate::{ExportError, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
@@ -25,7 +25,6 @@ pub(super) fn actuators(
         let joint = &subject.view.joints[index];
         let chosen = subject.gains(index);
         let name = names.remove(&index).unwrap_or_default();
-        let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
         let effort = positive(joint.limit.and_then(|limit| limit.effort));
         let velocity = positive(joint.limit.and_then(|limit| limit.velocity));
         let either_way = |most: Option<f64>| most.map(|most| [-most, most]);

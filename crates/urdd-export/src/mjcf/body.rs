@@ -5,7 +5,9 @@ use std::collections::HashSet;
 use nalgebra::Isometry3;
 
 use super::{inertia, surface};
+use crate::gains::positive;
 use crate::meshes::{Looks, looks};
+use crate::names::last;
 use crate::shapes::thick;
 use crate::{ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject};
 use urdd_document::robot::Joint;
@@ -211,7 +213,7 @@ impl<'a> Bodies<'a> {
 
 /// The name of a file without folder and ending, as unique as the file's.
 fn stem(path: &str) -> String {
-    let file = path.rsplit('/').next().unwrap_or(path);
+    let file = last(path);
     file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
 }
 
@@ -319,14 +321,10 @@ fn of_one(
         Some(_) => notes.push(Note::joint(&joint.name, CROSSED)),
         None => {}
     }
-    if let Some(effort) = joint.limit.and_then(|limit| limit.effort)
-        && effort > 0.0
-    {
-        element = element.with("actuatorfrcrange", numbers(&[-effort, effort]));
-    }
+    let effort = positive(joint.limit.and_then(|limit| limit.effort));
     let dynamics = source.dynamics.as_ref();
-    let positive = |value: Option<f64>| value.filter(|value| *value > 0.0).map(number);
     element
-        .with_some("damping", positive(dynamics.and_then(|d| d.damping)))
-        .with_some("frictionloss", positive(dynamics.and_then(|d| d.friction)))
+        .with_some("actuatorfrcrange", effort.map(|effort| numbers(&[-effort, effort])))
+        .with_some("damping", positive(dynamics.and_then(|d| d.damping)).map(number))
+        .with_some("frictionloss", positive(dynamics.and_then(|d| d.friction)).map(number))
 }

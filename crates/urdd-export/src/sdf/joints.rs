@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use super::gazebo::{Gazebo, Place};
 use crate::joints::coupled;
@@ -109,6 +109,14 @@ pub(super) fn joints(
         }
     }
     Ok(made)
+}
+
+/// A pose, as an element.
+pub(super) fn placed(pose: &Isometry3<f64>) -> Element {
+    let rotation = pose.rotation.to_rotation_matrix();
+    let mut values = pose.translation.vector.as_slice().to_vec();
+    values.extend(to_rpy(rotation.matrix()));
+    Element::text("pose", &numbers(&values))
 }
 
 /// Position and roll, pitch, yaw of a joint in its parent link. A joint that follows a fixed one stands at its offset.

@@ -1,8 +1,7 @@
 //! Links: mass, visuals and collisions.
 
 use super::gazebo::{Gazebo, Place};
-use super::joints::Joints;
-use super::pose::placed;
+use super::joints::{Joints, placed};
 use crate::inertia::{held, mean};
 use crate::meshes::looks;
 use crate::shapes::thick;

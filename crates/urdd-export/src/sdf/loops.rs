@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::pose::placed;
+use super::joints::placed;
 use crate::joints::moved;
 use crate::loops::{Closing, LeftOut, OTHER_KIND, closings};
 use crate::{ExportError, Note, Subject, Taken};

@@ -9,7 +9,6 @@ mod gazebo;
 mod joints;
 mod links;
 mod loops;
-mod pose;
 
 use crate::{Export, ExportError, Note, Subject, drake};
 use gazebo::{Gazebo, Place};

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use urdd_xml::Node;
 
-use super::error::SrdfError;
+use super::import::SrdfError;
 use crate::Structure;
 use crate::error::unknown;
 use crate::groups::JointGroup;

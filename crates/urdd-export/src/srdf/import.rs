@@ -2,15 +2,37 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
+use thiserror::Error;
 use urdd_xml::Node;
 
-use super::error::SrdfError;
+use crate::ExportError;
 use crate::error::unknown;
 use crate::pairs::{ascending, last_edits};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::{Robot, RobotError, ShapeKind};
-use urdd_srdf::{LeftOut, Srdf, elements};
+use urdd_srdf::{LeftOut, ReadError, Srdf, elements};
+
+/// Errors of taking an SRDF into a URDD.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SrdfError {
+    /// It cannot be read, or names what the robot does not have.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// What is read contradicts what a person wrote into the URDD.
+    #[error("the URDD has {0}")]
+    Edited(String),
+    /// A query on the robot failed.
+    #[error(transparent)]
+    Robot(#[from] ExportError),
+}
+
+impl From<RobotError> for SrdfError {
+    fn from(error: RobotError) -> Self {
+        SrdfError::Robot(error.into())
+    }
+}
 
 /// A robot's edits after an SRDF import.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,6 @@
 //! SRDF of a robot: the pairs of links that MoveIt does not check. Groups and other elements are read here; the package of
 //! MoveIt writes them.
 
-pub(super) mod error;
 pub(super) mod groups;
 pub(super) mod import;
 

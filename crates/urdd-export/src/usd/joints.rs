@@ -5,10 +5,12 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::custom::elements;
-use super::names::{Filters, Paths, last};
+use super::names::{Filters, Paths};
 use super::prim::{Prim, float, floats, wxyz};
+use crate::gains::positive;
 use crate::joints::moved;
 use crate::loops::Followers;
+use crate::names::last;
 use crate::{Gains, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::Joint;
@@ -255,10 +257,6 @@ impl Joints<'_> {
         connect(&mut prim, None, &self.paths.links[self.subject.tree.root], &frames);
         prim
     }
-}
-
-fn positive(value: Option<f64>) -> Option<f64> {
-    value.filter(|value| *value > 0.0)
 }
 
 /// The axis of USD that is the joint's, and the rotation that takes one to the other.

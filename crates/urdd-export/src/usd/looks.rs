@@ -8,6 +8,7 @@ use super::names::{VISUAL_PRIMITIVES, VISUALS};
 use super::prim::{Prim, array, asset, float};
 use super::surface::{coordinates, material, primitive, set};
 use crate::meshes::{Look, Looks};
+use crate::names::last;
 use crate::{MeshFiles, Painted};
 use urdd_geometry::Mesh;
 
@@ -73,7 +74,7 @@ pub(super) fn add(
         } else {
             let mut own = Materials::new(&format!("/{VISUALS}"), "Looks");
             // Textures are beside the file.
-            let beside = |path: &String| path.rsplit('/').next().unwrap_or(path).to_owned();
+            let beside = |path: &String| last(path).to_owned();
             let names: Vec<_> = names.iter().map(|name| name.as_ref().map(beside)).collect();
             let mut prim = visuals(looks, &names, &mut own);
             prim.push_filled(own.scope);

@@ -19,10 +19,11 @@ use nalgebra::Isometry3;
 use crate::gains::gains;
 use crate::loops::{Followers, LeftOut, closings};
 use crate::meshes::looks;
+use crate::names::last;
 use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject};
 use joints::Joints;
 use looks::Materials;
-use names::{Filters, Paths, last};
+use names::{Filters, Paths};
 use prim::Prim;
 
 const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";

@@ -71,11 +71,6 @@ pub(super) fn path_of_shape(link: &str, piece: usize) -> String {
     format!("{link}/{COLLISIONS}/piece_{piece}")
 }
 
-/// The last name of a path.
-pub(super) fn last(path: &str) -> &str {
-    path.rsplit('/').next().unwrap_or(path)
-}
-
 /// The names of the prims of joints.
 pub(in super::super) fn names_of_joints(joints: &[String]) -> Vec<String> {
     names(joints, &mut Taken::default(), &mut Vec::new())

@@ -1,11 +1,9 @@
 //! Actuators, with what default classes say of them: any kind sets the same numbers.
 
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::Fallible;
 use super::compiler::Compiler;
 use super::element::Element;
-use super::fault::MjcfFault;
-use super::joint::is_limited;
-use super::reading::{list, number_of, numbers, word};
+use super::reading::{Attributes, list};
 
 /// The elements of actuators.
 pub const TAGS: [&str; 13] = [
@@ -107,14 +105,14 @@ impl Actuator {
     fn limits(&mut self, element: &Element) -> Fallible<()> {
         self.gear = first(element, "gear", 6)?.unwrap_or(self.gear);
         self.joint_damping = first(element, "damping", 3)?.unwrap_or(self.joint_damping);
-        self.armature = number_of(element, "armature")?.unwrap_or(self.armature);
+        self.armature = element.number("armature")?.unwrap_or(self.armature);
         self.force.read(element, "forcerange", "forcelimited")?;
         self.control.read(element, "ctrlrange", "ctrllimited")
     }
 
     fn law(&mut self, element: &Element) -> Fallible<()> {
-        let stiffness = number_of(element, "kp")?;
-        let damping = match (number_of(element, "kv")?, number_of(element, "dampratio")?) {
+        let stiffness = element.number("kp")?;
+        let damping = match (element.number("kv")?, element.number("dampratio")?) {
             (_, Some(ratio)) => Some(-ratio),
             (damping, None) => damping,
         };
@@ -128,14 +126,14 @@ impl Actuator {
                 self.gain = stiffness.unwrap_or(self.gain);
                 self.stiffness = self.gain;
                 self.damping = damping.unwrap_or(self.damping);
-                self.inherited = number_of(element, "inheritrange")?.unwrap_or(self.inherited);
-                let constant = number_of(element, "timeconst")?;
+                self.inherited = element.number("inheritrange")?.unwrap_or(self.inherited);
+                let constant = element.number("timeconst")?;
                 self.has_state = element.tag == "intvelocity"
                     || constant.map_or(self.has_state, |constant| constant != 0.0);
             }
             "velocity" => {
                 (self.law, self.has_state, self.stiffness) = (Law::Servo, false, 0.0);
-                self.gain = number_of(element, "kv")?.unwrap_or(self.gain);
+                self.gain = element.number("kv")?.unwrap_or(self.gain);
                 self.damping = self.gain;
             }
             _ => self.law = Law::Other,
@@ -148,9 +146,9 @@ impl Actuator {
         let biases = ["none", "affine", "muscle", "dcmotor", "so3", "user"];
         let states =
             ["none", "integrator", "filter", "filterexact", "muscle", "dcmotor", "pid", "user"];
-        let gain = word(element, "gaintype", &gains, "a type of gain")?;
-        let bias = word(element, "biastype", &biases, "a type of bias")?;
-        if let Some(state) = word(element, "dyntype", &states, "a type of dynamics")? {
+        let gain = element.word("gaintype", &gains, "a type of gain")?;
+        let bias = element.word("biastype", &biases, "a type of bias")?;
+        if let Some(state) = element.word("dyntype", &states, "a type of dynamics")? {
             self.has_state = state != 0;
         }
         self.law = match (gain, bias) {
@@ -234,9 +232,9 @@ impl Range {
         range: &'static str,
         limited: &'static str,
     ) -> Fallible<()> {
-        self.ends = numbers::<2>(element, range)?.unwrap_or(self.ends);
+        self.ends = element.numbers::<2>(range)?.unwrap_or(self.ends);
         let words = ["false", "true", "auto"];
-        let said = word(element, limited, &words, "`false`, `true` or `auto`")?;
+        let said = element.word(limited, &words, "`false`, `true` or `auto`")?;
         self.limited = said.or(self.limited);
         Ok(())
     }
@@ -247,10 +245,7 @@ impl Range {
         limited: &'static str,
         compiler: &Compiler,
     ) -> Fallible<Option<[f64; 2]>> {
-        let is_limited = is_limited(self.limited, self.ends, compiler).ok_or_else(|| {
-            let element_name = element.tag.clone();
-            at(element.place, MjcfFault::NoLimited { element: element_name, attribute: limited })
-        })?;
+        let is_limited = compiler.is_limit(element, (limited, self.limited), self.ends)?;
         Ok(is_limited.then_some(self.ends))
     }
 }

@@ -8,13 +8,12 @@ use super::super::fault::{ImportFault, Unreachable};
 use super::super::model::Asset;
 use super::super::names::Names;
 use super::super::place::{Place, TextFile};
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::compiler::{Compiler, Compilers};
 use super::document::first;
 use urdd_directory::account::Charged;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
-use urdd_directory::read_error::ReadError;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
 
@@ -70,7 +69,7 @@ impl<'f> Assets<'f> {
     pub fn new(gate: &'f Gate, compilers: &'f Compilers, files: &'f [TextFile]) -> Fallible<Self> {
         let mut names = Names::new(gate.account());
         // That of the mesh of ellipsoids.
-        names.take("meshes/unit_sphere").map_err(|why| at(Place::default(), why))?;
+        names.take("meshes/unit_sphere").at(Place::default())?;
         let (by_key, all) = (HashMap::new(), Charged::default());
         Ok(Assets { gate, compilers, files, by_key, names, all })
     }
@@ -85,17 +84,13 @@ impl<'f> Assets<'f> {
         let places = places(file, self.compilers.at(place), folder, base, own);
         let bytes: usize = places.iter().map(|place| place.as_os_str().len()).sum();
         self.charge(LOOKED_AT * bytes, place)?;
-        let found = first(self.gate, places, file);
-        found.map_err(|why| at(place, ImportFault::File(why)))
+        first(self.gate, places, file).at(place)
     }
 
     /// Reads a file that was found, for what is made of it.
     pub fn bytes(&self, found: &FoundMesh, place: Place) -> Fallible<Vec<u8>> {
-        let unread = |why: ReadError| {
-            let why = Unreachable::unread(&found.file.display().to_string(), &why);
-            at(place, ImportFault::File(why))
-        };
-        self.gate.bytes(found, MAX_DOCUMENT_BYTES).map_err(unread)
+        let unread = |why| Unreachable::unread(&found.file.display().to_string(), &why);
+        self.gate.bytes(found, MAX_DOCUMENT_BYTES).map_err(unread).at(place)
     }
 
     /// Reads an image that was found and that begins with these bytes; `None` if it is not one.
@@ -106,12 +101,12 @@ impl<'f> Assets<'f> {
         place: Place,
     ) -> Fallible<Option<Vec<u8>>> {
         let unread = |why| ImportFault::of_image(&found.file.display().to_string(), why);
-        self.gate.image(found, start).map_err(|why| at(place, unread(why)))
+        self.gate.image(found, start).map_err(unread).at(place)
     }
 
     /// Charges what is made at a place, in bytes.
     pub fn charge(&self, bytes: usize, place: Place) -> Fallible<()> {
-        self.gate.account().charge(bytes).map_err(|why| at(place, why))
+        self.gate.account().charge(bytes).at(place)
     }
 
     /// The index of a file that was added.
@@ -133,13 +128,11 @@ impl<'f> Assets<'f> {
         let (folder, file) = path.split_once('/').unwrap_or(("", path));
         let (stem, extension) = file.rsplit_once('.').unwrap_or((file, ""));
         let stem = file_name(stem, "");
-        let too_much = |why| at(place, why);
-        let free = self.names.free(&format!("{folder}/{}", stem.to_lowercase()));
-        let free = free.map_err(too_much)?;
+        let free = self.names.free(&format!("{folder}/{}", stem.to_lowercase())).at(place)?;
         // The number that makes it free, behind the stem as it is written.
         let number = &free[folder.len() + 1 + stem.to_lowercase().len()..];
         let path = format!("{folder}/{stem}{number}.{extension}");
-        self.all.push(Asset { path, bytes }, self.gate.account()).map_err(too_much)?;
+        self.all.push(Asset { path, bytes }, self.gate.account()).at(place)?;
         self.by_key.insert(key.to_owned(), self.all.len() - 1);
         Ok(self.all.len() - 1)
     }

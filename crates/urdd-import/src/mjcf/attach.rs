@@ -6,7 +6,7 @@ use urdd_directory::account::Account;
 use urdd_xml::MAX_LEVELS;
 
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing, at};
 use super::defaults::CLASSES;
 use super::element::Element;
 use super::fault::MjcfFault;
@@ -49,8 +49,7 @@ pub fn splice(
         // It may be empty.
         let prefix = child.get("prefix").ok_or_else(|| missing(&child, "prefix"))?;
         let model = models.get(name).ok_or_else(|| unknown(&child, "model", name))?;
-        let charged = account.charge(cost(model, prefix));
-        charged.map_err(|why| at(child.place, why))?;
+        account.charge(cost(model, prefix)).at(child.place)?;
         let body = child.text("body");
         let bodies = bodies(model, body, prefix, child.place);
         let bodies = bodies.ok_or_else(|| unknown(&child, "body", body.unwrap_or_default()))?;

@@ -5,17 +5,18 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Body, Closing, Coupled, LETTER};
+use super::super::model::{Body, Closing, Coupled, Joint, JointKind};
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::price::LETTER;
+use super::super::refusal::{Fallible, Placing, at};
 use super::compiler::Compilers;
 use super::defaults::{Defaults, MAIN, PASSED};
 use super::element::Element;
 use super::fault::MjcfFault;
 use super::geom::{Geom, between};
-use super::joint::{MjcfJointKind, RawJoint};
+use super::joint;
 use super::orientation::{euler, pose};
-use super::reading::{View, integer, numbers, required, wrong};
+use super::reading::{Attributes, View, required, wrong};
 use urdd_directory::account::{Account, Charged};
 
 /// What an element costs beside what the model has of it, bytes.
@@ -35,7 +36,8 @@ pub struct RawBody<'d> {
     pub inertial: Option<View<'d>>,
     /// How many it has: the last counts.
     pub inertials: usize,
-    pub joints: Vec<RawJoint>,
+    /// A name is empty where there is none.
+    pub joints: Vec<Joint>,
     pub geoms: Vec<Geom<'d>>,
     pub frames: Vec<RawFrame>,
     pub is_mocap: bool,
@@ -142,7 +144,7 @@ impl<'d> Builder<'d, '_> {
     fn charge(&self, element: &Element, scope: Scope<'_>) -> Fallible<()> {
         let name = element.text("name").map_or(0, str::len) + scope.suffix.len();
         let bytes = RAW + LETTER * name + PASSED * element.length();
-        self.account.charge(bytes).map_err(|why| at(element.place, why))
+        self.account.charge(bytes).at(element.place)
     }
 
     fn name(&mut self, element: &Element, scope: Scope<'_>) -> Option<String> {
@@ -177,13 +179,13 @@ impl<'d> Builder<'d, '_> {
     /// What MuJoCo does not simulate.
     fn check_joints(&self, body: usize) -> Fallible<()> {
         let RawBody { joints, parent, place, .. } = &self.bodies.all[body];
-        let kinds: Vec<MjcfJointKind> = joints.iter().map(|joint| joint.kind).collect();
-        let is_free = kinds.contains(&MjcfJointKind::Free);
-        let ball = kinds.iter().position(|kind| *kind == MjcfJointKind::Ball);
-        let turns_after = ball
-            .is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != MjcfJointKind::Slide));
+        let kinds: Vec<JointKind> = joints.iter().map(|joint| joint.kind).collect();
+        let is_free = kinds.contains(&JointKind::Floating);
+        let ball = kinds.iter().position(|kind| *kind == JointKind::Ball);
+        let turns_after =
+            ball.is_some_and(|ball| kinds[ball + 1..].iter().any(|kind| *kind != JointKind::Slide));
         let freedoms: usize =
-            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == MjcfJointKind::Ball)).sum();
+            kinds.iter().map(|kind| 1 + 2 * usize::from(*kind == JointKind::Ball)).sum();
         if is_free && (kinds.len() > 1 || *parent != Some(WORLD)) || turns_after || freedoms > 6 {
             return Err(at(*place, MjcfFault::Joints));
         }
@@ -199,12 +201,12 @@ impl<'d> Builder<'d, '_> {
 
     fn replicate(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
         required(element, "count")?;
-        let count = integer(element, "count")?.unwrap_or_default();
+        let count = element.integer("count")?.unwrap_or_default();
         if count < 1 {
             return Err(wrong(element, "count", "a number of replicas"));
         }
-        let offset = Vector3::from(numbers::<3>(element, "offset")?.unwrap_or_default());
-        let angles = numbers::<3>(element, "euler")?.unwrap_or_default();
+        let offset = Vector3::from(element.numbers::<3>("offset")?.unwrap_or_default());
+        let angles = element.numbers::<3>("euler")?.unwrap_or_default();
         let separator = element.get("sep").unwrap_or_default();
         let class = self.defaults.scope(element, scope.class)?;
         let width = count.to_string().len();
@@ -224,18 +226,13 @@ impl<'d> Builder<'d, '_> {
     }
 
     fn joint(&mut self, element: &'d Element, scope: Scope<'_>) -> Fallible<()> {
-        let name = self.name(element, scope);
+        let name = self.name(element, scope).unwrap_or_default();
         let joint = match element.tag.as_str() {
-            "freejoint" => RawJoint::free(element, name),
+            "freejoint" => joint::free(element, name),
             _ => {
                 let view = View::new(element, self.defaults, scope.class)?;
-                RawJoint::read(
-                    view,
-                    name,
-                    &scope.frame,
-                    self.compilers.at(element.place),
-                    self.tally,
-                )?
+                let compiler = self.compilers.at(element.place);
+                joint::read(view, name, &scope.frame, compiler, self.tally)?
             }
         };
         self.bodies.all[scope.body].joints.push(joint);

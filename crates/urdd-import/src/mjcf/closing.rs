@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use super::super::model::{Closing, End};
 use super::super::refusal::Fallible;
 use super::body::Made;
-use super::reading::View;
+use super::reading::{Attributes, View};
 use urdd_format::loops::LoopKind;
 
 /// The bodies of a robot in its first body's frame, in the pose of the model (`qpos0`), and its sites by name.

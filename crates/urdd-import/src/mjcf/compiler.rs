@@ -6,7 +6,7 @@ use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::reading::{flag, number_of, numbers, word, wrong};
+use super::reading::{Attributes, wrong};
 
 /// When masses come from shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,13 +100,31 @@ impl Compiler {
         }
     }
 
+    /// Whether a range is a limit, by the attribute that says it and what that says: 0 for false, 1 for true.
+    pub fn is_limit(
+        &self,
+        element: &Element,
+        (attribute, said): (&'static str, Option<usize>),
+        ends: [f64; 2],
+    ) -> Fallible<bool> {
+        match said {
+            Some(which @ (0 | 1)) => Ok(which == 1),
+            _ if ends == [0.0; 2] => Ok(false),
+            _ if self.has_auto_limits => Ok(ends[0] < ends[1]),
+            _ => {
+                let element_name = element.tag.clone();
+                let fault = MjcfFault::NoLimited { element: element_name, attribute };
+                Err(at(element.place, fault))
+            }
+        }
+    }
+
     fn read(&mut self, element: &Element) -> Fallible<()> {
-        let coordinate = word(element, "coordinate", &["local", "global"], "`local`")?;
+        let coordinate = element.word("coordinate", &["local", "global"], "`local`")?;
         if coordinate == Some(1) {
             return Err(at(element.place, MjcfFault::GlobalCoordinates));
         }
-        if let Some(which) = word(element, "angle", &["radian", "degree"], "`radian` or `degree`")?
-        {
+        if let Some(which) = element.word("angle", &["radian", "degree"], "`radian` or `degree`")? {
             self.angle = if which == 0 { 1.0 } else { 1.0_f64.to_radians() };
         }
         if let Some(text) = element.get("eulerseq") {
@@ -133,17 +151,17 @@ impl Compiler {
             ("discardvisual", &mut self.discards_visuals),
             ("fitaabb", &mut self.fits_boxes),
         ] {
-            *setting = flag(element, name)?.unwrap_or(*setting);
+            *setting = element.flag(name)?.unwrap_or(*setting);
         }
         let words = ["false", "true", "auto"];
-        let from = word(element, "inertiafromgeom", &words, "`false`, `true` or `auto`")?;
+        let from = element.word("inertiafromgeom", &words, "`false`, `true` or `auto`")?;
         self.from_shapes = match from {
             Some(0) => FromShapes::Never,
             Some(1) => FromShapes::Always,
             Some(_) => FromShapes::Auto,
             None => self.from_shapes,
         };
-        if let Some([first, last]) = numbers::<2>(element, "inertiagrouprange")? {
+        if let Some([first, last]) = element.numbers::<2>("inertiagrouprange")? {
             #[expect(clippy::cast_possible_truncation, reason = "groups are few")]
             let groups = first.ceil() as i64..=last.floor() as i64;
             self.mass_groups = groups;
@@ -151,9 +169,9 @@ impl Compiler {
         for (name, least) in
             [("boundmass", &mut self.least_mass), ("boundinertia", &mut self.least_inertia)]
         {
-            *least = number_of(element, name)?.unwrap_or(*least);
+            *least = element.number(name)?.unwrap_or(*least);
         }
-        if let Some(total) = number_of(element, "settotalmass")? {
+        if let Some(total) = element.number("settotalmass")? {
             self.total_mass = (total > 0.0).then_some(total);
         }
         Ok(())

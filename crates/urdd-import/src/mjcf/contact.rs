@@ -3,14 +3,15 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
-use super::super::model::{Apart, LETTER};
+use super::super::model::Apart;
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::price::LETTER;
+use super::super::refusal::{Fallible, Placing};
 use super::body::{Made, RawBody, WORLD};
 use super::element::Element;
 use super::geom::{Geom, GeomKind};
 use super::lookup::Lookup;
-use super::reading::word;
+use super::reading::Attributes;
 use urdd_directory::account::{Account, Charged};
 
 /// Bodies that can collide; their pairs are counted one by one.
@@ -48,7 +49,7 @@ impl Contacts {
     pub fn of(root: &Element, lookup: &Lookup<'_>, tally: &mut Tally) -> Fallible<Self> {
         let mut contacts = Contacts::default();
         for flags in root.sections("option").filter(|of| of.tag == "flag") {
-            let said = word(flags, "filterparent", &["enable", "disable"], "`enable` or `disable`");
+            let said = flags.word("filterparent", &["enable", "disable"], "`enable` or `disable`");
             contacts.keeps_parents = said?.map_or(contacts.keeps_parents, |said| said == 1);
         }
         for element in root.sections("contact") {
@@ -108,8 +109,7 @@ impl Contacts {
                 if self.together.contains(&ordered(*first, *second)) {
                     continue;
                 }
-                let work = account.charge(bits.len() * others.len() - 1);
-                work.map_err(|why| at(all[*second].place, why))?;
+                account.charge(bits.len() * others.len() - 1).at(all[*second].place)?;
                 let (none, every) = meet(bits, others);
                 let near = are_neighbours(all, &welds, *first, *second);
                 let reason = match near {
@@ -148,8 +148,7 @@ impl Contacts {
                 _ => &mut pairs.apart,
             };
             let charged = account.charge(names);
-            let charged = charged.and_then(|()| list.push(Apart { bodies, reason }, account));
-            charged.map_err(|why| at(second.place, why))?;
+            charged.and_then(|()| list.push(Apart { bodies, reason }, account)).at(second.place)?;
             if reason != CHECKED {
                 tally.count(features::APART);
             }

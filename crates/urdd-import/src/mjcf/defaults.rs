@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use urdd_directory::account::Account;
 
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing, at};
 use super::element::Element;
 use super::fault::MjcfFault;
 
@@ -130,7 +130,7 @@ impl<'d> Defaults<'d> {
         let own = |of: &&Element| LOOK_UP + PASSED * of.length();
         let level = |level: Level<'_, 'd>| LOOK_UP + level.of(tag).iter().map(own).sum::<usize>();
         let passed = self.levels(class).map(level).sum();
-        self.account.charge(passed).map_err(|why| at(element.place, why))
+        self.account.charge(passed).at(element.place)
     }
 
     /// What a class and those around it say of some tags: by class, the outermost first, in the order in which it applies.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::fault::{ImportFault, Unreachable};
 use super::super::place::{Place, TextFile};
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing, at};
 use super::attach::{self, Models};
 use super::element::Element;
 use super::fault::MjcfFault;
@@ -116,9 +116,8 @@ impl Expansion<'_> {
     fn open(&mut self, name: &str, place: Place) -> Fallible<(String, PathBuf)> {
         let beside = self.files[place.file].path.parent().map(|folder| folder.join(name));
         let places = [Some(self.folder.join(name)), beside];
-        let unread = |fault| at(place, ImportFault::File(fault));
-        let found = first(self.gate, places.into_iter().flatten(), name).map_err(unread)?;
-        let read = TextFile::included(self.gate, &found).map_err(|fault| at(place, fault))?;
+        let found = first(self.gate, places.into_iter().flatten(), name).at(place)?;
+        let read = TextFile::included(self.gate, &found).at(place)?;
         let opened = (read.text.clone(), read.path.clone());
         self.files.push(read);
         Ok(opened)
@@ -202,7 +201,6 @@ fn parse<'t>(
         let place = Place { file, offset: error.offset(text) };
         at(place, ImportFault::NotXml(error.words(text)))
     })?;
-    let charged = gate.account().charge(mended.size());
-    charged.map_err(|why| at(Place { file, offset: 0 }, ImportFault::from(why)))?;
+    gate.account().charge(mended.size()).at(Place { file, offset: 0 })?;
     Ok(document)
 }

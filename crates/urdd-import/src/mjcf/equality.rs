@@ -1,15 +1,14 @@
 //! Equalities: joints that follow others as mimics, other equations of joints, and what closes chains.
 
 use super::super::features::{self, Tally};
-use super::super::model::{Closing, Coupled, Mimic};
-use super::super::refusal::{self, Fallible, at};
+use super::super::model::{Closing, Coupled, JointKind, Mimic};
+use super::super::refusal::{Fallible, Placing};
 use super::body::{Made, RawBody, WORLD};
 use super::closing::Placed;
 use super::defaults::{Defaults, MAIN};
 use super::element::Element;
-use super::joint::MjcfJointKind;
 use super::lookup::Lookup;
-use super::reading::{View, flag};
+use super::reading::{Attributes, View};
 use urdd_directory::account::{Account, Charged};
 use urdd_format::short::Short;
 
@@ -38,7 +37,7 @@ pub fn equalities<'d>(
         let view = View::new(element, defaults, MAIN)?;
         let closing = tie(view, is_active(view)?, all, lookup, (made, &placed), tally)?;
         if let Some(closing) = closing {
-            closings.push(closing, account).map_err(|why| at(element.place, why))?;
+            closings.push(closing, account).at(element.place)?;
         }
     }
     made.closings = closings;
@@ -60,11 +59,11 @@ pub fn equalities<'d>(
 }
 
 fn is_active(view: View<'_>) -> Fallible<bool> {
-    Ok(match flag(view.element, "active")? {
+    Ok(match view.element.flag("active")? {
         Some(active) => active,
         None => {
             let of_class = view.equality_default();
-            of_class.map_or(Ok(None), |of| flag(of, "active"))?.unwrap_or(true)
+            of_class.map_or(Ok(None), |of| of.flag("active"))?.unwrap_or(true)
         }
     })
 }
@@ -149,7 +148,7 @@ fn couple(
         let Some(&(body, place)) = made.joints.get(&follower) else { continue };
         let raw = |(body, place): (usize, usize)| &all[body].joints[place];
         let leading = leader.and_then(|leader| Some((leader, *made.joints.get(&leader)?)));
-        let is_plain = |at| matches!(raw(at).kind, MjcfJointKind::Hinge | MjcfJointKind::Slide);
+        let is_plain = |at| matches!(raw(at).kind, JointKind::Hinge | JointKind::Slide);
         let reason = match leading {
             None => Some("it is of a ball, or its joint follows one that is left out"),
             Some(_) if !is_linear => Some("it is not linear"),
@@ -188,7 +187,7 @@ fn couple(
                 ],
             };
             tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).map_err(|why| refusal::at(element.place, why))?;
+            made.couplings.push(coupled, account).at(element.place)?;
         } else if names[1].is_none() && is_plain(follower) {
             // y - y0 = c0
             let coupled = Coupled {
@@ -197,7 +196,7 @@ fn couple(
                 terms: vec![(made.bodies[body].joints[place].name.clone(), vec![1.0])],
             };
             tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).map_err(|why| refusal::at(element.place, why))?;
+            made.couplings.push(coupled, account).at(element.place)?;
         } else {
             tally.count(features::COUPLINGS);
             let reason = reason.unwrap_or_default();

@@ -31,12 +31,12 @@ pub fn fitted(
     };
     let measures = meshes.measures(mesh, geom.place, assets)?;
     let (moments, axes) = principal(&measures.inertia);
-    let mut frame = Isometry3::from_parts(Translation3::from(measures.centre), axes);
+    let mut frame = Isometry3::from_parts(measures.centre.coords.into(), axes);
     let [a, b, c] = match compiler.fits_boxes {
         false => {
             // The half lengths of the box that has these moments.
             let sum: f64 = moments.iter().sum();
-            moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / measures.volume).sqrt())
+            moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / measures.mass).sqrt())
         }
         true => {
             let placed = meshes.placed(mesh, geom.place, assets)?;

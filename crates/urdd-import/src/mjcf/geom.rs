@@ -8,7 +8,7 @@ use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::fault::MjcfFault;
 use super::orientation::{pose, z_to};
-use super::reading::View;
+use super::reading::{Attributes, View};
 
 /// What a shape is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

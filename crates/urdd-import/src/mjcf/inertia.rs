@@ -1,8 +1,8 @@
 //! Masses: as a model says them, or from shapes, as MuJoCo's compiler does.
 
-use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use nalgebra::Matrix3;
 
-use super::super::mass::{Mass, moments, volume};
+use super::super::mass::{moments, tensor, turned, volume};
 use super::super::model::Inertial;
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
@@ -15,7 +15,7 @@ use super::geom::Geom;
 use super::mesh::Meshes;
 use super::orientation::orientation;
 use super::principal::principal;
-use super::reading::{View, missing};
+use super::reading::{Attributes, View, missing};
 
 /// Masses that are smaller are none.
 const SMALL: f64 = 1e-14;
@@ -44,27 +44,20 @@ pub fn inertial(
                 parts.extend(of_shape(geom, fitted, meshes, assets)?);
             }
         }
-        part = Mass::together(&parts).or(part);
+        part = Inertial::together(&parts).or(part);
     }
     // MuJoCo puts the least mass of a body that has none where the body is, but in the body's frame.
-    let mut part = part.unwrap_or(Mass {
-        mass: 0.0,
-        centre: body.written_position,
-        inertia: Matrix3::zeros(),
-    });
+    let centre = body.written_position.into();
+    let mut part = part.unwrap_or(Inertial { mass: 0.0, centre, inertia: Matrix3::zeros() });
     part.mass = part.mass.max(compiler.least_mass);
     part.inertia = bounded(part.inertia, compiler, place)?;
     let is_none = part.mass == 0.0 && part.inertia == Matrix3::zeros();
-    Ok((!is_none).then(|| Inertial {
-        mass: part.mass,
-        centre: Point3::from(part.centre),
-        inertia: (part.inertia + part.inertia.transpose()) / 2.0,
-        place,
-    }))
+    part.inertia = (part.inertia + part.inertia.transpose()) / 2.0;
+    Ok((!is_none).then_some(part))
 }
 
 /// `<inertial>`.
-fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Mass> {
+fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Inertial> {
     let element = view.element;
     let missing = |attribute| missing(element, attribute);
     let centre = view.numbers::<3>("pos")?.ok_or_else(|| missing("pos"))?;
@@ -76,20 +69,23 @@ fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Mass> {
         return Err(at(element.place, MjcfFault::TwoInertias));
     }
     let inertia = match full {
-        Some([xx, yy, zz, xy, xz, yz]) => {
-            let full = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        Some(full) => {
+            let full = tensor(full);
             if principal(&full).0[2] < SMALL {
                 return Err(at(element.place, MjcfFault::FullInertia));
             }
             full
         }
-        None => turned(diagonal.unwrap_or_default(), &turn.unwrap_or_default()),
+        None => {
+            let moments = diagonal.unwrap_or_default().into();
+            turned(&Matrix3::from_diagonal(&moments), &turn.unwrap_or_default())
+        }
     };
     let is_negative = mass < 0.0 || diagonal.is_some_and(|of| of.iter().any(|of| *of < 0.0));
     if is_negative {
         return Err(at(element.place, MjcfFault::NegativeMass));
     }
-    Ok(Mass { mass, centre: centre.into(), inertia })
+    Ok(Inertial { mass, centre: centre.into(), inertia })
 }
 
 /// The mass of a shape, if it has one.
@@ -98,7 +94,7 @@ fn of_shape(
     fitted: &Fitted,
     meshes: &mut Meshes<'_>,
     assets: &Assets<'_>,
-) -> Fallible<Option<Mass>> {
+) -> Fallible<Option<Inertial>> {
     if geom.mass.unwrap_or(geom.density) == 0.0 {
         return Ok(None);
     }
@@ -109,7 +105,7 @@ fn of_shape(
     let measures = mesh.map(|mesh| meshes.measures(mesh, geom.place, assets)).transpose()?;
     let solid = geom.kind.solid(fitted.size);
     let size = match (&measures, &solid) {
-        (Some(measures), _) => measures.volume,
+        (Some(measures), _) => measures.mass,
         (None, Some(solid)) => volume(solid, geom.is_shell),
         (None, None) => 0.0,
     };
@@ -122,14 +118,10 @@ fn of_shape(
         return Ok(None);
     }
     let own = match (&measures, &solid) {
-        (Some(measures), _) => Mass {
-            mass,
-            centre: measures.centre,
-            inertia: measures.inertia * (mass / measures.volume),
-        },
+        (Some(measures), _) => measures.weighing(mass),
         (None, solid) => {
             let moments = solid.as_ref().map(|solid| moments(solid, geom.is_shell, mass));
-            Mass::along_axes(mass, Vector3::zeros(), moments.unwrap_or_default())
+            Inertial::along_axes(mass, moments.unwrap_or_default())
         }
     };
     Ok(Some(own.at(&fitted.pose)))
@@ -142,16 +134,12 @@ fn bounded(inertia: Matrix3<f64>, compiler: &Compiler, place: Place) -> Fallible
     let [a, b, c] = moments;
     // The greatest is first.
     if b + c >= a * (1.0 - ROUNDING) {
-        return Ok(if moments == found { inertia } else { turned(moments, &axes) });
+        let raised = || turned(&Matrix3::from_diagonal(&moments.into()), &axes);
+        return Ok(if moments == found { inertia } else { raised() });
     }
     if !compiler.balances {
         let moments = moments.map(|moment| format!("{moment:.3e}")).join(", ");
         return Err(at(place, MjcfFault::Unbalanced(moments)));
     }
     Ok(Matrix3::identity() * ((a + b + c) / 3.0))
-}
-
-fn turned(moments: [f64; 3], axes: &UnitQuaternion<f64>) -> Matrix3<f64> {
-    let rotation = axes.to_rotation_matrix();
-    rotation.matrix() * Matrix3::from_diagonal(&moments.into()) * rotation.matrix().transpose()
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use urdd_directory::account::Account;
 
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::body::Bodies;
 use super::element::Element;
 use super::reading::unknown;
@@ -34,10 +34,8 @@ impl<'b> Lookup<'b> {
         };
         for (index, body) in bodies.all.iter().enumerate() {
             lookup.bodies.extend(body.name.as_deref().map(|name| (name, index)));
-            let joints = body.joints.iter().enumerate();
-            lookup
-                .joints
-                .extend(joints.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))));
+            let joints = body.joints.iter().enumerate().filter(|(_, of)| !of.name.is_empty());
+            lookup.joints.extend(joints.map(|(at, of)| (of.name.as_str(), (index, at))));
             let geoms = body.geoms.iter().enumerate();
             lookup
                 .geoms
@@ -58,14 +56,13 @@ impl<'b> Lookup<'b> {
         let suffixes = replicated.find_map(|name| self.suffixes.get(*name));
         let suffixes = suffixes.map_or(ITSELF, Vec::as_slice);
         let each = REPLICA + names.iter().flatten().map(|name| name.len()).sum::<usize>();
-        let charged = self.account.charge(suffixes.len().saturating_mul(each));
-        charged.map_err(|why| at(element.place, why))?;
+        self.account.charge(suffixes.len().saturating_mul(each)).at(element.place)?;
         Ok(suffixes)
     }
 
     /// Charges work for an element.
     pub fn charge(&self, element: &Element, work: usize) -> Fallible<()> {
-        self.account.charge(work).map_err(|why| at(element.place, why))
+        self.account.charge(work).at(element.place)
     }
 
     /// The joint that an element names.

@@ -11,7 +11,7 @@ use super::element::Element;
 use super::fault::MjcfFault;
 use super::geom::Geom;
 use super::mesh::Meshes;
-use super::reading::View;
+use super::reading::{Attributes, View};
 
 /// The colour of a shape that names none: the material goes before it.
 const GREY: [f64; 4] = [0.5, 0.5, 0.5, 1.0];

@@ -7,8 +7,8 @@ use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 
 use super::super::fault::Unreachable;
 use super::super::features::{self, Tally};
-use super::super::mesh_mass::{Measures, Mode, measure};
-use super::super::model::Geometry;
+use super::super::mesh_mass::{Mode, measure};
+use super::super::model::{Geometry, Inertial};
 use super::super::place::Place;
 use super::super::refusal::{Fallible, Refusal, at};
 use super::assets::{Assets, Folder};
@@ -17,7 +17,7 @@ use super::element::Element;
 use super::fault::MjcfFault;
 use super::msh;
 use super::orientation::quaternion;
-use super::reading::{View, list, wrong};
+use super::reading::{Attributes, View, list, wrong};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Part, Scene};
@@ -30,7 +30,7 @@ pub struct Meshes<'d> {
     by_name: HashMap<String, MeshAsset<'d>>,
     /// What was read, by name, and by file.
     read: HashMap<String, Arc<Content>>,
-    measured: HashMap<String, Measures>,
+    measured: HashMap<String, Inertial>,
 }
 
 struct MeshAsset<'d> {
@@ -122,13 +122,13 @@ impl<'d> Meshes<'d> {
         self.by_name.get(name).and_then(|asset| asset.view.text("material"))
     }
 
-    /// The measures of a mesh, in its own frame, with its scale.
+    /// The mass of a mesh at a density of 1, in its own frame, with its scale.
     pub fn measures(
         &mut self,
         name: &str,
         place: Place,
         assets: &Assets<'_>,
-    ) -> Fallible<Measures> {
+    ) -> Fallible<Inertial> {
         if let Some(known) = self.measured.get(name) {
             return Ok(*known);
         }

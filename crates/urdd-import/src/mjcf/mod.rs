@@ -40,8 +40,7 @@ pub use element::Element;
 use super::features::Tally;
 use super::model::Model;
 use super::place::TextFile;
-use super::refusal::Fallible;
-use super::refusal::{Placed, placed};
+use super::refusal::{Fallible, Placed, placed};
 use assets::Assets;
 use compiler::Compilers;
 use contact::Contacts;
@@ -60,7 +59,7 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
     let Whole { files, models, root } = document::read(file, gate);
     match root.and_then(|root| model(&root, &files, models, gate, options)) {
         Ok(model) => Ok(Model { files, ..model }),
-        Err(fault) => Err(placed(&files, fault.place, fault.fault)),
+        Err(why) => Err(placed(&files, why)),
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
 
+use super::super::mass::turned;
 use super::super::model::{Body, Inertial, Joint, JointKind};
 
 /// What the joints of a robot move, where all are at their references. Six numbers are a turn and a shift in the frame of
@@ -125,9 +126,8 @@ fn axes(joint: &Joint, pose: &Isometry3<f64>) -> Vec<Vector6<f64>> {
 
 /// The inertia of a body that is at a pose.
 fn rigid(inertial: &Inertial, pose: &Isometry3<f64>) -> Matrix6<f64> {
-    let turn = pose.rotation.to_rotation_matrix().into_inner();
     let arm = (pose * inertial.centre).coords.cross_matrix();
-    let moments = turn * inertial.inertia * turn.transpose();
+    let moments = turned(&inertial.inertia, &pose.rotation);
     let mut all = Matrix6::zeros();
     let parts: [(_, Matrix3<f64>); 4] = [
         ((0, 0), moments + arm * arm.transpose() * inertial.mass),

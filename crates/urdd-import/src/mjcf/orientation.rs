@@ -8,7 +8,7 @@ use super::super::refusal::{Fallible, at};
 use super::compiler::Compiler;
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::reading::{View, numbers, wrong};
+use super::reading::{Attributes, View, wrong};
 
 const WAYS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 /// Vectors that are shorter have no direction.
@@ -35,10 +35,10 @@ pub fn orientation(view: View<'_>, compiler: &Compiler) -> Fallible<Option<UnitQ
             "axisangle" => axis_angle(element, compiler)?,
             "xyaxes" => xy_axes(element)?,
             "zaxis" => {
-                let [x, y, z] = numbers(element, "zaxis")?.unwrap_or_default();
+                let [x, y, z] = element.numbers("zaxis")?.unwrap_or_default();
                 z_to(direction(element, "zaxis", Vector3::new(x, y, z))?)
             }
-            _ => euler(numbers(element, "euler")?.unwrap_or_default(), compiler),
+            _ => euler(element.numbers("euler")?.unwrap_or_default(), compiler),
         }));
     }
     Ok(None)
@@ -46,7 +46,7 @@ pub fn orientation(view: View<'_>, compiler: &Compiler) -> Fallible<Option<UnitQ
 
 /// A quaternion, w first.
 pub fn quaternion(element: &Element, name: &str) -> Fallible<Option<UnitQuaternion<f64>>> {
-    let Some([w, x, y, z]) = numbers::<4>(element, name)? else { return Ok(None) };
+    let Some([w, x, y, z]) = element.numbers::<4>(name)? else { return Ok(None) };
     if [w, x, y, z] == [0.0; 4] {
         return Err(wrong(element, name, "a quaternion that is not zero"));
     }
@@ -82,13 +82,13 @@ pub fn z_to(direction: Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
 }
 
 fn axis_angle(element: &Element, compiler: &Compiler) -> Fallible<UnitQuaternion<f64>> {
-    let [x, y, z, angle] = numbers(element, "axisangle")?.unwrap_or_default();
+    let [x, y, z, angle] = element.numbers("axisangle")?.unwrap_or_default();
     let axis = direction(element, "axisangle", Vector3::new(x, y, z))?;
     Ok(UnitQuaternion::from_axis_angle(&axis, angle * compiler.angle))
 }
 
 fn xy_axes(element: &Element) -> Fallible<UnitQuaternion<f64>> {
-    let [a, b, c, d, e, f] = numbers(element, "xyaxes")?.unwrap_or_default();
+    let [a, b, c, d, e, f] = element.numbers("xyaxes")?.unwrap_or_default();
     let x = direction(element, "xyaxes", Vector3::new(a, b, c))?;
     let y = Vector3::new(d, e, f);
     let y = direction(element, "xyaxes", y - x.into_inner() * x.dot(&y))?;

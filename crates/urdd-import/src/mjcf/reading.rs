@@ -37,24 +37,9 @@ impl<'d> View<'d> {
         self.defaults.chain(self.class, "equality").find(|of| of.get("active").is_some())
     }
 
-    /// The first of the chain that has an attribute, and its text.
-    fn find(&self, name: &str) -> Option<(&'d Element, &'d str)> {
-        self.chain().find_map(|element| Some((element, element.get(name)?)))
-    }
-
     /// A text that is not empty.
     pub fn text(&self, name: &str) -> Option<&'d str> {
-        self.find(name).map(|(_, text)| text).filter(|text| !text.is_empty())
-    }
-
-    /// Exactly `N` numbers.
-    pub fn numbers<const N: usize>(&self, name: &'static str) -> Fallible<Option<[f64; N]>> {
-        self.find(name).map(|(element, _)| numbers(element, name)).transpose().map(Option::flatten)
-    }
-
-    /// One number.
-    pub fn number(&self, name: &'static str) -> Fallible<Option<f64>> {
-        Ok(self.numbers::<1>(name)?.map(|[number]| number))
+        self.chain().find_map(|element| element.get(name)).filter(|text| !text.is_empty())
     }
 
     /// Up to `N` numbers: each from the first of the chain that has it.
@@ -68,25 +53,62 @@ impl<'d> View<'d> {
         }
         Ok(found)
     }
+}
+
+/// What has attributes: an element, or one with its default class.
+pub trait Attributes {
+    /// The first element that has an attribute.
+    fn find(&self, name: &str) -> Option<&Element>;
+
+    /// Exactly `N` finite numbers.
+    fn numbers<const N: usize>(&self, name: &str) -> Fallible<Option<[f64; N]>> {
+        let Some(element) = self.find(name) else { return Ok(None) };
+        let found = list(element, name, N)?;
+        let wanted = match N {
+            1 => "one number",
+            2 => "two numbers",
+            3 => "three numbers",
+            4 => "four numbers",
+            _ => "six numbers",
+        };
+        <[f64; N]>::try_from(found).map(Some).map_err(|_| wrong(element, name, wanted))
+    }
+
+    /// One finite number.
+    fn number(&self, name: &str) -> Fallible<Option<f64>> {
+        Ok(self.numbers::<1>(name)?.map(|[number]| number))
+    }
 
     /// One of some words, by its place among them.
-    pub fn word(
-        &self,
-        name: &'static str,
-        words: &[&str],
-        wanted: &'static str,
-    ) -> Fallible<Option<usize>> {
-        self.find(name).map_or(Ok(None), |(element, _)| word(element, name, words, wanted))
+    fn word(&self, name: &str, words: &[&str], wanted: &'static str) -> Fallible<Option<usize>> {
+        let Some(element) = self.find(name) else { return Ok(None) };
+        let found = words.iter().position(|word| element.get(name) == Some(word));
+        found.map(Some).ok_or_else(|| wrong(element, name, wanted))
     }
 
     /// `true` or `false`.
-    pub fn flag(&self, name: &'static str) -> Fallible<Option<bool>> {
-        self.find(name).map_or(Ok(None), |(element, _)| flag(element, name))
+    fn flag(&self, name: &str) -> Fallible<Option<bool>> {
+        let found = self.word(name, &["false", "true"], "`true` or `false`")?;
+        Ok(found.map(|which| which == 1))
     }
 
     /// A whole number.
-    pub fn integer(&self, name: &'static str) -> Fallible<Option<i64>> {
-        self.find(name).map_or(Ok(None), |(element, _)| integer(element, name))
+    fn integer(&self, name: &str) -> Fallible<Option<i64>> {
+        let Some(element) = self.find(name) else { return Ok(None) };
+        let number = element.get(name).unwrap_or_default().trim().parse();
+        number.map(Some).map_err(|_| wrong(element, name, "a whole number"))
+    }
+}
+
+impl Attributes for Element {
+    fn find(&self, name: &str) -> Option<&Element> {
+        self.get(name).map(|_| self)
+    }
+}
+
+impl Attributes for View<'_> {
+    fn find(&self, name: &str) -> Option<&Element> {
+        self.chain().find(|element| element.get(name).is_some())
     }
 }
 
@@ -107,52 +129,6 @@ pub fn list(element: &Element, name: &str, most: usize) -> Fallible<Vec<f64>> {
         }
     }
     Ok(numbers)
-}
-
-/// Exactly `N` finite numbers.
-pub fn numbers<const N: usize>(element: &Element, name: &str) -> Fallible<Option<[f64; N]>> {
-    if element.get(name).is_none() {
-        return Ok(None);
-    }
-    let found = list(element, name, N)?;
-    let wanted = match N {
-        1 => "one number",
-        2 => "two numbers",
-        3 => "three numbers",
-        4 => "four numbers",
-        _ => "six numbers",
-    };
-    <[f64; N]>::try_from(found).map(Some).map_err(|_| wrong(element, name, wanted))
-}
-
-/// One finite number.
-pub fn number_of(element: &Element, name: &str) -> Fallible<Option<f64>> {
-    Ok(numbers::<1>(element, name)?.map(|[number]| number))
-}
-
-/// One of some words, by its place among them.
-pub fn word(
-    element: &Element,
-    name: &str,
-    words: &[&str],
-    wanted: &'static str,
-) -> Fallible<Option<usize>> {
-    let Some(text) = element.get(name) else { return Ok(None) };
-    let found = words.iter().position(|word| *word == text);
-    found.map(Some).ok_or_else(|| wrong(element, name, wanted))
-}
-
-/// `true` or `false`.
-pub fn flag(element: &Element, name: &str) -> Fallible<Option<bool>> {
-    let found = word(element, name, &["false", "true"], "`true` or `false`")?;
-    Ok(found.map(|which| which == 1))
-}
-
-/// A whole number.
-pub fn integer(element: &Element, name: &str) -> Fallible<Option<i64>> {
-    let Some(text) = element.get(name) else { return Ok(None) };
-    let number = text.trim().parse().map_err(|_| wrong(element, name, "a whole number"))?;
-    Ok(Some(number))
 }
 
 /// A text that must be there.

@@ -2,14 +2,13 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::Isometry3;
 
 use super::super::features::{self, Tally};
-use super::super::model::{Actuator, Body, Geometry, Joint, JointKind, Shape, Use};
+use super::super::model::{Body, Geometry, Inertial, Joint, JointKind, Shape, Use};
 use super::super::names::Names;
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
-use super::actuator::greatest;
+use super::super::refusal::{Fallible, Placing, at};
 use super::assets::Assets;
 use super::body::{Bodies, Made, RawBody, WORLD};
 use super::compiler::Compilers;
@@ -18,7 +17,6 @@ use super::fault::MjcfFault;
 use super::fit::{Fitted, fitted};
 use super::geom::{Geom, GeomKind};
 use super::inertia::inertial;
-use super::joint::{MjcfJointKind, RawJoint};
 use super::material::Materials;
 use super::mesh::Meshes;
 use super::scene::Robot;
@@ -47,10 +45,9 @@ impl<'d> Maker<'_, 'd> {
         let mut joint_names = Names::new(self.account);
         let (bodies, robot) = (self.bodies, self.robot);
         for raw in &bodies.all {
-            for joint in &raw.joints {
-                let Some(name) = joint.name.as_deref() else { continue };
-                if !joint_names.take(name).map_err(|why| at(joint.place, why))? {
-                    let fault = MjcfFault::SameName { what: "joints", name: name.to_owned() };
+            for joint in raw.joints.iter().filter(|joint| !joint.name.is_empty()) {
+                if !joint_names.take(&joint.name).at(joint.place)? {
+                    let fault = MjcfFault::SameName { what: "joints", name: joint.name.clone() };
                     return Err(at(joint.place, fault));
                 }
             }
@@ -86,7 +83,7 @@ impl<'d> Maker<'_, 'd> {
                         continue;
                     };
                     made.joints.insert((*raw_index, number), (index, body.joints.len()));
-                    body.joints.push(joint, self.account).map_err(|why| at(place, why))?;
+                    body.joints.push(joint, self.account).at(place)?;
                 }
                 if body.joints.len() > 1 {
                     self.tally.count(features::MORE_JOINTS);
@@ -95,7 +92,7 @@ impl<'d> Maker<'_, 'd> {
                 self.tally.count(features::FREE);
             }
             made.index.insert(*raw_index, index);
-            made.bodies.push(body, self.account).map_err(|why| at(raw.place, why))?;
+            made.bodies.push(body, self.account).at(raw.place)?;
         }
         self.frames(&mut made, names.1)?;
         Ok(made)
@@ -108,11 +105,7 @@ impl<'d> Maker<'_, 'd> {
         each.map(of).collect()
     }
 
-    fn inertial(
-        &mut self,
-        raw: &RawBody<'d>,
-        fitted: &[Fitted],
-    ) -> Fallible<Option<super::super::model::Inertial>> {
+    fn inertial(&mut self, raw: &RawBody<'d>, fitted: &[Fitted]) -> Fallible<Option<Inertial>> {
         inertial(raw, fitted, self.compilers.at(raw.place), &mut self.meshes, &self.assets)
     }
 
@@ -134,7 +127,7 @@ impl<'d> Maker<'_, 'd> {
         let all = &self.bodies.all;
         for body in self.robot.bodies.iter().map(|index| &all[*index]) {
             let Some(name) = body.name.as_deref() else { continue };
-            if !names.take(name).map_err(|why| at(body.place, why))? {
+            if !names.take(name).at(body.place)? {
                 let fault = MjcfFault::SameName { what: "bodies", name: name.to_owned() };
                 return Err(at(body.place, fault));
             }
@@ -149,43 +142,23 @@ impl<'d> Maker<'_, 'd> {
                 (None, Some(parent)) => names.free(&format!("{parent}_body")),
                 (None, None) => names.free("body"),
             };
-            let name = name.map_err(|why| at(body.place, why))?;
+            let name = name.at(body.place)?;
             known.insert(*index, name.clone());
             found.push(name);
         }
         Ok((found, names))
     }
 
-    fn joint(&mut self, raw: &RawJoint, body: &str, names: &mut Names) -> Fallible<Option<Joint>> {
-        let (kind, feature) = match raw.kind {
-            MjcfJointKind::Free => return Ok(None),
-            MjcfJointKind::Ball => (JointKind::Ball, features::BALLS),
-            MjcfJointKind::Hinge => (JointKind::Hinge, features::HINGES),
-            MjcfJointKind::Slide if raw.range.is_none() => {
-                (JointKind::Slide, features::FREE_SLIDES)
-            }
-            MjcfJointKind::Slide => (JointKind::Slide, features::SLIDES),
+    fn joint(&mut self, raw: &Joint, body: &str, names: &mut Names) -> Fallible<Option<Joint>> {
+        if raw.kind == JointKind::Floating {
+            return Ok(None);
+        }
+        self.tally.count(raw.feature());
+        let name = match raw.name.as_str() {
+            "" => names.free(&format!("{body}_joint")).at(raw.place)?,
+            name => name.to_owned(),
         };
-        self.tally.count(feature);
-        let name = match &raw.name {
-            Some(name) => name.clone(),
-            None => {
-                let free = names.free(&format!("{body}_joint"));
-                free.map_err(|why| at(raw.place, why))?
-            }
-        };
-        let frame = Translation3::from(raw.position).into();
-        Ok(Some(Joint {
-            axis: raw.axis,
-            reference: raw.reference,
-            range: raw.range,
-            effort: raw.force.map(greatest),
-            actuator: Actuator { force: raw.force, ..Actuator::default() },
-            damping: raw.damping,
-            friction: raw.friction,
-            armature: (raw.armature != 0.0).then_some(raw.armature),
-            ..Joint::new(name, kind, frame, raw.place)
-        }))
+        Ok(Some(Joint { name, ..raw.clone() }))
     }
 
     fn shapes(&mut self, body: usize, fitted: &[Fitted]) -> Fallible<Charged<Shape>> {
@@ -226,7 +199,7 @@ impl<'d> Maker<'_, 'd> {
                 material,
                 place: geom.place,
             };
-            shapes.push(shape, self.account).map_err(|why| at(geom.place, why))?;
+            shapes.push(shape, self.account).at(geom.place)?;
         }
         Ok(shapes)
     }
@@ -247,12 +220,7 @@ impl<'d> Maker<'_, 'd> {
                 return Ok(None);
             }
         };
-        let feature = match geometry {
-            Geometry::Capsule { .. } => features::CAPSULES,
-            Geometry::Ellipsoid(_) => features::ELLIPSOIDS,
-            _ => features::BOXES,
-        };
-        self.tally.count(feature);
+        self.tally.count(geometry.feature());
         Ok(Some((geometry, Isometry3::identity())))
     }
 
@@ -262,19 +230,18 @@ impl<'d> Maker<'_, 'd> {
         for raw_index in robot.bodies.iter().filter(|index| **index != WORLD || robot.has_world) {
             let parent = made.index.get(raw_index).copied();
             for frame in &bodies.all[*raw_index].frames {
-                let too_much = |why| at(frame.place, why);
                 self.tally.count(features::FRAMES);
                 let wanted = frame.name.clone().unwrap_or_else(|| {
                     let body = parent.map_or("", |parent| &made.bodies[parent].name);
                     format!("{body}_{}", frame.kind)
                 });
-                let name = match names.take(&wanted).map_err(too_much)? {
+                let name = match names.take(&wanted).at(frame.place)? {
                     true => wanted,
-                    false => names.free(&format!("{wanted}_{}", frame.kind)).map_err(too_much)?,
+                    false => names.free(&format!("{wanted}_{}", frame.kind)).at(frame.place)?,
                 };
                 let body = Body::new(name, parent, frame.pose, frame.place);
                 let body = Body { is_frame: true, ..body };
-                made.bodies.push(body, self.account).map_err(too_much)?;
+                made.bodies.push(body, self.account).at(frame.place)?;
             }
         }
         Ok(())

@@ -8,12 +8,12 @@ use std::collections::HashSet;
 use nalgebra::Isometry3;
 
 use super::super::features::Tally;
+use super::super::model::JointKind;
 use super::super::place::Place;
 use super::super::refusal::{Fallible, at};
 use super::body::{Bodies, RawBody, WORLD};
 use super::element::Element;
 use super::fault::MjcfFault;
-use super::joint::MjcfJointKind;
 use urdd_format::readable::first_of;
 use urdd_format::short::Short;
 
@@ -112,14 +112,14 @@ fn below(all: &[RawBody<'_>], root: usize, tally: &mut Tally) -> Robot {
 
 fn by_structure(all: &[RawBody<'_>], trees: &[usize], driven: &HashSet<&str>) -> HashSet<usize> {
     let mut known = vec![Tree::default(); all.len()];
-    let named = |name: &Option<String>| name.as_deref().is_some_and(|name| driven.contains(name));
     for (body, tree) in all.iter().zip(trees).skip(1) {
         let tree = &mut known[*tree];
         tree.bodies += 1;
-        let moving = body.joints.iter().filter(|joint| joint.kind != MjcfJointKind::Free);
+        let moving = body.joints.iter().filter(|joint| joint.kind != JointKind::Floating);
         tree.joints += moving.count();
-        tree.is_driven |= body.joints.iter().any(|joint| named(&joint.name))
-            || body.frames.iter().any(|site| named(&site.name));
+        let sites = body.frames.iter().filter_map(|site| site.name.as_deref());
+        let mut names = body.joints.iter().map(|joint| joint.name.as_str()).chain(sites);
+        tree.is_driven |= names.any(|name| driven.contains(name));
     }
     let roots = || (1..all.len()).filter(|body| trees[*body] == *body);
     let still = || roots().filter(|root| !all[*root].is_mocap);
@@ -154,7 +154,7 @@ fn driven(root: &Element) -> HashSet<&str> {
 }
 
 fn is_free(body: &RawBody<'_>) -> bool {
-    body.joints.iter().any(|joint| joint.kind == MjcfJointKind::Free)
+    body.joints.iter().any(|joint| joint.kind == JointKind::Floating)
 }
 
 fn say_left_out(all: &[RawBody<'_>], trees: &[usize], chosen: &HashSet<usize>, tally: &mut Tally) {

@@ -8,7 +8,7 @@ use urdd_directory::account::{Account, Charged};
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Closing, Coupled, Shape};
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, Placing};
 use super::closing::closing;
 use super::gearbox::gearbox;
 use super::moving::{moving, needs_links, say_turned};
@@ -32,18 +32,18 @@ pub fn bodies(
     frames: &Frames,
     tally: &mut Tally,
     account: &Account,
-) -> Result<Bodies, Refusal> {
+) -> Fallible<Bodies> {
     let Tree { branches: tree, outside, gearboxes } = branches(&scene, frames, tally)?;
     let world = scene.links.len();
     let mut at = vec![None; world + 1];
     let mut made: Charged<Body> = Charged::default();
     let mut poses: Vec<Isometry3<f64>> = Vec::new();
     for branch in &tree {
-        at[branch.link] = Some(made.len());
-        let node = scene.links.get(branch.link).map(|link| link.node);
+        at[branch.body] = Some(made.len());
+        let node = scene.links.get(branch.body).map(|link| link.node);
         let pose = node.map_or_else(Isometry3::identity, |node| frames.poses[node]);
         let parent = match branch.joint {
-            Some((before, _)) => at[before],
+            Some((before, _)) => Some(before),
             None => (!made.is_empty()).then_some(0),
         };
         let (name, place) = match node {
@@ -56,8 +56,7 @@ pub fn bodies(
         if let Some((_, joint)) = branch.joint {
             let joint = &scene.joints[joint];
             for moving in moving(&scene, frames, joint, node, branch.is_turned, tally)? {
-                let charged = body.joints.push(moving, account);
-                charged.or_else(|why| Refusal::at(place, why))?;
+                body.joints.push(moving, account).at(place)?;
             }
             if joint.kind == SdfJointKind::Fixed {
                 body.fixed_by = Some(scene.nodes[joint.node].name.clone());
@@ -69,20 +68,20 @@ pub fn bodies(
             }
         }
         poses.push(pose);
-        made.push(body, account).or_else(|why| Refusal::at(place, why))?;
+        made.push(body, account).at(place)?;
     }
     let mut closings = Charged::default();
     for outside in outside {
         if let Some(closing) = closing(&scene, frames, outside, &at, tally)? {
             let place = closing.place;
-            closings.push(closing, account).or_else(|why| Refusal::at(place, why))?;
+            closings.push(closing, account).at(place)?;
         }
     }
     let mut couplings = Charged::default();
     for outside in gearboxes {
         let place = scene.nodes[scene.joints[outside.joint].node].place;
         if let Some(coupled) = gearbox(&scene, frames, outside, &at, (&made, &poses), tally)? {
-            couplings.push(coupled, account).or_else(|why| Refusal::at(place, why))?;
+            couplings.push(coupled, account).at(place)?;
         }
     }
     for (link, index) in at.iter().enumerate().take(world) {
@@ -91,10 +90,9 @@ pub fn bodies(
         for shape in shapes {
             let shape = placed(&scene, frames, link, shape)?;
             let place = shape.place;
-            let charged = made[index].shapes.push(shape, account);
-            charged.or_else(|why| Refusal::at(place, why))?;
+            made[index].shapes.push(shape, account).at(place)?;
         }
-        made[index].inertial = Some(scene.links[link].inertial.clone());
+        made[index].inertial = Some(scene.links[link].inertial);
     }
     let mut taken: HashSet<String> = made.iter().map(|body| body.name.clone()).collect();
     for frame in &scene.frames {
@@ -106,19 +104,13 @@ pub fn bodies(
             name += "_frame";
         }
         let body = Body::new(name, Some(parent), pose, node.place);
-        let charged = made.push(Body { is_frame: true, ..body }, account);
-        charged.or_else(|why| Refusal::at(node.place, why))?;
+        made.push(Body { is_frame: true, ..body }, account).at(node.place)?;
     }
     Ok(Bodies { is_held: at[world].is_some(), bodies: made, closings, couplings })
 }
 
 /// A shape in the frame of its link.
-fn placed(
-    scene: &Scene,
-    frames: &Frames,
-    link: usize,
-    placeable: Placeable,
-) -> Result<Shape, Refusal> {
+fn placed(scene: &Scene, frames: &Frames, link: usize, placeable: Placeable) -> Fallible<Shape> {
     let Placeable { mut shape, relative_to } = placeable;
     if let Some(name) = relative_to {
         let node = scene.links[link].node;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
-use super::super::model::LETTER;
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::price::LETTER;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, find, included};
 use super::joint_reader::world_joints;
@@ -35,7 +35,7 @@ pub fn read_chosen(
     reader: &mut SdfReader,
     root: Tag,
     options: &ImportOptions,
-) -> Result<(String, bool), Refusal> {
+) -> Fallible<(String, bool)> {
     let mut there = Vec::new();
     for tag in root.children() {
         match tag.name() {
@@ -56,12 +56,12 @@ pub fn read_chosen(
             let by_uri = || there.iter().find(|one| one.uri == *wanted);
             let found = there.iter().find(|one| one.name == *wanted).or_else(by_uri);
             let other = SdfFault::OtherModels { wanted: wanted.clone(), there: names() };
-            found.map_or_else(|| Refusal::at(root.place(), other), Ok)?
+            found.map_or_else(|| Err(at(root.place(), other)), Ok)?
         }
-        (None, [], _) => return Refusal::at(root.place(), SdfFault::NoModel),
+        (None, [], _) => return Err(at(root.place(), SdfFault::NoModel)),
         (None, [one], _) => one,
         (None, _, [one]) => *one,
-        (None, ..) => return Refusal::at(root.place(), SdfFault::Models(names())),
+        (None, ..) => return Err(at(root.place(), SdfFault::Models(names()))),
     };
     if there.len() > 1 {
         let others = match there.len() - 1 {
@@ -85,13 +85,13 @@ pub fn read_chosen(
 }
 
 /// Reads the model that an `<include>` names.
-fn read_included(reader: &mut SdfReader, tag: Tag) -> Result<(String, bool), Refusal> {
+fn read_included(reader: &mut SdfReader, tag: Tag) -> Fallible<(String, bool)> {
     let Included { file, overrides } = included(reader, tag)?;
     let place: Place = tag.place();
     let read = reader.include(&file, place, |reader, root| {
         say_refusals(root, &mut reader.tally);
         let Some(inside) = root.child("model") else {
-            return Refusal::at(place, SdfFault::IncludesNone(file.file.display().to_string()));
+            return Err(at(place, SdfFault::IncludesNone(file.file.display().to_string())));
         };
         let name = overrides.name.as_deref().or(inside.attribute("name")).unwrap_or_default();
         Ok((name.to_owned(), model(reader, inside, None, &overrides, 0)?))
@@ -125,7 +125,7 @@ fn candidate(tag: Tag) -> Option<Candidate> {
 type Inside = Option<(String, bool)>;
 
 /// Takes from included files what their `<include>`s do not say. Lights and actors are no candidates.
-fn look_inside(reader: &mut SdfReader, there: &mut Vec<Candidate>) -> Result<(), Refusal> {
+fn look_inside(reader: &mut SdfReader, there: &mut Vec<Candidate>) -> Fallible<()> {
     let mut known: BTreeMap<String, Option<Inside>> = BTreeMap::new();
     let mut is_model = Vec::new();
     for one in &mut *there {
@@ -153,7 +153,7 @@ fn look_inside(reader: &mut SdfReader, there: &mut Vec<Candidate>) -> Result<(),
 }
 
 /// What is in an included file; none of one that cannot be read.
-fn peek(reader: &mut SdfReader, tag: Tag, uri: &str) -> Result<Option<Inside>, Refusal> {
+fn peek(reader: &mut SdfReader, tag: Tag, uri: &str) -> Fallible<Option<Inside>> {
     let files = reader.files.len();
     let name = |model: Tag| model.attribute("name").unwrap_or_default().to_owned();
     let read = find(reader, tag, uri).and_then(|file| {

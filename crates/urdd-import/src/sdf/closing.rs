@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use super::super::features::{self, Tally};
+use super::super::limits::say_closed;
 use super::super::model::{Closing, End};
-use super::super::refusal::Refusal;
+use super::super::refusal::Fallible;
 use super::libsdformat::REFUSED;
 use super::moving::direction;
 use super::poses::Frames;
@@ -24,7 +25,7 @@ pub fn closing(
     outside: Outside,
     at: &[Option<usize>],
     tally: &mut Tally,
-) -> Result<Option<Closing>, Refusal> {
+) -> Fallible<Option<Closing>> {
     let Outside { joint, parent, child } = outside;
     let joint = &scene.joints[joint];
     let node = &scene.nodes[joint.node];
@@ -59,14 +60,8 @@ pub fn closing(
         tally.remark(node.place, text);
         return Ok(None);
     };
-    tally.count(features::CLOSED);
-    if joint.axes.iter().any(|axis| axis.range.iter().any(|limit| limit.is_finite())) {
-        let text = format!(
-            "the limits of joint `{}` are left out: it closes a chain, and moves as the others let it",
-            node.name
-        );
-        tally.remark(node.place, text);
-    }
+    let ranges = joint.axes.iter().map(|axis| axis.range);
+    say_closed(ranges, (&node.name, node.place), tally);
     let end = |link: usize, body: usize, axis: Option<&Vector3<f64>>| {
         let frame = match scene.links.get(link) {
             Some(link) => frames.relative(joint.node, link.node),

@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Coupled, JointKind};
-use super::super::refusal::Refusal;
+use super::super::refusal::Fallible;
 use super::moving::direction;
 use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
@@ -30,7 +30,7 @@ pub fn gearbox(
     at: &[Option<usize>],
     (bodies, poses): (&[Body], &[Isometry3<f64>]),
     tally: &mut Tally,
-) -> Result<Option<Coupled>, Refusal> {
+) -> Fallible<Option<Coupled>> {
     let joint = &scene.joints[outside.joint];
     let node = &scene.nodes[joint.node];
     let SdfJointKind::Gearbox(ratio) = joint.kind else { return Ok(None) };

@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 
 use super::super::fault::Unreachable;
 use super::super::features;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, Placing, at};
 use super::assets::LOOKED_AT;
 use super::fault::SdfFault;
 use super::reader::SdfReader;
@@ -39,12 +39,12 @@ pub struct Included {
 ///
 /// # Errors
 /// If there is none, or what it says is not read.
-pub fn included(reader: &mut SdfReader, tag: Tag) -> Result<Included, Refusal> {
+pub fn included(reader: &mut SdfReader, tag: Tag) -> Fallible<Included> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
     if tag.child("experimental:params").is_some() {
-        return Refusal::at(tag.place(), SdfFault::Params);
+        return Err(at(tag.place(), SdfFault::Params));
     }
     tag.unread(KNOWN, &mut reader.tally);
     let pose = tag.child("pose").map(|_| tag.pose()).transpose()?;
@@ -66,13 +66,13 @@ pub fn included(reader: &mut SdfReader, tag: Tag) -> Result<Included, Refusal> {
 ///
 /// # Errors
 /// If there is none, or it may not be read.
-pub fn find(reader: &SdfReader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusal> {
+pub fn find(reader: &SdfReader, tag: Tag, uri: &str) -> Fallible<FoundMesh> {
     let missing = match find_as(reader, tag, uri)? {
         Ok(found) => return Ok(found),
         Err(missing) => missing,
     };
     if missing.outside.is_some() {
-        return Refusal::at(tag.place(), Unreachable::of(uri, missing));
+        return Err(at(tag.place(), Unreachable::of(uri, missing)));
     }
     let bare = uri.split_once("://").map_or(uri, |(_, rest)| rest).trim_start_matches("./");
     let model = format!("model://{bare}");
@@ -83,15 +83,11 @@ pub fn find(reader: &SdfReader, tag: Tag, uri: &str) -> Result<FoundMesh, Refusa
         return Ok(found);
     }
     let (uri, why) = (uri.to_owned(), missing.in_words());
-    Refusal::at(tag.place(), SdfFault::NoInclude { uri, why })
+    Err(at(tag.place(), SdfFault::NoInclude { uri, why }))
 }
 
 /// The file of a name as it is written.
-fn find_as(
-    reader: &SdfReader,
-    tag: Tag,
-    uri: &str,
-) -> Result<Result<FoundMesh, NotFound>, Refusal> {
+fn find_as(reader: &SdfReader, tag: Tag, uri: &str) -> Fallible<Result<FoundMesh, NotFound>> {
     let folder = reader.folder(tag.file);
     reader.charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()), tag.place())?;
     let gate = reader.gate;
@@ -112,7 +108,7 @@ fn find_as(
             let path = folder.join(model);
             let shown = path.display().to_string();
             let found = gate.at(&path).map_err(|why| Unreachable::of(&shown, why));
-            return found.map(Ok).or_else(|why| Refusal::at(tag.place(), why));
+            return found.map(Ok).at(tag.place());
         }
     }
     Ok(Err(missing))

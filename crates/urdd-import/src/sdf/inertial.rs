@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3};
 
 use super::super::features::{self, Tally};
-use super::super::mass::{Mass, moments, volume};
+use super::super::mass::{WATER, turned};
 use super::super::model::Inertial;
-use super::super::refusal::Refusal;
+use super::super::refusal::Fallible;
 use super::libsdformat::{REFUSED, takes_mass};
 use super::shape_reader::primitive;
 use super::tag::Tag;
@@ -17,15 +17,10 @@ const PLACES: [(&str, usize, usize); 6] =
     [("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2)];
 
 /// Reads the mass of a link. What it does not say is 1 kg and 1 kg m², as SDF has it.
-pub fn inertial(link: Tag, tally: &mut Tally) -> Result<Inertial, Refusal> {
+pub fn inertial(link: Tag, tally: &mut Tally) -> Fallible<Inertial> {
     let Some(tag) = link.child("inertial") else {
         tally.count(features::DEFAULT_MASSES);
-        return Ok(Inertial {
-            mass: 1.0,
-            centre: Point3::origin(),
-            inertia: Matrix3::identity(),
-            place: link.place(),
-        });
+        return Ok(Inertial::along_axes(1.0, [1.0; 3]));
     };
     let known = ["pose", "mass", "inertia", "density", "auto_inertia_params"];
     tag.unread(&known, tally);
@@ -60,28 +55,23 @@ pub fn inertial(link: Tag, tally: &mut Tally) -> Result<Inertial, Refusal> {
         tally.remark(tag.place(), text);
     }
     tally.count(if is_given { features::MASSES } else { features::DEFAULT_MASSES });
-    Ok(turned(mass.unwrap_or(1.0), &own, &pose, tag))
+    Ok(placed(mass.unwrap_or(1.0), &own, &pose))
 }
 
 /// A mass whose inertia is along the axes of its own frame.
-fn turned(mass: f64, own: &Matrix3<f64>, pose: &Isometry3<f64>, tag: Tag) -> Inertial {
-    let centre = pose.translation.vector.into();
+fn placed(mass: f64, own: &Matrix3<f64>, pose: &Isometry3<f64>) -> Inertial {
     let inertia = if pose.rotation.angle() == 0.0 {
         *own
     } else {
-        let rotation = pose.rotation.to_rotation_matrix();
-        let turned = rotation.matrix() * own * rotation.matrix().transpose();
+        let turned = turned(own, &pose.rotation);
         (turned + turned.transpose()) / 2.0
     };
-    Inertial { mass, centre, inertia, place: tag.place() }
+    Inertial { mass, centre: pose.translation.vector.into(), inertia }
 }
 
-/// The density of what says none, kg/m³.
-const WATER: f64 = 1000.0;
-
 /// The mass of the collision shapes of a link; `None` without shapes that have one. A mass that is given scales it.
-fn auto_inertia(link: Tag, inertial: Tag, tally: &mut Tally) -> Result<Option<Inertial>, Refusal> {
-    let density = inertial.number("density")?.unwrap_or(WATER);
+fn auto_inertia(link: Tag, tag: Tag, tally: &mut Tally) -> Fallible<Option<Inertial>> {
+    let density = tag.number("density")?.unwrap_or(WATER);
     let mut parts = Vec::new();
     for collision in link.children().filter(|child| child.name() == "collision") {
         let Some(geometry) = collision.child("geometry") else { continue };
@@ -99,30 +89,23 @@ fn auto_inertia(link: Tag, inertial: Tag, tally: &mut Tally) -> Result<Option<In
         }
         parts.push(part.at(&pose));
     }
-    let Some(whole) = Mass::together(&parts).filter(|whole| whole.mass > 0.0) else {
-        return Ok(None);
-    };
-    let given = inertial.number("mass")?.filter(|given| *given > 0.0);
-    let scale = given.map_or(1.0, |given| given / whole.mass);
-    Ok(Some(Inertial {
-        mass: whole.mass * scale,
-        centre: whole.centre.into(),
-        inertia: whole.inertia * scale,
-        place: inertial.place(),
-    }))
+    let whole = Inertial::together(&parts).filter(|whole| whole.mass > 0.0);
+    let Some(Inertial { mass, centre, inertia }) = whole else { return Ok(None) };
+    let given = tag.number("mass")?.filter(|given| *given > 0.0);
+    let scale = given.map_or(1.0, |given| given / mass);
+    Ok(Some(Inertial { mass: mass * scale, centre, inertia: inertia * scale }))
 }
 
 /// The mass of a shape; none of one whose density is not read.
-fn part(shape: Tag, density: f64) -> Result<Option<Mass>, Refusal> {
+fn part(shape: Tag, density: f64) -> Fallible<Option<Inertial>> {
     if shape.name() == "cone" {
         let (radius, length) = (shape.size("radius")?, shape.size("length")?);
         let mass = density * PI * radius * radius * length / 3.0;
         let across = mass * (3.0 / 20.0 * radius * radius + 3.0 / 80.0 * length * length);
-        let centre = Vector3::new(0.0, 0.0, -length / 4.0);
+        let centre = Point3::new(0.0, 0.0, -length / 4.0);
         let moments = [across, across, mass * 0.3 * radius * radius];
-        return Ok(Some(Mass::along_axes(mass, centre, moments)));
+        return Ok(Some(Inertial { centre, ..Inertial::along_axes(mass, moments) }));
     }
-    let Some(solid) = primitive(shape)? else { return Ok(None) };
-    let mass = density * volume(&solid, false);
-    Ok(Some(Mass::along_axes(mass, Vector3::zeros(), moments(&solid, false, mass))))
+    let solid = primitive(shape)?;
+    Ok(solid.map(|solid| Inertial::of_primitive(&solid, false, density)))
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::super::features;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 use super::kept::keep;
 use super::reader::SdfReader;
@@ -28,24 +28,24 @@ const KNOWN: &[&str] = &[
 ];
 
 /// Reads a joint into a scope.
-pub fn joint(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+pub fn joint(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
     let name = tag.own_name()?;
     let (node, joint) = read(reader, tag, scope)?;
     if !reader.scene.add(scope, &name, node) {
-        return Refusal::at(tag.place(), SdfFault::Twice { kind: "joint", name });
+        return Err(at(tag.place(), SdfFault::Twice { kind: "joint", name }));
     }
     reader.scene.joints.push(joint);
     Ok(())
 }
 
 /// What a joint says, and the node that is to be the next.
-pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joint), Refusal> {
+pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<(Node, Joint)> {
     let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
     let kind = kind(tag, &name)?;
     let [parent, child] = [end(tag, "parent")?, end(tag, "child")?];
     if child == WORLD {
-        return Refusal::at(tag.place(), SdfFault::WorldChild(name));
+        return Err(at(tag.place(), SdfFault::WorldChild(name)));
     }
     let node_kind = NodeKind::Joint(reader.scene.joints.len());
     let node = Node::of(tag, whole.clone(), node_kind, scope)?;
@@ -63,7 +63,7 @@ pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joi
         }
         axis(tag, axis_tag, &name)
     });
-    let axes = axes.collect::<Result<Vec<Axis>, Refusal>>()?;
+    let axes = axes.collect::<Fallible<Vec<Axis>>>()?;
     for child in tag.children() {
         match child.name() {
             "sensor" => keep(reader, child, Some((&whole, reader.scene.nodes.len())))?,
@@ -76,7 +76,7 @@ pub fn read(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(Node, Joi
     Ok((node, Joint { node: reader.scene.nodes.len(), kind, parent, axes, reference }))
 }
 
-fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
+fn kind(tag: Tag, name: &str) -> Fallible<SdfJointKind> {
     let word = tag.attribute("type").unwrap_or_default().trim().to_lowercase();
     Ok(match word.as_str() {
         "fixed" => SdfJointKind::Fixed,
@@ -97,7 +97,7 @@ fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
         }),
         _ => {
             let (joint, kind) = (name.to_owned(), word);
-            return Refusal::at(tag.place(), SdfFault::JointType { joint, kind });
+            return Err(at(tag.place(), SdfFault::JointType { joint, kind }));
         }
     })
 }
@@ -106,7 +106,7 @@ fn kind(tag: Tag, name: &str) -> Result<SdfJointKind, Refusal> {
 ///
 /// # Errors
 /// If there is none.
-pub fn end(tag: Tag, child: &'static str) -> Result<String, Refusal> {
+pub fn end(tag: Tag, child: &'static str) -> Fallible<String> {
     // Files of SDF 1.2 have the name in an element of its own.
     let inside = tag.child(child).and_then(|end| end.words("link_name"));
     match inside.or_else(|| tag.words(child)) {
@@ -143,7 +143,7 @@ fn is_of_model(joint: Tag, axis: Tag) -> bool {
     }
 }
 
-fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
+fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Fallible<Axis> {
     let place = tag.unwrap_or(joint).place();
     let mut axis = Axis {
         xyz: Vector3::z(),
@@ -159,7 +159,7 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
     let Some(tag) = tag else { return Ok(axis) };
     if let Some(xyz) = tag.vector("xyz")? {
         let Some(direction) = xyz.try_normalize(1e-9) else {
-            return Refusal::at(tag.place(), SdfFault::ZeroAxis(name.to_owned()));
+            return Err(at(tag.place(), SdfFault::ZeroAxis(name.to_owned())));
         };
         axis.xyz = direction;
     }
@@ -172,7 +172,7 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
                 *side = if value.abs() < NO_LIMIT { value } else { value.signum() * f64::INFINITY };
             }
         }
-        let bound = |name| -> Result<Option<f64>, Refusal> {
+        let bound = |name| -> Fallible<Option<f64>> {
             Ok(limit.any_number(name)?.filter(|value| (0.0..NO_LIMIT).contains(value)))
         };
         (axis.effort, axis.velocity) = (bound("effort")?, bound("velocity")?);
@@ -183,7 +183,7 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
     }
     if let Some(mimic) = tag.child("mimic") {
         let Some(leader) = mimic.attribute("joint") else {
-            return Refusal::at(mimic.place(), SdfFault::NoName("mimic".to_owned()));
+            return Err(at(mimic.place(), SdfFault::NoName("mimic".to_owned())));
         };
         axis.mimic = Some(Mimic {
             joint: leader.to_owned(),
@@ -198,7 +198,7 @@ fn axis(joint: Tag, tag: Option<Tag>, name: &str) -> Result<Axis, Refusal> {
 }
 
 /// Reads the joints between the model that was read and the world. The others are lost.
-pub fn world_joints(reader: &mut SdfReader, world: Tag, model: &str) -> Result<(), Refusal> {
+pub fn world_joints(reader: &mut SdfReader, world: Tag, model: &str) -> Fallible<()> {
     for tag in world.children().filter(|child| child.name() == "joint") {
         let inside = |name: &str| match name.strip_prefix(model)? {
             "" => Some("__model__".to_owned()),

@@ -3,9 +3,10 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
-use super::super::model::{GazeboElement, LETTER};
+use super::super::model::GazeboElement;
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::price::LETTER;
+use super::super::refusal::{Fallible, Placing};
 use super::poses::Frames;
 use super::reader::SdfReader;
 use super::scene::{Posed, Scene};
@@ -18,7 +19,7 @@ use urdd_xml::writer::Element;
 pub type Owner<'n> = (&'n str, usize);
 
 /// Keeps an element of the model, or of a link or joint.
-pub fn keep(reader: &mut SdfReader, tag: Tag, owner: Option<Owner>) -> Result<(), Refusal> {
+pub fn keep(reader: &mut SdfReader, tag: Tag, owner: Option<Owner>) -> Fallible<()> {
     let mut element = Element::of(tag.node);
     if element.has_prefix() {
         reader.tally.unread(format!("`<{}>` with prefixes in it", tag.name()));
@@ -49,13 +50,13 @@ pub fn keep(reader: &mut SdfReader, tag: Tag, owner: Option<Owner>) -> Result<()
 }
 
 /// Keeps the plugins in an element.
-pub fn keep_plugins(reader: &mut SdfReader, tag: Tag) -> Result<(), Refusal> {
+pub fn keep_plugins(reader: &mut SdfReader, tag: Tag) -> Fallible<()> {
     let mut plugins = tag.children().filter(|child| child.name() == "plugin");
     plugins.try_for_each(|plugin| keep(reader, plugin, None))
 }
 
 /// Puts elements into the frames of their links and joints, which a URDF has.
-pub fn keep_posed(reader: &mut SdfReader, scene: &Scene, frames: &Frames) -> Result<(), Refusal> {
+pub fn keep_posed(reader: &mut SdfReader, scene: &Scene, frames: &Frames) -> Fallible<()> {
     for Posed { mut element, owner, node, pose: (pose, name), place } in
         std::mem::take(&mut reader.posed)
     {
@@ -79,7 +80,7 @@ pub fn keep_posed(reader: &mut SdfReader, scene: &Scene, frames: &Frames) -> Res
 }
 
 /// Keeps that the robot is static. libsdformat takes the word of the last `<gazebo>` for it, and a missing one for no.
-pub fn keep_static(reader: &mut SdfReader, place: Place) -> Result<(), Refusal> {
+pub fn keep_static(reader: &mut SdfReader, place: Place) -> Fallible<()> {
     reader.tally.count(features::KEPT);
     push(reader, Element::text("static", "true"), None, place)
 }
@@ -89,8 +90,8 @@ fn push(
     element: Element,
     owner: Option<&str>,
     place: Place,
-) -> Result<(), Refusal> {
+) -> Fallible<()> {
     let gazebo = Element::new("gazebo").with_some("reference", owner).holding(element);
     let kept = GazeboElement(gazebo.fragment());
-    reader.kept.push(kept, reader.gate.account()).or_else(|why| Refusal::at(place, why))
+    reader.kept.push(kept, reader.gate.account()).at(place)
 }

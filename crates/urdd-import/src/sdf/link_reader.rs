@@ -1,7 +1,7 @@
 //! Reads links.
 
 use super::super::features;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 use super::inertial::inertial;
 use super::kept::keep;
@@ -29,17 +29,17 @@ const KEPT: &[&str] = &[
 ];
 
 /// Reads a link into a scope.
-pub fn link(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+pub fn link(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
     let name = tag.own_name()?;
     if name == WORLD {
-        return Refusal::at(tag.place(), SdfFault::WorldLink(name));
+        return Err(at(tag.place(), SdfFault::WorldLink(name)));
     }
     let whole = reader.whole_name(tag, scope, &name)?;
     let kind = NodeKind::Link(reader.scene.links.len());
     let node = Node::of(tag, whole.clone(), kind, scope)?;
     let index = reader.scene.nodes.len();
     if !reader.scene.add(scope, &name, node) {
-        return Refusal::at(tag.place(), SdfFault::Twice { kind: "link", name });
+        return Err(at(tag.place(), SdfFault::Twice { kind: "link", name }));
     }
     reader.tally.count(features::BODIES);
     let mut shapes = Vec::new();

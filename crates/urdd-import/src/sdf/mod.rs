@@ -24,8 +24,7 @@ mod tag;
 
 use super::model::Model;
 use super::place::TextFile;
-use super::refusal::Refusal;
-use super::refusal::{Placed, placed};
+use super::refusal::{Fallible, Placed, at, placed};
 use bodies::bodies;
 use chosen::read_chosen;
 use fault::SdfFault;
@@ -40,17 +39,17 @@ use urdd_source::gate::Gate;
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
     let mut reader = SdfReader::new(gate);
     let made = made(&mut reader, file, options);
-    made.map_err(|Refusal { place, fault }| placed(&reader.files, place, fault))
+    made.map_err(|why| placed(&reader.files, why))
 }
 
-fn made(reader: &mut SdfReader, file: TextFile, options: &ImportOptions) -> Result<Model, Refusal> {
+fn made(reader: &mut SdfReader, file: TextFile, options: &ImportOptions) -> Fallible<Model> {
     let (name, is_static) = reader.open(file, |reader, root| {
         say_refusals(root, &mut reader.tally);
         read_chosen(reader, root, options)
     })?;
     let scene = std::mem::take(&mut reader.scene);
     if scene.links.is_empty() {
-        return Refusal::at(scene.nodes[0].place, SdfFault::NoLink(name));
+        return Err(at(scene.nodes[0].place, SdfFault::NoLink(name)));
     }
     let frames = Frames::of(&scene)?;
     keep_posed(reader, &scene, &frames)?;

@@ -3,8 +3,8 @@
 use nalgebra::Isometry3;
 
 use super::super::features;
-use super::super::model::{ENTRY, LETTER};
-use super::super::refusal::Refusal;
+use super::super::price::{ENTRY, LETTER};
+use super::super::refusal::{Fallible, Placing, at};
 use super::fault::SdfFault;
 use super::included::{Included, Overrides, included};
 use super::joint_reader::joint;
@@ -31,9 +31,9 @@ pub fn model(
     parent: Option<usize>,
     overrides: &Overrides,
     depth: usize,
-) -> Result<bool, Refusal> {
+) -> Fallible<bool> {
     if depth > MAX_DEPTH {
-        return Refusal::at(tag.place(), SdfFault::Deep(MAX_DEPTH));
+        return Err(at(tag.place(), SdfFault::Deep(MAX_DEPTH)));
     }
     let name = overrides.name.clone().map_or_else(|| tag.own_name(), Ok)?;
     let scope = enter(reader, tag, parent, &name, overrides)?;
@@ -58,7 +58,7 @@ pub fn model(
                     say_refusals(root, &mut reader.tally);
                     let Some(inside) = root.child("model") else {
                         let file = file.file.display().to_string();
-                        return Refusal::at(child.place(), SdfFault::IncludesNone(file));
+                        return Err(at(child.place(), SdfFault::IncludesNone(file)));
                     };
                     model(reader, inside, Some(scope), &overrides, depth + 1)
                 })?;
@@ -86,7 +86,7 @@ fn enter(
     parent: Option<usize>,
     name: &str,
     overrides: &Overrides,
-) -> Result<usize, Refusal> {
+) -> Fallible<usize> {
     let (pose, relative_to) = overrides.pose.clone().map_or_else(|| tag.pose(), Ok)?;
     let placement = tag.attribute("placement_frame").map(str::to_owned);
     let placement = overrides.placement.clone().or(placement);
@@ -96,7 +96,7 @@ fn enter(
     let around = parent.map(|parent| &scene.scopes[parent]);
     let prefix = around.map_or("", |around| &around.prefix);
     let names = LETTER * (prefix.len() + name.len());
-    account.charge(ENTRY + names).or_else(|why| Refusal::at(tag.place(), why))?;
+    account.charge(ENTRY + names).at(tag.place())?;
     let whole = format!("{prefix}{}", name.replace("::", "/"));
     let merged_into = parent.filter(|_| overrides.is_merged);
     let (table, inner) = match (around, merged_into) {
@@ -131,7 +131,7 @@ fn enter(
         (Some(parent), None) => {
             if !scene.add(parent, name, node) {
                 let twice = SdfFault::Twice { kind: "model", name: name.to_owned() };
-                return Refusal::at(tag.place(), twice);
+                return Err(at(tag.place(), twice));
             }
         }
         _ => {
@@ -145,7 +145,7 @@ fn enter(
     Ok(scope)
 }
 
-fn frame(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> {
+fn frame(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
     let name = tag.own_name()?;
     let whole = reader.whole_name(tag, scope, &name)?;
     let attached_to = tag.attribute("attached_to").map(str::to_owned);
@@ -155,6 +155,6 @@ fn frame(reader: &mut SdfReader, tag: Tag, scope: usize) -> Result<(), Refusal> 
     tag.unread(&["pose"], &mut reader.tally);
     match reader.scene.add(scope, &name, node) {
         true => Ok(()),
-        false => Refusal::at(tag.place(), SdfFault::Twice { kind: "frame", name }),
+        false => Err(at(tag.place(), SdfFault::Twice { kind: "frame", name })),
     }
 }

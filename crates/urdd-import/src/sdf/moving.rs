@@ -6,7 +6,7 @@ use super::super::features::{self, Tally};
 use super::super::limits::limits;
 use super::super::model::{Joint as Moving, JointKind, Mimic};
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 use super::poses::Frames;
 use super::scene::{Axis, Joint, NodeKind, Scene, SdfJointKind};
@@ -19,7 +19,7 @@ pub fn moving(
     body: Option<usize>,
     is_turned: bool,
     tally: &mut Tally,
-) -> Result<Vec<Moving>, Refusal> {
+) -> Fallible<Vec<Moving>> {
     let node = &scene.nodes[joint.node];
     let frame = match body {
         Some(body) => frames.relative(joint.node, body),
@@ -52,11 +52,7 @@ pub fn moving(
         (made.effort, made.velocity) = (axis.effort, axis.velocity);
         (made.damping, made.friction) = (axis.damping, axis.friction);
         made.mimic = mimic(scene, joint.node, axis, tally)?;
-        tally.count(match (kind, made.range) {
-            (JointKind::Slide, None) => features::FREE_SLIDES,
-            (JointKind::Slide, Some(_)) => features::SLIDES,
-            _ => features::HINGES,
-        });
+        tally.count(made.feature());
         moves.push(made);
     }
     match joint.kind {
@@ -107,7 +103,7 @@ pub fn direction(
     frames: &Frames,
     joint: usize,
     axis: &Axis,
-) -> Result<Vector3<f64>, Refusal> {
+) -> Fallible<Vector3<f64>> {
     let Some(name) = &axis.expressed_in else { return Ok(axis.xyz) };
     let frame = Frames::named(scene, joint, "expressed_in", name)?;
     let turn: UnitQuaternion<f64> = frames.relative(frame, joint).rotation;
@@ -120,18 +116,13 @@ fn clean(direction: Vector3<f64>) -> Vector3<f64> {
     direction.map(|value| if value.abs() < 1e-15 { 0.0 } else { value })
 }
 
-fn mimic(
-    scene: &Scene,
-    joint: usize,
-    axis: &Axis,
-    tally: &mut Tally,
-) -> Result<Option<Mimic>, Refusal> {
+fn mimic(scene: &Scene, joint: usize, axis: &Axis, tally: &mut Tally) -> Fallible<Option<Mimic>> {
     let Some(mimic) = &axis.mimic else { return Ok(None) };
     let found = Frames::named(scene, joint, "mimic", &mimic.joint)?;
     let NodeKind::Joint(index) = scene.nodes[found].kind else {
         let (element, name) = ("mimic".to_owned(), mimic.joint.clone());
         let model = scene.scopes[scene.nodes[joint].scope].name.clone();
-        return Refusal::at(mimic.place, SdfFault::Unknown { element, name, model });
+        return Err(at(mimic.place, SdfFault::Unknown { element, name, model }));
     };
     tally.count(features::MIMICS);
     let leader = &scene.joints[index];

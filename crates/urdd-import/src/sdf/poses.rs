@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 use super::scene::{NodeKind, Scene};
 
@@ -20,21 +20,21 @@ impl Frames {
     ///
     /// # Errors
     /// If a name has no meaning, or frames refer to each other in a circle.
-    pub fn of(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn of(scene: &Scene) -> Fallible<Self> {
         let attached = attached(scene)?;
         let bases = bases(scene, &attached)?;
         Ok(Frames { poses: poses(scene, &bases)?, links: links(scene, &attached)? })
     }
 
     /// The node that a name means, in the scope of another node.
-    pub fn named(scene: &Scene, node: usize, element: &str, name: &str) -> Result<usize, Refusal> {
+    pub fn named(scene: &Scene, node: usize, element: &str, name: &str) -> Fallible<usize> {
         let (scope, place) = (scene.nodes[node].scope, scene.nodes[node].place);
         match scene.find(scope, name) {
             Some(found) => Ok(found),
             None => {
                 let model = scene.scopes[scope].name.clone();
                 let (element, name) = (element.to_owned(), name.to_owned());
-                Refusal::at(place, SdfFault::Unknown { element, name, model })
+                Err(at(place, SdfFault::Unknown { element, name, model }))
             }
         }
     }
@@ -59,7 +59,7 @@ pub fn snapped(pose: Isometry3<f64>) -> Isometry3<f64> {
 }
 
 /// What each node is attached to: for a model, the link or model that holds its frame.
-fn attached(scene: &Scene) -> Result<Vec<Option<usize>>, Refusal> {
+fn attached(scene: &Scene) -> Fallible<Vec<Option<usize>>> {
     let each = scene.nodes.iter().enumerate().map(|(index, node)| match node.kind {
         NodeKind::Link(_) => Ok(None),
         NodeKind::Joint(_) => {
@@ -80,7 +80,7 @@ fn attached(scene: &Scene) -> Result<Vec<Option<usize>>, Refusal> {
 }
 
 /// The node that the pose of each is relative to.
-fn bases(scene: &Scene, attached: &[Option<usize>]) -> Result<Vec<Option<usize>>, Refusal> {
+fn bases(scene: &Scene, attached: &[Option<usize>]) -> Fallible<Vec<Option<usize>>> {
     let each = scene.nodes.iter().enumerate().map(|(index, node)| {
         if index == 0 {
             return Ok(None);
@@ -97,12 +97,12 @@ fn bases(scene: &Scene, attached: &[Option<usize>]) -> Result<Vec<Option<usize>>
     each.collect()
 }
 
-fn circle<T>(scene: &Scene, node: usize) -> Result<T, Refusal> {
+fn circle<T>(scene: &Scene, node: usize) -> Fallible<T> {
     let node = &scene.nodes[node];
-    Refusal::at(node.place, SdfFault::Circle(node.name.clone()))
+    Err(at(node.place, SdfFault::Circle(node.name.clone())))
 }
 
-fn poses(scene: &Scene, bases: &[Option<usize>]) -> Result<Vec<Isometry3<f64>>, Refusal> {
+fn poses(scene: &Scene, bases: &[Option<usize>]) -> Fallible<Vec<Isometry3<f64>>> {
     let mut own: Vec<Isometry3<f64>> = scene.nodes.iter().map(|node| node.pose).collect();
     own[0] = Isometry3::identity();
     // Models are made before what is in them: the innermost first.
@@ -113,7 +113,7 @@ fn poses(scene: &Scene, bases: &[Option<usize>]) -> Result<Vec<Isometry3<f64>>, 
             let (element, name) = ("placement_frame".to_owned(), name.clone());
             let unknown =
                 SdfFault::Unknown { element, name, model: scene.nodes[model].name.clone() };
-            return Refusal::at(scene.nodes[model].place, unknown);
+            return Err(at(scene.nodes[model].place, unknown));
         };
         let (mut pose, mut at, mut steps) = (Isometry3::identity(), placed, 0);
         while at != model {
@@ -147,7 +147,7 @@ fn poses(scene: &Scene, bases: &[Option<usize>]) -> Result<Vec<Isometry3<f64>>, 
 }
 
 /// The link at the end of what each node is attached to.
-fn links(scene: &Scene, attached: &[Option<usize>]) -> Result<Vec<Option<usize>>, Refusal> {
+fn links(scene: &Scene, attached: &[Option<usize>]) -> Fallible<Vec<Option<usize>>> {
     let mut links: Vec<Option<Option<usize>>> = vec![None; scene.nodes.len()];
     let mut chain = Vec::new();
     for node in 0..scene.nodes.len() {

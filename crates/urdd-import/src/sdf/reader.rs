@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::super::fault::ImportFault;
 use super::super::features::{self, Tally};
-use super::super::model::{ENTRY, GazeboElement, LETTER};
+use super::super::model::GazeboElement;
 use super::super::names::Names;
 use super::super::place::{Place, TextFile};
-use super::super::refusal::Refusal;
+use super::super::price::{ENTRY, LETTER};
+use super::super::refusal::{Fallible, Placing, at};
 use super::assets::Assets;
 use super::fault::SdfFault;
 use super::scene::{Posed, Scene};
@@ -70,21 +71,21 @@ impl<'r> SdfReader<'r> {
         &mut self,
         found: &FoundMesh,
         place: Place,
-        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
-    ) -> Result<T, Refusal> {
+        then: impl FnOnce(&mut Self, Tag) -> Fallible<T>,
+    ) -> Fallible<T> {
         if self.open.contains(&found.file) {
             let file = found.file.display().to_string();
-            return Refusal::at(place, SdfFault::IncludeCircle(file));
+            return Err(at(place, SdfFault::IncludeCircle(file)));
         }
         match TextFile::included(self.gate, found) {
             Ok(file) => self.open(file, then),
-            Err(why) => Refusal::at(place, why),
+            Err(why) => Err(at(place, why)),
         }
     }
 
     /// The name of something in a scope, with the models that it is in; it is charged. Of two that would be the same, as
     /// `n/b` and `b` of a model `n`, the second gets a number.
-    pub fn whole_name(&mut self, tag: Tag, scope: usize, name: &str) -> Result<String, Refusal> {
+    pub fn whole_name(&mut self, tag: Tag, scope: usize, name: &str) -> Fallible<String> {
         let prefix = &self.scene.scopes[scope].prefix;
         self.charge(ENTRY + LETTER * (prefix.len() + name.len()), tag.place())?;
         // Files before 1.8 have names with the models that they are in.
@@ -94,12 +95,12 @@ impl<'r> SdfReader<'r> {
             "joint" => &mut self.joints,
             _ => return Ok(whole),
         };
-        names.free(&whole).or_else(|why| Refusal::at(tag.place(), why))
+        names.free(&whole).at(tag.place())
     }
 
     /// Charges what is made at a place, in bytes.
-    pub fn charge(&self, bytes: usize, place: Place) -> Result<(), Refusal> {
-        self.gate.account().charge(bytes).or_else(|why| Refusal::at(place, why))
+    pub fn charge(&self, bytes: usize, place: Place) -> Fallible<()> {
+        self.gate.account().charge(bytes).at(place)
     }
 
     /// Goes on with the outermost element of a file.
@@ -109,8 +110,8 @@ impl<'r> SdfReader<'r> {
     pub fn open<T>(
         &mut self,
         file: TextFile,
-        then: impl FnOnce(&mut Self, Tag) -> Result<T, Refusal>,
-    ) -> Result<T, Refusal> {
+        then: impl FnOnce(&mut Self, Tag) -> Fallible<T>,
+    ) -> Fallible<T> {
         let known = self.files.iter().position(|known| known.path == file.path);
         let index = known.unwrap_or(self.files.len());
         let (text, path) = (Arc::<str>::from(&*file.text), file.path.clone());
@@ -122,7 +123,7 @@ impl<'r> SdfReader<'r> {
             Ok(document) => document,
             Err(error) => {
                 let place = Place { file: index, offset: error.offset(&text) };
-                return Refusal::at(place, ImportFault::NotXml(error.words(&text)));
+                return Err(at(place, ImportFault::NotXml(error.words(&text))));
             }
         };
         self.charge(mended.size(), Place { file: index, offset: 0 })?;
@@ -137,13 +138,13 @@ impl<'r> SdfReader<'r> {
 }
 
 /// The minor version that an outermost element names.
-fn version(root: Tag) -> Result<u32, Refusal> {
+fn version(root: Tag) -> Fallible<u32> {
     if root.name() == "robot" {
         let words = root.attribute("name").unwrap_or_default().to_owned();
-        return Refusal::at(root.place(), SdfFault::IncludesUrdf(words));
+        return Err(at(root.place(), SdfFault::IncludesUrdf(words)));
     }
     if !matches!(root.name(), "sdf" | "gazebo") {
-        return Refusal::at(root.place(), SdfFault::Root(root.name().to_owned()));
+        return Err(at(root.place(), SdfFault::Root(root.name().to_owned())));
     }
     let version = root.attribute("version").unwrap_or_default().trim();
     let minor = version.strip_prefix("1.").and_then(|rest| {
@@ -153,7 +154,7 @@ fn version(root: Tag) -> Result<u32, Refusal> {
     let [first, last] = VERSIONS;
     match minor.filter(|minor| (first..=last).contains(minor)) {
         Some(minor) => Ok(minor),
-        None => Refusal::at(root.place(), SdfFault::Version(version.to_owned())),
+        None => Err(at(root.place(), SdfFault::Version(version.to_owned()))),
     }
 }
 

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use super::super::model::{Inertial, Shape};
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::refusal::Fallible;
 use super::tag::Tag;
 use urdd_xml::writer::Element;
 
@@ -65,7 +65,7 @@ pub struct Node {
 
 impl Node {
     /// What a tag says of its frame; it is attached to nothing.
-    pub fn of(tag: Tag, name: String, kind: NodeKind, scope: usize) -> Result<Self, Refusal> {
+    pub fn of(tag: Tag, name: String, kind: NodeKind, scope: usize) -> Fallible<Self> {
         let (pose, relative_to) = tag.pose()?;
         let (attached_to, placement, place) = (None, None, tag.place());
         Ok(Node { name, kind, scope, pose, relative_to, attached_to, placement, place })

@@ -6,7 +6,7 @@ use super::super::cone::cone;
 use super::super::fault::{ImportFault, Unreachable};
 use super::super::features;
 use super::super::model::{Geometry, Material, Shape, Use};
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, Placing, at};
 use super::reader::SdfReader;
 use super::scene::Placeable;
 use super::tag::Tag;
@@ -41,7 +41,7 @@ const LIGHTING: &[&str] = &[
 ///
 /// # Errors
 /// If a number is none, or a file may not be read.
-pub fn shape(reader: &mut SdfReader, tag: Tag) -> Result<Option<Placeable>, Refusal> {
+pub fn shape(reader: &mut SdfReader, tag: Tag) -> Fallible<Option<Placeable>> {
     let is_visual = tag.name() == "visual";
     for child in tag.children() {
         match child.name() {
@@ -81,7 +81,7 @@ pub fn shape(reader: &mut SdfReader, tag: Tag) -> Result<Option<Placeable>, Refu
 ///
 /// # Errors
 /// If a size is missing, or none.
-pub fn primitive(tag: Tag) -> Result<Option<Geometry>, Refusal> {
+pub fn primitive(tag: Tag) -> Fallible<Option<Geometry>> {
     Ok(Some(match tag.name() {
         "box" => Geometry::Box(lengths(tag, "size")?),
         "sphere" => Geometry::Sphere(tag.size("radius")?),
@@ -108,7 +108,7 @@ const SIZES: &[(&str, &[&str])] = &[
     ("ellipsoid", &["radii"]),
 ];
 
-fn geometry(reader: &mut SdfReader, tag: Tag) -> Result<Option<Geometry>, Refusal> {
+fn geometry(reader: &mut SdfReader, tag: Tag) -> Fallible<Option<Geometry>> {
     let sizes = SIZES.iter().find(|(shape, _)| *shape == tag.name());
     let sizes = sizes.into_iter().flat_map(|(_, sizes)| *sizes);
     for size in sizes.filter(|size| tag.child(size).is_none()) {
@@ -117,14 +117,12 @@ fn geometry(reader: &mut SdfReader, tag: Tag) -> Result<Option<Geometry>, Refusa
         reader.tally.remark(tag.place(), text);
     }
     let (feature, geometry) = match (primitive(tag)?, tag.name()) {
-        (Some(capsule @ Geometry::Capsule { .. }), _) => (features::CAPSULES, capsule),
-        (Some(ellipsoid @ Geometry::Ellipsoid(_)), _) => (features::ELLIPSOIDS, ellipsoid),
-        (Some(other), _) => (features::BOXES, other),
+        (Some(solid), _) => (solid.feature(), solid),
         (None, "cone") => {
             let (radius, length) = (tag.size("radius")?, tag.size("length")?);
             let Some(bytes) = stl(&[Part::from(cone())]).ok() else { return Ok(None) };
             let asset = reader.assets.made(reader.gate, "meshes/unit_cone.stl", bytes);
-            let asset = asset.or_else(|why| Refusal::at(tag.place(), why))?;
+            let asset = asset.at(tag.place())?;
             (features::CONES, Geometry::Mesh { asset, scale: [radius, radius, length] })
         }
         (None, "empty") => return Ok(None),
@@ -152,7 +150,7 @@ fn is_flat(geometry: &Geometry) -> bool {
 }
 
 /// Three lengths that are not less than 0.
-fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
+fn lengths(tag: Tag, child: &'static str) -> Fallible<[f64; 3]> {
     let Some(lengths) = tag.vector(child)? else {
         return if tag.child(child).is_none() { Ok([1.0; 3]) } else { tag.lacks(child) };
     };
@@ -163,7 +161,7 @@ fn lengths(tag: Tag, child: &'static str) -> Result<[f64; 3], Refusal> {
 }
 
 /// A mesh, and where its origin is.
-fn mesh(reader: &mut SdfReader, tag: Tag) -> Result<Option<(Geometry, Vector3<f64>)>, Refusal> {
+fn mesh(reader: &mut SdfReader, tag: Tag) -> Fallible<Option<(Geometry, Vector3<f64>)>> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
@@ -191,7 +189,7 @@ fn asset(
     reader: &mut SdfReader,
     tag: Tag,
     added: Result<usize, ImportFault>,
-) -> Result<Option<usize>, Refusal> {
+) -> Fallible<Option<usize>> {
     match added {
         Ok(asset) => Ok(Some(asset)),
         // A file that is not there, or is something else, is left out, as Gazebo does.
@@ -200,11 +198,11 @@ fn asset(
             reader.tally.remark(tag.place(), format!("{why}; it is left out"));
             Ok(None)
         }
-        Err(why) => Refusal::at(tag.place(), why),
+        Err(why) => Err(at(tag.place(), why)),
     }
 }
 
-fn material(reader: &mut SdfReader, visual: Tag) -> Result<Option<Material>, Refusal> {
+fn material(reader: &mut SdfReader, visual: Tag) -> Fallible<Option<Material>> {
     let opacity = 1.0 - visual.number("transparency")?.unwrap_or_default().clamp(0.0, 1.0);
     let Some(tag) = visual.child("material") else { return Ok(None) };
     let beside = tag.children().filter(|child| LIGHTING.contains(&child.name())).count();
@@ -238,7 +236,7 @@ fn material(reader: &mut SdfReader, visual: Tag) -> Result<Option<Material>, Ref
 }
 
 /// The diffuse colour, each component from 0 to 1.
-fn color(material: Tag) -> Result<Option<[f64; 4]>, Refusal> {
+fn color(material: Tag) -> Fallible<Option<[f64; 4]>> {
     let Some(tag) = material.child("diffuse") else { return Ok(None) };
     let words = tag.text();
     let color = match words.split_whitespace().count() {

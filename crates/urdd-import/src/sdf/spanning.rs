@@ -1,21 +1,12 @@
 //! The tree in the graph of links and joints.
 
+use std::collections::HashSet;
+
 use super::super::features::{self, Tally};
-use super::super::refusal::Refusal;
-use super::super::sets::Sets;
+use super::super::forest::{Branch, Forest};
+use super::super::refusal::Fallible;
 use super::poses::Frames;
 use super::scene::{Scene, SdfJointKind, WORLD};
-
-/// A link in the tree, its parent first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Branch {
-    /// The link; the number of links means the world.
-    pub link: usize,
-    /// The link before it, and the joint between the two; none of the root, and of what is only put to the root.
-    pub joint: Option<(usize, usize)>,
-    /// Whether the link is the joint's parent.
-    pub is_turned: bool,
-}
 
 /// A joint and its links; the number of links means the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +19,7 @@ pub struct Outside {
 /// What the joints of a scene are.
 #[derive(Debug)]
 pub struct Tree {
+    /// Links; the number of links means the world.
     pub branches: Vec<Branch>,
     /// Those that close chains.
     pub outside: Vec<Outside>,
@@ -41,71 +33,41 @@ pub struct Tree {
 ///
 /// # Errors
 /// If a joint names what is not there.
-pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Result<Tree, Refusal> {
+pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Fallible<Tree> {
     let world = scene.links.len();
-    let mut sets = Sets::new(world + 1);
-    let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); world + 1];
-    let mut is_child = vec![false; world + 1];
+    let mut forest = Forest::new(world + 1);
     let [first, further, gearboxes] = ends(scene, frames)?;
-    let mut left_out = Vec::new();
-    for end in first.into_iter().chain(further) {
-        let Outside { joint, parent, child } = end;
-        if sets.join(parent, child) {
-            around[parent].push((child, joint, false));
-            around[child].push((parent, joint, true));
-            is_child[child] = true;
-        } else {
-            left_out.push(end);
-        }
-    }
-    around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
-    left_out.sort_unstable_by_key(|outside| outside.joint);
-    let is_held = !around[world].is_empty();
+    let mut outside: Vec<Outside> = first.into_iter().chain(further).collect();
+    outside.retain(|end| !forest.join(end.joint, end.parent, end.child));
+    outside.sort_unstable_by_key(|end| end.joint);
+    let firsts: Vec<usize> = (0..world).filter(|link| !forest.is_child(*link)).collect();
     let canonical = frames.links[0].unwrap_or_default();
-    let main = sets.of(if is_held { world } else { canonical });
-    let mut starts: Vec<usize> = Vec::new();
-    let mut is_started = vec![false; world + 1];
-    let mut start = |link: usize, sets: &mut Sets| {
-        let set = sets.of(link);
-        if !std::mem::replace(&mut is_started[set], true) {
-            starts.push(link);
-        }
-    };
-    if is_held {
-        start(world, &mut sets);
-    } else if !is_child[canonical] {
-        start(canonical, &mut sets);
+    let root = if forest.joints(world) > 0 {
+        world
+    } else if !forest.is_child(canonical) {
+        canonical
     } else {
-        let first = (0..world).find(|link| !is_child[*link] && sets.of(*link) == main);
-        start(first.unwrap_or(canonical), &mut sets);
-    }
-    for link in (0..world).filter(|link| !is_child[*link]) {
-        start(link, &mut sets);
-    }
-    let mut branches: Vec<Branch> = Vec::new();
-    for (place, root) in starts.into_iter().enumerate() {
-        let mut open = vec![Branch { link: root, joint: None, is_turned: false }];
-        if place > 0 {
-            let node = &scene.nodes[scene.links[root].node];
+        let main = forest.set(canonical);
+        firsts.iter().copied().find(|link| forest.set(*link) == main).unwrap_or(canonical)
+    };
+    let (mut branches, mut grown) = (Vec::new(), HashSet::new());
+    for link in std::iter::once(root).chain(firsts) {
+        if !grown.insert(forest.set(link)) {
+            continue;
+        }
+        if !branches.is_empty() {
+            let node = &scene.nodes[scene.links[link].node];
             tally.count(features::DETACHED);
             let text = format!("no joint holds link `{}`: it is fixed to the root", node.name);
             tally.remark(node.place, text);
         }
-        while let Some(branch) = open.pop() {
-            branches.push(branch);
-            let came = branch.joint.map(|(_, joint)| joint);
-            for (link, joint, is_turned) in around[branch.link].iter().rev().copied() {
-                if Some(joint) != came {
-                    open.push(Branch { link, joint: Some((branch.link, joint)), is_turned });
-                }
-            }
-        }
+        forest.grow(Branch { body: link, joint: None, is_turned: false }, &mut branches);
     }
-    Ok(Tree { branches, outside: left_out, gearboxes })
+    Ok(Tree { branches, outside, gearboxes })
 }
 
 /// The joints that are the first to hold their child, the others, and gearboxes, which hold none.
-fn ends(scene: &Scene, frames: &Frames) -> Result<[Vec<Outside>; 3], Refusal> {
+fn ends(scene: &Scene, frames: &Frames) -> Fallible<[Vec<Outside>; 3]> {
     let world = scene.links.len();
     let (mut first, mut further, mut gearboxes) = (Vec::new(), Vec::new(), Vec::new());
     let mut is_held = vec![false; world];

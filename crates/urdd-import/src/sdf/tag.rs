@@ -6,7 +6,7 @@ use urdd_xml::{Mended, Node, element};
 use super::super::fault::ImportFault;
 use super::super::features::Tally;
 use super::super::place::Place;
-use super::super::refusal::Refusal;
+use super::super::refusal::{Fallible, at};
 use super::fault::SdfFault;
 
 /// The last minor version in which `relative_to` may be called `frame`.
@@ -46,10 +46,10 @@ impl<'a> Tag<'a> {
     }
 
     /// Its name, as it gives it.
-    pub fn own_name(self) -> Result<String, Refusal> {
+    pub fn own_name(self) -> Fallible<String> {
         match self.attribute("name") {
             Some(name) => Ok(name.to_owned()),
-            None => Refusal::at(self.place(), SdfFault::NoName(self.name().to_owned())),
+            None => Err(at(self.place(), SdfFault::NoName(self.name().to_owned()))),
         }
     }
 
@@ -79,28 +79,25 @@ impl<'a> Tag<'a> {
     }
 
     /// Refuses a value.
-    pub fn refuse<T>(self, value: &str, wanted: &'static str) -> Result<T, Refusal> {
+    pub fn refuse<T>(self, value: &str, wanted: &'static str) -> Fallible<T> {
         let (element, value) = (self.name().to_owned(), value.to_owned());
         let attribute = "text".to_owned();
-        Refusal::at(self.place(), ImportFault::Value { element, attribute, value, wanted })
+        Err(at(self.place(), ImportFault::Value { element, attribute, value, wanted }))
     }
 
     /// Its numbers; none if it is empty.
-    fn values(self) -> Result<Option<Vec<f64>>, Refusal> {
+    fn values(self) -> Fallible<Option<Vec<f64>>> {
         let text = self.text();
         let values = text.split_whitespace().map(|word| {
             let value = word.parse::<f64>().ok().filter(|value| !value.is_nan());
             value.map_or_else(|| self.refuse(word, "a number"), Ok)
         });
-        let values = values.collect::<Result<Vec<f64>, Refusal>>()?;
+        let values = values.collect::<Fallible<Vec<f64>>>()?;
         Ok((!values.is_empty()).then_some(values))
     }
 
     /// Its finite numbers, which are as many as `N`; none if it is empty.
-    pub fn numbers<const N: usize>(
-        self,
-        wanted: &'static str,
-    ) -> Result<Option<[f64; N]>, Refusal> {
+    pub fn numbers<const N: usize>(self, wanted: &'static str) -> Fallible<Option<[f64; N]>> {
         let Some(values) = self.values()? else { return Ok(None) };
         match <[f64; N]>::try_from(values) {
             Ok(values) if values.iter().all(|value| value.is_finite()) => Ok(Some(values)),
@@ -109,13 +106,13 @@ impl<'a> Tag<'a> {
     }
 
     /// The finite number in a child element.
-    pub fn number(self, child: &str) -> Result<Option<f64>, Refusal> {
+    pub fn number(self, child: &str) -> Fallible<Option<f64>> {
         let Some(tag) = self.child(child) else { return Ok(None) };
         Ok(tag.numbers::<1>("a finite number")?.map(|[value]| value))
     }
 
     /// The number in a child element, which may be infinite.
-    pub fn any_number(self, child: &str) -> Result<Option<f64>, Refusal> {
+    pub fn any_number(self, child: &str) -> Fallible<Option<f64>> {
         let Some(tag) = self.child(child) else { return Ok(None) };
         match tag.values()?.as_deref() {
             None => Ok(None),
@@ -130,8 +127,8 @@ impl<'a> Tag<'a> {
     }
 
     /// Refuses an element for what is not in it.
-    pub fn lacks<T>(self, child: &'static str) -> Result<T, Refusal> {
-        Refusal::at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child })
+    pub fn lacks<T>(self, child: &'static str) -> Fallible<T> {
+        Err(at(self.place(), SdfFault::Missing { element: self.name().to_owned(), child }))
     }
 
     /// The size that SDF gives a shape without this child element, m.
@@ -140,7 +137,7 @@ impl<'a> Tag<'a> {
     }
 
     /// The number in a child element, which must not be less than 0; the size that SDF gives without it.
-    pub fn size(self, child: &'static str) -> Result<f64, Refusal> {
+    pub fn size(self, child: &'static str) -> Fallible<f64> {
         match self.number(child)? {
             None if self.child(child).is_none() => Ok(self.default_size(child)),
             Some(value) if value >= 0.0 => Ok(value),
@@ -150,7 +147,7 @@ impl<'a> Tag<'a> {
     }
 
     /// The pose in its `<pose>`, and the frame that it is relative to.
-    pub fn pose(self) -> Result<(Isometry3<f64>, Option<String>), Refusal> {
+    pub fn pose(self) -> Fallible<(Isometry3<f64>, Option<String>)> {
         let Some(tag) = self.child("pose") else { return Ok((Isometry3::identity(), None)) };
         let older = element::attribute(tag.node, "frame").filter(|_| tag.version <= RENAMED);
         // One that is empty counts too: libsdformat moves it over the newer name.
@@ -186,7 +183,7 @@ impl<'a> Tag<'a> {
     }
 
     /// The vector in a child element.
-    pub fn vector(self, child: &str) -> Result<Option<Vector3<f64>>, Refusal> {
+    pub fn vector(self, child: &str) -> Fallible<Option<Vector3<f64>>> {
         let Some(tag) = self.child(child) else { return Ok(None) };
         Ok(tag.numbers::<3>("three finite numbers")?.map(Vector3::from))
     }

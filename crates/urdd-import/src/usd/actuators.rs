@@ -8,7 +8,7 @@ use urdd_usd::{Prim, Value};
 use super::super::features::{self, Tally};
 use super::super::mjcf::{Actuator, Compiler, Driven, Element, give_all};
 use super::super::model::{Body, JointKind};
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::scene::{Scene, number, word};
 
 /// An actuator as an element, as bytes.
@@ -53,7 +53,7 @@ pub fn give(
             tally.count(features::OTHER_ACTUATORS);
             continue;
         };
-        account.charge(ELEMENT).map_err(|why| at(scene.place(index), why))?;
+        account.charge(ELEMENT).at(scene.place(index))?;
         let range = bodies[joint.0].joints[joint.1].range;
         let attributes = match target {
             "mjc:target" => Some(of_mujoco(prim, range)),
@@ -78,8 +78,7 @@ pub fn give(
         of.actuator.force = of.effort.map(|most| [-most, most]);
         driven.push(Driven { element, suffix: "", actuator, compiler: &compiler, joint: *joint });
     }
-    let charge =
-        |element: &Element, cost: usize| account.charge(cost).map_err(|why| at(element.place, why));
+    let charge = |element: &Element, cost: usize| account.charge(cost).at(element.place);
     give_all(&driven, bodies, is_floating, &charge, tally)
 }
 

@@ -12,7 +12,7 @@ use urdd_source::sniff::is_image;
 use super::super::features::{self, Tally};
 use super::super::model::Asset;
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::door::GateDoor;
 
 /// The files.
@@ -75,8 +75,7 @@ impl<'g> Assets<'g> {
                 Some(self.add("textures", stem, ending, bytes, place)?)
             }
             other => {
-                let charged = self.gate.account().charge(other.as_ref().map_or(0, |of| of.len()));
-                charged.map_err(|why| at(place, why))?;
+                self.gate.account().charge(other.as_ref().map_or(0, |of| of.len())).at(place)?;
                 let why = other.err().unwrap_or_else(|| format!("`{path}` is not an image"));
                 tally.count(features::MISSING_MESHES);
                 tally.remark(place, format!("an image is left out: {why}"));
@@ -103,8 +102,7 @@ impl<'g> Assets<'g> {
             }
             path = format!("{folder}/{}", file_name(&format!("{name}_{number}"), ending));
         }
-        let added = self.all.push(Asset { path, bytes }, self.gate.account());
-        added.map_err(|why| at(place, why))?;
+        self.all.push(Asset { path, bytes }, self.gate.account()).at(place)?;
         Ok(self.all.len() - 1)
     }
 }

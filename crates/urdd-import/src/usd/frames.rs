@@ -9,7 +9,7 @@ use urdd_usd::Value;
 use super::super::features::{self, Tally};
 use super::super::model::{Body, Configuration, JointValue};
 use super::super::names::Names;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::made::Made;
 use super::scene::{Scene, is_name, is_site};
 
@@ -46,13 +46,12 @@ pub fn frames(
             continue;
         };
         let place = scene.place(prim);
-        let too_much = |why| at(place, why);
         let pose = scene.frame(body)?.0.inverse() * scene.frame(prim)?.0;
         let pose = clean(Translation3::from(-made.shifts[index]) * pose);
-        let name = names.free(scene.name(prim)).map_err(too_much)?;
+        let name = names.free(scene.name(prim)).at(place)?;
         tally.count(features::FRAMES);
         let frame = Body { is_frame: true, ..Body::new(name, Some(index), pose, place) };
-        made.bodies.push(frame, account).map_err(too_much)?;
+        made.bodies.push(frame, account).at(place)?;
     }
     Ok(())
 }
@@ -74,7 +73,7 @@ pub fn configurations(
             if !is_name(name) {
                 continue;
             }
-            account.charge(BODY * made.bodies.len()).map_err(|why| at(place, why))?;
+            account.charge(BODY * made.bodies.len()).at(place)?;
             let known: HashMap<&str, f64> = values
                 .iter()
                 .filter_map(|(name, value)| Some((&**name, value.number()?)))
@@ -88,11 +87,11 @@ pub fn configurations(
                     let values = dofs.map(|dof| known.get(&*format!("{name}{dof}")).copied());
                     let Some(values) = values.collect() else { continue };
                     let value = JointValue { joint: (body, which), name, values };
-                    configuration.values.push(value, account).map_err(|why| at(place, why))?;
+                    configuration.values.push(value, account).at(place)?;
                 }
             }
             tally.count(features::POSES);
-            all.push(configuration, account).map_err(|why| at(place, why))?;
+            all.push(configuration, account).at(place)?;
         }
     }
     Ok(all)

@@ -14,7 +14,7 @@ use urdd_usd::Value;
 
 use super::super::features::{self, Tally};
 use super::super::model::{Asset, Geometry, Material, Shape, Use};
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::assets::Assets;
 use super::form::{Form, bounding, form, reach};
 use super::frames::clean;
@@ -142,7 +142,7 @@ impl<'a, 's> Shapes<'a, 's> {
             let shape =
                 Shape { name: Some(name.to_owned()), used, pose, geometry, material, place };
             let pushed = made.bodies[index].shapes.push(shape, this.assets.gate.account());
-            pushed.map_err(|why| at(place, why))
+            pushed.at(place)
         };
         if &*of.type_name != "Mesh" {
             let form = form(of, &stretch, tally);
@@ -222,8 +222,7 @@ impl<'a, 's> Shapes<'a, 's> {
         );
         let known = self.read.get(&key).cloned();
         let cost = if known.is_some() { COPY } else { MESH };
-        let charged = self.assets.gate.account().charge(cost * numbers);
-        charged.map_err(|why| at(self.scene.place(prim), why))?;
+        self.assets.gate.account().charge(cost * numbers).at(self.scene.place(prim))?;
         if let Some(known) = known {
             return Ok(Ok(known));
         }

@@ -3,27 +3,18 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::features::{self, Tally};
+use super::super::forest::{Branch, Forest};
 use super::super::refusal::{Fallible, at};
-use super::super::sets::Sets;
 use super::fault::UsdFault;
 use super::joint::UsdJoint;
-use super::scene::Scene;
-
-/// A body in the tree.
-#[derive(Debug, Clone, Copy)]
-pub struct Branch {
-    /// Its prim; none of the world.
-    pub body: Option<usize>,
-    /// The branch before it, and the joint between the two.
-    pub joint: Option<(usize, usize)>,
-    /// Whether the body is the joint's body 0.
-    pub is_turned: bool,
-}
+use super::scene::{Scene, flag};
 
 /// The tree.
 #[derive(Debug)]
 pub struct Graph {
-    /// A parent stands before its children.
+    /// The prims that are bodies.
+    pub bodies: Vec<usize>,
+    /// The bodies by their places; the number of bodies means the world.
     pub branches: Vec<Branch>,
     /// Further joints between a joint's bodies that follow it, by that joint.
     pub further: HashMap<usize, Vec<usize>>,
@@ -51,7 +42,7 @@ pub fn graph(
             joint.ends.map(|end| end.body.and_then(|body| index.get(&body).copied()));
         one.zip(other)
     };
-    let mut sets = Sets::new(bodies.len());
+    let mut forest = Forest::new(bodies.len());
     // Those first that are the first to hold their body 1; those that an articulation leaves open last,
     // but before joints that hold nothing.
     let mut is_held = vec![false; bodies.len()];
@@ -75,18 +66,15 @@ pub fn graph(
             is_anchored[index[&body]] = true;
         }
     }
-    let mut around: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); bodies.len()];
     let (mut outside, mut doubled) = (Vec::new(), Vec::new());
     let mut direct: HashMap<(usize, usize), usize> = HashMap::new();
     for (_, at) in order {
         let Some((parent, child)) = between(&joints[at]) else { continue };
-        let both = [sets.of(parent), sets.of(child)];
+        let both = [forest.set(parent), forest.set(child)];
         // What closes a chain does not make one robot of two that are held.
         let is_apart = joints[at].is_excluded && both.iter().all(|set| is_anchored[*set]);
-        if !is_apart && sets.join(parent, child) {
-            is_anchored[sets.of(parent)] = both.iter().any(|set| is_anchored[*set]);
-            around[parent].push((child, at, false));
-            around[child].push((parent, at, true));
+        if !is_apart && forest.join(at, parent, child) {
+            is_anchored[forest.set(parent)] = both.iter().any(|set| is_anchored[*set]);
             direct.insert((parent, child), at);
         } else if let Some(first) = direct.get(&(parent, child)) {
             doubled.push((*first, at, child));
@@ -96,23 +84,22 @@ pub fn graph(
     }
     // What is said of an articulation is said of all bodies that its joints connect.
     let said = (0..bodies.len()).filter(|body| scene.adds_mobility[bodies[*body]]);
-    let adding: HashSet<usize> = said.map(|body| sets.of(body)).collect();
+    let adding: HashSet<usize> = said.map(|body| forest.set(body)).collect();
     // Whether a joint follows another one of its two bodies, which are of this set.
     let adds = |at: usize, set: usize| {
         !joints[at].is_excluded && (joints[at].is_mujocos || adding.contains(&set))
     };
     let mut further: HashMap<usize, Vec<usize>> = HashMap::new();
     for (first, at, child) in doubled {
-        match adds(at, sets.of(child)) {
+        match adds(at, forest.set(child)) {
             true => further.entry(first).or_default().push(at),
             false if !joints[at].is_free => outside.push(at),
             false => {}
         }
     }
-    around.iter_mut().for_each(|joints| joints.sort_by_key(|(_, joint, _)| *joint));
     outside.sort_unstable();
-    let main = main_set(scene, joints, &bodies, &index, &around, wanted, &mut sets)?;
-    let is_main: Vec<bool> = (0..bodies.len()).map(|body| sets.of(body) == main.set).collect();
+    let main = main_set(scene, joints, &bodies, &index, wanted, &mut forest)?;
+    let is_main: Vec<bool> = (0..bodies.len()).map(|body| forest.set(body) == main.set).collect();
     for left in (0..bodies.len()).filter(|body| !is_main[*body]) {
         tally.count(features::DETACHED_BODIES);
         let text = format!(
@@ -125,27 +112,14 @@ pub fn graph(
         joints[*joint].ends.iter().any(|end| end.body.is_some_and(|body| is_main[index[&body]]))
     };
     outside.retain(is_of_main);
-    let mut branches: Vec<Branch> = Vec::new();
-    let first = Branch { body: Some(bodies[main.root]), joint: None, is_turned: false };
-    let mut open = vec![(first, Some(main.root))];
+    let mut branches = Vec::new();
+    let mut first = Branch { body: main.root, joint: None, is_turned: false };
     if let Some(joint) = main.moves {
-        branches.push(Branch { body: None, joint: None, is_turned: false });
-        let is_turned = joints[joint].ends[0].body.is_some();
-        open = vec![(Branch { joint: Some((0, joint)), is_turned, ..first }, Some(main.root))];
+        branches.push(Branch { body: bodies.len(), ..first });
+        first.joint = Some((0, joint));
+        first.is_turned = joints[joint].ends[0].body.is_some();
     }
-    while let Some((branch, body)) = open.pop() {
-        let place = branches.len();
-        branches.push(branch);
-        let came = branch.joint.map(|(_, joint)| joint);
-        let Some(body) = body else { continue };
-        for (next, joint, is_turned) in around[body].iter().rev().copied() {
-            if Some(joint) != came {
-                let one =
-                    Branch { body: Some(bodies[next]), joint: Some((place, joint)), is_turned };
-                open.push((one, Some(next)));
-            }
-        }
-    }
+    forest.grow(first, &mut branches);
     let to_world = |at: &usize| adds(*at, main.set);
     match main.moves.filter(to_world) {
         Some(first) => {
@@ -155,7 +129,8 @@ pub fn graph(
         }
         None => outside.extend(main.others),
     }
-    Ok(Graph { branches, further, outside, is_floating: !main.is_fixed && main.moves.is_none() })
+    let is_floating = !main.is_fixed && main.moves.is_none();
+    Ok(Graph { bodies, branches, further, outside, is_floating })
 }
 
 /// The bodies that are the robot.
@@ -174,9 +149,8 @@ fn main_set(
     joints: &[UsdJoint],
     bodies: &[usize],
     index: &HashMap<usize, usize>,
-    around: &[Vec<(usize, usize, bool)>],
     wanted: Option<&str>,
-    sets: &mut Sets,
+    forest: &mut Forest,
 ) -> Fallible<Main> {
     let wanted = match wanted {
         None => None,
@@ -189,48 +163,46 @@ fn main_set(
     };
     let mut scores: HashMap<usize, (bool, usize, usize)> = HashMap::new();
     for (at, body) in bodies.iter().enumerate() {
-        let score = scores.entry(sets.of(at)).or_default();
+        let score = scores.entry(forest.set(at)).or_default();
         score.0 |= scene.is_articulated[*body];
-        score.1 += around[at].len();
+        score.1 += forest.joints(at);
         score.2 += 1;
     }
     for joint in
         joints.iter().filter(|joint| scene.prim(joint.prim).has("PhysicsArticulationRootAPI"))
     {
         for body in joint.ends.iter().filter_map(|end| end.body) {
-            scores.entry(sets.of(index[&body])).or_default().0 = true;
+            scores.entry(forest.set(index[&body])).or_default().0 = true;
         }
     }
-    let best = |at: &usize, sets: &mut Sets| scores[&sets.of(*at)];
+    let best = |at: usize, forest: &mut Forest| scores[&forest.set(at)];
     let mut chosen = 0;
     for at in 1..bodies.len() {
-        if best(&at, sets) > best(&chosen, sets) {
+        if best(at, forest) > best(chosen, forest) {
             chosen = at;
         }
     }
-    let set = sets.of(wanted.unwrap_or(chosen));
+    let set = forest.set(wanted.unwrap_or(chosen));
     // Joints to the world: fixed ones first, then the first.
     let mut to_world: Vec<(bool, usize, usize)> = Vec::new();
     for (at, joint) in joints.iter().enumerate().filter(|(_, joint)| !joint.is_free) {
         let [one, other] = joint.ends.map(|end| end.body);
         let (Some(body), None) = (one.xor(other), one.and(other)) else { continue };
         let body = index[&body];
-        if sets.of(body) == set && wanted.is_none_or(|wanted| wanted == body) {
+        if forest.set(body) == set && wanted.is_none_or(|wanted| wanted == body) {
             to_world.push((!joint.motions.is_empty(), at, body));
         }
     }
     to_world.sort_unstable();
-    let kinematic =
-        |at: &usize| super::scene::flag(scene.prim(bodies[*at]), "physics:kinematicEnabled", false);
-    let of_set: Vec<usize> = (0..bodies.len()).filter(|at| sets.of(*at) == set).collect();
+    let kinematic = |at: &usize| flag(scene.prim(bodies[*at]), "physics:kinematicEnabled", false);
+    let of_set: Vec<usize> = (0..bodies.len()).filter(|at| forest.set(*at) == set).collect();
     if let Some((moves, joint, root)) = to_world.first().copied() {
         let others = to_world[1..].iter().map(|(_, joint, _)| *joint).collect();
         return Ok(Main { set, root, is_fixed: !moves, moves: moves.then_some(joint), others });
     }
-    let is_child = |at: &usize| around[*at].iter().any(|(_, _, is_turned)| *is_turned);
     let marked =
         of_set.iter().find(|at| scene.prim(bodies[**at]).has("PhysicsArticulationRootAPI"));
-    let first = of_set.iter().find(|at| !is_child(at));
+    let first = of_set.iter().find(|at| !forest.is_child(**at));
     let still = of_set.iter().find(|at| kinematic(at));
     let root = wanted.or(still.or(marked).or(first).copied()).unwrap_or(chosen);
     Ok(Main { set, root, is_fixed: still == Some(&root), moves: None, others: Vec::new() })

@@ -1,10 +1,10 @@
 //! Masses of bodies: what they say, and what follows from the shapes that collide.
 
-use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, UnitQuaternion};
 use urdd_usd::{Prim, Value};
 
 use super::super::features::{self, Tally};
-use super::super::mass::{Mass, moments, volume};
+use super::super::mass::{WATER, moments, tensor, turned};
 use super::super::mesh_mass::{Mode, measure};
 use super::super::model::{Geometry, Inertial};
 use super::super::refusal::Fallible;
@@ -12,9 +12,6 @@ use super::gprim::{Shapes, Solid};
 use super::look::rubbed;
 use super::made::Made;
 use super::scene::{Scene, number, triple, turn, word};
-
-/// The density of what says none, kg/m³.
-const WATER: f64 = 1000.0;
 
 /// Adds masses to the bodies.
 pub fn add(
@@ -35,27 +32,24 @@ pub fn add(
         let centre = triple(of, "physics:centerOfMass")
             .filter(|centre| centre.iter().all(|part| part.is_finite()));
         let centre = centre.map(|centre| centre.component_mul(&scale) * scene.metre - shift);
+        let centre = centre.map(Point3::from);
         let diagonal = triple(of, "physics:diagonalInertia")
             .filter(|moments| moments.iter().any(|moment| *moment != 0.0));
         let unit = scene.kilogram * scene.metre.powi(2);
-        let tensor = of.value("newton:inertia").and_then(Value::numbers).and_then(tensor);
+        let full = of.value("newton:inertia").and_then(Value::numbers).and_then(full);
         let along_axes = diagonal.map(|diagonal| {
             let axes = turn(of, "physics:principalAxes").unwrap_or_else(UnitQuaternion::identity);
-            let own = Mass::along_axes(1.0, Vector3::zeros(), diagonal.into());
-            own.at(&nalgebra::Isometry3::from_parts(Default::default(), axes)).inertia
+            turned(&Matrix3::from_diagonal(&diagonal), &axes)
         });
-        let inertia = tensor.or(along_axes).map(|inertia| inertia * unit);
+        let inertia = full.or(along_axes).map(|inertia| inertia * unit);
         let whole = match (mass, centre, inertia) {
-            (Some(mass), Some(centre), Some(inertia)) => Some(Mass { mass, centre, inertia }),
+            (Some(mass), Some(centre), Some(inertia)) => Some(Inertial { mass, centre, inertia }),
             _ => {
                 let solids = shapes.solids.get(&index).map_or(&[][..], Vec::as_slice);
                 let computed = computed(scene, of, solids);
                 let mut whole = computed.or_else(|| mass.map(small));
                 if let Some(whole) = &mut whole {
-                    if let Some(mass) = mass {
-                        whole.inertia *= mass / whole.mass;
-                        whole.mass = mass;
-                    }
+                    *whole = mass.map_or(*whole, |mass| whole.weighing(mass));
                     whole.centre = centre.unwrap_or(whole.centre);
                     whole.inertia = inertia.unwrap_or(whole.inertia);
                     tally.count(features::AUTO_MASSES);
@@ -63,7 +57,7 @@ pub fn add(
                 whole
             }
         };
-        let Some(whole) = whole else {
+        let Some(mut whole) = whole else {
             tally.remark(
                 place,
                 format!(
@@ -74,28 +68,27 @@ pub fn add(
             continue;
         };
         tally.count(features::MASSES);
-        let inertia = whole.inertia.map(|value| if value.abs() < 1e-18 { 0.0 } else { value });
-        made.bodies[index].inertial =
-            Some(Inertial { mass: whole.mass, centre: Point3::from(whole.centre), inertia, place });
+        whole.inertia.apply(|value| *value = if value.abs() < 1e-18 { 0.0 } else { *value });
+        made.bodies[index].inertial = Some(whole);
     }
     Ok(())
 }
 
 /// The inertia that Newton's schema says: xx, yy, zz, xy, xz, yz. None of an empty array, which says nothing.
-fn tensor(numbers: &[f64]) -> Option<Matrix3<f64>> {
-    let [xx, yy, zz, xy, xz, yz] = *numbers else { return None };
-    let is_said = numbers.iter().all(|number| number.is_finite()) && xx.max(yy).max(zz) > 0.0;
-    is_said.then(|| Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
+fn full(numbers: &[f64]) -> Option<Matrix3<f64>> {
+    let numbers: [f64; 6] = numbers.try_into().ok()?;
+    let is_said = numbers[..3].iter().any(|moment| *moment > 0.0);
+    (is_said && numbers.iter().all(|number| number.is_finite())).then(|| tensor(numbers))
 }
 
 /// A ball of the density of water: of a body that says its mass alone, and has no shapes.
-fn small(mass: f64) -> Mass {
+fn small(mass: f64) -> Inertial {
     let radius = (mass / WATER * 3.0 / (4.0 * std::f64::consts::PI)).cbrt();
-    Mass::along_axes(mass, Vector3::zeros(), moments(&Geometry::Sphere(radius), false, mass))
+    Inertial::along_axes(mass, moments(&Geometry::Sphere(radius), false, mass))
 }
 
 /// The masses of the shapes that collide, together.
-fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
+fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Inertial> {
     let cube = scene.kilogram / scene.metre.powi(3);
     let density = |prim: &Prim, name: &str| {
         number(prim, name).filter(|value| *value > 0.0).map(|value| value * cube)
@@ -122,23 +115,16 @@ fn computed(scene: &Scene<'_>, body: &Prim, solids: &[Solid]) -> Option<Mass> {
             let own = density(own, "physics:density").or_else(|| density(body, "physics:density"));
             unit.mass * own.or_else(material).unwrap_or(WATER)
         });
-        parts.push(Mass { mass, inertia: unit.inertia * (mass / unit.mass), ..unit });
+        parts.push(unit.weighing(mass));
     }
-    Mass::together(&parts).filter(|whole| whole.mass > 0.0)
+    Inertial::together(&parts).filter(|whole| whole.mass > 0.0)
 }
 
 /// The mass of a shape whose density is 1, in the frame of its link; of a shell, that of its surface.
-fn of_density_one(solid: &Solid, mode: Mode) -> Option<Mass> {
-    let is_shell = mode == Mode::Shell;
+fn of_density_one(solid: &Solid, mode: Mode) -> Option<Inertial> {
     let own = match &solid.mesh {
-        Some(mesh) => {
-            let measures = measure(mesh, mode).or_else(|_| measure(mesh, Mode::Convex)).ok()?;
-            Mass { mass: measures.volume, centre: measures.centre, inertia: measures.inertia }
-        }
-        None => {
-            let mass = volume(&solid.geometry, is_shell);
-            Mass::along_axes(mass, Vector3::zeros(), moments(&solid.geometry, is_shell, mass))
-        }
+        Some(mesh) => measure(mesh, mode).or_else(|_| measure(mesh, Mode::Convex)).ok()?,
+        None => Inertial::of_primitive(&solid.geometry, mode == Mode::Shell, 1.0),
     };
     (own.mass > 0.0).then(|| own.at(&solid.pose))
 }

@@ -1,4 +1,4 @@
-//! References that are not there: which of them a robot may need.
+//! What is left out: references that are not there, of which a robot may need some, and what no robot of ours has.
 
 use urdd_usd::{Stage, UsdError};
 
@@ -44,8 +44,22 @@ pub fn needed(stage: &Stage) -> Option<&UsdError> {
     stage.missing.iter().find(|(prim, _)| is_needed(*prim)).map(|(_, error)| error)
 }
 
-/// Names those that are left out.
+/// Counts what is left out, so that the report has it.
 pub fn say(scene: &Scene<'_>, tally: &mut Tally) {
+    for prim in &scene.stage.prims {
+        match &*prim.type_name {
+            "MjcTendon" => tally.count(features::TENDONS),
+            "MjcKeyframe" => tally.unread("keyframes of MuJoCo"),
+            _ => {}
+        }
+        let starts = |start: &str| prim.schemas.iter().any(|schema| schema.starts_with(start));
+        if starts("PhysxTendon") {
+            tally.count(features::TENDONS);
+        }
+        if starts("PhysxVehicle") || starts("PhysxParticle") || starts("PhysxDeformable") {
+            tally.count(features::SOFT);
+        }
+    }
     for (prim, error) in &scene.stage.missing {
         tally.count(features::MISSING_PARTS);
         let place = prim.map_or_else(Default::default, |prim| scene.place(prim));

@@ -18,7 +18,6 @@ mod mesh;
 mod missing;
 mod pairs;
 mod robot;
-mod said;
 mod scene;
 mod upright;
 
@@ -30,8 +29,7 @@ use urdd_usd::{Place as LayerPlace, UsdError};
 
 use super::model::Model;
 use super::place::TextFile;
-use super::refusal::Placed;
-use super::refusal::placed;
+use super::refusal::{Placed, placed};
 use door::GateDoor;
 use fault::UsdFault;
 use robot::robot;
@@ -71,6 +69,6 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
     })();
     match made {
         Ok(model) => Ok(Model { files, ..model }),
-        Err(refusal) => Err(placed(&files, refusal.place, refusal.fault)),
+        Err(why) => Err(placed(&files, why)),
     }
 }

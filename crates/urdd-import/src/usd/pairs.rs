@@ -6,7 +6,7 @@ use urdd_directory::account::{Account, Charged};
 
 use super::super::features::{self, Tally};
 use super::super::model::Apart;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::gprim::Solid;
 use super::groups::Groups;
 use super::joint::UsdJoint;
@@ -43,18 +43,17 @@ pub fn pairs(
             if known.insert((one.min(two), one.max(two))) {
                 tally.count(features::APART);
                 let pair = Apart { bodies: [one, two], reason: "User" };
-                apart.push(pair, account).map_err(|why| at(scene.place(prim), why))?;
+                apart.push(pair, account).at(scene.place(prim))?;
             }
         }
     }
-    let too_much = |why| at(Default::default(), why);
-    let groups = Groups::of(scene, account, tally).map_err(too_much)?;
+    let groups = Groups::of(scene, account, tally).at(Default::default())?;
     if !groups.is_empty() {
-        for pair in groups.pairs(scene, solids, account, tally).map_err(too_much)? {
+        for pair in groups.pairs(scene, solids, account, tally).at(Default::default())? {
             if known.insert(pair) {
                 tally.count(features::APART);
                 let pair = Apart { bodies: [pair.0, pair.1], reason: "User" };
-                apart.push(pair, account).map_err(too_much)?;
+                apart.push(pair, account).at(Default::default())?;
             }
         }
     }
@@ -66,7 +65,7 @@ pub fn pairs(
             joint.ends.map(|end| end.body.and_then(|body| made.index.get(&body).copied()));
         if let Some((one, two)) = one.zip(two) {
             let pair = Apart { bodies: [one, two], reason: "physics:collisionEnabled" };
-            checked.push(pair, account).map_err(|why| at(scene.place(joint.prim), why))?;
+            checked.push(pair, account).at(scene.place(joint.prim))?;
         }
     }
     Ok((apart, checked))

@@ -11,18 +11,19 @@ use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
 use super::super::features::{self, Tally};
-use super::super::limits::limits;
+use super::super::forest::Branch;
+use super::super::limits::{limits, say_closed};
 use super::super::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
 use super::super::names::Names;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing};
 use super::drive::drive;
 use super::frames::clean;
 use super::gprim::Shapes;
-use super::graph::{Branch, Graph, graph};
+use super::graph::{Graph, graph};
 use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
 use super::made::Made;
 use super::scene::{Scene, flag, number};
-use super::{actuators, frames, mass, missing, pairs, said, upright};
+use super::{actuators, frames, mass, missing, pairs, upright};
 
 /// Reads the robot.
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
@@ -30,7 +31,6 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     for _ in 0..scene.stage.sampled {
         tally.count(features::SAMPLES);
     }
-    said::say(scene, &mut tally);
     missing::say(scene, &mut tally);
     let joints = joints(scene, &mut tally)?;
     let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
@@ -94,8 +94,8 @@ impl Maker<'_, '_> {
     fn name(&self, graph: &Graph) -> String {
         let default = self.scene.stage.metadata("defaultPrim").and_then(Value::text);
         let default = default.and_then(|name| self.scene.stage.find(&format!("/{name}")));
-        let first = graph.branches.iter().find_map(|branch| branch.body);
-        let above = first.map(|mut at| {
+        let first = graph.branches.iter().find_map(|branch| graph.bodies.get(branch.body));
+        let above = first.copied().map(|mut at| {
             while let Some(parent) = self.scene.prim(at).parent {
                 at = parent;
             }
@@ -108,40 +108,34 @@ impl Maker<'_, '_> {
         let mut made =
             Made { bodies: Charged::default(), index: HashMap::new(), shifts: Vec::new() };
         for branch in &graph.branches {
-            let further = branch.joint.and_then(|(_, joint)| graph.further.get(&joint));
-            let further = further.map_or(&[][..], Vec::as_slice);
-            let body = self.body(branch, further, &mut made, tally)?;
+            let body = self.body(graph, branch, &mut made, tally)?;
             let (index, place) = (made.bodies.len(), body.place);
-            if let Some(prim) = branch.body {
-                made.index.insert(prim, index);
-            }
+            made.index.extend(graph.bodies.get(branch.body).map(|prim| (*prim, index)));
             tally.count(features::BODIES);
-            made.bodies.push(body, self.account).map_err(|why| at(place, why))?;
+            made.bodies.push(body, self.account).at(place)?;
         }
         Ok(made)
     }
 
     fn body(
         &mut self,
+        graph: &Graph,
         branch: &Branch,
-        further: &[usize],
         made: &mut Made,
         tally: &mut Tally,
     ) -> Fallible<Body> {
         let scene = self.scene;
-        let Some(prim) = branch.body else {
-            made.shifts.push(Vector3::zeros());
-            let place = Default::default();
-            let name = self.names[0].free("world").map_err(|why| at(place, why))?;
-            return Ok(Body::new(name, None, Isometry3::identity(), place));
+        let prim = graph.bodies.get(branch.body);
+        let (wanted, place) = match prim {
+            Some(prim) => (scene.name(*prim), scene.place(*prim)),
+            None => ("world", Default::default()),
         };
-        let place = scene.place(prim);
-        let too_much = |why| at(place, why);
-        let name = self.names[0].free(scene.name(prim)).map_err(too_much)?;
+        let name = self.names[0].free(wanted).at(place)?;
         let Some((parent, joint)) = branch.joint else {
             made.shifts.push(Vector3::zeros());
             return Ok(Body::new(name, None, Isometry3::identity(), place));
         };
+        let further = graph.further.get(&joint).map_or(&[][..], Vec::as_slice);
         let joint = &self.joints[joint];
         let [in_parent, in_child] = match branch.is_turned {
             false => [&joint.ends[0], &joint.ends[1]],
@@ -167,7 +161,7 @@ impl Maker<'_, '_> {
         }
         for joint in &all {
             let of = scene.place(joint.prim);
-            let name = self.names[1].free(scene.name(joint.prim)).map_err(|why| at(of, why))?;
+            let name = self.names[1].free(scene.name(joint.prim)).at(of)?;
             if all.len() == 1 && joint.motions.is_empty() {
                 body.fixed_by = Some(name);
                 return Ok(body);
@@ -183,7 +177,7 @@ impl Maker<'_, '_> {
                 }
             }
             for moving in moves {
-                body.joints.push(moving, self.account).map_err(|why| at(of, why))?;
+                body.joints.push(moving, self.account).at(of)?;
             }
         }
         if all.len() > 1 {
@@ -207,10 +201,10 @@ impl Maker<'_, '_> {
             clean_axis(end.frame.rotation * motion.axis * sign)
         };
         if let (Some(kind), Some(last)) = (joint.whole, joint.motions.last()) {
-            let is_ball = kind == JointKind::Ball;
-            tally.count(if is_ball { features::BALLS } else { features::PLANAR });
-            let whole = Joint::new(name.to_owned(), kind, Isometry3::identity(), place);
-            return Ok(vec![Joint { axis: axis_of(last), ..whole }]);
+            let mut whole = Joint::new(name.to_owned(), kind, Isometry3::identity(), place);
+            whole.axis = axis_of(last);
+            tally.count(whole.feature());
+            return Ok(vec![whole]);
         }
         let mut parts: Vec<&Motion> = joint.motions.iter().collect();
         if is_turned {
@@ -225,7 +219,7 @@ impl Maker<'_, '_> {
                 1 => name.to_owned(),
                 _ => {
                     let own = self.names[1].free(&format!("{name}/{}", MOTIONS[motion.which]));
-                    own.map_err(|why| at(place, why))?
+                    own.at(place)?
                 }
             };
             let kind = if motion.is_slide() { JointKind::Slide } else { JointKind::Hinge };
@@ -236,11 +230,7 @@ impl Maker<'_, '_> {
                 reference * if motion.is_slide() { scene.metre } else { scene.mujoco_angle };
             moving.range = limits(motion.range, kind, (&moving.name, place), tally);
             drive(scene, joint.prim, motion, &mut moving, tally);
-            tally.count(match (kind, moving.range) {
-                (JointKind::Slide, None) => features::FREE_SLIDES,
-                (JointKind::Slide, Some(_)) => features::SLIDES,
-                _ => features::HINGES,
-            });
+            tally.count(moving.feature());
             moves.push(moving);
         }
         Ok(moves)
@@ -285,7 +275,7 @@ impl Maker<'_, '_> {
             let mut above = Some(&leader);
             while let Some(name) = above.filter(|name| **name != follower.name) {
                 let place = self.scene.place(joint.prim);
-                self.account.charge(STEP).map_err(|why| at(place, why))?;
+                self.account.charge(STEP).at(place)?;
                 above = followed.get(name);
             }
             if above.is_some() {
@@ -338,15 +328,8 @@ impl Maker<'_, '_> {
                 tally.remark(place, text);
                 continue;
             };
-            tally.count(features::CLOSED);
-            if joint.motions.iter().any(|motion| motion.range.iter().any(|limit| limit.is_finite()))
-            {
-                let text = format!(
-                    "the limits of joint `{}` are left out: it closes a chain, and moves as the others let it",
-                    self.scene.name(joint.prim)
-                );
-                tally.remark(place, text);
-            }
+            let ranges = joint.motions.iter().map(|motion| motion.range);
+            say_closed(ranges, (self.scene.name(joint.prim), place), tally);
             let end = |body: usize, which: usize| {
                 let shifted = Translation3::from(-made.shifts[body]) * joint.ends[which].frame;
                 let turned = if axis == Vector3::z() { shifted } else { shifted * from_z(&axis) };
@@ -354,7 +337,7 @@ impl Maker<'_, '_> {
             };
             let name = Some(self.scene.name(joint.prim).to_owned());
             let closing = Closing { name, kind, ends: [end(one, 0), end(other, 1)], place };
-            closings.push(closing, self.account).map_err(|why| at(place, why))?;
+            closings.push(closing, self.account).at(place)?;
         }
         Ok(closings)
     }

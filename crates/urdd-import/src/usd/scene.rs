@@ -7,7 +7,7 @@ use urdd_usd::{Prim, Property, Stage, Value};
 use urdd_xml::is_character;
 
 use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
+use super::super::refusal::{Fallible, Placing, at as refused};
 use super::fault::UsdFault;
 
 /// Metres of a unit where a stage does not say it: USD's own is the centimetre.
@@ -53,13 +53,12 @@ impl<'s> Scene<'s> {
         texts: &[&str],
         account: &urdd_directory::account::Account,
     ) -> Fallible<Self> {
-        let charged = account.charge(PRIM * stage.prims.len());
-        charged.map_err(|why| at(Place::default(), why))?;
+        account.charge(PRIM * stage.prims.len()).at(Place::default())?;
         let number =
             |name: &str, default| stage.metadata(name).and_then(Value::number).unwrap_or(default);
         let (metre, kilogram) = (number("metersPerUnit", METRE), number("kilogramsPerUnit", 1.0));
         if !(metre > 0.0 && metre.is_finite() && kilogram > 0.0 && kilogram.is_finite()) {
-            return Err(at(Place::default(), UsdFault::Units));
+            return Err(refused(Place::default(), UsdFault::Units));
         }
         let up = stage.metadata("upAxis").and_then(Value::text);
         let has_radians =
@@ -137,10 +136,7 @@ impl<'s> Scene<'s> {
         let matrix = &self.world[at];
         let (rotation, scale) = split(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
         if !scale.iter().all(|part| part.is_finite() && *part != 0.0) {
-            return Err(super::super::refusal::at(
-                self.place(at),
-                UsdFault::Scale(self.stage.path(at)),
-            ));
+            return Err(refused(self.place(at), UsdFault::Scale(self.stage.path(at))));
         }
         let place = matrix.fixed_view::<3, 1>(0, 3) * self.metre;
         Ok((Isometry3::from_parts(Translation3::from(place), rotation), scale))

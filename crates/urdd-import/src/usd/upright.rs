@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
+use super::super::mass;
 use super::super::model::Model;
 
 /// Turns the axes of all frames alike: what was along y is along z.
@@ -30,8 +31,7 @@ pub fn turn(model: &mut Model) {
         }
         if let Some(inertial) = &mut body.inertial {
             inertial.centre = Point3::from(point(inertial.centre.coords));
-            let rotation = up.to_rotation_matrix();
-            inertial.inertia = rotation.matrix() * inertial.inertia * rotation.matrix().transpose();
+            inertial.inertia = mass::turned(&inertial.inertia, &up);
         }
     }
     for closing in model.closings.iter_mut() {

@@ -15,6 +15,7 @@ pub use urdd_directory::loops_toml::File;
 pub(super) use urdf_plus::placed_urdf_plus;
 pub use urdf_plus::{LoopFault, table, urdf_plus};
 
+use super::beside::{self, Companion};
 use super::error::SourceError;
 use super::gate::Gate;
 use super::settings::Settings;
@@ -83,8 +84,8 @@ fn read(path: &Path, text: String) -> Result<Said, SourceError> {
 
 /// The text of the file that a person names.
 fn text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
-    let bytes = settings.files.read(path, MAX_TOML_BYTES);
-    decoded(path, bytes.map_err(|error| error.to_string()))
+    let bytes = settings.files.read(path, MAX_TOML_BYTES).map_err(|error| error.to_string());
+    decoded(path, bytes.and_then(beside::text))
 }
 
 /// The text of one that is found by its name: no link leads out of the robot's folders.
@@ -96,24 +97,16 @@ fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> 
         reason: error.to_string(),
     })?;
     let gate = Gate::of_project(&folder, settings);
-    let bytes = match gate.at(path) {
-        Ok(found) => gate.bytes(&found, MAX_TOML_BYTES).map_err(|error| error.to_string()),
-        Err(missing) => Err(match missing.outside {
-            Some(outside) => {
-                format!("it is {}, outside of the robot's folders", outside.display())
-            }
-            None if settings.files.is_dangling(path) => {
-                "it is a link that leads nowhere".to_owned()
-            }
-            None => "it cannot be opened".to_owned(),
-        }),
-    };
-    decoded(path, bytes)
+    let text = beside::companion(path, MAX_TOML_BYTES, &gate).unwrap_or_else(|| {
+        let is_dangling = settings.files.is_dangling(path);
+        let why =
+            if is_dangling { "it is a link that leads nowhere" } else { "it cannot be opened" };
+        Err(why.to_owned())
+    });
+    decoded(path, text)
 }
 
-fn decoded(path: &Path, bytes: Result<Vec<u8>, String>) -> Result<String, SourceError> {
-    let text =
-        bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned()));
+fn decoded(path: &Path, text: Companion) -> Result<String, SourceError> {
     // A byte order mark is no part of the text.
     let text = text.map(|text| text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text));
     text.map_err(|reason| SourceError::Read { file: path.display().to_string(), reason })

@@ -29,32 +29,24 @@ impl Said {
     /// The note about another file that says loops, too.
     pub fn passed_over(&self, other: &str) -> Note {
         let used = self.text.as_ref().map_or("the URDF", |(file, _)| file);
-        Note {
-            kind: NoteKind::LeftOut,
-            file: other.to_owned(),
-            line: 0,
-            column: 0,
-            problem: format!("this file says loops, and so does `{}`", Short::of(used)),
-            assumed: format!(
-                "the loops of this file are passed over, those of `{}` are used",
-                Short::of(used)
-            ),
-        }
+        let used = Short::of(used);
+        Note::of_file(
+            other,
+            NoteKind::LeftOut,
+            format!("this file says loops, and so does `{used}`"),
+            format!("the loops of this file are passed over, those of `{used}` are used"),
+        )
     }
 
     /// The note about a joint that is to be another, and that the URDF does not have.
     pub fn missing(&self, joint: &str, urdf: &str) -> Note {
-        Note {
-            kind: NoteKind::LeftOut,
-            file: self.text.as_ref().map_or(urdf, |(file, _)| file).to_owned(),
-            line: 0,
-            column: 0,
-            problem: format!(
-                "the URDF has no joint `{}`, which is to be another",
-                Short::of(joint)
-            ),
-            assumed: "the name is passed over".to_owned(),
-        }
+        let joint = Short::of(joint);
+        Note::of_file(
+            self.text.as_ref().map_or(urdf, |(file, _)| file),
+            NoteKind::LeftOut,
+            format!("the URDF has no joint `{joint}`, which is to be another"),
+            "the name is passed over",
+        )
     }
 
     /// Where its loops and couplings begin, byte offsets.

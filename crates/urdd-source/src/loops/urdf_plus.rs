@@ -41,11 +41,12 @@ pub fn placed_urdf_plus(
     let mut places = places_of(offsets.clone());
     let of_faults = places.split_off(places.len().saturating_sub(faults.len()));
     said.places = offsets.into_iter().zip(places).collect();
-    notes.extend(faults.into_iter().zip(of_faults).map(|(fault, place)| {
-        let SourcePlace { file, line, column } = place;
-        let LoopFault { fault: problem, assumed, .. } = fault;
-        Note { kind: NoteKind::LeftOut, file, line, column, problem, assumed }
-    }));
+    notes.extend(
+        faults
+            .into_iter()
+            .zip(of_faults)
+            .map(|(fault, place)| Note::at(place, NoteKind::LeftOut, fault.fault, fault.assumed)),
+    );
     Some(said)
 }
 

@@ -5,6 +5,13 @@ use std::collections::{BTreeSet, HashMap};
 use super::reader::UrdfReader;
 use crate::note::NoteKind;
 use urdd_format::short::Short;
+use urdd_format::urdf::{Color, Material, Texture};
+
+/// How a material looks, if it says so.
+fn look(material: &Material) -> Option<(&Option<Color>, &Option<Texture>)> {
+    let look = (&material.color, &material.texture);
+    (look != (&None, &None)).then_some(look)
+}
 
 /// Notes conflicting looks under one name, materials without a name, and names without a look. (A link may reference a
 /// material that is declared later.)
@@ -12,16 +19,14 @@ pub(super) fn check(reader: &mut UrdfReader) {
     let materials = std::mem::take(&mut reader.materials);
     let mut looks = HashMap::new();
     for (_, material) in &materials {
-        let look = (&material.color, &material.texture);
-        if let (Some(name), true) = (&material.name, look != (&None, &None)) {
+        if let (Some(name), Some(look)) = (&material.name, look(material)) {
             looks.entry(name.as_str()).or_insert(look);
         }
     }
     let mut told = BTreeSet::new();
     let mut notes = Vec::new();
     for (offset, material) in &materials {
-        let look = (&material.color, &material.texture);
-        let has_look = look != (&None, &None);
+        let look = look(material);
         // Some programs write an empty name for a material without one.
         if material.name.as_deref() == Some("") {
             continue;
@@ -29,7 +34,7 @@ pub(super) fn check(reader: &mut UrdfReader) {
         let (problem, assumed) = match &material.name {
             None => ("a material has no name".to_owned(), "it applies only to its element"),
             Some(name) => match looks.get(name.as_str()) {
-                Some(first) if has_look && *first != look && told.insert(name) => (
+                Some(first) if look.is_some_and(|look| look != *first) && told.insert(name) => (
                     format!("material `{}` is defined again, and looks different", Short::of(name)),
                     "each element keeps its own; a name alone means the first",
                 ),

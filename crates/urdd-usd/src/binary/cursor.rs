@@ -1,9 +1,6 @@
 //! Numbers in bytes.
 
-use super::super::error::{Fault, Place};
-
-/// What is wrong at a place.
-pub type Wrong = (Place, Fault);
+use super::super::error::{Fault, Place, Wrong};
 
 /// A place in bytes, from which they are read. All numbers are little-endian.
 #[derive(Debug, Clone, Copy)]

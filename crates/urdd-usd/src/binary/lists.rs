@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::super::error::Wrong;
 use super::super::value::{Item, ListOp, Name, Value};
-use super::cursor::{Cursor, Wrong};
+use super::cursor::Cursor;
 use super::sections::Crate;
 
 /// Bytes of an entry in memory, with its place in a list.
@@ -61,7 +62,7 @@ impl<'b> Crate<'b> {
             52 | 53 => self.nested(cursor, level)?,
             // Relocates: none of them are as if nothing was said.
             58 if cursor.count(8)? == 0 => Value::Dictionary(Arc::from([])),
-            _ => Value::Unread(Arc::from(format!("type {kind} of crate files"))),
+            _ => unread(kind),
         })
     }
 
@@ -150,18 +151,9 @@ impl<'b> Crate<'b> {
         Ok(match of {
             Entries::Ints => Item::Text(Arc::from(cursor.i32()?.to_string())),
             Entries::Longs => Item::Text(Arc::from(cursor.i64()?.to_string())),
-            Entries::Tokens => {
-                let index = cursor.u32()?;
-                Item::Text(self.token(cursor, index)?)
-            }
-            Entries::Strings => {
-                let index = cursor.u32()?;
-                Item::Text(self.string(cursor, index)?)
-            }
-            Entries::Paths => {
-                let index = cursor.u32()?;
-                Item::Path(self.path_text(cursor, index)?)
-            }
+            Entries::Tokens => Item::Text(cursor.u32().and_then(|at| self.token(cursor, at))?),
+            Entries::Strings => Item::Text(cursor.u32().and_then(|at| self.string(cursor, at))?),
+            Entries::Paths => Item::Path(cursor.u32().and_then(|at| self.path_text(cursor, at))?),
             Entries::References | Entries::Payloads => {
                 let (asset, path) = (cursor.u32()?, cursor.u32()?);
                 let asset = self.string(cursor, asset)?;
@@ -177,6 +169,11 @@ impl<'b> Crate<'b> {
             }
         })
     }
+}
+
+/// A value of a type that is not read.
+pub fn unread(kind: u8) -> Value {
+    Value::Unread(Arc::from(format!("type {kind} of crate files")))
 }
 
 fn texts(items: &[Item]) -> Value {

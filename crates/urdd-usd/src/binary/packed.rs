@@ -2,7 +2,8 @@
 //!
 //! LZ4 makes at most 255 bytes of one, so a size that a file declares is compared with that before anything is made.
 
-use super::cursor::{Cursor, Wrong};
+use super::super::error::Wrong;
+use super::cursor::Cursor;
 
 /// The most that LZ4 makes of one byte, bytes.
 const MAX_LZ4: usize = 255;

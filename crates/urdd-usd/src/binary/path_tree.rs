@@ -19,3 +19,10 @@ pub struct Paths {
     /// Texts that were made.
     pub texts: Vec<Option<Name>>,
 }
+
+impl Paths {
+    /// The path of a number.
+    pub fn node(&self, index: u32) -> Option<&PathNode> {
+        self.nodes.get(index as usize)?.as_ref()
+    }
+}

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::super::error::Fault;
+use super::super::error::{Fault, Place, Wrong};
 use super::super::layer::MAX_LEVELS;
 use super::super::value::Name;
-use super::cursor::{Cursor, Wrong};
+use super::cursor::Cursor;
 use super::path_tree::PathNode;
 use super::sections::Crate;
 
@@ -61,11 +61,10 @@ impl Crate<'_> {
         let Some(parent) = parent else {
             return Ok(PathNode { parent, name: Arc::from(""), is_property: false, level: 0 });
         };
-        let above = self.paths.nodes.get(parent as usize).and_then(Option::as_ref);
-        let level = above.map_or(0, |above| above.level) + 1;
+        let level = self.paths.node(parent).map_or(0, |above| above.level) + 1;
         // Properties and variants are levels, too.
         if level as usize > MAX_LEVELS + 2 {
-            return Err((super::super::error::Place::Layer, Fault::Deep(MAX_LEVELS)));
+            return Err((Place::Layer, Fault::Deep(MAX_LEVELS)));
         }
         let token = self.token(cursor, name.unsigned_abs() as u32)?;
         Ok(PathNode { parent: Some(parent), name: token, is_property: name < 0, level })
@@ -81,9 +80,8 @@ impl Crate<'_> {
         let mut parts = Vec::new();
         let mut next = Some(index);
         while let Some(at) = next {
-            let node = self.paths.nodes.get(at as usize).and_then(Option::as_ref);
             // An empty path: a reference to the default prim has one.
-            let Some(node) = node else { return Ok(Arc::from("")) };
+            let Some(node) = self.paths.node(at) else { return Ok(Arc::from("")) };
             parts.push(node);
             next = node.parent;
         }

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::super::door::Door;
-use super::super::error::{Fault, Place};
+use super::super::error::{Fault, Place, Wrong};
 use super::super::value::{Name, Value};
 use super::START;
-use super::cursor::{Cursor, Wrong};
+use super::cursor::Cursor;
 use super::packed::{integers, unpacked};
 use super::path_tree::Paths;
 
@@ -124,12 +124,12 @@ impl<'b> Crate<'b> {
         let at = cursor;
         let text = unpacked(&mut cursor, packed, size)?;
         let mut parts = text.split(|byte| *byte == 0);
+        let few = || at.damaged("there are fewer tokens than it says");
         if count > text.len() {
-            return Err(at.damaged("there are fewer tokens than it says"));
+            return Err(few());
         }
         for _ in 0..count {
-            let part =
-                parts.next().ok_or_else(|| at.damaged("there are fewer tokens than it says"))?;
+            let part = parts.next().ok_or_else(few)?;
             let part = std::str::from_utf8(part);
             let part = part.map_err(|_| (Place::Byte(at.at as u64), Fault::Encoding))?;
             self.tokens.push(Arc::from(part));

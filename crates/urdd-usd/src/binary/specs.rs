@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use super::super::door::Door;
-use super::super::error::{Fault, Place};
-use super::super::layer::{Layer, MAX_FIELDS, PropertySpec};
+use super::super::error::{Fault, Place, Wrong};
+use super::super::layer::{Layer, MAX_FIELDS, PropertySpec, field};
 use super::super::value::{Name, Value};
-use super::cursor::{Cursor, Wrong};
+use super::cursor::Cursor;
 use super::sections::Crate;
 
 /// Bytes of a spec or property, and of a field, in memory.
@@ -41,8 +41,7 @@ pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
                 specs.layer.specs[spec as usize].fields = file.field_set(&cursor, set)?;
             }
             ATTRIBUTE | RELATIONSHIP => {
-                let Some(node) = file.paths.nodes.get(path as usize).and_then(Option::as_ref)
-                else {
+                let Some(node) = file.paths.node(path) else {
                     return Err(cursor.damaged("the path of a property is missing"));
                 };
                 let (name, owner) = (node.name.clone(), node.parent);
@@ -66,8 +65,7 @@ pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
 
 /// Whether a path is that of a property or a target.
 fn is_deeper(file: &Crate<'_>, path: u32) -> bool {
-    let node = file.paths.nodes.get(path as usize).and_then(Option::as_ref);
-    node.is_some_and(|node| node.is_property || node.name.starts_with('['))
+    file.paths.node(path).is_some_and(|node| node.is_property || node.name.starts_with('['))
 }
 
 struct Specs {
@@ -84,7 +82,7 @@ impl Specs {
             if let Some(known) = self.of_path.get(&next) {
                 break *known;
             }
-            let Some(node) = file.paths.nodes.get(next as usize).and_then(Option::as_ref) else {
+            let Some(node) = file.paths.node(next) else {
                 return Err(cursor.damaged("the path of a prim is missing"));
             };
             let Some(parent) = node.parent else { break 0 };
@@ -103,7 +101,7 @@ impl Specs {
     fn sort(&mut self) {
         for at in 0..self.layer.specs.len() {
             let spec = &self.layer.specs[at];
-            let order = super::super::layer::field(&spec.fields, "primChildren");
+            let order = field(&spec.fields, "primChildren");
             let Some(order) = order.and_then(Value::texts) else { continue };
             let place: HashMap<&Name, usize> =
                 order.iter().enumerate().map(|(at, name)| (name, at)).collect();

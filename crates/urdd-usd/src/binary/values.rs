@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use super::super::error::{Fault, Place};
+use super::super::error::{Fault, Place, Wrong};
 use super::super::half;
-use super::super::value::{Name, Value};
-use super::cursor::{Cursor, Wrong};
+use super::super::value::{MAX_VALUE_LEVELS, Name, Value};
+use super::cursor::Cursor;
+use super::lists::unread;
 use super::sections::Crate;
 
-/// The deepest nesting of dictionaries, as in text.
-const MAX_VALUE_LEVELS: usize = 32;
 /// Arrays of fewer numbers are not packed.
 const MIN_PACKED: usize = 16;
 
@@ -122,10 +121,6 @@ impl<'b> Crate<'b> {
         Ok(value)
     }
 
-    fn unread(kind: u8) -> Value {
-        Value::Unread(Arc::from(format!("type {kind} of crate files")))
-    }
-
     /// A value that is in the eight bytes.
     fn inlined(&self, of: &Rep) -> Result<Value, Wrong> {
         let bytes = (of.payload as u32).to_le_bytes();
@@ -162,7 +157,7 @@ impl<'b> Crate<'b> {
             9 | 56 => Value::Number(cursor.f32()?),
             kind => match numbers_of(kind) {
                 Some((scalar, 1, _)) => Value::Number(scalar.read(&mut cursor)?),
-                _ => Self::unread(kind),
+                _ => unread(kind),
             },
         })
     }
@@ -244,7 +239,7 @@ impl<'b> Crate<'b> {
     /// An array of texts.
     fn texts(&mut self, kind: u8, count: usize, cursor: &mut Cursor<'b>) -> Result<Value, Wrong> {
         if !matches!(kind, 10..=12 | 57) {
-            return Ok(Self::unread(kind));
+            return Ok(unread(kind));
         }
         let mut inside = Cursor::new(cursor.take(count.saturating_mul(4))?, 0);
         self.charge(cursor, count * 16)?;

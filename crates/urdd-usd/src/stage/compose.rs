@@ -87,7 +87,7 @@ impl Composer<'_> {
         let type_name = types.into_iter().find(|name| !name.is_empty()).cloned();
         let mut schemas = Vec::new();
         for (_, spec) in specs.iter().rev() {
-            if let Some(Value::List(list)) = field(&self.spec(*spec).fields, "apiSchemas") {
+            if let Some(list) = self.list(*spec, "apiSchemas") {
                 list.apply(&mut schemas);
             }
         }
@@ -169,7 +169,7 @@ impl Composer<'_> {
         let kind = if strongest.is_relationship { "targetPaths" } else { "connectionPaths" };
         let mut targets = Vec::new();
         for (at, _, of) in opinions.iter().rev() {
-            let Some(Value::List(list)) = field(&of.fields, kind) else { continue };
+            let Some(list) = field(&of.fields, kind).and_then(Value::list) else { continue };
             let own = tree.0[*at].path(names);
             let mapped: ListOp = list.map(|item| {
                 let path = absolute(&own, item.text());

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::super::door::{Door, beside, is_remote};
 use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{Layer, field};
+use super::super::layer::{Layer, Spec, field};
 use super::super::package::{self, Package};
 use super::super::value::{Name, Value};
 use super::super::{binary, text};
@@ -128,11 +128,11 @@ impl<'d> Layers<'d> {
             return Ok(*known);
         }
         let wrong = |(place, fault)| error(path, place, fault);
-        let layer = |fault| (Place::Layer, fault);
-        let bytes = self.bytes(path).map_err(|fault| wrong(layer(fault)))?;
+        let layer = |fault| error(path, Place::Layer, fault);
+        let bytes = self.bytes(path).map_err(layer)?;
         let at = if bytes.starts_with(package::START) {
-            let mut package = Package::open(bytes).map_err(|fault| wrong(layer(fault)))?;
-            let root = package.root().map_err(|fault| wrong(layer(fault)))?;
+            let mut package = Package::open(bytes).map_err(layer)?;
+            let root = package.root().map_err(layer)?;
             self.packages.insert(path.to_owned(), package);
             let (outer, ends) = path.split_at(path.trim_end_matches(']').len());
             self.load(&format!("{outer}[{root}]{ends}"))?
@@ -141,16 +141,14 @@ impl<'d> Layers<'d> {
                 binary::read(&bytes, self.door).map_err(wrong)?
             } else {
                 let charged = self.door.charge(bytes.len().saturating_mul(OF_TEXT));
-                charged.map_err(|why| wrong(layer(Fault::TooMuch(why))))?;
+                charged.map_err(|why| layer(Fault::TooMuch(why)))?;
                 text::read(&bytes).map_err(wrong)?
             };
-            if field(&read.specs[0].fields, "layerRelocates").is_some_and(is_said)
-                || read
-                    .specs
-                    .iter()
-                    .any(|spec| field(&spec.fields, "relocates").is_some_and(is_said))
+            let says = |spec: &Spec, name| field(&spec.fields, name).is_some_and(is_said);
+            if says(&read.specs[0], "layerRelocates")
+                || read.specs.iter().any(|spec| says(spec, "relocates"))
             {
-                return Err(wrong(layer(Fault::Relocates)));
+                return Err(layer(Fault::Relocates));
             }
             self.all.push(Loaded { path: Arc::from(path), layer: read });
             self.all.len() as u32 - 1

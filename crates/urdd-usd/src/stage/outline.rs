@@ -48,11 +48,7 @@ pub fn outline(path: &str, door: &mut dyn Door) -> Result<Outline, UsdError> {
 }
 
 fn items<'s>(spec: &'s Spec, name: &str) -> impl Iterator<Item = &'s Item> {
-    let list = match field(&spec.fields, name) {
-        Some(Value::List(list)) => Some(list),
-        _ => None,
-    };
-    list.into_iter().flat_map(|list| {
+    field(&spec.fields, name).and_then(Value::list).into_iter().flat_map(|list| {
         let explicit = list.explicit.iter().flatten();
         explicit.chain(&list.added).chain(&list.prepended).chain(&list.appended)
     })

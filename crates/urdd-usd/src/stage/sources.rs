@@ -6,7 +6,7 @@ use std::sync;
 
 use super::super::error::{Fault, Place, UsdError};
 use super::super::layer::{Spec, field};
-use super::super::value::{Item, Name, Value};
+use super::super::value::{Item, ListOp, Name, Value};
 use super::composed::Stage;
 use super::layers::{Layers, error};
 use super::tree::{Arc, Site, Tree};
@@ -107,6 +107,11 @@ impl<'d> Composer<'d> {
         &self.layers.all[layer as usize].layer.specs[spec as usize]
     }
 
+    /// How a layer edits a list.
+    pub fn list(&self, spec: (u32, u32), name: &str) -> Option<&ListOp> {
+        field(&self.spec(spec).fields, name)?.list()
+    }
+
     /// The layer of the strongest opinion, and the line.
     pub fn place(&self, tree: &Tree) -> (usize, u32) {
         let first = tree.ordered().into_iter().find_map(|at| tree.0[at].specs.first().copied());
@@ -159,10 +164,7 @@ impl<'d> Composer<'d> {
             let mut items = Vec::new();
             let mut faults = Vec::new();
             for (layer, spec) in specs.iter().rev() {
-                let Some(Value::List(list)) = field(&self.spec((*layer, *spec)).fields, name)
-                else {
-                    continue;
-                };
+                let Some(list) = self.list((*layer, *spec), name) else { continue };
                 let anchored = list.map(|item| match item {
                     Item::Reference { asset, path } if !asset.is_empty() => {
                         match self.layers.named(*layer, asset) {

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::super::error::{Fault, UsdError};
 use super::super::layer::field;
-use super::super::value::{Name, Value};
+use super::super::value::Name;
 use super::sources::{Composer, MAX_SITES, SITE};
 use super::tree::{Arc, Site, Tree};
 
@@ -25,8 +25,7 @@ impl Composer<'_> {
         for at in &order {
             let mut sets = Vec::new();
             for spec in tree.0[*at].specs.iter().rev() {
-                if let Some(Value::List(list)) = field(&self.spec(*spec).fields, "variantSetNames")
-                {
+                if let Some(list) = self.list(*spec, "variantSetNames") {
                     list.apply(&mut sets);
                 }
             }

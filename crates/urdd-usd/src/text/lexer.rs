@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::super::error::{Fault, Place};
+use super::super::error::{Fault, Place, Wrong};
 
 /// A word.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,9 +39,6 @@ impl Token<'_> {
 fn short(text: &str) -> String {
     text.chars().take(60).collect()
 }
-
-/// What is wrong at a place.
-pub type Wrong = (Place, Fault);
 
 /// Reads words.
 #[derive(Debug)]
@@ -118,6 +115,14 @@ impl<'t> Lexer<'t> {
     pub fn take(&mut self, mark: char, expected: &'static str) -> Result<(), Wrong> {
         match self.next()? {
             Token::Mark(found) if found == mark => Ok(()),
+            other => Err(self.expected(expected, &other)),
+        }
+    }
+
+    /// Takes a name, which has to be next.
+    pub fn name(&mut self, expected: &'static str) -> Result<&'t str, Wrong> {
+        match self.next()? {
+            Token::Name(name) => Ok(name),
             other => Err(self.expected(expected, &other)),
         }
     }

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::super::error::Fault;
-use super::super::layer::MAX_FIELDS;
+use super::super::error::{Fault, Wrong};
+use super::super::layer::{MAX_FIELDS, put};
 use super::super::value::{Item, ListOp, Name, Value};
-use super::lexer::{Token, Wrong};
-use super::words::Reader;
+use super::lexer::Token;
+use super::values::Reader;
 
 /// How a statement edits a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,31 +68,26 @@ impl Reader<'_> {
             return Ok(fields);
         }
         loop {
-            let (mut edit, mut word) = (
-                Edit::Explicit,
-                match self.lexer.next()? {
-                    Token::Mark(')') => return Ok(fields),
-                    Token::Mark(';' | ',') => continue,
-                    Token::Text(text) => {
-                        fields.push((self.name("comment"), Value::Text(self.name(&text))));
-                        continue;
-                    }
-                    Token::Name(word) => word,
-                    other => return Err(self.lexer.expected("metadata or `)`", &other)),
-                },
-            );
+            let mut edit = Edit::Explicit;
+            let mut word = match self.lexer.next()? {
+                Token::Mark(')') => return Ok(fields),
+                Token::Mark(';' | ',') => continue,
+                Token::Text(text) => {
+                    fields.push((self.name("comment"), Value::Text(self.name(&text))));
+                    continue;
+                }
+                Token::Name(word) => word,
+                other => return Err(self.lexer.expected("metadata or `)`", &other)),
+            };
             if let Some(of) = Edit::of(word) {
                 edit = of;
-                word = match self.lexer.next()? {
-                    Token::Name(word) => word,
-                    other => return Err(self.lexer.expected("the name of a list", &other)),
-                };
+                word = self.lexer.name("the name of a list")?;
             }
             if fields.len() >= MAX_FIELDS {
                 return Err(self.lexer.wrong(Fault::Fields(MAX_FIELDS)));
             }
             self.lexer.take('=', "`=`")?;
-            if matches!(word, "symmetryFunction") {
+            if word == "symmetryFunction" {
                 // Its value may be missing.
                 if matches!(self.lexer.peek()?, Token::Name(_)) {
                     self.lexer.next()?;
@@ -100,16 +95,7 @@ impl Reader<'_> {
                 continue;
             }
             let (field, value) = self.field(word, edit)?;
-            let field = self.name(field);
-            match fields.iter_mut().find(|(key, _)| *key == field) {
-                Some((_, Value::List(known))) => {
-                    if let Value::List(more) = value {
-                        *known = Arc::new(known.joined(&more));
-                    }
-                }
-                Some(known) => known.1 = value,
-                None => fields.push((field, value)),
-            }
+            put(&mut fields, self.name(field), value);
         }
     }
 
@@ -117,8 +103,7 @@ impl Reader<'_> {
     fn field<'w>(&mut self, word: &'w str, edit: Edit) -> Result<(&'w str, Value), Wrong> {
         let list = |items| Value::List(Arc::new(edit.list(items)));
         Ok(match word {
-            "references" => (word, list(self.references()?)),
-            "payload" => (word, list(self.references()?)),
+            "references" | "payload" => (word, list(self.references()?)),
             "inherits" => ("inheritPaths", list(items(&self.value(0)?, Item::Path))),
             "specializes" => (word, list(items(&self.value(0)?, Item::Path))),
             "variantSets" => ("variantSetNames", list(items(&self.value(0)?, Item::Text))),

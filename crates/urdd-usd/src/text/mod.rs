@@ -4,6 +4,5 @@ mod lexer;
 mod metadata;
 mod reader;
 mod values;
-mod words;
 
 pub use reader::read;

@@ -3,13 +3,12 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::super::error::{Fault, Place};
-use super::super::layer::{Layer, MAX_LEVELS, PropertySpec};
+use super::super::error::{Fault, Place, Wrong};
+use super::super::layer::{Layer, MAX_LEVELS, PropertySpec, put};
 use super::super::value::{Item, Name, Value};
-use super::lexer::{Lexer, Token, Wrong};
+use super::lexer::{Lexer, Token};
 use super::metadata::{Edit, items};
-use super::values::typed;
-use super::words::Reader;
+use super::values::{Reader, typed};
 
 /// The first words of a layer of text.
 const START: &str = "#usda 1.";
@@ -110,6 +109,15 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// The spec of a child or variant.
+    fn make(&mut self, above: u32, name: &Name, is_child: bool, line: u32) -> Result<u32, Wrong> {
+        let spec = self.layer.make(above, name, is_child, line);
+        if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
+            return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
+        }
+        Ok(spec)
+    }
+
     fn prim(&mut self, parent: u32, specifier: &str) -> Result<u32, Wrong> {
         let line = self.lexer.word_line();
         let mut token = self.lexer.next()?;
@@ -122,10 +130,7 @@ impl Reader<'_> {
             return Err(self.lexer.expected("the name of a prim", &token));
         };
         let name = self.name(&name);
-        let spec = self.layer.make(parent, &name, true, line);
-        if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
-            return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
-        }
+        let spec = self.make(parent, &name, true, line)?;
         let mut fields = vec![(self.name("specifier"), Value::Text(self.name(specifier)))];
         fields.extend(kind.map(|kind| (self.name("typeName"), Value::Text(kind))));
         fields.extend(self.metadata()?);
@@ -146,10 +151,7 @@ impl Reader<'_> {
         };
         let name = self.name(&format!("{{{set}={name}}}"));
         let line = self.lexer.word_line();
-        let spec = self.layer.make(owner, &name, false, line);
-        if self.layer.specs[spec as usize].level as usize > MAX_LEVELS {
-            return Err(self.lexer.wrong(Fault::Deep(MAX_LEVELS)));
-        }
+        let spec = self.make(owner, &name, false, line)?;
         let fields = self.metadata()?;
         self.set_fields(spec, fields);
         self.lexer.take('{', "`{`")?;
@@ -172,10 +174,7 @@ impl Reader<'_> {
                     None => break,
                 },
             }
-            word = match self.lexer.next()? {
-                Token::Name(word) => word,
-                other => return Err(self.lexer.expected("a type", &other)),
-            };
+            word = self.lexer.name("a type")?;
         }
         if edit == Edit::Reorder && matches!(word, "nameChildren" | "properties" | "rootPrims") {
             self.lexer.take('=', "`=`")?;
@@ -183,20 +182,15 @@ impl Reader<'_> {
             return Ok(());
         }
         let (kind, is_array) = (word, self.brackets()?);
-        let name = match self.lexer.next()? {
-            Token::Name(name) => self.name(name),
-            other => return Err(self.lexer.expected("the name of a property", &other)),
-        };
+        let name = self.lexer.name("the name of a property")?;
+        let name = self.name(name);
         let is_relationship = kind == "rel";
         if !is_relationship {
             let full = if is_array { self.name(&format!("{kind}[]")) } else { self.name(kind) };
             fields.push((self.name("typeName"), Value::Text(full)));
         }
         let part = match self.lexer.takes('.')? {
-            true => match self.lexer.next()? {
-                Token::Name(part) => part,
-                other => return Err(self.lexer.expected("`connect` or `timeSamples`", &other)),
-            },
+            true => self.lexer.name("`connect` or `timeSamples`")?,
             false => "",
         };
         if self.lexer.takes('=')? {
@@ -251,15 +245,7 @@ impl Reader<'_> {
             return;
         }
         for (name, value) in fields {
-            let own = &mut all[at].fields;
-            match own.iter_mut().find(|(key, _)| *key == name) {
-                Some((_, Value::List(known))) => {
-                    let Value::List(more) = value else { continue };
-                    *known = Arc::new(known.joined(&more));
-                }
-                Some(known) => known.1 = value,
-                None => own.push((name, value)),
-            }
+            put(&mut all[at].fields, name, value);
         }
     }
 }

@@ -1,17 +1,35 @@
 //! Values in text, and what their types make of them.
 
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use super::super::error::Fault;
+use super::super::error::{Fault, Wrong};
 use super::super::half;
-use super::super::value::Value;
-use super::lexer::{Token, Wrong};
-use super::words::Reader;
+use super::super::layer::Layer;
+use super::super::value::{MAX_VALUE_LEVELS, Name, Value};
+use super::lexer::{Lexer, Token};
 
-/// The deepest nesting of dictionaries and tuples. Robots use three levels.
-pub const MAX_VALUE_LEVELS: usize = 32;
+/// Reads the words of a layer.
+#[derive(Debug)]
+pub struct Reader<'t> {
+    pub lexer: Lexer<'t>,
+    pub layer: Layer,
+    pub names: HashSet<Name>,
+    /// The properties of specs, by name.
+    pub properties: HashMap<(u32, Name), usize>,
+}
 
-impl<'t> Reader<'t> {
+impl Reader<'_> {
+    /// A name, which is there once.
+    pub fn name(&mut self, text: &str) -> Name {
+        if let Some(known) = self.names.get(text) {
+            return known.clone();
+        }
+        let name: Name = Arc::from(text);
+        self.names.insert(name.clone());
+        name
+    }
+
     /// A value of any type.
     pub fn value(&mut self, level: usize) -> Result<Value, Wrong> {
         Ok(match self.lexer.next()? {
