@@ -75,25 +75,22 @@ fn a_rule_gets_all_of_its_files() {
     let root = folder.path();
     let code = next(root, "SRC");
     let output =
-        new_rule(root, &[&code, "made-of-cheese", "--clause", "6.1.7", "--severity", "warning"]);
+        new_rule(root, &[&code, "is-of-cheese", "--clause", "6.1.7", "--severity", "warning"]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains(&format!("URDD_CASE={code}")), "{said}");
 
-    let rule = text(root, "crates/urdd-validate/src/rules/source/made_of_cheese.rs");
+    let rule = text(root, "crates/urdd-validate/src/rules/source/is_of_cheese.rs");
     assert!(
-        rule.contains(&format!("{code} \"made-of-cheese\", Warning, clause \"6.1.7\"")),
+        rule.contains(&format!("{code} \"is-of-cheese\", Warning, clause \"6.1.7\"")),
         "{rule}"
     );
     let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
-    assert!(
-        list.contains("\nmod made_of_cheese;\n") && list.contains(" made_of_cheese,"),
-        "{list}"
-    );
-    // In order: after `inertia`, before `mass`.
+    assert!(list.contains("\nmod is_of_cheese;\n") && list.contains(" is_of_cheese,"), "{list}");
+    // In order: after `inertia`, before `limits`.
     let place = |name: &str| list.find(&format!("mod {name};")).expect(name);
-    assert!(place("inertia") < place("made_of_cheese"));
-    assert!(place("made_of_cheese") < place("mass"));
+    assert!(place("inertia") < place("is_of_cheese"));
+    assert!(place("is_of_cheese") < place("limits"));
     assert!(text(root, "crates/urdd-findings/src/code.rs").contains(&format!(" {code}")));
     let spec = text(root, "SPEC.md");
     let clause = spec
@@ -107,7 +104,7 @@ fn a_rule_gets_all_of_its_files() {
     assert!(next.contains(&line), "{next}");
     let cases = text(root, &format!("conformance/cases/{code}.json"));
     for words in [
-        "\"rule\": \"made-of-cheese\"",
+        "\"rule\": \"is-of-cheese\"",
         "\"verdict\": \"accept\"",
         "\"invalid\": [\n    {\n      \"name\": \"todo-name-the-fault\",\n      \"base\": \"toy_core\"",
         "\"near_misses\": [\n    {\n      \"name\": \"todo-name-what-comes-near\",\n      \"base\": \"toy_core\"",
@@ -116,7 +113,7 @@ fn a_rule_gets_all_of_its_files() {
     }
 
     // The second time, it is taken.
-    let again = new_rule(root, &[&code, "made-of-cheese"]);
+    let again = new_rule(root, &[&code, "is-of-cheese"]);
     assert_eq!(again.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&again.stderr).contains("next free code"));
 }

@@ -2,13 +2,13 @@
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_robot::spheres::{Coverage, SphereChecker};
-use urdd_robot::{EdgeSettings, RobotError, fill};
+use urdd_robot::{RobotError, fill};
 
 use crate::failure::{Status, run};
 use crate::handle::{Handle, at, at_mut, make};
 use crate::memory::Plain;
 use crate::obstacle::{Obstacle, with_moves, world_of};
-use crate::rows::Rows;
+use crate::rows::{Rows, edge_settings, edges};
 
 /// Configurations that are checked at once.
 const LANES: usize = 8;
@@ -90,46 +90,22 @@ pub(crate) trait Checks: Handle + 'static {
         })
     }
 
-    unsafe fn edges<const N: usize>(
-        handle: *const Self,
-        [starts, ends]: [*const f64; 2],
-        shape: (usize, usize),
-        (margin, resolution, open_loops): (f64, f64, bool),
-        out: (&'static str, *mut f64, usize),
-        ask: impl Fn(
-            &SphereChecker<Self::Coverage>,
-            [&[f64]; 2],
-            &EdgeSettings,
-        ) -> Result<[f64; N], RobotError>
-        + Sync,
-    ) -> Status {
-        let resolution = (resolution != 0.0).then_some(resolution);
-        let settings = EdgeSettings { margin, resolution, open_loops };
-        run(|| unsafe {
-            let checker = at(handle)?.checker();
-            let from = Rows::new("starts", starts, shape, checker.num_dofs())?;
-            let to = Rows::new("ends", ends, shape, checker.num_dofs())?;
-            Ok(fill(from.room(out, N)?, N, EDGES, |(): &mut (), k, out| {
-                out.copy_from_slice(&ask(checker, [from.row(k), to.row(k)], &settings)?);
-                Ok::<(), RobotError>(())
-            })?)
-        })
-    }
-
     /// NaN where a motion is free.
     unsafe fn blocked_edge(
         handle: *const Self,
         ends: [*const f64; 2],
         shape: (usize, usize),
-        settings: (f64, f64, bool),
+        (margin, resolution, open_loops): (f64, f64, bool),
         blocked: *mut f64,
     ) -> Status {
+        let settings = edge_settings(margin, resolution, open_loops);
         let out = ("blocked", blocked, shape.0);
-        unsafe {
-            Self::edges(handle, ends, shape, settings, out, |checker, [start, end], settings| {
-                Ok([checker.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
+        run(|| unsafe {
+            let checker = at(handle)?.checker();
+            edges(ends, (shape, checker.num_dofs()), out, EDGES, |start, end| {
+                Ok([checker.blocked_edge(start, end, &settings)?.unwrap_or(f64::NAN)])
             })
-        }
+        })
     }
 
     /// As [`Checks::blocked_edge`], with two numbers for each motion.
@@ -137,15 +113,17 @@ pub(crate) trait Checks: Handle + 'static {
         handle: *const Self,
         ends: [*const f64; 2],
         shape: (usize, usize),
-        settings: (f64, f64, bool),
+        (margin, resolution, open_loops): (f64, f64, bool),
         (contacts, length): (*mut f64, usize),
     ) -> Status {
+        let settings = edge_settings(margin, resolution, open_loops);
         let out = ("contacts", contacts, length);
-        unsafe {
-            Self::edges(handle, ends, shape, settings, out, |checker, [start, end], settings| {
-                let contact = checker.first_contact(start, end, settings)?;
+        run(|| unsafe {
+            let checker = at(handle)?.checker();
+            edges(ends, (shape, checker.num_dofs()), out, EDGES, |start, end| {
+                let contact = checker.first_contact(start, end, &settings)?;
                 Ok(contact.map_or([f64::NAN; 2], |contact| [contact.free, contact.blocked]))
             })
-        }
+        })
     }
 }

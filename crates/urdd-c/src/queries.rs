@@ -1,11 +1,11 @@
 //! What is asked of a robot's own pairs and of those with obstacles, once for both handles.
 
-use urdd_robot::{EdgeSettings, FirstContact, Queries, RobotError, fill};
+use urdd_robot::{FirstContact, Queries, RobotError};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at};
 use crate::memory::{Plain, room};
-use crate::rows::Rows;
+use crate::rows::{Rows, edge_settings, edges};
 
 /// Motions in one block of work.
 const EDGES: usize = 4;
@@ -105,14 +105,17 @@ pub(crate) trait Asked: Handle + 'static {
         handle: *const Self,
         ends: [*const f64; 2],
         shape: (usize, usize),
-        settings: (f64, f64),
+        (margin, resolution): (f64, f64),
         blocked: *mut f64,
     ) -> Status {
+        let settings = edge_settings(margin, resolution, false);
         let out = ("blocked", blocked, shape.0);
-        let ask = |of: &Self::Of, [start, end]: [&[f64]; 2], settings: &EdgeSettings| {
-            Ok([of.blocked_edge(start, end, settings)?.unwrap_or(f64::NAN)])
-        };
-        unsafe { Self::edges(handle, ends, shape, settings, out, ask) }
+        run(|| unsafe {
+            let of = at(handle)?.queries();
+            edges(ends, (shape, of.num_dofs()), out, EDGES, |start, end| {
+                Ok([of.blocked_edge(start, end, &settings)?.unwrap_or(f64::NAN)])
+            })
+        })
     }
 
     /// As [`Asked::blocked_edge`], with two numbers for each motion.
@@ -120,55 +123,35 @@ pub(crate) trait Asked: Handle + 'static {
         handle: *const Self,
         ends: [*const f64; 2],
         shape: (usize, usize),
-        settings: (f64, f64),
+        (margin, resolution): (f64, f64),
         (contacts, length): (*mut f64, usize),
     ) -> Status {
+        let settings = edge_settings(margin, resolution, false);
         let out = ("contacts", contacts, length);
-        let ask = |of: &Self::Of, [start, end]: [&[f64]; 2], settings: &EdgeSettings| {
-            let contact = of.first_contact(start, end, settings)?;
-            Ok(contact.map_or([f64::NAN; 2], |contact| [contact.free, contact.blocked]))
-        };
-        unsafe { Self::edges(handle, ends, shape, settings, out, ask) }
+        run(|| unsafe {
+            let of = at(handle)?.queries();
+            edges(ends, (shape, of.num_dofs()), out, EDGES, |start, end| {
+                let contact = of.first_contact(start, end, &settings)?;
+                Ok(contact.map_or([f64::NAN; 2], |contact| [contact.free, contact.blocked]))
+            })
+        })
     }
 
     /// As [`Asked::first_contact`], with why a motion cannot go on.
     unsafe fn motions<T: Plain + Send + From<Option<FirstContact>>>(
         handle: *const Self,
-        [starts, ends]: [*const f64; 2],
-        (count, dofs): (usize, usize),
+        ends: [*const f64; 2],
+        shape: (usize, usize),
         (margin, resolution, open_loops): (f64, f64, bool),
         motions: *mut T,
     ) -> Status {
-        let resolution = (resolution != 0.0).then_some(resolution);
-        let settings = EdgeSettings { margin, resolution, open_loops };
+        let settings = edge_settings(margin, resolution, open_loops);
+        let out = ("motions", motions, shape.0);
         run(|| unsafe {
-            let (of, from) = Self::rows(handle, "starts", (starts, count, dofs))?;
-            let (_, to) = Self::rows(handle, "ends", (ends, count, dofs))?;
-            let out = from.room(("motions", motions, count), 1)?;
-            Ok(fill(out, 1, EDGES, |(): &mut (), k, out| {
-                out[0] = of.first_contact(from.row(k), to.row(k), &settings)?.into();
-                Ok::<(), RobotError>(())
-            })?)
-        })
-    }
-
-    unsafe fn edges<const N: usize>(
-        handle: *const Self,
-        [starts, ends]: [*const f64; 2],
-        (count, dofs): (usize, usize),
-        (margin, resolution): (f64, f64),
-        out: (&'static str, *mut f64, usize),
-        ask: impl Fn(&Self::Of, [&[f64]; 2], &EdgeSettings) -> Result<[f64; N], RobotError> + Sync,
-    ) -> Status {
-        let resolution = (resolution != 0.0).then_some(resolution);
-        let settings = EdgeSettings { margin, resolution, ..Default::default() };
-        run(|| unsafe {
-            let (of, from) = Self::rows(handle, "starts", (starts, count, dofs))?;
-            let (_, to) = Self::rows(handle, "ends", (ends, count, dofs))?;
-            Ok(fill(from.room(out, N)?, N, EDGES, |(): &mut (), k, out| {
-                out.copy_from_slice(&ask(of, [from.row(k), to.row(k)], &settings)?);
-                Ok::<(), RobotError>(())
-            })?)
+            let of = at(handle)?.queries();
+            edges(ends, (shape, of.num_dofs()), out, EDGES, |start, end| {
+                Ok([of.first_contact(start, end, &settings)?.into()])
+            })
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use urdd_robot::{RobotError, fill};
+use urdd_robot::{EdgeSettings, RobotError, fill};
 
 use crate::failure::{Failure, Status};
 use crate::memory::{Plain, exact_room, values};
@@ -79,4 +79,30 @@ impl<'a> Rows<'a> {
         let row = |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), out);
         Ok(fill(out, width, BLOCK, row)?)
     }
+}
+
+/// What the caller says of motions: a resolution of 0 is a proof.
+pub(crate) fn edge_settings(margin: f64, resolution: f64, open_loops: bool) -> EdgeSettings {
+    let resolution = (resolution != 0.0).then_some(resolution);
+    EdgeSettings { margin, resolution, open_loops }
+}
+
+/// Asks `N` values of each motion, from a row of the starts to the same row of the ends; so many rows to a thread.
+pub(crate) unsafe fn edges<T: Plain + Send, const N: usize>(
+    [starts, ends]: [*const f64; 2],
+    (shape, num_dofs): ((usize, usize), usize),
+    out: (&'static str, *mut T, usize),
+    block: usize,
+    ask: impl Fn(&[f64], &[f64]) -> Result<[T; N], RobotError> + Sync,
+) -> Result<(), Failure> {
+    // SAFETY: guaranteed by the caller.
+    let (from, to, out) = unsafe {
+        let from = Rows::new("starts", starts, shape, num_dofs)?;
+        let to = Rows::new("ends", ends, shape, num_dofs)?;
+        (from, to, from.room(out, N)?)
+    };
+    Ok(fill(out, N, block, |(): &mut (), k, out| {
+        out.copy_from_slice(&ask(from.row(k), to.row(k))?);
+        Ok::<(), RobotError>(())
+    })?)
 }

@@ -7,7 +7,7 @@ use super::loops::{Made, closed};
 use super::meshes::mesh_files;
 use super::named::{Named, reference, without_reference};
 use super::settings::{Progress, Settings};
-use super::{chain, dof};
+use super::{chain, dof, made};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
 use urdd_format::composition::CompositionModule;
@@ -140,6 +140,13 @@ impl<'a> Context<'a> {
             problem,
             assumed: assumed.to_owned(),
         }
+    }
+
+    /// No module, and a note that it would be of no use for this robot.
+    pub fn of_no_use(&self, kind: ModuleKind, problem: String) -> made::Made {
+        let assumed = format!("{} is left out", kind.name());
+        let notes = vec![self.note(NoteKind::OfNoUse, problem, &assumed)];
+        made::Made { document: None, files: Vec::new(), notes, product: () }
     }
 
     /// The error for geometry out of the range that can be computed.

@@ -14,7 +14,6 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::Sha256;
 use urdd_geometry::convex::BodyPairs;
 use urdd_learned::train::{MAX_PAIRS, NoModel, Subject, train};
-use urdd_source::note::NoteKind;
 
 /// Trains the model. Without a document, but with a note, if a model would be of no use.
 pub(super) fn self_collision_model(
@@ -44,13 +43,7 @@ pub(super) fn self_collision_model(
         Ok(module) => made(&module),
         Err(NoModel::OfNoUse(useless)) => {
             let problem = format!("a self-collision model would be of no use: {useless}");
-            let assumed = "self_collision_model_module is left out";
-            Ok(Made {
-                document: None,
-                files: Vec::new(),
-                notes: vec![context.note(NoteKind::OfNoUse, problem, assumed)],
-                product: (),
-            })
+            Ok(context.of_no_use(ModuleKind::SelfCollisionModel, problem))
         }
         Err(NoModel::Cancelled(cancelled)) => Err(cancelled.into()),
         Err(NoModel::Configuration(error)) => Err(context.unmeasurable(error)),

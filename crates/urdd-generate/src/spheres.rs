@@ -26,9 +26,7 @@ pub(super) fn spheres(
         .map_err(|error| context.unmeasurable(pieces.fault(error)))?;
     if pairs.links.is_empty() {
         let problem = "no link has a shape, so there is nothing that spheres could stand for";
-        let assumed = "link_shapes_spheres_module is left out";
-        let notes = vec![context.note(NoteKind::OfNoUse, problem.to_owned(), assumed)];
-        return Ok(Made { document: None, files: Vec::new(), notes, product: () });
+        return Ok(context.of_no_use(ModuleKind::LinkShapesSpheres, problem.to_owned()));
     }
     let names: Vec<&str> =
         context.chain.links_in_chain.iter().map(|link| link.name.as_str()).collect();

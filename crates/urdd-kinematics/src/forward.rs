@@ -58,7 +58,7 @@ pub struct ForwardKinematics {
     /// One step per joint; parents come before children.
     pub(super) steps: Vec<Step>,
     /// For each link, the index of the step that moves it; `None` for the root.
-    pub(super) step_of: Vec<Option<usize>>,
+    step_of: Vec<Option<usize>>,
 }
 
 /// A joint: the pose of its child link's frame in that of its parent link is `origin`, then what `motion` says.
@@ -169,8 +169,25 @@ impl ForwardKinematics {
 
     /// The joints from a link up to the root.
     pub(super) fn path(&self, link: usize) -> impl Iterator<Item = &Step> {
-        let step = |link: usize| self.step_of.get(link).copied().flatten().map(|k| &self.steps[k]);
-        std::iter::successors(step(link), move |above| step(above.parent))
+        self.path_steps(link).map(|step| &self.steps[step])
+    }
+
+    /// Their indices.
+    fn path_steps(&self, link: usize) -> impl Iterator<Item = usize> {
+        let step = |link: usize| self.step_of.get(link).copied().flatten();
+        std::iter::successors(step(link), move |above| step(self.steps[*above].parent))
+    }
+
+    /// The indices of the joints that move one link and not the other, for each of two links, from the link to the root.
+    pub(super) fn steps_between(&self, links: [usize; 2]) -> [Vec<usize>; 2] {
+        let [mut a, mut b] = links.map(|link| self.path_steps(link).collect::<Vec<_>>());
+        while let (Some(last), Some(other)) = (a.last(), b.last())
+            && last == other
+        {
+            a.pop();
+            b.pop();
+        }
+        [a, b]
     }
 
     /// Index of the root link; its pose is the identity.

@@ -170,13 +170,9 @@ impl ForwardKinematics {
     /// The DOFs that move one of two links against the other, ascending: those of the joints between them, and those
     /// that mimic joints between them follow.
     pub fn dofs_between(&self, a: usize, b: usize) -> Vec<usize> {
-        let [of_a, of_b] = [a, b].map(|link| self.path(link).collect::<Vec<_>>());
-        let only = |own: &[&Step], other: &[&Step]| -> Vec<usize> {
-            let is_own = |step: &&&Step| !other.iter().any(|one| one.child == step.child);
-            own.iter().filter(is_own).flat_map(|step| step.motion.dofs()).copied().collect()
-        };
-        let mut dofs = only(&of_a, &of_b);
-        dofs.extend(only(&of_b, &of_a));
+        let steps = self.steps_between([a, b]);
+        let moved = steps.iter().flatten().flat_map(|step| self.steps[*step].motion.dofs());
+        let mut dofs: Vec<usize> = moved.copied().collect();
         dofs.sort_unstable();
         dofs.dedup();
         dofs

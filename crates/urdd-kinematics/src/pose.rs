@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
-use super::rotation::canonical;
+use super::rotation::{canonical, from_rpy};
 use urdd_format::pose::Pose;
 
 /// Tolerance for the length of unit quaternions and unit axes. It accepts a producer that writes seven digits, and
@@ -55,4 +55,9 @@ pub fn from_isometry(isometry: &Isometry3<f64>) -> Pose {
         position: isometry.translation.vector.map(|x| x + 0.0).into(),
         quaternion_wxyz: [q.w, q.i, q.j, q.k],
     }
+}
+
+/// Made of a position and of angles about the fixed axes x, y and z, in this order.
+pub fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::from(xyz), from_rpy(rpy))
 }

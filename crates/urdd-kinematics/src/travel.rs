@@ -67,13 +67,8 @@ impl Travel<'_> {
 
     /// The nearest link that is above both, or one of the two.
     pub fn common(&self, a: usize, b: usize) -> usize {
-        let above = |link: usize| {
-            let parents = self.kinematics.path(link).map(|step| step.parent);
-            std::iter::once(link).chain(parents)
-        };
-        let of_a: Vec<usize> = above(a).collect();
-        let root = self.kinematics.root();
-        above(b).find(|link| of_a.contains(link)).unwrap_or(root)
+        let [_, of_b] = self.kinematics.steps_between([a, b]);
+        of_b.last().map_or(b, |step| self.kinematics.steps[*step].parent)
     }
 }
 

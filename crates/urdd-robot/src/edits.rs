@@ -87,11 +87,7 @@ impl Robot {
     /// If the module is unusable.
     pub fn named_configurations(&self) -> Result<&[NamedConfiguration], RobotError> {
         keep(&self.named, || {
-            let part = self.part_as_it_is(&[NAMED])?;
-            if part.module(NAMED).is_none() {
-                return Ok(Vec::new());
-            }
-            usable(&part, NAMED)?;
+            let Some(part) = self.optional(NAMED)? else { return Ok(Vec::new()) };
             match part.document(NAMED) {
                 Some(ModuleDocument::NamedConfigurations(module)) => {
                     Ok(module.configurations.clone())

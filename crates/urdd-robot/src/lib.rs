@@ -55,7 +55,6 @@ mod shapes;
 mod skips;
 mod source_elements;
 pub mod spheres;
-mod tested;
 mod workspace;
 pub mod world;
 

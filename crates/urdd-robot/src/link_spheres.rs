@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use super::Robot;
 use super::edits::Files;
 use super::error::RobotError;
-use super::robot::usable;
 use super::shapes::ShapeKind;
 use super::spheres::{self, Approximating, Covering, SphereChecker};
 use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SphereLevel};
@@ -18,21 +17,13 @@ impl Robot {
     /// If `link_shapes_spheres_module` or `urdf_module` is unusable, or it has spheres or pairs of links that are not there.
     pub fn spheres_module(&self) -> Result<Option<LinkShapesSpheresModule>, RobotError> {
         const KIND: ModuleKind = ModuleKind::LinkShapesSpheres;
-        let part = self.part_as_it_is(&[KIND])?;
-        if part.module(KIND).is_none() {
-            return Ok(None);
-        }
-        usable(&part, KIND)?;
+        let Some(part) = self.optional(KIND)? else { return Ok(None) };
         let Some(ModuleDocument::LinkShapesSpheres(module)) = part.document(KIND) else {
             return Err(RobotError::Missing(KIND));
         };
         let count = self.link_names()?.len();
-        match module
-            .levels
-            .iter()
-            .enumerate()
-            .find_map(|(number, level)| fault(level, number, count))
-        {
+        let mut levels = module.levels.iter().enumerate();
+        match levels.find_map(|(number, level)| fault(level, number, count)) {
             Some(reason) => Err(RobotError::Unusable { module: KIND, reason }),
             None => Ok(Some((**module).clone())),
         }

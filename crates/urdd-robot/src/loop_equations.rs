@@ -39,8 +39,8 @@ impl Robot {
             let independent = (0..kinematics.num_dofs()).collect();
             return Ok(Mobility { independent, dependent: Vec::new() });
         };
-        let is_preferred = |dof: usize| closure.is_independent[dof];
-        Ok(closure.loops.mobility(kinematics, configuration, &poses, is_preferred))
+        let rank = |dof: usize| u8::from(closure.is_independent[dof]);
+        Ok(closure.loops.mobility(kinematics, configuration, &poses, rank))
     }
 
     /// The number of equations of all loops and couplings: 0 for a tree. A loop of kind `Fixed` has 6; `Revolute` and

@@ -7,7 +7,6 @@ use super::Robot;
 use super::batch::{check_room, room};
 use super::error::RobotError;
 use super::kept::Closure;
-use super::robot::usable;
 use super::workspace::{ClosingSpace, with_closing_space, with_workspace};
 use urdd_directory::cancellation::Cancellation;
 use urdd_document::kept::keep;
@@ -123,11 +122,7 @@ impl Robot {
     pub fn loops(&self) -> Result<Option<&LoopsModule>, RobotError> {
         const LOOPS: ModuleKind = ModuleKind::Loops;
         keep(&self.loops, || {
-            let part = self.part_as_it_is(&[LOOPS])?;
-            if part.module(LOOPS).is_none() {
-                return Ok(None);
-            }
-            usable(&part, LOOPS)?;
+            let Some(part) = self.optional(LOOPS)? else { return Ok(None) };
             match part.document(LOOPS) {
                 Some(ModuleDocument::Loops(module)) => Ok(Some((**module).clone())),
                 _ => Err(RobotError::Missing(LOOPS)),
@@ -185,10 +180,10 @@ impl Robot {
         with_workspace(|workspace| {
             let poses = &mut workspace.placed.poses;
             kinematics.link_poses_into(configuration, poses)?;
-            gaps.resize(loops.num_loops(), Gap::default());
-            loops.gaps_into(poses, gaps);
-            sums.resize(loops.num_couplings(), 0.0);
-            loops.sums_into(configuration, sums);
+            gaps.clear();
+            gaps.extend(loops.gaps(poses));
+            sums.clear();
+            sums.extend(loops.sums(configuration));
             *is_closed = loops.is_closed(configuration, poses);
             Ok(())
         })

@@ -115,6 +115,16 @@ impl Robot {
         Ok(Urdd::new(Arc::new(loaded)))
     }
 
+    /// The part with a module that a URDD may lack; `None` without it.
+    pub(super) fn optional(&self, kind: ModuleKind) -> Result<Option<Urdd>, RobotError> {
+        let part = self.part_as_it_is(&[kind])?;
+        if part.module(kind).is_none() {
+            return Ok(None);
+        }
+        usable(&part, kind)?;
+        Ok(Some(part))
+    }
+
     /// The modules that kinematics needs, and `more`. For a legacy URDD also `urdf_module`, which alone has origins and
     /// axes.
     pub(super) fn moving_part(&self, more: &[ModuleKind]) -> Result<Urdd, RobotError> {

@@ -1,7 +1,6 @@
 //! Shapes of links: convex hulls, convex pieces, and their bounding boxes and spheres; visual meshes; and the files of all
 //! meshes.
 
-use nalgebra::{Isometry3, Translation3};
 use rayon::prelude::*;
 
 use super::Robot;
@@ -17,7 +16,7 @@ use urdd_format::registry::{ModuleKind, Profile};
 pub use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::read::{GltfUp, Options, Part, Scene, read_with};
-use urdd_kinematics::rotation::from_rpy;
+use urdd_kinematics::pose::from_xyz_rpy;
 
 impl Robot {
     /// The shapes of one kind, by link and piece. Links without geometry have none.
@@ -51,10 +50,9 @@ impl Robot {
 
 fn solid(volume: Volume) -> Solid {
     match volume {
-        Volume::Box { half_extents, offset, rpy } => Solid::Box {
-            pose: Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy)),
-            half_extents,
-        },
+        Volume::Box { half_extents, offset, rpy } => {
+            Solid::Box { pose: from_xyz_rpy(offset, rpy), half_extents }
+        }
         Volume::Sphere { radius, offset } => Solid::Sphere { centre: offset, radius },
     }
 }

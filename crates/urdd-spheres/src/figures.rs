@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Isometry3;
 
-use super::frame::{Point, add, dot, norm, scaled, sub};
+use super::frame::{Point, add, norm, scaled, sub};
 use super::model::{Sphere, distance};
+use super::surface::Planes;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_geometry::Mesh;
@@ -39,7 +40,7 @@ fn directions() -> impl Iterator<Item = Point> {
 struct Piece {
     shape: ConvexShape,
     about: BoundingSphere,
-    planes: Vec<(Point, f64)>,
+    planes: Planes,
 }
 
 /// The pieces of a link.
@@ -66,7 +67,7 @@ impl Pieces {
             for triangle in &mesh.triangles {
                 points(mesh.corners(*triangle), size, |point, area| {
                     let is_within = |(other, piece): (usize, &Piece)| {
-                        other != own && piece.holds(point, WITHIN * size)
+                        other != own && piece.planes.hold(point, WITHIN * size)
                     };
                     if !pieces.iter().enumerate().any(is_within) {
                         surface.push((point, area));
@@ -143,22 +144,7 @@ impl Pieces {
 
 fn piece(mesh: &Mesh) -> Result<Piece, ShapeError> {
     let shape = ConvexShape::of_points(&mesh.vertices)?;
-    let planes = mesh.triangles.iter().filter_map(|triangle| {
-        let corners = mesh.corners(*triangle);
-        let normal = normal(corners);
-        let twice = norm(normal);
-        let normal = scaled(normal, 1.0 / twice);
-        (twice > 0.0).then(|| (normal, dot(normal, corners[0])))
-    });
-    let planes = planes.collect();
-    Ok(Piece { about: about(shape.centre(), &mesh.vertices), shape, planes })
-}
-
-impl Piece {
-    /// Whether a point is beneath all planes by more than a distance.
-    fn holds(&self, point: Point, by: f64) -> bool {
-        !self.planes.is_empty() && self.planes.iter().all(|(n, at)| dot(*n, point) < at - by)
-    }
+    Ok(Piece { about: about(shape.centre(), &mesh.vertices), shape, planes: Planes::of(mesh) })
 }
 
 /// The centroids of the equal parts of a triangle, with the area of each.

@@ -26,6 +26,17 @@ pub struct SphereRates {
 }
 
 impl SphereRates {
+    /// Counts a configuration: whether it collides, and whether its spheres touch.
+    pub fn count(&mut self, collides: bool, touches: bool) {
+        if collides {
+            self.colliding += 1;
+            self.missed += usize::from(!touches);
+        } else {
+            self.free += 1;
+            self.false_contacts += usize::from(touches);
+        }
+    }
+
     /// Whether at most 1 % of collisions are missed, and at most 5 % of free configurations have a false contact.
     pub fn are_within_goals(&self) -> bool {
         self.missed as f64 <= MAX_MISSED * self.colliding as f64
@@ -93,14 +104,7 @@ fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
 pub fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
     let mut rates = SphereRates::default();
     for (sample, gap) in samples.iter().zip(gaps) {
-        let touches = *gap <= 0.0;
-        if sample.collides() {
-            rates.colliding += 1;
-            rates.missed += usize::from(!touches);
-        } else {
-            rates.free += 1;
-            rates.false_contacts += usize::from(touches);
-        }
+        rates.count(sample.collides(), *gap <= 0.0);
     }
     rates
 }

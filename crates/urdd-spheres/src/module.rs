@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::figures::Pieces;
 use super::fit::Limits;
 use super::fitted::{Numbers, auto_limits, fitted, surfaces};
-use super::judge::touching;
+use super::judge::{SphereRates, touching};
 use super::levels::{COUNTS, Level, covering};
 use super::model::{Sphere, Spheres};
 use super::pairs::Pairs;
@@ -168,7 +168,7 @@ fn cover(pairs: &Pairs, fine: &[Made]) -> Vec<Made> {
 struct Found {
     /// Of each pair of links with pieces, in how many configurations it is in contact.
     contacts: Vec<usize>,
-    evaluation: [usize; 4],
+    rates: SphereRates,
 }
 
 /// All pairs of links with pieces, ascending.
@@ -197,17 +197,10 @@ fn contacts<R: Moves>(
             })
             .collect();
         let touching = touching(&spheres, &all, &known);
-        let mut found = Found { contacts: vec![0; all.len()], evaluation: [0; 4] };
+        let mut found = Found { contacts: vec![0; all.len()], rates: SphereRates::default() };
         for (sample, touching) in known.iter().zip(touching) {
             let touches = touching.iter().any(|pair| asked[*pair as usize]);
-            let [colliding, missed, free, false_contacts] = &mut found.evaluation;
-            if sample.collides() {
-                *colliding += 1;
-                *missed += usize::from(!touches);
-            } else {
-                *free += 1;
-                *false_contacts += usize::from(touches);
-            }
+            found.rates.count(sample.collides(), touches);
             for pair in touching {
                 found.contacts[pair as usize] += 1;
             }
@@ -226,7 +219,7 @@ fn written<R>(
     cancellation: &Cancellation,
 ) -> Result<SphereLevel, Cancelled> {
     let pairs = subject.pairs;
-    let samples = found.evaluation[0] + found.evaluation[2];
+    let samples = found.rates.colliding + found.rates.free;
     let mut spheres = vec![Vec::new(); subject.num_links];
     let mut fits = vec![None; subject.num_links];
     let figures: Vec<_> = (level.links.par_iter().zip(pieces))
@@ -253,8 +246,7 @@ fn written<R>(
         all.filter(|(_, count)| is(**count)).map(|(pair, _)| of(pair)).collect()
     };
     let ignored = pairs.checked.iter().zip(&level.ignored);
-    let [num_colliding, num_missed, num_free, num_false_contacts] =
-        found.evaluation.map(Count::saturating);
+    let SphereRates { colliding, missed, free, false_contacts } = found.rates;
     Ok(SphereLevel {
         origin: level.origin,
         covers: level.covers,
@@ -264,7 +256,12 @@ fn written<R>(
         ignored_pairs: ignored.filter(|(_, is)| **is).map(|(pair, _)| of(*pair)).collect(),
         always_pairs: with(&|count| count == samples),
         sometimes_pairs: with(&|count| count > 0 && count < samples),
-        evaluation: SphereEvaluation { num_colliding, num_missed, num_free, num_false_contacts },
+        evaluation: SphereEvaluation {
+            num_colliding: Count::saturating(colliding),
+            num_missed: Count::saturating(missed),
+            num_free: Count::saturating(free),
+            num_false_contacts: Count::saturating(false_contacts),
+        },
     })
 }
 

@@ -7,6 +7,7 @@ use super::described::{Described, UrdfText};
 use super::memo::Memos;
 use super::reference::distances::Distances;
 use super::reference::learned::counts::Judge;
+use super::reference::loops;
 use super::reference::spheres;
 use super::reference::spheres::contacts::LevelFound;
 use super::reference::urdf_text;
@@ -46,6 +47,7 @@ pub struct Context {
     placed: OnceLock<Placed>,
     model_judge: OnceLock<Result<Judge, SkipReason>>,
     sphere_contacts: OnceLock<Result<Vec<LevelFound>, SkipReason>>,
+    loop_ranks: OnceLock<Result<[[usize; 2]; 2], SkipReason>>,
 }
 
 impl Deref for Context {
@@ -71,6 +73,7 @@ impl Context {
             placed: OnceLock::new(),
             model_judge: OnceLock::new(),
             sphere_contacts: OnceLock::new(),
+            loop_ranks: OnceLock::new(),
         }
     }
 
@@ -161,6 +164,12 @@ impl Context {
     pub fn sphere_contacts(&self) -> Result<&[LevelFound], SkipReason> {
         let make = || spheres::contacts::of_urdd(&self.urdd, self.deep);
         self.sphere_contacts.get_or_init(make).as_deref().map_err(Clone::clone)
+    }
+
+    /// How many DOFs loops tie to others: [`loops::ranks`].
+    pub fn loop_ranks(&self) -> Result<&[[usize; 2]; 2], SkipReason> {
+        let make = || loops::ranks(&self.urdd);
+        self.loop_ranks.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// The plain meshes compared with the robot's geometry.

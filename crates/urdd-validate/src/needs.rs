@@ -121,3 +121,15 @@ pub const STATISTICS: Need = All(&[
     Passed(SHP005),
     NoneFailed(&[SHP010, SHP016]),
 ]);
+
+/// For the spheres of a link and its pieces: both as they should be.
+pub const SPHERES_AND_PIECES: Need = All(&[
+    Module(ModuleKind::ConvexDecompositionMeshes),
+    PIECES_LISTED,
+    OWN_FILES,
+    CONVEX_PIECE,
+    Passed(SPH001),
+    Passed(SPH002),
+    Passed(SPH003),
+    Passed(SPH004),
+]);

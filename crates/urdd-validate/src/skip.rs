@@ -64,22 +64,21 @@ pub fn not_deep(kinds: &[&str]) -> SkipReason {
     SkipReason::LeftOut(why.into())
 }
 
-/// Counting the configurations of SPEC 8.8 takes more work than allowed; `--deep` allows more.
-pub fn too_much_work(deep: bool) -> SkipReason {
-    left_out(match deep {
-        false => {
-            "counting its collisions again takes more work than a validation does; use --deep, which allows more"
-        }
-        true => "counting its collisions again takes more work than even --deep allows",
-    })
+/// A computation takes more work than allowed; `--deep` allows more.
+fn too_much_work(what: &str, deep: bool) -> SkipReason {
+    let why = match deep {
+        false => "a validation does; use --deep, which allows more",
+        true => "even --deep allows",
+    };
+    SkipReason::LeftOut(format!("{what} takes more work than {why}").into())
 }
 
-/// Judging spheres of links (SPEC 8.9) takes more work than allowed; `--deep` allows more.
+/// Counting the configurations of SPEC 8.8 takes more work than allowed.
+pub fn counting_takes_too_long(deep: bool) -> SkipReason {
+    too_much_work("counting its collisions again", deep)
+}
+
+/// Judging spheres of links (SPEC 8.9) takes more work than allowed.
 pub fn spheres_take_too_long(deep: bool) -> SkipReason {
-    left_out(match deep {
-        false => {
-            "computing again what the spheres say takes more work than a validation does; use --deep, which allows more"
-        }
-        true => "computing again what the spheres say takes more work than even --deep allows",
-    })
+    too_much_work("computing again what the spheres say", deep)
 }

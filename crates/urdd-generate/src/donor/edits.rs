@@ -1,5 +1,5 @@
-//! The user's edits of the skip matrix (MoveIt's allowed collision matrix) and named configurations, which a new URDD
-//! takes over. The values of configurations are computed again.
+//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), named configurations and given spheres,
+//! which a new URDD takes over. The values of configurations are computed again.
 //!
 //! They are read before any module is built.
 
@@ -12,19 +12,21 @@ use serde_json::Value;
 
 use super::Donor;
 use super::decided::{Decided, Fault, names};
-use super::spheres;
 use crate::error::{EditsFault, Result};
 use crate::selection::Selection;
 use urdd_directory::root::Root;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::link_shapes_spheres::{SphereLevel, SphereOrigin};
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_format::registry::ModuleKind;
+use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_spheres::list::SphereList;
 
 const EDITS: &str = "edits";
 const SKIPPED_REASONS: &str = "skipped_reasons";
 const CONFIGURATIONS: &str = "configurations";
+const LEVELS: &str = "levels";
 
 #[derive(Debug, Clone)]
 pub(crate) struct Decisions {
@@ -109,7 +111,7 @@ impl Decisions {
             let fault = EditsFault::NotAskedFor(decisions.edits.len());
             return Err(decided.refused(&decided.path("module.json"), None, fault));
         }
-        let spheres = spheres::given(folder, selection, replaced)?;
+        let spheres = given_spheres(folder, selection, replaced)?;
         Ok(Decisions { configurations: configurations.unwrap_or_default(), spheres, ..decisions })
     }
 }
@@ -215,4 +217,59 @@ fn check_configurations(
         }
     }
     Ok(())
+}
+
+/// The lists of spheres that a person gave to a folder that is to be replaced: SPEC 8.9.8.
+///
+/// # Errors
+/// If there may be some and they cannot be read, or if the selected modules would not hold them.
+fn given_spheres(
+    folder: &Path,
+    selection: &Selection,
+    replaced: Option<&Donor>,
+) -> Result<Vec<SphereList>> {
+    let kind = ModuleKind::LinkShapesSpheres;
+    let decided = Decided { folder, kind, what: "given spheres", keys: &[LEVELS] };
+    let lists = decided.read(replaced, sphere_lists)?.unwrap_or_default();
+    let count = lists.iter().map(SphereList::count).sum();
+    if count > 0 && !selection.has(kind) {
+        let fault = EditsFault::SpheresNotAskedFor(count);
+        return Err(decided.refused(&decided.path("module.json"), None, fault));
+    }
+    Ok(lists)
+}
+
+fn sphere_lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault> {
+    let at = |level: Option<usize>| match level {
+        Some(level) => format!("/{LEVELS}/{level}"),
+        None => format!("/{LEVELS}"),
+    };
+    let levels = document.get(LEVELS).and_then(Value::as_array);
+    let levels = levels.ok_or_else(|| (at(None), "this list is missing".to_owned()))?;
+    let mut lists = Vec::new();
+    for (number, level) in levels.iter().enumerate() {
+        let origin = level.get("origin").and_then(Value::as_str);
+        if origin == Some("Computed") {
+            continue;
+        }
+        let level = SphereLevel::deserialize(level).map_err(|error| {
+            (at(Some(number)), format!("the spheres of this level cannot be used: {error}"))
+        })?;
+        if level.origin != SphereOrigin::Given {
+            continue;
+        }
+        let names = names(root, ModuleKind::Urdf, "links").ok_or_else(|| {
+            let words = "the spheres of this level cannot be used: urdf_module, which names their links, cannot be read";
+            (at(Some(number)), words.to_owned())
+        })?;
+        let links = names.into_iter().zip(&level.spheres).filter(|(_, own)| !own.is_empty());
+        let links = links.map(|(name, own)| {
+            let one = own
+                .iter()
+                .map(|sphere| BoundingSphere { centre: sphere.offset_xyz, radius: sphere.radius });
+            (name, one.collect())
+        });
+        lists.push(SphereList { links: links.collect(), left_out: Vec::new() });
+    }
+    Ok(lists)
 }

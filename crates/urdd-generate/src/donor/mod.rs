@@ -19,7 +19,6 @@ mod decided;
 pub(super) mod edits;
 pub(super) mod links;
 pub(super) mod others;
-mod spheres;
 
 use std::path::Path;
 

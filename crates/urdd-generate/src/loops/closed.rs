@@ -49,25 +49,21 @@ impl Made<'_> {
             }
             let closed =
                 loops.close(self.kinematics, &mut configuration, limits, |_| false, scratch);
-            let none = || vec![Gap::default(); loops.num_loops()];
-            let is_closed = closed.is_ok() && self.is_short(&mut configuration, |_| false);
-            match closed {
-                Ok(_) if is_closed => return Ok(Some((configuration, none()))),
-                Ok(_) => {}
+            let gaps: Vec<Gap> = match closed {
+                Ok(_) => vec![Gap::default(); loops.num_loops()],
                 Err(NotClosed::Apart) => {
-                    let gaps = loops.gaps(scratch.poses());
+                    let gaps: Vec<Gap> = loops.gaps(scratch.poses()).collect();
                     let is_near = |gap: &Gap| gap.position <= OPEN * reach && gap.rotation <= OPEN;
-                    let couplings = loops.sums(&configuration);
-                    if gaps.iter().all(is_near)
-                        && couplings.iter().all(|sum| sum.abs() <= 1e-9)
-                        && self.is_short(&mut configuration, |_| false)
-                    {
-                        let mut widest = none();
-                        widen(&mut widest, &gaps);
-                        return Ok(Some((configuration, widest)));
+                    let hold = loops.sums(&configuration).all(|sum| sum.abs() <= 1e-9);
+                    if !hold || !gaps.iter().all(is_near) {
+                        continue;
                     }
+                    gaps
                 }
-                Err(_) => {}
+                Err(_) => continue,
+            };
+            if self.is_short(&mut configuration, |_| false) {
+                return Ok(Some((configuration, gaps)));
             }
         }
         Ok(None)
@@ -86,7 +82,7 @@ impl Made<'_> {
         let is_exact = widest.iter().all(|gap| *gap == Gap::default());
         let rank = |configuration: &[f64]| {
             let poses = self.kinematics.link_poses(configuration).ok()?;
-            let mobility = loops.mobility(self.kinematics, configuration, &poses, |_| false);
+            let mobility = loops.mobility(self.kinematics, configuration, &poses, |_| 0);
             Some(mobility.dependent.len())
         };
         let mut best = (rank(&reference), reference.clone());
@@ -157,13 +153,5 @@ impl Made<'_> {
             }
             true
         })
-    }
-}
-
-/// Makes gaps at least as wide as others.
-pub(super) fn widen(widest: &mut [Gap], gaps: &[Gap]) {
-    for (widest, gap) in widest.iter_mut().zip(gaps) {
-        widest.position = widest.position.max(gap.position);
-        widest.rotation = widest.rotation.max(gap.rotation);
     }
 }

@@ -6,7 +6,7 @@ mod resolved;
 mod terms;
 
 use super::error::Result;
-use closed::{MOST_SPENT, widen};
+use closed::MOST_SPENT;
 pub(super) use made::Made;
 use urdd_format::index::{DofIdx, SampleIdx};
 use urdd_format::loops::{ClosedSample, LoopsModule};
@@ -72,7 +72,7 @@ impl Made<'_> {
         let poses = self.kinematics.link_poses(&reference);
         let poses = poses.map_err(|error| self.refused(said, None, error.to_string()))?;
         let preferred = self.preferred(said, &loops, &mut notes)?;
-        let mobility = loops.mobility_by(self.kinematics, &reference, &poses, |dof| preferred[dof]);
+        let mobility = loops.mobility(self.kinematics, &reference, &poses, |dof| preferred[dof]);
         notes.extend(self.otherwise(said, &loops, &mobility));
         let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
         module.independent_dof_idxs = mobility.independent.iter().copied().map(index).collect();
@@ -86,7 +86,10 @@ impl Made<'_> {
                 spent_at.get_or_insert(k);
             }
             if found.is_some() {
-                widen(&mut gaps, &loops.gaps(scratch.poses()));
+                for (widest, gap) in gaps.iter_mut().zip(loops.gaps(scratch.poses())) {
+                    widest.position = widest.position.max(gap.position);
+                    widest.rotation = widest.rotation.max(gap.rotation);
+                }
             }
             module.closed_samples.push(ClosedSample {
                 sample_idx: SampleIdx(k),
@@ -119,20 +122,19 @@ impl Made<'_> {
         let was_spent = scratch.is_spent();
         let mut nearest = self.space.default_configuration();
         let _ = loops.close(self.kinematics, &mut nearest, limits, |_| false, scratch);
-        let gaps = self.kinematics.link_poses(&nearest).map(|poses| loops.gaps(&poses));
-        let gaps = gaps.unwrap_or_default();
+        let poses = self.kinematics.link_poses(&nearest).ok();
+        let gaps: Vec<Gap> = poses.iter().flat_map(|poses| loops.gaps(poses)).collect();
         let worst = gaps.iter().enumerate().max_by(|(_, a), (_, b)| {
             (a.position + a.rotation).total_cmp(&(b.position + b.rotation))
         });
-        let sums = loops.sums(&nearest);
         let coupling = || {
-            let sums = sums.iter().enumerate();
+            let sums = loops.sums(&nearest).enumerate();
             let (place, sum) = sums.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
             let name = Short::of(&module.couplings[place].name);
             Some(match sum.is_finite() {
                 true => format!(
                     "the sum of the coupling `{name}` stays {}",
-                    urdd_format::readable::number(*sum, 3)
+                    urdd_format::readable::number(sum, 3)
                 ),
                 false => format!("the sum of the coupling `{name}` is not finite"),
             })

@@ -3,12 +3,11 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Translation3};
 use toml::Spanned;
 
 use super::made::Made;
 use super::terms::{Terms, substituted};
-use crate::error::Result;
+use crate::error::{Result, first_names};
 use urdd_directory::export_toml::Name;
 use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable};
 use urdd_format::index::{DofIdx, LinkIdx};
@@ -17,16 +16,12 @@ use urdd_format::nearest::nearest;
 use urdd_format::short::Short;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::loops::{Loops, Mobility};
-use urdd_kinematics::pose::from_isometry;
-use urdd_kinematics::rotation::from_rpy;
+use urdd_kinematics::pose::{from_isometry, from_xyz_rpy};
 use urdd_source::loops::{File, Said};
 use urdd_source::note::{Note, NoteKind};
 
 /// A place in the source, and what is wrong there.
 type Faulty = (Range<usize>, String);
-
-/// Most names in a message.
-const MOST_NAMED: usize = 5;
 
 impl Made<'_> {
     /// The loops and couplings by index, without configurations.
@@ -123,13 +118,14 @@ impl Made<'_> {
                 return Err((one.span(), fault));
             }
         }
+        let pose = |frame: &FrameTable| from_isometry(&from_xyz_rpy(frame.xyz, frame.rpy));
         Ok(Loop {
             name: of.name.clone(),
             kind: of.kind,
             link_a_idx,
-            frame_a: from_isometry(&isometry(&of.frame_a)),
+            frame_a: pose(&of.frame_a),
             link_b_idx,
-            frame_b: from_isometry(&isometry(&of.frame_b)),
+            frame_b: pose(&of.frame_b),
             position_tolerance: 0.0,
             rotation_tolerance: 0.0,
         })
@@ -330,10 +326,6 @@ impl Made<'_> {
     }
 }
 
-fn isometry(frame: &FrameTable) -> Isometry3<f64> {
-    Isometry3::from_parts(Translation3::from(frame.xyz), from_rpy(frame.rpy))
-}
-
 /// Up to four coefficients, the others 0.
 fn four(coefficients: &[f64]) -> Option<[f64; 4]> {
     let mut four = [0.0; 4];
@@ -343,12 +335,7 @@ fn four(coefficients: &[f64]) -> Option<[f64; 4]> {
 
 /// Some names, and how many others there are.
 fn named(names: &[&str]) -> String {
-    let some: Vec<String> =
-        names.iter().take(MOST_NAMED).map(|name| format!("`{}`", Short::of(name))).collect();
-    match names.len().saturating_sub(MOST_NAMED) {
-        0 => some.join(", "),
-        more => format!("{} and {more} more", some.join(", ")),
-    }
+    first_names(names.iter().map(|name| Short::of(name)))
 }
 
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {

@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Vector6};
 
 use super::descent::{Descend, Descent, STEP};
-use super::path::{Path, RangeKind, within};
+use super::path::{Path, RangeKind};
 use crate::cholesky;
 use crate::forward::ForwardKinematics;
-use crate::loops::{Linearised, Loops, Scratch};
+use crate::loops::{Loops, Scratch};
 
 /// How much more an equation of a loop weighs than the goal, squared. What is left of it is closed after the step.
 const WEIGHT: f64 = 1e6;
@@ -34,7 +34,7 @@ pub(super) struct ClosedDescent<'a> {
     bounds: Vec<[f64; 2]>,
     scratch: Scratch,
     poses: Vec<Isometry3<f64>>,
-    linearised: Linearised,
+    columns: Vec<f64>,
     /// The normal equations of all DOFs of the path, row by row, lower triangle.
     normal: Vec<f64>,
     /// Those of the free ones, and its solution.
@@ -70,7 +70,7 @@ impl<'a> ClosedDescent<'a> {
             bounds,
             scratch: Scratch::default(),
             poses: Vec::new(),
-            linearised: Linearised::default(),
+            columns: Vec::new(),
             normal: Vec::new(),
             matrix: Vec::new(),
             right: Vec::new(),
@@ -116,7 +116,7 @@ impl<'a> Descend<'a> for ClosedDescent<'a> {
             &self.path.place,
             weight,
             normal,
-            &mut self.linearised,
+            &mut self.columns,
         );
     }
 
@@ -145,15 +145,10 @@ impl<'a> Descend<'a> for ClosedDescent<'a> {
             let shorter = if largest > STEP { STEP / largest } else { 1.0 };
             let mut stopped = None;
             for (k, change) in free.iter().zip(&*right) {
-                let (dof, kind) = (path.dofs[*k], path.kinds[*k]);
-                let to = q[dof] + shorter * change;
-                next[dof] = match kind {
-                    RangeKind::Free => to,
-                    _ => within(to, path.bounds(*k), kind == RangeKind::Turning),
-                };
-                let [lower, upper] = path.bounds(*k);
-                let hit = kind != RangeKind::Free && (next[dof] == lower || next[dof] == upper);
-                if hit && next[dof] != to {
+                let dof = path.dofs[*k];
+                let (moved, is_stopped) = path.moved(*k, q[dof] + shorter * change);
+                next[dof] = moved;
+                if is_stopped {
                     stopped.get_or_insert(*k);
                 }
             }

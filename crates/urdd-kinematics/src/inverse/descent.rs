@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::path::{Goal, InverseSettings, Path, RangeKind, within};
+use super::path::{Goal, InverseSettings, Path, RangeKind};
 use crate::jacobian::Place;
 use crate::rotation::to_rotation_vector;
 
@@ -305,15 +305,9 @@ impl<'a> Descend<'a> for Descent<'a> {
                     continue;
                 }
                 let dof = path.dofs[k];
-                let wanted = q[dof] + shorter * column.dot(&weights);
-                let kind = path.kinds[k];
-                next[dof] = match kind {
-                    RangeKind::Free => wanted,
-                    _ => within(wanted, path.bounds(k), kind == RangeKind::Turning),
-                };
-                let [lower, upper] = path.bounds(k);
-                let hit = kind != RangeKind::Free && (next[dof] == lower || next[dof] == upper);
-                if hit && next[dof] != wanted {
+                let (moved, is_stopped) = path.moved(k, q[dof] + shorter * column.dot(&weights));
+                next[dof] = moved;
+                if is_stopped {
                     free[k] = false;
                     stopped = true;
                     left -= column * (next[dof] - q[dof]);

@@ -226,6 +226,16 @@ impl<'a> Path<'a> {
         self.bounds[self.dofs[k]]
     }
 
+    /// Where a DOF goes that is to go to a value, and whether a bound stops it on the way.
+    pub fn moved(&self, k: usize, to: f64) -> (f64, bool) {
+        let (kind, bounds) = (self.kinds[k], self.bounds(k));
+        if kind == RangeKind::Free {
+            return (to, false);
+        }
+        let moved = within(to, bounds, kind == RangeKind::Turning);
+        (moved, bounds.contains(&moved) && moved != to)
+    }
+
     /// Moves each value that is out of bounds by whole turns if possible, otherwise to the nearest bound.
     pub fn confine(&self, configuration: &mut [f64]) {
         for (dof, value) in configuration.iter_mut().enumerate() {
@@ -305,7 +315,7 @@ fn whole(turns: f64) -> f64 {
 }
 
 /// The value within bounds: shifted by whole turns if `turning` and possible, otherwise clamped to the nearest bound.
-pub(super) fn within(value: f64, [lower, upper]: [f64; 2], turning: bool) -> f64 {
+fn within(value: f64, [lower, upper]: [f64; 2], turning: bool) -> f64 {
     if turning && !(lower..=upper).contains(&value) {
         let turned = value - TAU * ((value - 0.5 * (lower + upper)) / TAU).round();
         if (lower..=upper).contains(&turned) {

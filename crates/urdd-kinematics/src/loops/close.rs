@@ -61,13 +61,6 @@ impl Scratch {
     }
 }
 
-/// A closed configuration was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Closing {
-    /// Number of steps.
-    pub steps: usize,
-}
-
 /// No closed configuration was found from there.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -86,7 +79,7 @@ impl From<ConfigurationError> for NotClosed {
 
 impl Loops {
     /// Moves a configuration to a closed one that is near, within the bounds. DOFs that are `held`, and those that no loop
-    /// depends on, stay. `bounds` has one pair for each DOF, infinite where there is none.
+    /// depends on, stay. `bounds` has one pair for each DOF, infinite where there is none. Returns the number of steps.
     ///
     /// # Errors
     /// [`NotClosed::Apart`] where none is found; the configuration is then the one with the smallest gaps.
@@ -97,7 +90,7 @@ impl Loops {
         bounds: &[[f64; 2]],
         held: impl Fn(usize) -> bool,
         scratch: &mut Scratch,
-    ) -> Result<Closing, NotClosed> {
+    ) -> Result<usize, NotClosed> {
         let at = scratch;
         kinematics.check(configuration)?;
         let mut steps = 0;
@@ -106,7 +99,7 @@ impl Loops {
         }
         kinematics.link_poses_into(configuration, &mut at.poses)?;
         match self.is_closed(configuration, &at.poses) {
-            true => Ok(Closing { steps }),
+            true => Ok(steps),
             false => Err(NotClosed::Apart),
         }
     }

@@ -171,33 +171,14 @@ impl Ends {
 }
 
 impl Loops {
-    /// Writes how far each loop is from closed, for the link poses of a configuration.
-    ///
-    pub fn gaps_into(&self, poses: &[Isometry3<f64>], out: &mut [Gap]) {
-        for (one, out) in self.loops.iter().zip(out) {
-            *out = one.gap(poses);
-        }
+    /// How far apart the ends of each loop are, from the poses of the links.
+    pub fn gaps(&self, poses: &[Isometry3<f64>]) -> impl Iterator<Item = Gap> {
+        self.loops.iter().map(|one| one.gap(poses))
     }
 
-    /// How far each loop is from closed, in the order of the module.
-    pub fn gaps(&self, poses: &[Isometry3<f64>]) -> Vec<Gap> {
-        let mut gaps = vec![Gap::default(); self.loops.len()];
-        self.gaps_into(poses, &mut gaps);
-        gaps
-    }
-
-    /// The sum of each coupling, which should be 0, in the order of the module.
-    pub fn sums(&self, configuration: &[f64]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.couplings.len()];
-        self.sums_into(configuration, &mut sums);
-        sums
-    }
-
-    /// Writes the sum of each coupling.
-    pub fn sums_into(&self, configuration: &[f64], out: &mut [f64]) {
-        for (one, out) in self.couplings.iter().zip(out) {
-            *out = one.at(configuration).value;
-        }
+    /// The sums of the couplings.
+    pub fn sums(&self, configuration: &[f64]) -> impl Iterator<Item = f64> {
+        self.couplings.iter().map(|one| one.at(configuration).value)
     }
 
     /// Whether all loops are closed and all couplings hold (SPEC 6.8.6), for a configuration and its link poses.
@@ -267,6 +248,33 @@ impl Loops {
                 let Ok(at) = group.dofs.binary_search(dof) else { continue };
                 let slope = slope(coefficients, configuration[*dof]) * self.units[*dof];
                 out[at * rows + ROWS * group.loops.len() + place] += slope / largest;
+            }
+        }
+    }
+
+    /// Adds to a symmetric matrix, of which row and column `place(dof)` are those of a DOF, the products of the columns of
+    /// the equations with each other, times `weight`. The lower triangle alone, row by row. `columns` is memory.
+    pub(crate) fn add_products(
+        &self,
+        kinematics: &ForwardKinematics,
+        (configuration, poses): (&[f64], &[Isometry3<f64>]),
+        place: &[Option<usize>],
+        weight: f64,
+        (matrix, size): (&mut [f64], usize),
+        columns: &mut Vec<f64>,
+    ) {
+        for group in &self.groups {
+            let rows = group.num_rows();
+            columns.resize(rows * group.dofs.len(), 0.0);
+            self.jacobian_into(group, kinematics, configuration, poses, columns);
+            let column = |k: usize| &columns[k * rows..(k + 1) * rows];
+            for (a, first) in group.dofs.iter().enumerate() {
+                for (b, second) in group.dofs[..=a].iter().enumerate() {
+                    let (Some(i), Some(j)) = (place[*first], place[*second]) else { continue };
+                    let dot: f64 = column(a).iter().zip(column(b)).map(|(x, y)| x * y).sum();
+                    let scale = weight / (self.units[*first] * self.units[*second]);
+                    matrix[i.max(j) * size + i.min(j)] += scale * dot;
+                }
             }
         }
     }

@@ -6,12 +6,8 @@ mod equations;
 mod independent;
 mod model;
 mod rows;
-mod stacked;
-mod velocities;
 
-pub use close::{Closing, NotClosed, Scratch};
+pub use close::{NotClosed, Scratch};
 pub use equations::{FirstOpen, Gap};
-pub use independent::Mobility;
+pub use independent::{Mobility, VelocityScratch};
 pub use model::Loops;
-pub(crate) use stacked::Linearised;
-pub use velocities::VelocityScratch;

@@ -198,16 +198,6 @@ impl Loops {
         groups.saturating_add((POSE * kinematics.num_links()) as u64)
     }
 
-    /// Whether there is neither a loop nor a coupling.
-    pub fn is_empty(&self) -> bool {
-        self.loops.is_empty() && self.couplings.is_empty()
-    }
-
-    /// Number of couplings.
-    pub fn num_couplings(&self) -> usize {
-        self.couplings.len()
-    }
-
     /// Number of loops.
     pub fn num_loops(&self) -> usize {
         self.loops.len()
@@ -259,28 +249,6 @@ fn isometry(pose: &Pose, pointer: String) -> Result<Isometry3<f64>, KinematicsEr
 
 fn fault(pointer: String, fault: String) -> KinematicsError {
     KinematicsError { module: ModuleKind::Loops, pointer, fault }
-}
-
-impl ForwardKinematics {
-    /// The indices of the steps that move one link and not the other, for each of two links, from the link to the root.
-    fn steps_between(&self, links: [usize; 2]) -> [Vec<usize>; 2] {
-        let [mut a, mut b] = links.map(|link| {
-            let mut steps = Vec::new();
-            let mut at = link;
-            while let Some(step) = self.step_of.get(at).copied().flatten() {
-                steps.push(step);
-                at = self.steps[step].parent;
-            }
-            steps
-        });
-        while let (Some(last), Some(other)) = (a.last(), b.last())
-            && last == other
-        {
-            a.pop();
-            b.pop();
-        }
-        [a, b]
-    }
 }
 
 impl Group {

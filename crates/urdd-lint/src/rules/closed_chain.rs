@@ -1,4 +1,4 @@
-use nalgebra::{Isometry3, Translation3};
+use nalgebra::Isometry3;
 
 use super::prelude::*;
 use crate::pose::at_default;
@@ -6,7 +6,7 @@ use urdd_directory::loops_toml::{File, FrameTable};
 use urdd_document::robot::Robot;
 use urdd_format::readable;
 use urdd_kinematics::loops::Gap;
-use urdd_kinematics::rotation::from_rpy;
+use urdd_kinematics::pose::from_xyz_rpy;
 use urdd_source::loops::urdf_plus;
 
 declare_lint! {
@@ -135,9 +135,7 @@ fn widest<'f>(
     let gaps = file.loops.iter().filter_map(|one| {
         let one = one.get_ref();
         let end = |link: &str, frame: &FrameTable| {
-            let turn = from_rpy(frame.rpy);
-            let frame = Isometry3::from_parts(Translation3::from(frame.xyz), turn);
-            Some(poses[*bodies.get(link)?] * frame)
+            Some(poses[*bodies.get(link)?] * from_xyz_rpy(frame.xyz, frame.rpy))
         };
         let a = end(one.link_a.get_ref(), &one.frame_a)?;
         let b = end(one.link_b.get_ref(), &one.frame_b)?;

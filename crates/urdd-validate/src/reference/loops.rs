@@ -2,10 +2,15 @@
 
 use nalgebra::{DMatrix, Isometry3, Matrix3, UnitQuaternion, Vector3};
 
-use crate::tolerance::{CLOSED, LEAST_SUM, POSITION_OF_REACH, rotation_distance};
+use crate::skip;
+use crate::tolerance::{CLOSED, LEAST_SUM, POSITION_OF_REACH, reach, rotation_distance};
 use urdd_document::pose::unit_quaternion;
+use urdd_document::urdd::Urdd;
+use urdd_findings::skip::SkipReason;
+use urdd_format::dof::Quantity;
 use urdd_format::loops::{Coupling, Loop, LoopKind, LoopsModule};
 use urdd_format::pose::Pose;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_kinematics::ForwardKinematics;
 
 /// The step of differences, rad or reaches. Errors of them are below 1e-9, and ranks are told apart at 1e-5.
@@ -76,8 +81,33 @@ pub fn sum(coupling: &Coupling, configuration: &[f64]) -> Option<(f64, f64)> {
     Some((summands.iter().sum(), (CLOSED * size).max(LEAST_SUM)))
 }
 
+/// The least and greatest rank of what loops hold at the reference configuration that may be counted (SPEC 6.8.7); the same
+/// without the columns of the independent DOFs.
+///
+/// # Errors
+/// If that takes too much work, or there is nothing to compute it from.
+pub fn ranks(urdd: &Urdd) -> Result<[[usize; 2]; 2], SkipReason> {
+    let of = |kind| urdd.document_v1(kind);
+    let documents = (of(ModuleKind::Loops), of(ModuleKind::Dof), of(ModuleKind::Chain));
+    let (
+        Some(ModuleDocument::Loops(loops)),
+        Some(ModuleDocument::Dof(dof)),
+        Some(ModuleDocument::Chain(chain)),
+    ) = documents
+    else {
+        return Err(SkipReason::absent(ModuleKind::Loops));
+    };
+    let (robot, tree) = urdd.robot().zip(urdd.tree()).ok_or(skip::KINEMATICS_OPEN)?;
+    let kinematics = ForwardKinematics::new(chain, dof).map_err(SkipReason::obstacle)?;
+    let lengths: Vec<bool> = dof.dofs.iter().map(|dof| dof.quantity == Quantity::Length).collect();
+    let reference = &loops.reference_configuration;
+    let held = Held::new(loops, &kinematics, reference, &lengths, reach(robot, tree));
+    let independent: Vec<usize> = loops.independent_dof_idxs.iter().map(|idx| idx.get()).collect();
+    Ok(held.ok_or(skip::TOO_MANY_LOOPS)?.ranks(&independent))
+}
+
 /// The matrix M of SPEC 6.8.7 without columns of zeros: for each of its columns, the DOF.
-pub struct Held {
+struct Held {
     matrix: DMatrix<f64>,
     dofs: Vec<usize>,
 }
@@ -85,7 +115,7 @@ pub struct Held {
 impl Held {
     /// At a configuration; `lengths` says which DOFs are lengths. `None` if that takes too much work, or the configuration
     /// has no poses.
-    pub fn new(
+    fn new(
         module: &LoopsModule,
         kinematics: &ForwardKinematics,
         configuration: &[f64],
@@ -149,7 +179,7 @@ impl Held {
     }
 
     /// The least and the greatest rank that may be counted, and the same without the columns of some DOFs.
-    pub fn ranks(&self, without: &[usize]) -> [[usize; 2]; 2] {
+    fn ranks(&self, without: &[usize]) -> [[usize; 2]; 2] {
         let (largest, whole) = Self::counts(self.matrix.clone(), None);
         let kept: Vec<usize> = (0..self.dofs.len())
             .filter(|column| without.binary_search(&self.dofs[*column]).is_err())

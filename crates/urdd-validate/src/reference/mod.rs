@@ -5,6 +5,7 @@
 //! Here are the link poses, computed from the text of the carried URDF (multiplied by nalgebra). They share nothing with
 //! the modules or with `urdd_kinematics`, which they verify. Nothing recurses, because a chain may be as long as the file.
 
+pub mod budget;
 pub mod distances;
 pub mod learned;
 pub mod loops;

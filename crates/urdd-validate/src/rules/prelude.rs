@@ -75,6 +75,32 @@ pub(super) fn by_kind<T>(six: [Option<T>; 6]) -> impl Iterator<Item = (ShapeKind
     six.filter_map(|(kind, one)| Some((kind, one?)))
 }
 
+/// The finding of a value beyond its bounds, which an odd robot has the other way round (SPEC 6.5.2).
+pub(super) fn beyond_bounds(
+    [a, b]: [f64; 2],
+    value: f64,
+    finding: impl FnOnce() -> Finding,
+) -> Option<Finding> {
+    let (lower, upper) = (a.min(b), a.max(b));
+    let size = lower.abs().max(upper.abs());
+    let tolerance = (NUMBER_RELATIVE * size).max(NUMBER_ABSOLUTE);
+    let is_within = (lower - value).max(value - upper) <= tolerance;
+    let of = || finding().values(format!("{lower:?} to {upper:?}"), format!("{value:?}"));
+    (!is_within).then(|| of().tolerance(tolerance))
+}
+
+/// The finding of a value that should be another one, where that is a sum of bounds: sums cancel, so that the size of the
+/// bounds matters.
+pub(super) fn off_by_bounds(
+    [a, b]: [f64; 2],
+    [expected, found]: [f64; 2],
+    finding: impl FnOnce() -> Finding,
+) -> Option<Finding> {
+    let tolerance = number_tolerance(expected, found).max(NUMBER_RELATIVE * a.abs().max(b.abs()));
+    let is_same = (expected - found).abs() <= tolerance;
+    (!is_same).then(|| finding().values(expected, found).tolerance(tolerance))
+}
+
 /// A value that may be absent, as a report shows it.
 pub(super) fn or_null<T: std::fmt::Debug>(value: Option<T>) -> String {
     value.map_or_else(|| "null".to_owned(), |value| format!("{value:?}"))

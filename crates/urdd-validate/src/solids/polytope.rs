@@ -32,6 +32,11 @@ pub enum NotConvex {
     Vertex([f64; 3], f64),
 }
 
+/// The length of the diagonal of a box, m.
+pub fn diagonal(bounds: &Bounds) -> f64 {
+    (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm()
+}
+
 /// Maximum number of plane and point products for a body; beyond it, evenly spread points are used.
 const MOST_PRODUCTS: usize = 400_000_000;
 
@@ -41,7 +46,7 @@ impl Polytope {
         let bounds = mesh.bounds()?;
         let ends = bounds.min.into_iter().chain(bounds.max);
         let resolution = mesh_resolution(ends.fold(0.0, |most: f64, x| most.max(x.abs())));
-        let size = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
+        let size = diagonal(&bounds);
         let mut planes = Vec::with_capacity(mesh.triangles.len());
         for triangle in &mesh.triangles {
             let corners = mesh.corners(*triangle);

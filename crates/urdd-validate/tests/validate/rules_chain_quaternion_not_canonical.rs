@@ -1,6 +1,6 @@
 //! The rules of `chain::origins`.
 
-use urdd_validate::rules::chain::origins::is_negative;
+use urdd_validate::rules::chain::joints::is_negative;
 
 #[test]
 fn w_counts_first_and_zeros_do_not() {

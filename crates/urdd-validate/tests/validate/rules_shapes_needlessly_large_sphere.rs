@@ -3,7 +3,7 @@
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::primitives::{cuboid, sphere};
-use urdd_validate::rules::shapes::needlessly_large::*;
+use urdd_validate::rules::shapes::fit::*;
 
 #[test]
 fn a_bound_is_near_the_smallest_radius_and_never_above_it() {

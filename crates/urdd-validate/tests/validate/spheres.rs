@@ -10,8 +10,9 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
 use urdd_validate::code::Code::{self, *};
+use urdd_validate::reference::budget::Budget;
 use urdd_validate::reference::distances::poses::Poses;
-use urdd_validate::reference::spheres::budget::Budget;
+use urdd_validate::reference::spheres::budget;
 use urdd_validate::reference::spheres::cells::uncovered;
 use urdd_validate::reference::spheres::contacts::contacts;
 use urdd_validate::reference::spheres::fit::{self, standoff};
@@ -20,6 +21,7 @@ use urdd_validate::reference::spheres::polyhedron::Polyhedron;
 use urdd_validate::reference::spheres::solid::{Solid, to_triangle};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
+use urdd_validate::skip;
 use urdd_validate::{validate_source, validate_with};
 
 /// Numbers from 0 to 1, the same in each run.
@@ -169,7 +171,7 @@ fn a_box_is_covered_where_all_its_points_are() {
             });
         }
         let tolerance = 1e-6;
-        let found = uncovered(&solid, &balls, tolerance, &Budget::new(false)).expect("little work");
+        let found = uncovered(&solid, &balls, tolerance, &budget(false)).expect("little work");
         let lowest = |point: &Vector3<f64>| {
             balls.iter().map(|ball| ball.height(point)).fold(f64::INFINITY, f64::min)
         };
@@ -198,11 +200,11 @@ fn centres_that_are_nearly_one_are_no_fault() {
         let balls = [0.0, apart].map(|x| Ball { centre: Vector3::new(x, 0.0, 0.0), radius });
         for radii in [[1.0, 1.0], [1.0, 0.5], [0.5, 1.0], [1.0, 1.0 - 1e-12]] {
             let of = [0, 1].map(|k| Ball { radius: radius * radii[k], ..balls[k] });
-            let found = uncovered(&solid, &of, 1e-7, &Budget::new(false)).expect("little work");
+            let found = uncovered(&solid, &of, 1e-7, &budget(false)).expect("little work");
             assert!(found.is_none(), "{apart} {radii:?}");
         }
         let small = balls.map(|ball| Ball { radius: 0.99 * ball.radius, ..ball });
-        let found = uncovered(&solid, &small, 1e-7, &Budget::new(false)).expect("little work");
+        let found = uncovered(&solid, &small, 1e-7, &budget(false)).expect("little work");
         assert!(found.is_some_and(|found| (found.distance - 0.01 * radius).abs() < 1e-7));
     }
 }
@@ -262,13 +264,17 @@ fn too_many_spheres_spend_the_budget() {
         Ball { centre, radius: 0.15 }
     };
     let balls: Vec<Ball> = (0..65_536).map(ball).collect();
-    let little = || Budget::of(10_000_000, false);
+    let little = || Budget::of(10_000_000, skip::spheres_take_too_long(false));
     let expected = urdd_validate::skip::spheres_take_too_long(false);
     assert_eq!(uncovered(&solid, &balls, 1e-7, &little()).err(), Some(expected.clone()));
     let pieces = LinkPieces::of(vec![&mesh]).expect("a hull");
     assert_eq!(standoff(&pieces, &balls, &little()).err(), Some(expected.clone()));
     let small: Vec<Ball> = balls.iter().map(|ball| Ball { radius: 0.01, ..*ball }).collect();
-    let outside = fit::uncovered(&pieces, &[small], &Budget::of(1_000_000, false));
+    let outside = fit::uncovered(
+        &pieces,
+        &[small],
+        &Budget::of(1_000_000, skip::spheres_take_too_long(false)),
+    );
     assert_eq!(outside.err(), Some(expected));
     // Of few spheres, the same work is enough.
     let few = &balls[..8];
@@ -279,12 +285,12 @@ fn too_many_spheres_spend_the_budget() {
 
 #[test]
 fn a_budget_that_is_spent_fails_whoever_spends() {
-    let budget = Budget::of(100, false);
+    let budget = Budget::of(100, skip::spheres_take_too_long(false));
     assert!(budget.spend(60).is_ok());
     assert!(budget.spend(40).is_ok());
     assert!(budget.spend(1).is_err());
-    assert!(Budget::of(100, true).spend(u64::MAX).is_err());
-    let spent = Budget::of(100, false);
+    assert!(Budget::of(100, skip::spheres_take_too_long(true)).spend(u64::MAX).is_err());
+    let spent = Budget::of(100, skip::spheres_take_too_long(false));
     assert!(spent.spend(u64::MAX).is_err());
     assert!(spent.spend(u64::MAX).is_err());
     assert!(spent.spend(1).is_err());
@@ -307,7 +313,7 @@ fn contacts_are_the_same_for_any_threads() {
     let poses = Poses::new(&urdd).expect("poses");
     let found = [1, 2].map(|threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        let of = || contacts(&module, &poses, 2e-9, |_, _| true, &Budget::new(false));
+        let of = || contacts(&module, &poses, 2e-9, |_, _| true, &budget(false));
         let levels = pool.install(of).expect("little work");
         let pairs = |pairs: &[_]| format!("{pairs:?}");
         levels.iter().map(|level| (pairs(&level.pairs), level.touches.clone())).collect::<Vec<_>>()

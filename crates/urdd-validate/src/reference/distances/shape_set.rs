@@ -1,6 +1,6 @@
 //! The shapes of one kind, prepared for distances, and the tolerances of these.
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::Vector3;
 
 use super::plan::{self, Work};
 use super::poses::Poses;
@@ -17,7 +17,7 @@ use urdd_geometry::convex::{
     pair_ranges, pair_statistics,
 };
 use urdd_geometry::farthest;
-use urdd_kinematics::rotation::from_rpy;
+use urdd_kinematics::pose::from_xyz_rpy;
 
 /// The existing, sound shapes of a kind.
 pub struct ShapeSet {
@@ -156,8 +156,7 @@ fn sphere(volume: Volume) -> Option<Sphere> {
 
 fn cuboid(volume: Volume) -> Option<OrientedBox> {
     let Volume::Box { half_extents, offset, rpy } = volume else { return None };
-    let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
-    OrientedBox::new(pose, half_extents).ok()
+    OrientedBox::new(from_xyz_rpy(offset, rpy), half_extents).ok()
 }
 
 /// The tolerances of the distances of one kind of shapes (SPEC 8.5).

@@ -1,11 +1,10 @@
 //! Counts how often a model is right: SPEC 8.8.9 and 8.8.10.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::prelude::*;
 
 use super::network::Network;
 use super::pairs;
+use crate::reference::budget::Budget;
 use crate::reference::distances::poses::Poses;
 use crate::skip;
 use crate::solids::Solids;
@@ -72,14 +71,12 @@ impl Judge {
     /// If a configuration has no poses, or the work exceeds the limit. The sum of all work decides, independent of the
     /// machine and of the number of threads.
     pub fn count(&self, first: u32, count: u32) -> Result<ModelEvaluation, SkipReason> {
-        let budget = self.budget.saturating_mul(u64::from(count));
-        let done = AtomicU64::new(0);
+        let most = self.budget.saturating_mul(u64::from(count));
+        let budget = Budget::of(most, skip::counting_takes_too_long(self.deep));
         let one = |k: u32| {
             let (found, work) = self.judge(first.wrapping_add(k), first == EVALUATION_FIRST)?;
-            match done.fetch_add(work, Ordering::Relaxed) + work > budget {
-                true => Err(skip::too_much_work(self.deep)),
-                false => Ok(found),
-            }
+            budget.spend(work)?;
+            Ok(found)
         };
         let all = (0..count).into_par_iter().map(one);
         all.try_reduce(|| ModelEvaluation::NOTHING, |a, b| Ok(sum(a, b)))

@@ -3,10 +3,10 @@
 
 use nalgebra::Vector3;
 
-use super::budget::Budget;
 use super::link_pieces::Ball;
 use super::polyhedron::Polyhedron;
 use super::solid::Solid;
+use crate::reference::budget::Budget;
 use urdd_findings::skip::SkipReason;
 
 /// A point of a piece that is outside of all spheres.

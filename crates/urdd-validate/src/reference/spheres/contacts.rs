@@ -7,9 +7,11 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Vector3};
 use rayon::prelude::*;
 
-use super::budget::Budget;
+use super::budget;
 use super::link_pieces::{Ball, balls};
+use crate::reference::budget::Budget;
 use crate::reference::distances::poses::Poses;
+use crate::reference::learned::counts::COMPARISON;
 use crate::reference::learned::pairs::not_skipped;
 use crate::skip;
 use crate::tolerance::{POSITION_OF_REACH, reach};
@@ -17,6 +19,7 @@ use urdd_document::urdd::Urdd;
 use urdd_findings::skip::SkipReason;
 use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SPHERES_FIRST};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_geometry::convex::BodyPairs;
 
 /// So many configurations are looked at before pairs of which all is known are left out.
 const AT_ONCE: u32 = 256;
@@ -224,7 +227,7 @@ pub fn of_urdd(urdd: &Urdd, deep: bool) -> Result<Vec<LevelFound>, SkipReason> {
         asked.contains(&links) && !ignored.get(level).is_some_and(|of| of.contains(&links))
     };
     let tolerance = POSITION_OF_REACH * 2.0 * reach(robot, tree);
-    contacts(module, &poses, tolerance, is_checked, &Budget::new(deep))
+    contacts(module, &poses, tolerance, is_checked, &budget(deep))
 }
 
 /// The contacts of all levels. `is_checked` says of a level and a pair of links whether a check asks it; `tolerance` is that
@@ -335,4 +338,24 @@ fn look_at(
     };
     let parts = samples.into_par_iter().with_min_len(SPLIT);
     parts.try_fold(nothing, add).try_reduce(nothing, join)
+}
+
+/// For each of the sampled configurations from the first one of 8.9.6 on, whether it is in collision.
+///
+/// # Errors
+/// If a configuration has no poses, or it takes too much work.
+pub fn collisions(
+    pieces: &BodyPairs,
+    poses: &Poses,
+    count: u32,
+    budget: &Budget,
+) -> Result<Vec<bool>, SkipReason> {
+    let base = 2_000 + 50 * poses.num_links() + 4 * pieces.num_shape_pairs();
+    let one = |sample: u32| {
+        let (_, poses) = poses.sampled(SPHERES_FIRST.wrapping_add(sample))?;
+        let (collides, compared) = pieces.any_touches_and_work(&poses);
+        budget.spend(base as u64 + COMPARISON * compared as u64)?;
+        Ok(collides)
+    };
+    (0..count).into_par_iter().map(one).collect()
 }

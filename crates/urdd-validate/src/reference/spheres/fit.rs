@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::budget::Budget;
 use super::link_pieces::{Ball, LinkPieces};
 use super::solid::normal;
+use crate::reference::budget::Budget;
 use urdd_findings::skip::SkipReason;
 
 /// Number of points on a sphere.

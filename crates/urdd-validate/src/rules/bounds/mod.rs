@@ -1,11 +1,10 @@
 //! BND: `bounds_module`.
 
-mod dofs_of_limits;
+pub mod limits;
 mod tables;
-pub mod unlimited;
 
 use crate::rule::rules;
 
 rules! {
-    dofs_of_limits, tables, unlimited
+    limits, tables
 }

@@ -4,9 +4,8 @@
 //! what is written in it: the table of lowest common ancestors is made row by row, and paths are
 //! walked without being made.
 
-mod paths;
+pub mod paths;
 pub mod tables;
-pub mod walk;
 
 use crate::rule::rules;
 

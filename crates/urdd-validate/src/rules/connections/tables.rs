@@ -1,4 +1,4 @@
-use super::walk::Ancestors;
+use super::paths::Ancestors;
 use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
 

@@ -136,21 +136,17 @@ fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
         };
         let found = &sample.configuration;
         for (dof, (expected, found)) in expected.iter().zip(found).enumerate() {
-            let in_vector = vectors.iter().any(|vector| vector.contains(&dof));
-            // Sums of bounds cancel: what matters is the size of the bounds, not of the sum.
-            let bounds = bounds.bounds.get(dof);
-            let size = bounds.map_or(0.0, |[lower, upper]| lower.abs().max(upper.abs()));
-            let tolerance = number_tolerance(*expected, *found).max(NUMBER_RELATIVE * size);
-            if in_vector || (expected - found).abs() <= tolerance {
+            if vectors.iter().any(|vector| vector.contains(&dof)) {
                 continue;
             }
-            let kind = sample.kind;
-            let pointer = format!("/samples/{place}/configuration/{dof}");
-            let message = format!("in the configuration {kind} this DOF has another value");
-            finding_in(Kind::KinematicsSamples, pointer, message)
-                .values(expected, found)
-                .tolerance(tolerance)
-                .report(findings);
+            let bounds = bounds.bounds.get(dof).copied().unwrap_or_default();
+            let off = off_by_bounds(bounds, [*expected, *found], || {
+                let pointer = format!("/samples/{place}/configuration/{dof}");
+                let message =
+                    format!("in the configuration {} this DOF has another value", sample.kind);
+                finding_in(Kind::KinematicsSamples, pointer, message)
+            });
+            off.into_iter().for_each(|finding| findings.report(finding));
         }
         for vector in vectors {
             let (expected, found) = (pick(&expected, vector)?, pick(found, vector)?);
@@ -171,7 +167,7 @@ fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
     Some(())
 }
 
-fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
+pub(in crate::rules) fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
     let [x, y, z] = dofs.map(|dof| configuration.get(dof).copied());
     Some([x?, y?, z?])
 }
@@ -180,7 +176,11 @@ fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
 /// longer than half a turn.
 fn same_rotation(expected: [f64; 3], found: [f64; 3]) -> bool {
     let length = found.iter().map(|x| x * x).sum::<f64>().sqrt();
+    length <= std::f64::consts::PI * (1.0 + ROTATION) && turn_alike(expected, found)
+}
+
+/// Whether two rotation vectors, whatever their lengths, are the same rotation.
+pub(in crate::rules) fn turn_alike(a: [f64; 3], b: [f64; 3]) -> bool {
     let matrix = |v| *from_rotation_vector(v).to_rotation_matrix().matrix();
-    length <= std::f64::consts::PI * (1.0 + ROTATION)
-        && rotation_distance(&matrix(expected), &matrix(found)) <= ROTATION
+    rotation_distance(&matrix(a), &matrix(b)) <= ROTATION
 }

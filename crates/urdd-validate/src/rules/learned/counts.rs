@@ -1,6 +1,7 @@
 use crate::reference::learned::counts::PER_TOLERANCE;
 use crate::reference::learned::network;
 use crate::rules::prelude::*;
+use urdd_format::index::Count;
 use urdd_format::rate::Rate;
 use urdd_format::self_collision_model::{
     CONFIRMATION_COUNT, CONFIRMATION_FIRST, EVALUATION_COUNT, EVALUATION_FIRST, EVALUATION_MIN,
@@ -139,16 +140,25 @@ fn counts_differ(context: &Context, findings: &mut Findings) -> Option<()> {
         ("num_near_contact_missed", stated.num_near_contact_missed, near_missed, near.0),
         ("num_cleared", stated.num_cleared, cleared, free.0),
     ] {
-        let tolerance = among.div_ceil(PER_TOLERANCE);
-        if found.0.abs_diff(stated.0) > tolerance {
-            let message = "counting these configurations again gives a different number";
-            finding_in(Kind::SelfCollisionModel, format!("/evaluation/{key}"), message)
-                .values(found, stated)
-                .tolerance(f64::from(tolerance))
-                .report(findings);
-        }
+        let pointer = format!("/evaluation/{key}");
+        let counted = counted_again(Kind::SelfCollisionModel, pointer, [stated, found], among);
+        counted.into_iter().for_each(|finding| findings.report(finding));
     }
     Some(())
+}
+
+/// The finding of a number of configurations among so many, where counting again gives another one.
+pub(in crate::rules) fn counted_again(
+    kind: Kind,
+    pointer: String,
+    [stated, found]: [Count; 2],
+    among: u32,
+) -> Option<Finding> {
+    let tolerance = among.div_ceil(PER_TOLERANCE);
+    let message = "counting these configurations again gives a different number";
+    let differs = found.0.abs_diff(stated.0) > tolerance;
+    let finding = || finding_in(kind, pointer, message).values(found, stated);
+    differs.then(|| finding().tolerance(f64::from(tolerance)))
 }
 
 fn rates_not_met(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -1,12 +1,11 @@
 //! LRN: the learned self-collision model.
 
-mod counts;
-mod inputs;
+pub mod counts;
 mod numbers;
 mod outputs;
 
 use crate::rule::rules;
 
 rules! {
-    counts, inputs, numbers, outputs
+    counts, numbers, outputs
 }

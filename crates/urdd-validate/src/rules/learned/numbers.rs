@@ -1,8 +1,35 @@
 use crate::reference::learned::network;
 use crate::rules::prelude::*;
+use urdd_format::dof::Quantity;
+use urdd_format::index::{DofIdx, LinkIdx};
 use urdd_format::self_collision_model::ModelInput;
 
 declare_rule! {
+    /// `self_collision_model_module` names a DOF or a link that is not there, or its pairs are out of order.
+    ///
+    /// A program that looks up the pair of a clearance finds nothing, or another one. Each pair stands once, in
+    /// `pairs` or in `other_pairs`, with the lower link first; both lists ascend.
+    ///
+    /// Train the model again, on the robot as it is now: `urdd generate --modules all,self_collision_model`.
+    LRN001 "model-index-out-of-range", Error, clause "8.8.2", since "0.2.0",
+    phase References, needs [
+        Version1, Module(Kind::SelfCollisionModel), Module(Kind::Dof), ROBOT_SOUND, NotFailed(DOF003),
+    ], check index_out_of_range,
+
+    /// An input of the self-collision model is not of a DOF of its kind.
+    ///
+    /// An angle comes in as sines and cosines, a length as a part of a range, a rotation vector as its matrix. For
+    /// another kind of DOF these numbers mean something other than what the network was trained on, or leave out what
+    /// moves links.
+    ///
+    /// Give each DOF at most once, by its `quantity` in `dof_module`; the three of a rotation vector (SPEC 5.8) in one
+    /// `RotationVector`, in their order; and to a `Length` a positive `half_range`.
+    LRN002 "model-input-wrong", Error, clause "8.8.3", since "0.2.0",
+    phase References, needs [
+        Version1, Module(Kind::SelfCollisionModel), ModuleV1(Kind::Dof), Module(Kind::Chain), ROBOT_SOUND,
+        NoneFailed(&[DOF003, DOF004, DOF005, DOF007, LRN001]),
+    ], check input_wrong,
+
     /// A list of the self-collision model does not have the length that the layer, the pairs or the DOFs require.
     ///
     /// The network cannot be evaluated, or not as it was trained.
@@ -34,6 +61,118 @@ declare_rule! {
     /// At most 65,536 weights and biases, and 100 test vectors. Train a smaller network.
     LRN005 "model-too-large", Error, clause "8.8.4", since "0.2.0",
     phase References, needs [Version1, Module(Kind::SelfCollisionModel)], check too_large,
+}
+
+fn index_out_of_range(context: &Context, findings: &mut Findings) -> Option<()> {
+    let model = document!(context, SelfCollisionModel)?;
+    let robot = context.robot()?;
+    let dofs = context.dofs()?;
+    let num_dofs = dofs.num_dofs.get();
+    let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
+        if index >= count {
+            finding_in(Kind::SelfCollisionModel, pointer, format!("there is no such {what}"))
+                .values(format!("below {count}"), index)
+                .report(findings);
+        }
+    };
+    let mut dof = |pointer, idx: DofIdx| judge(pointer, "DOF", idx.get(), num_dofs);
+    for (place, input) in model.inputs.iter().enumerate() {
+        let at = |rest: &str| format!("/inputs/{place}/{rest}");
+        match input {
+            ModelInput::Angle(of) => dof(at("Angle/dof_idx"), of.dof_idx),
+            ModelInput::Length(of) => dof(at("Length/dof_idx"), of.dof_idx),
+            ModelInput::RotationVector(of) => {
+                for (k, idx) in of.dof_idxs.into_iter().enumerate() {
+                    dof(at(&format!("RotationVector/dof_idxs/{k}")), idx);
+                }
+            }
+        }
+    }
+    let outputs = model.pairs.iter();
+    let outputs: Vec<[LinkIdx; 2]> = outputs.map(|of| [of.link_a_idx, of.link_b_idx]).collect();
+    let others = model.other_pairs.iter();
+    let others: Vec<[LinkIdx; 2]> = others.map(|of| [of.link_a_idx, of.link_b_idx]).collect();
+    let num_links = robot.links.len();
+    for (list, pairs) in [("pairs", &outputs), ("other_pairs", &others)] {
+        for (place, [a, b]) in pairs.iter().enumerate() {
+            let at = |key: &str| format!("/{list}/{place}/{key}");
+            judge(at("link_a_idx"), "link", a.get(), num_links);
+            judge(at("link_b_idx"), "link", b.get(), num_links);
+        }
+    }
+    for (list, pairs) in [("pairs", &outputs), ("other_pairs", &others)] {
+        let turned = pairs.iter().position(|[a, b]| a >= b);
+        let disordered = pairs.windows(2).position(|two| two[0] >= two[1]);
+        let fault = match (turned, disordered) {
+            (Some(place), _) => Some((place, "the lower link comes first")),
+            (_, Some(place)) => Some((place + 1, "ascending pairs, each once")),
+            _ => None,
+        };
+        if let Some((place, expected)) = fault {
+            let message = "this pair is out of order";
+            let finding = finding_in(Kind::SelfCollisionModel, format!("/{list}/{place}"), message);
+            findings.report(finding.expected(expected));
+            return Some(());
+        }
+    }
+    if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
+        let message = "this pair is also in `pairs`";
+        let finding =
+            finding_in(Kind::SelfCollisionModel, format!("/other_pairs/{place}"), message);
+        findings.report(finding);
+    }
+    Some(())
+}
+
+fn input_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let model = document!(context, SelfCollisionModel)?;
+    let robot = context.robot()?;
+    let dof = document!(context, Dof)?;
+    let mut vectors: Vec<[usize; 3]> = Vec::new();
+    for (joint, dofs) in robot.joints.iter().zip(&dof.joint_idx_to_dof_idxs_mapping) {
+        let is_vector = matches!(joint.joint_type, JointType::Floating | JointType::Spherical);
+        let dofs: Vec<usize> = dofs.iter().map(|dof| dof.get()).collect();
+        vectors.extend(dofs.last_chunk().filter(|_| is_vector));
+    }
+    let is = |at: usize, quantity: Quantity| {
+        let stated = dof.dofs.get(at).map(|dof| &dof.quantity);
+        stated == Some(&quantity)
+    };
+    let mut seen: BTreeSet<usize> = BTreeSet::new();
+    for (place, input) in model.inputs.iter().enumerate() {
+        let (key, dofs, fits, expected) = match input {
+            ModelInput::Angle(of) => {
+                let at = of.dof_idx.get();
+                let fits = is(at, Quantity::Angle) && !vectors.iter().any(|of| of.contains(&at));
+                let expected = "an angle that is not part of a rotation vector";
+                ("Angle", vec![at], fits, expected)
+            }
+            ModelInput::Length(of) => {
+                let at = of.dof_idx.get();
+                let fits = is(at, Quantity::Length) && of.half_range > 0.0;
+                let expected = "a length, and a positive half_range";
+                ("Length", vec![at], fits, expected)
+            }
+            ModelInput::RotationVector(of) => {
+                let dofs = of.dof_idxs.map(|dof| dof.get());
+                let expected = "the three DOFs of one rotation vector, in their order";
+                let fits = vectors.contains(&dofs);
+                ("RotationVector", dofs.to_vec(), fits, expected)
+            }
+        };
+        let message = match fits {
+            false => "the DOFs of this input are not of its kind",
+            true if dofs.iter().any(|dof| seen.contains(dof)) => "this DOF is already an input",
+            true => {
+                seen.extend(dofs);
+                continue;
+            }
+        };
+        let finding =
+            finding_in(Kind::SelfCollisionModel, format!("/inputs/{place}/{key}"), message);
+        findings.report(finding.expected(expected));
+    }
+    Some(())
 }
 
 fn wrong_shape(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -1,9 +1,13 @@
-use crate::rules::prelude::*;
 use std::f64::consts::PI;
-use urdd_format::loops::LoopsModule;
 
-use urdd_kinematics::ConfigurationSpace;
-use urdd_kinematics::rotation::from_rotation_vector;
+use crate::reference::loops::{Gap, sum};
+use crate::rules::kinematics::samples::{pick, turn_alike};
+use crate::rules::prelude::*;
+use urdd_format::loops::LoopsModule;
+use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics};
+
+/// Most loops, couplings and links that are looked at, over all configurations.
+const MOST_LOOKED_AT: usize = 20_000_000;
 
 declare_rule! {
     /// A configuration of `loops_module` has not one value for each DOF.
@@ -40,6 +44,45 @@ declare_rule! {
         ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), ModuleV1(Kind::Chain), ModuleV1(Kind::Bounds), Passed(BND001),
         Passed(BND002), Passed(BND003), Passed(BND004), Passed(LOP006), Passed(LOP013),
     ], check closed_configuration_out_of_bounds,
+
+    /// A loop is open, or a coupling does not hold, in a configuration that is said to be closed.
+    ///
+    /// The finding says how far apart the ends of the loop are. A robot that is shown or simulated there is torn apart, or
+    /// flies away when a simulator pulls it together. Common mistakes: the solver stopped too early; the frame of one end is
+    /// that of the joint and not of the link; the robot was changed and the loops were not.
+    ///
+    /// Close the loops again: `urdd generate` does. If they cannot close, look at the two frames first.
+    LOP008 "loop-open", Error, clause "6.8.6", since "1.4.0",
+    phase Kinematics, needs [
+        ModuleV1(Kind::Loops), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof), Module(Kind::Urdf), ROBOT_SOUND,
+        Passed(CHN001), Passed(CHN003), Passed(CHN006), Passed(CHN008), Passed(CHN009), Passed(CHN010), Passed(DOF007),
+        Passed(LOP001), Passed(LOP003), Passed(LOP004), Passed(LOP007), Passed(LOP011),
+    ], check loop_open,
+
+    /// The number of independent DOFs is not the robot's mobility.
+    ///
+    /// So many DOFs can be set; the loops and couplings decide the others. With one too many, a program sets what cannot be
+    /// set; with one too few, part of the robot hangs loose. The finding says how many there are at the reference
+    /// configuration: the number of DOFs less the rank of what the loops hold. A loop may hold more than it needs (a planar
+    /// four-bar of hinges does); that changes no rank.
+    ///
+    /// Count again; `urdd generate` does. Where the reference configuration is one in which the robot is stretched out, take
+    /// another: there the rank is smaller than elsewhere.
+    LOP009 "mobility-wrong", Error, clause "6.8.7", since "1.4.0",
+    phase Kinematics, needs [
+        ModuleV1(Kind::Loops), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof), Passed(LOP005), Passed(LOP008), Passed(DOF006),
+    ], check mobility_wrong,
+
+    /// The other DOFs do not follow from the independent ones.
+    ///
+    /// The number is right, but the choice is not: a loop ties two of the independent DOFs to each other, and leaves another
+    /// free. Setting the independent ones does not settle where the robot is.
+    ///
+    /// Take one of the two out, and put the free one in its place.
+    LOP010 "independent-dofs-tied", Error, clause "6.8.7", since "1.4.0",
+    phase Kinematics, needs [
+        ModuleV1(Kind::Loops), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof), Passed(LOP009),
+    ], check independent_dofs_tied,
 }
 
 /// The configurations of the module, each with its place.
@@ -88,32 +131,22 @@ fn closed_sample_wrong(context: &Context, findings: &mut Findings) -> Option<()>
         // A rotation may be written in two ways.
         let turned = |dofs: &&[usize; 3]| {
             let whole = dofs.iter().all(|dof| independent.binary_search(dof).is_ok());
-            let [a, b] = [&sampled, found].map(|of| dofs.map(|dof| of.get(dof).copied()));
-            let matrix = |v: [Option<f64>; 3]| {
-                let v = v.map(Option::unwrap_or_default);
-                from_rotation_vector(v).to_rotation_matrix().into_inner()
-            };
-            whole && rotation_distance(&matrix(a), &matrix(b)) <= ROTATION
+            let both = pick(&sampled, dofs).zip(pick(found, dofs));
+            whole && both.is_some_and(|(a, b)| turn_alike(a, b))
         };
         let same: HashSet<usize> =
             space.rotation_vectors().iter().filter(turned).flatten().copied().collect();
         for idx in independent.iter().copied().filter(|idx| !same.contains(idx)) {
             let (expected, found) = (*sampled.get(idx)?, *found.get(idx)?);
-            let &[a, b] = bounds.get(idx)?;
-            let size = a.abs().max(b.abs());
-            let tolerance = number_tolerance(expected, found).max(NUMBER_RELATIVE * size);
-            if (expected - found).abs() <= tolerance {
-                continue;
-            }
-            let pointer = format!("/closed_samples/{place}/configuration/{idx}");
-            let message = format!(
-                "the independent DOF `{}` is not where sampled configuration {place} has it",
-                dof.dofs.get(idx)?.name
-            );
-            finding_in(Kind::Loops, pointer, message)
-                .values(expected, found)
-                .tolerance(tolerance)
-                .report(findings);
+            let name = &dof.dofs.get(idx)?.name;
+            let off = off_by_bounds(*bounds.get(idx)?, [expected, found], || {
+                let pointer = format!("/closed_samples/{place}/configuration/{idx}");
+                let message = format!(
+                    "the independent DOF `{name}` is not where sampled configuration {place} has it"
+                );
+                finding_in(Kind::Loops, pointer, message)
+            });
+            off.into_iter().for_each(|finding| findings.report(finding));
         }
     }
     Some(())
@@ -141,18 +174,123 @@ fn closed_configuration_out_of_bounds(context: &Context, findings: &mut Findings
                 .report(findings);
         }
         let limited = bounds.bounds.iter().zip(&bounds.dof_limited);
-        for (idx, (q, (&[a, b], limited))) in configuration.iter().zip(limited).enumerate() {
-            let (lower, upper) = (a.min(b), a.max(b));
-            let size = lower.abs().max(upper.abs());
-            let tolerance = (NUMBER_RELATIVE * size).max(NUMBER_ABSOLUTE);
-            if !limited || (lower - q).max(q - upper) <= tolerance {
+        let limited = configuration.iter().zip(limited).enumerate();
+        for (idx, (q, (bounds, _))) in limited.filter(|(_, (_, (_, limited)))| **limited) {
+            let finding = || {
+                let pointer = format!("{pointer}/{idx}");
+                finding_in(Kind::Loops, pointer, "a limited DOF cannot be there")
+            };
+            if let Some(finding) = beyond_bounds(*bounds, *q, finding) {
+                findings.report(finding);
+            }
+        }
+    }
+    Some(())
+}
+
+fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let kinematics = ForwardKinematics::new(document!(context, Chain)?, document!(context, Dof)?);
+    let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
+    let reach = reach(context.robot()?, context.tree()?);
+    let of_one = loops.loops.len() + loops.couplings.len() + kinematics.num_links();
+    let most = (MOST_LOOKED_AT / of_one.max(1)).max(2);
+    for (looked_at, (pointer, configuration)) in configurations(loops).enumerate() {
+        if looked_at >= most {
+            // What was found stands; else it is said that not all was looked at (SPEC 13.5).
+            return if findings.is_empty() {
+                findings.skip(skip::TOO_MANY_SAMPLES)
+            } else {
+                Some(())
+            };
+        }
+        let poses = match kinematics.link_poses(configuration) {
+            Err(ConfigurationError::Overflow { link_idx }) if holds(context, link_idx)? => {
+                let message = format!(
+                    "a loop holds link {link_idx} or one below it, whose pose here is beyond the range of 64-bit numbers"
+                );
+                finding_in(Kind::Loops, pointer, message).report(findings);
                 continue;
             }
-            finding_in(Kind::Loops, format!("{pointer}/{idx}"), "a limited DOF cannot be there")
-                .values(format!("{lower:?} to {upper:?}"), format!("{q:?}"))
+            poses => findings.or_skip(poses.map_err(SkipReason::obstacle))?,
+        };
+        for (place, one) in loops.loops.iter().enumerate() {
+            let gap = Gap::of(one, &poses, reach)?;
+            if gap.is_closed() {
+                continue;
+            }
+            let message = format!(
+                "the loop `{}` (/loops/{place}) is open here: its ends are {} m and {} rad from where it holds them",
+                one.name,
+                number(gap.position, 4),
+                number(gap.rotation, 4)
+            );
+            let [position, rotation] = gap.most;
+            let (off, most, unit) = match gap.position <= position {
+                true => (gap.rotation, rotation, "rad"),
+                false => (gap.position, position, "m"),
+            };
+            finding_in(Kind::Loops, pointer.clone(), message)
+                .values(format!("at most {most:?} {unit}"), format!("{off:?} {unit}"))
+                .off_by(off, unit)
+                .report(findings);
+        }
+        for (place, coupling) in loops.couplings.iter().enumerate() {
+            let (sum, tolerance) = sum(coupling, configuration)?;
+            if sum.is_finite() && sum.abs() <= tolerance {
+                continue;
+            }
+            let message =
+                format!("the coupling `{}` (/couplings/{place}) does not hold here", coupling.name);
+            finding_in(Kind::Loops, pointer.clone(), message)
+                .values("a sum of 0", format!("{sum:?}"))
                 .tolerance(tolerance)
                 .report(findings);
         }
     }
+    Some(())
+}
+
+/// Whether an end of a loop is this link, or hangs from it.
+fn holds(context: &Context, link: usize) -> Option<bool> {
+    let tree = context.tree()?;
+    let loops = document!(context, Loops)?;
+    let mut ends = loops.loops.iter().flat_map(|one| [one.link_a_idx.get(), one.link_b_idx.get()]);
+    Some(ends.any(|end| tree.path(end).contains(&link)))
+}
+
+fn mobility_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let dofs = document!(context, Dof)?.dofs.len();
+    let [[least, greatest], _] = *findings.or_skip(context.loop_ranks())?;
+    let stated = loops.independent_dof_idxs.len();
+    if (least..=greatest).contains(&(dofs.saturating_sub(stated))) && stated <= dofs {
+        return Some(());
+    }
+    let message = format!(
+        "of {dofs} DOFs, loops and couplings tie {greatest} to others at the reference configuration"
+    );
+    finding_in(Kind::Loops, "/independent_dof_idxs", message)
+        .counts(dofs - greatest, stated, "independent DOFs")
+        .report(findings);
+    Some(())
+}
+
+fn independent_dofs_tied(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let dofs = document!(context, Dof)?.dofs.len();
+    let [_, [_, greatest]] = *findings.or_skip(context.loop_ranks())?;
+    // What LOP009 accepted.
+    let rank = dofs - loops.independent_dof_idxs.len();
+    if greatest >= rank {
+        return Some(());
+    }
+    let message = format!(
+        "{rank} DOFs are to follow from the independent ones, but only {greatest} of them do: {} of the independent ones are tied to others of them",
+        rank - greatest
+    );
+    finding_in(Kind::Loops, "/independent_dof_idxs", message)
+        .counts(rank, greatest, "DOFs that follow")
+        .report(findings);
     Some(())
 }

@@ -1,13 +1,10 @@
 //! LOP: `loops_module`.
 
 mod configurations;
-mod couplings;
-mod ends;
-mod mobility;
-mod open;
+mod ties;
 
 use crate::rule::rules;
 
 rules! {
-    ends, couplings, configurations, open, mobility
+    ties, configurations
 }

@@ -5,16 +5,12 @@ pub mod file_paths;
 mod formats;
 mod hull_of_mesh;
 pub mod lists;
-mod made_of;
-mod mesh_format_mismatch;
 mod of_urdf;
 mod originals;
-mod outreach;
-mod pieces_leave_surface;
+mod pieces;
 
 use crate::rule::rules;
 
 rules! {
-    convexity, file_paths, formats, hull_of_mesh, lists, made_of, mesh_format_mismatch, of_urdf,
-    originals, outreach, pieces_leave_surface
+    convexity, file_paths, formats, hull_of_mesh, lists, of_urdf, originals, pieces
 }

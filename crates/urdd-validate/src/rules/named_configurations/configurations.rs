@@ -118,21 +118,15 @@ fn configuration_out_of_bounds(context: &Context, findings: &mut Findings) -> Op
             if !*bounds.dof_limited.get(idx)? {
                 continue;
             }
-            // An odd robot has its two bounds the other way round (SPEC 6.5.2).
-            let &[a, b] = bounds.bounds.get(idx)?;
-            let (lower, upper) = (a.min(b), a.max(b));
-            let size = lower.abs().max(upper.abs());
-            let tolerance = (NUMBER_RELATIVE * size).max(NUMBER_ABSOLUTE);
-            let beyond = (lower - set.position).max(set.position - upper);
-            if beyond <= tolerance {
-                continue;
+            let bounds = bounds.bounds.get(idx)?;
+            let finding = || {
+                let pointer = format!("/configurations/{place}/positions/{entry}/position");
+                let message = format!("the limited DOF `{}` cannot be there", set.dof_name);
+                finding_in(Kind::NamedConfigurations, pointer, message)
+            };
+            if let Some(finding) = beyond_bounds(*bounds, set.position, finding) {
+                findings.report(finding);
             }
-            let pointer = format!("/configurations/{place}/positions/{entry}/position");
-            let message = format!("the limited DOF `{}` cannot be there", set.dof_name);
-            finding_in(Kind::NamedConfigurations, pointer, message)
-                .values(format!("{lower:?} to {upper:?}"), format!("{:?}", set.position))
-                .tolerance(tolerance)
-                .report(findings);
         }
     }
     Some(())
@@ -170,23 +164,17 @@ fn configuration_does_not_follow(context: &Context, findings: &mut Findings) -> 
             *expected.get_mut(idx)? = (set.position, true);
         }
         for (idx, ((expected, is_set), found)) in expected.into_iter().zip(found).enumerate() {
-            let [lower, upper] = *bounds.get(idx)?;
-            let size = lower.abs().max(upper.abs());
-            let tolerance = number_tolerance(expected, *found).max(NUMBER_RELATIVE * size);
-            if (expected - found).abs() <= tolerance {
-                continue;
-            }
             let name = &dof.dofs.get(idx)?.name;
-            let message = match is_set {
-                true => format!("`positions` sets the DOF `{name}` to another value"),
-                false => format!(
-                    "`positions` does not set the DOF `{name}`, and its default value is another"
-                ),
-            };
-            finding_in(Kind::NamedConfigurations, format!("{at}/{idx}"), message)
-                .values(expected, found)
-                .tolerance(tolerance)
-                .report(findings);
+            let off = off_by_bounds(*bounds.get(idx)?, [expected, *found], || {
+                let message = match is_set {
+                    true => format!("`positions` sets the DOF `{name}` to another value"),
+                    false => format!(
+                        "`positions` does not set the DOF `{name}`, and its default value is another"
+                    ),
+                };
+                finding_in(Kind::NamedConfigurations, format!("{at}/{idx}"), message)
+            });
+            off.into_iter().for_each(|finding| findings.report(finding));
         }
     }
     Some(())

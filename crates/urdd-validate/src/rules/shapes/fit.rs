@@ -1,7 +1,10 @@
 use crate::rules::prelude::*;
-use crate::views::enclosure::Side;
+use crate::views::enclosure::{Enclosure, Side};
 use crate::views::judged::enclosures;
 use urdd_document::shapes::{Volume, approximations};
+use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::oriented_box::OrientedBox;
 
 declare_rule! {
     /// A box has a negative half extent or no extent at all, or a sphere's radius is not positive.
@@ -35,6 +38,28 @@ declare_rule! {
     /// of the box's axes; keep the centre of a sphere, and take the distance of the farthest vertex.
     SHP018 "shape-does-not-touch", Error, clause "8.2", since "0.1.0",
     phase Geometry, needs [Version1, ENCLOSURES], check shape_does_not_touch,
+
+    /// A box has more than 1.1 times the volume of a smaller one that holds the same hull or piece.
+    ///
+    /// Boxes are tested in place of what they hold: excess volume causes false collisions, and
+    /// paths that are not found. For a flat hull or piece areas are compared, as volumes are of
+    /// boxes thickened by a millionth of the reach.
+    ///
+    /// Turn the box: of all orientations one has the least volume. `urdd generate` finds it.
+    SHP019 "needlessly-large-box", Warning, clause "8.2", since "0.1.0",
+    phase Geometry, consequence Looseness, needs [ENCLOSURES],
+    check |context, findings| report(context, findings, NEEDLESSLY_LARGE_BOX, ["box", "volume"], box_ratio),
+
+    /// A sphere has more than 1.05 times the radius of a smaller one that holds the same hull or piece.
+    ///
+    /// Spheres are tested in place of what they hold: where they are larger than they need to be,
+    /// programs report false collisions. Most often the centre is the mean of the vertices, or the
+    /// middle of a box.
+    ///
+    /// Move the centre: there is one smallest sphere. `urdd generate` finds it.
+    SHP020 "needlessly-large-sphere", Warning, clause "8.2", since "0.1.0",
+    phase Geometry, consequence Looseness, needs [ENCLOSURES],
+    check |context, findings| report(context, findings, NEEDLESSLY_LARGE_SPHERE, ["sphere", "radius"], sphere_ratio),
 }
 
 fn impossible_shape_size(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -111,6 +136,122 @@ fn shape_does_not_touch(context: &Context, findings: &mut Findings) -> Option<()
             .values("a vertex on every side", format!("{distance} away"))
             .tolerance(enclosure.tolerance)
             .off_by(off, "m")
+            .report(findings);
+    }
+    Some(())
+}
+
+/// The volume of a box over that of the smallest one. `None` if it is not too large, for a sphere, or without a hull.
+fn box_ratio(enclosure: &Enclosure) -> Option<f64> {
+    let Volume::Box { half_extents, .. } = enclosure.volume else { return None };
+    // A box around a flat hull has no thickness.
+    let thick = |half: [f64; 3]| half.map(|h| h + enclosure.tolerance).iter().product::<f64>();
+    // Most boxes are not too large, which is found quickly.
+    let may_be = |hull: &ConvexHull| {
+        let enough = 8.0 * thick(half_extents) / NEEDLESSLY_LARGE_BOX;
+        hull.is_flat() || OrientedBox::exists_within(hull, enough)
+    };
+    let vertices = &enclosure.mesh.vertices;
+    // The smallest box of some vertices is found much faster, and no box around all of them is smaller.
+    let some = ConvexHull::new(&outermost(vertices)).ok();
+    if some.is_some_and(|hull| !may_be(&hull)) {
+        return None;
+    }
+    let hull = ConvexHull::new(vertices).ok().filter(may_be)?;
+    let least = OrientedBox::around(&hull);
+    Some(thick(half_extents) / thick(least.half_extents))
+}
+
+/// The farthest vertices in the directions of a coarse grid.
+fn outermost(vertices: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let steps = [-2.0, -1.0, 0.0, 1.0, 2.0];
+    let directions = steps
+        .into_iter()
+        .flat_map(|x| steps.into_iter().map(move |y| [x, y]))
+        .flat_map(|[x, y]| steps.into_iter().map(move |z| [x, y, z]));
+    let farthest = directions.filter_map(|[x, y, z]| {
+        let along = |p: &[f64; 3]| x * p[0] + y * p[1] + z * p[2];
+        let pairs = vertices.iter().map(|p| (along(p), *p));
+        pairs.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, p)| p)
+    });
+    farthest.collect()
+}
+
+/// The radius of a sphere over that of the smallest one; `None` if it is surely not too large, for a box, or without a
+/// hull.
+fn sphere_ratio(enclosure: &Enclosure) -> Option<f64> {
+    let Volume::Sphere { radius, .. } = enclosure.volume else { return None };
+    let vertices = &enclosure.mesh.vertices;
+    // Well below the bound, so that rounding does not matter.
+    if exceeds(vertices, radius / NEEDLESSLY_LARGE_SPHERE * (1.0 + 1e-6)) {
+        return None;
+    }
+    let hull = ConvexHull::new(vertices).ok()?;
+    Some(radius / BoundingSphere::around(&hull).radius)
+}
+
+/// Whether every sphere around these points has a larger radius than this, if a few steps show it.
+///
+/// The variance of the points under any weights is at most the square of the smallest radius. Each step moves weight to
+/// the point farthest from the mean, as much as increases the variance most (Frank and Wolfe 1956, on the dual of the
+/// smallest enclosing ball).
+pub fn exceeds(points: &[[f64; 3]], radius: f64) -> bool {
+    const STEPS: usize = 32;
+    let mut mean = points.first().map_or_else(Vector3::zeros, |p| Vector3::from(*p));
+    let mut variance = 0.0;
+    for _ in 0..STEPS {
+        let away = |p: &[f64; 3]| (Vector3::from(*p) - mean).norm_squared();
+        let pairs = points.iter().map(|p| (away(p), p));
+        let Some((squared, farthest)) = pairs.reduce(|a, b| if b.0 > a.0 { b } else { a }) else {
+            return false;
+        };
+        let weight = (squared - variance) / (2.0 * squared);
+        mean += (Vector3::from(*farthest) - mean) * weight;
+        variance = (1.0 - weight) * (variance + weight * squared);
+        if variance > radius * radius {
+            return true;
+        }
+    }
+    false
+}
+
+/// Reports every box or sphere whose `ratio` of size to that of the smallest one is above `most`. `words` names shape and
+/// size: "box", "volume".
+fn report(
+    context: &Context,
+    findings: &mut Findings,
+    most: f64,
+    [shape, size]: [&str; 2],
+    ratio: impl Fn(&Enclosure) -> Option<f64> + Sync,
+) -> Option<()> {
+    let module = context.module(Kind::LinkShapesApproximations)?;
+    let tight = context.profile() == Profile::V1;
+    // SHP017 and SHP018 report those that do not fit.
+    let fits = |e: &Enclosure| e.noun() == shape && e.holds() && (e.touches() || !tight);
+    let mut found: Vec<(Enclosure, f64)> = enclosures(context, findings)
+        .into_par_iter()
+        .filter(fits)
+        .filter_map(|enclosure| {
+            let (meshes, solids) = (enclosure.kind.meshes(), context.solids());
+            let content = solids.content(meshes, enclosure.link, enclosure.piece)?;
+            let size = match enclosure.volume {
+                Volume::Box { half_extents: [x, y, z], .. } => [x, y, z, 0.0],
+                Volume::Sphere { radius, .. } => [0.0, 0.0, 0.0, radius],
+            };
+            let key = (content, size.map(f64::to_bits));
+            let found = context.memos.ratios.get(key, || ratio(&enclosure));
+            let ratio = found.filter(|ratio| *ratio > most)?;
+            Some((enclosure, ratio))
+        })
+        .collect();
+    // The worst first: only a few are shown.
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    for (enclosure, ratio) in found {
+        let of_what = enclosure.of_what(context);
+        let message =
+            format!("the {shape} of {of_what} has {ratio:.2} times the {size} of the smallest one");
+        finding_in(module, &enclosure.pointer, message)
+            .values(format!("at most {most} times"), format!("{ratio:.2} times"))
             .report(findings);
     }
     Some(())

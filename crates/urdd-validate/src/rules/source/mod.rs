@@ -4,10 +4,9 @@ mod carried;
 mod crossed_limits;
 pub mod inertia;
 pub mod limits;
-mod mass;
 
 use crate::rule::rules;
 
 rules! {
-    carried, crossed_limits, inertia, limits, mass
+    carried, crossed_limits, inertia, limits
 }

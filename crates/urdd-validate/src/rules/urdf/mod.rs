@@ -2,12 +2,10 @@
 
 pub mod compared;
 pub mod joints;
-mod names;
 pub mod tree;
-mod unreadable_urdf;
 
 use crate::rule::rules;
 
 rules! {
-    compared, joints, names, tree, unreadable_urdf
+    compared, joints, tree
 }

@@ -1,6 +1,7 @@
-use crate::rules::chain::origins::is_negative;
+use crate::rules::chain::joints::not_canonical;
 use crate::rules::prelude::*;
 use crate::views::lists::repeated;
+use urdd_format::index::DofIdx;
 
 declare_rule! {
     /// A loop connects a link that is not there, or a link with itself.
@@ -47,6 +48,23 @@ declare_rule! {
     LOP012 "loop-closes-loosely", Warning, clause "6.8.4", since "1.4.0",
     phase References, needs [ModuleV1(Kind::Loops), Module(Kind::Urdf), ROBOT_SOUND, NotFailed(LOP011)],
     check loop_closes_loosely,
+
+    /// A coupling has no terms, or one of a DOF that is not there, twice, out of order, or without a coefficient.
+    ///
+    /// A coupling is an equation between DOFs. A term that means nothing makes programs divide by zero, or drive the wrong
+    /// joint. Most often the joints stand in another order than when the couplings were written.
+    ///
+    /// Write one term for each DOF, in DOF order, each with a coefficient other than 0.
+    LOP004 "coupling-wrong", Error, clause "6.8.5", since "1.4.0",
+    phase References, needs [ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), Passed(DOF001)], check coupling_wrong,
+
+    /// `independent_dof_idxs` has a DOF that is not there, twice, or out of order.
+    ///
+    /// These are the DOFs that a program sets; it takes the others from what closes the loops.
+    ///
+    /// Write the indices of the DOFs that move freely, ascending, each once.
+    LOP005 "independent-dofs-wrong", Error, clause "6.8.7", since "1.4.0",
+    phase References, needs [ModuleV1(Kind::Loops), ModuleV1(Kind::Dof), Passed(DOF001)], check independent_dofs_wrong,
 }
 
 fn loop_link_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -92,20 +110,10 @@ fn loop_quaternion_not_canonical(context: &Context, findings: &mut Findings) -> 
     let loops = document!(context, Loops)?;
     for (place, one) in loops.loops.iter().enumerate() {
         for (key, frame) in [("frame_a", &one.frame_a), ("frame_b", &one.frame_b)] {
+            let pointer = format!("/loops/{place}/{key}/quaternion_wxyz");
             let quaternion = frame.quaternion_wxyz;
-            let at = |message: &str| {
-                let pointer = format!("/loops/{place}/{key}/quaternion_wxyz");
-                finding_in(Kind::Loops, pointer, message).actual(format!("{quaternion:?}"))
-            };
-            let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if (norm - 1.0).abs() > UNIT_NORM {
-                let message = format!("this quaternion has length {norm:?}; divide it by that");
-                findings.report(at(&message).expected("length 1").tolerance(UNIT_NORM));
-            } else if is_negative(&quaternion) {
-                let message =
-                    "this is the negative of the quaternion to write; negate all four numbers";
-                let negated = quaternion.map(|x| if x == 0.0 { 0.0 } else { -x });
-                findings.report(at(message).expected(format!("{negated:?}")));
+            if let Some(finding) = not_canonical(Kind::Loops, pointer, quaternion, || true) {
+                findings.report(finding);
             }
         }
     }
@@ -151,4 +159,63 @@ fn loop_closes_loosely(context: &Context, findings: &mut Findings) -> Option<()>
         }
     }
     Some(())
+}
+
+fn coupling_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let count = document!(context, Dof)?.num_dofs.get();
+    for (place, coupling) in loops.couplings.iter().enumerate() {
+        let at = format!("/couplings/{place}/terms");
+        if coupling.terms.is_empty() {
+            finding_in(Kind::Loops, at, "this coupling is about no DOF")
+                .values("a term for each DOF", "none")
+                .report(findings);
+            continue;
+        }
+        let dofs: Vec<DofIdx> = coupling.terms.iter().map(|term| term.dof_idx).collect();
+        listed(&dofs, count, |term| format!("{at}/{term}/dof_idx"), findings);
+        for (number, term) in coupling.terms.iter().enumerate() {
+            if term.coefficients.iter().all(|coefficient| *coefficient == 0.0) {
+                let pointer = format!("{at}/{number}/coefficients");
+                finding_in(Kind::Loops, pointer, "this term adds nothing: leave it out")
+                    .values("a coefficient other than 0", "zeros")
+                    .report(findings);
+            }
+        }
+    }
+    Some(())
+}
+
+fn independent_dofs_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
+    let loops = document!(context, Loops)?;
+    let count = document!(context, Dof)?.num_dofs.get();
+    let at = |place: usize| format!("/independent_dof_idxs/{place}");
+    listed(&loops.independent_dof_idxs, count, at, findings);
+    Some(())
+}
+
+/// Reports DOFs of a list that are not there, and the first that does not ascend.
+fn listed(
+    dofs: &[DofIdx],
+    count: usize,
+    pointer: impl Fn(usize) -> String,
+    findings: &mut Findings,
+) {
+    for (place, dof) in dofs.iter().enumerate() {
+        if dof.get() >= count {
+            finding_in(Kind::Loops, pointer(place), "there is no such DOF")
+                .values(format!("an index below {count}"), dof.0)
+                .report(findings);
+            return;
+        }
+    }
+    if let Some(place) = (1..dofs.len()).find(|place| dofs[*place] <= dofs[place - 1]) {
+        let message = match dofs[place] == dofs[place - 1] {
+            true => "this DOF is there twice",
+            false => "the DOFs do not ascend",
+        };
+        finding_in(Kind::Loops, pointer(place), message)
+            .values(format!("an index above {}", dofs[place - 1].0), dofs[place].0)
+            .report(findings);
+    }
 }
