@@ -207,6 +207,21 @@ ${["0 0 0|0 1 0|1 0 0", "0 0 0|1 0 0|0 0 1", "0 0 0|0 0 1|0 1 0", "1 0 0|0 1 0|0
 endsolid t
 `;
 
+inPage(set, "a description is one by any name", async (page) => {
+  await gallery(page);
+  const text = urdf("arm", box(1), box(0.5));
+  let id = null;
+  for (const name of ["arm.xml", "arm.txt", "arm.sdf", "arm.usda", "arm.zip", "arm"]) {
+    await dropOn(page, folder({ [name]: text })(name));
+    id = await whole(page, "arm", id);
+  }
+  await dropOn(page, folder({ "m.stl": TETRAHEDRON, "box.urdf": MJCF })("box.urdf"));
+  await page
+    .getByText(/m\.stl` was not found/)
+    .first()
+    .waitFor();
+});
+
 inPage(set, "an MJCF without the file that it includes takes that", async (page) => {
   await gallery(page);
   const scene = '<mujoco model="scene"><include file="parts/body.xml"/></mujoco>';

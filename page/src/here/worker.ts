@@ -1,5 +1,6 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
+import { hasPlace } from "../endings";
 import { contents, started } from "../engine/module";
 import type { Urdd } from "../engine/module";
 import type { Report } from "../engine/protocol";
@@ -11,8 +12,6 @@ import { bytes } from "../ui/format";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
 const MAX_ROBOT = 512 * 2 ** 20;
-/** Files that say what their folder is, or what a robot is: their places are known. */
-const HAS_PLACE = /(?:^|\/)(?:package\.xml|model\.config)$|\.(?:urdf|xacro|srdf|toml|ya?ml)$/i;
 
 /** As the libraries of TypeScript for pages do not have it. */
 declare class FileReaderSync {
@@ -80,7 +79,7 @@ serve<MakerCalls>(
       for (const { path, file, isLost } of all) {
         taken.set(path, file);
         maker().name(files, path, file.size);
-        if (isLost && !HAS_PLACE.test(path)) maker().lose(files, path);
+        if (isLost && !hasPlace(path)) maker().lose(files, path);
       }
       return null;
     },
