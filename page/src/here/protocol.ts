@@ -56,10 +56,13 @@ export interface MakerCalls {
   /** Sets the content of a file that was taken. */
   put: [{ path: string; text: string }, null];
   lint: [{ path: string }, Report];
-  /** A URDD; what did not change is taken from the files of `donor`. */
+  /**
+   * A URDD; what did not change is taken from the last that this worker made, or from the files of `donor` if it made none.
+   * The answer has all its paths, and those `files` that are not as they were there.
+   */
   generate: [
     { path: string; donor: Given[]; options: MakeOptions },
-    { robot: string; links: number; dofs: number; notes: string[]; files: Given[] },
+    { robot: string; links: number; dofs: number; notes: string[]; paths: string[]; files: Given[] },
   ];
   /** The files of the URDF that an MJCF, SDF or USD becomes. */
   import: [{ path: string }, { main: string; files: Given[] }];

@@ -1,7 +1,7 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
 import { hasPlace } from "../endings";
-import { contents, started } from "../engine/module";
+import { changes, contents, started } from "../engine/module";
 import type { Urdd } from "../engine/module";
 import type { Report } from "../engine/protocol";
 import { serve } from "../engine/serve";
@@ -23,6 +23,8 @@ let module: Urdd | null = null;
 let tell: OnProgress = () => undefined;
 const taken = new Map<string, Blob>();
 let files = 0;
+/** The URDD that was made last. */
+let last = 0;
 const read = new Set<Blob>();
 let size = 0;
 
@@ -72,6 +74,8 @@ serve<MakerCalls>(
 
     take({ files: all }) {
       maker().closeFiles(files);
+      maker().closeFiles(last);
+      last = 0;
       files = maker().files("", {});
       taken.clear();
       // Names may lead out of the files, as of a URDF that was dropped alone.
@@ -100,12 +104,15 @@ serve<MakerCalls>(
     },
 
     async generate({ path, donor, options }, onProgress) {
-      const from = donor.length > 0 ? await opened(donor) : 0;
+      if (last === 0 && donor.length > 0) last = await opened(donor);
       tell = onProgress;
       begin();
-      const made = maker().generate(files, { path, ...options }, from) as Made;
-      maker().closeFiles(from);
-      return { ...made, files: contents(maker(), made.files) };
+      const made = maker().generate(files, { path, ...options }, last) as Made;
+      const before = last;
+      last = made.files;
+      const { paths, changed } = changes(maker(), last, before);
+      maker().closeFiles(before);
+      return { ...made, paths, files: changed };
     },
 
     import({ path }) {
