@@ -1,17 +1,13 @@
 /** Folders and files that are dropped or selected: a URDD, descriptions with the files that they may name, or such files. */
 
 import type { RobotSource } from "./engine/calls";
-import { check, MAX_BYTES, urddFolder } from "./given";
+import { IS_XACRO, IS_ZIP, MAY_DESCRIBE, OF_ROBOT } from "./endings";
+import { check, checkDescribed, MAX_BYTES, urddFolder } from "./given";
 import { lost, sizeOf } from "./here/protocol";
 import type { Given } from "./here/protocol";
 
-/** The files that a description or a mesh may name. */
-const OF_ROBOT =
-  /\.(?:urdf|xacro|xml|sdf|mjcf|world|usd[acz]?|srdf|config|toml|ya?ml|stl|dae|obj|mtl|ply|msh|glb|gltf|bin|png|jpe?g|tga|bmp|dds|gif|tiff?|webp|hdr|exr|ktx2|ppm|pgm)$/i;
-/** Files that may be a description; whether one is, its content says. */
-export const MAY_DESCRIBE = /\.(?:urdf|xacro|xml|sdf|mjcf|world|usd[acz]?)$/i;
-const IS_XACRO = /\.xacro$/i;
-const IS_ZIP = /\.zip$/i;
+/** Bytes that are looked at of a file whose name says nothing. */
+const HEAD = 256;
 
 /** A robot that can be opened; descriptions that robots are made of; or files without a description. */
 export type Taken =
@@ -82,19 +78,22 @@ async function walk(root: FileSystemEntry, signal: AbortSignal): Promise<Given[]
   return found;
 }
 
-function ofFolder(all: Given[]): Taken {
+/** `begun` are files that begin as a description does, whatever their names. */
+function ofFolder(all: Given[], begun: readonly Given[] = []): Taken {
   check(all.length, sizeOf(all));
   const root = urddFolder(all.flatMap(({ path, isLost }) => (isLost ? [] : path)));
-  if (root === undefined) return ofDescription(all);
+  if (root === undefined) return ofDescription(all, begun);
   const prefix = root === "" ? "" : `${root}/`;
   const inside = all.filter(({ path }) => path.startsWith(prefix));
   const files = inside.map(({ path, file }) => ({ path: path.slice(prefix.length), file }));
   return { kind: "local", name: root.split("/").pop() ?? "robot", files };
 }
 
-function ofDescription(all: Given[]): Taken {
-  const files = all.filter(({ path }) => OF_ROBOT.test(path) && !/(?:^|\/)\./.test(path));
-  if (!files.some(({ path }) => MAY_DESCRIBE.test(path))) return { kind: "files", files };
+function ofDescription(all: Given[], begun: readonly Given[]): Taken {
+  const named = all.filter(({ path }) => OF_ROBOT.test(path) && !/(?:^|\/)\./.test(path));
+  const files = [...named, ...begun];
+  checkDescribed(files.length);
+  if (begun.length === 0 && !files.some(({ path }) => MAY_DESCRIBE.test(path))) return { kind: "files", files };
   return { kind: "description", files, hasXacro: files.some(({ path }) => IS_XACRO.test(path)) };
 }
 
@@ -102,9 +101,15 @@ async function ofFiles(files: File[], { unzip }: Hands): Promise<Taken> {
   const [first] = files;
   if (!first) throw new Error("Nothing was dropped. Drop a URDF, the folder of a URDD, or a .zip of it.");
   const all: Given[] = [];
+  const begun: Given[] = [];
   for (const file of files) {
+    const given = lost({ path: file.name, file });
+    if (!OF_ROBOT.test(file.name) && (await beginsAsDescription(file))) {
+      begun.push(given);
+      continue;
+    }
     if (!IS_ZIP.test(file.name)) {
-      all.push(lost({ path: file.name, file }));
+      all.push(given);
       continue;
     }
     if (file.size > MAX_BYTES)
@@ -113,5 +118,10 @@ async function ofFiles(files: File[], { unzip }: Hands): Promise<Taken> {
     if (!inside) return { kind: "zip", name: file.name.replace(IS_ZIP, ""), bytes: await file.arrayBuffer() };
     all.push(...inside);
   }
-  return ofFolder(all);
+  return ofFolder(all, begun);
+}
+
+/** Whether a file begins as XML or USD do: what it is, the module finds. */
+async function beginsAsDescription(file: Blob): Promise<boolean> {
+  return /^\s*(?:<|#usda |PXR-USDC)/.test(await file.slice(0, HEAD).text());
 }

@@ -1,5 +1,6 @@
 /** The view in a link's fragment: `#r=h1&q=0,0.5&t=Proximity`. */
 
+import { IS_ZIP, MAY_DESCRIBE } from "./endings";
 import { LAYERS, OVERLAYS, TABS } from "./state";
 import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
 import { SHAPE_KINDS } from "./engine/protocol";
@@ -30,7 +31,12 @@ export interface Shared {
 }
 
 /** A relative path of plain names, so that a link leads to nothing but files beside the page. */
-const BESIDE = /^(?:\.\.\/)?(?:[A-Za-z0-9_][A-Za-z0-9_.-]*\/)*[A-Za-z0-9_][A-Za-z0-9_.-]*\.(?:urdf|xml|sdf|zip)$/;
+const PLAIN = /^(?:\.\.\/)?(?:[A-Za-z0-9_][A-Za-z0-9_.-]*\/)*[A-Za-z0-9_][A-Za-z0-9_.-]*$/;
+
+/** The path, if it is one of a description or an archive beside the page. */
+function beside(path: string | null): string | null {
+  return path !== null && PLAIN.test(path) && (MAY_DESCRIBE.test(path) || IS_ZIP.test(path)) ? path : null;
+}
 
 function numbers(text: string | null): number[] | null {
   if (text === null || text === "") return null;
@@ -101,7 +107,7 @@ export function read(fragment: string): Shared {
     camera: numbers(words.get("c")),
     compareWith: words.get("v"),
     token: words.get("token"),
-    from: BESIDE.test(words.get("from") ?? "") ? words.get("from") : null,
+    from: beside(words.get("from")),
   };
 }
 

@@ -1,8 +1,10 @@
 /** Sets of files that are given to the page: how many there may be, and whether they are a URDD. */
 
-/** Maximum number of files and bytes. */
+/** Maximum number of files and bytes: at most those of the program (`tests/program/file_types.rs`). */
 const MAX_FILES = 50_000;
 export const MAX_BYTES = 1_000_000_000;
+/** Maximum number of files around descriptions: that of the program. */
+const MAX_DESCRIBED = 20_000;
 
 /** Throws if there are too many files or bytes. */
 export function check(files: number, bytes: number): void {
@@ -10,6 +12,14 @@ export function check(files: number, bytes: number): void {
     throw new Error(`These are more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one robot.`);
   if (bytes > MAX_BYTES)
     throw new Error("These files have more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
+}
+
+/** Throws if descriptions have too many files around them. */
+export function checkDescribed(files: number): void {
+  if (files > MAX_DESCRIBED)
+    throw new Error(
+      `These are more than ${MAX_DESCRIBED.toLocaleString("en")} files of robots. Drop the folder of one robot.`,
+    );
 }
 
 const IS_URDD =

@@ -207,6 +207,47 @@ ${["0 0 0|0 1 0|1 0 0", "0 0 0|1 0 0|0 0 1", "0 0 0|0 0 1|0 1 0", "1 0 0|0 1 0|0
 endsolid t
 `;
 
+inPage(set, "a description is one by any name", async (page) => {
+  await gallery(page);
+  const text = urdf("arm", box(1), box(0.5));
+  let id = null;
+  for (const name of ["arm.xml", "arm.txt", "arm.sdf", "arm.usda", "arm.zip", "arm"]) {
+    await dropOn(page, folder({ [name]: text })(name));
+    id = await whole(page, "arm", id);
+  }
+  await dropOn(page, folder({ "m.stl": TETRAHEDRON, "box.urdf": MJCF })("box.urdf"));
+  await page
+    .getByText(/m\.stl` was not found/)
+    .first()
+    .waitFor();
+});
+
+inPage(set, "what a stage did not change stays where it is", async (page) => {
+  await gallery(page);
+  await page.evaluate(() => {
+    const { store } = globalThis.urdd.app;
+    globalThis.stages = [];
+    store.on(["robot"], ({ robot }) => {
+      if (robot?.source.kind === "local") globalThis.stages.push(robot.source.files);
+    });
+  });
+  const place = folder({ "robot.urdf": urdf("robot", mesh("m.stl"), box(1)), "m.stl": TETRAHEDRON });
+  await dropOn(page, place("robot.urdf"), place("m.stl"));
+  await whole(page, "robot");
+  const found = await page.evaluate(() => {
+    const [first, last] = [globalThis.stages[0], globalThis.stages.at(-1)];
+    const of = new Map(first.map(({ path, file }) => [path, file]));
+    const same = last.filter(({ path, file }) => of.get(path) === file).map(({ path }) => path);
+    return { stages: globalThis.stages.length, first: first.length, last: last.length, same };
+  });
+  assert.ok(found.stages > 1 && found.last > found.first, JSON.stringify(found));
+  assert.ok(found.same.includes("robot.urdf"), JSON.stringify(found));
+  assert.ok(
+    found.same.some((path) => path.startsWith("plain_meshes_module/meshes/")),
+    JSON.stringify(found),
+  );
+});
+
 inPage(set, "an MJCF without the file that it includes takes that", async (page) => {
   await gallery(page);
   const scene = '<mujoco model="scene"><include file="parts/body.xml"/></mujoco>';

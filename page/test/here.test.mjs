@@ -276,6 +276,13 @@ inPage(set, "a link opens a description beside the page, and nothing else", asyn
   cpSync(join(robots, "hand.urdf"), join(site, "examples/hand.urdf"));
   await page.goto(`${address}#from=examples/hand.urdf`);
   await state(page, "robot", (robot) => robot?.entry.name === "hand");
+  // By the endings of the program, in any case.
+  for (const name of ["HAND.URDF", "hand.world"]) {
+    cpSync(join(robots, "hand.urdf"), join(site, "examples", name));
+    await page.goto("about:blank");
+    await page.goto(`${address}#from=examples/${name}`);
+    await state(page, "robot", (robot) => robot?.entry.name.toLowerCase() === "hand");
+  }
   for (const elsewhere of [
     "//example.org/a.urdf",
     "https://example.org/a.urdf",

@@ -104,6 +104,9 @@ test("`npm pack` makes a package that validates, moves a robot and lints, with t
       const refusals: string[] = [];
       const bad = { urdf: () => urdd.lint(around), for: () => urdd.lint(urdf, { for: ["gazeboo" as Program] }) };
       for (const ask of Object.values(bad)) await ask().catch((error: unknown) => refusals.push(String(error)));
+      const macros = { name: "m", files: { "m.urdf.xacro": new TextEncoder().encode("<robot name='m'><link name='l'/></robot>") } };
+      const xacro = await urdd.generate(macros).catch((error: unknown) => String(error));
+      if (!/m.urdf.xacro. is a xacro file/.test(String(xacro))) throw new Error("xacro: " + JSON.stringify(xacro));
       const codes = ["DOF003", "LNT060"].map((code) => urdd.explain(code).code);
       console.log(JSON.stringify({ report, there, reached, nearest, codes, linted, meshes, refusals }));
       robot.close();

@@ -20,7 +20,7 @@ use urdd_directory::source::is_archive;
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;
-use urdd_source::{Files as SourceFiles, Format, Settings, XacroSettings, read_source, root_of};
+use urdd_source::{Format, RobotFile, Settings, XacroSettings, read_source};
 
 /// Opens the robot of a URDD.
 ///
@@ -28,7 +28,7 @@ use urdd_source::{Files as SourceFiles, Format, Settings, XacroSettings, read_so
 /// A message with advice if it cannot be opened.
 pub fn open(path: &Path) -> Result<Robot, Failure> {
     if path.is_file() && !is_archive(path) {
-        let is_urdf = FileType::Urdf.is_of(path);
+        let is_urdf = RobotFile::at(path) == Some(RobotFile::Urdf);
         let path = path.display().to_string();
         if is_urdf {
             Err(format!(
@@ -111,45 +111,36 @@ pub fn advice(error: &DiscoverError) -> String {
     format!("{}: {}", one_line(path), of_file(Path::new(path)).unwrap_or(NEITHER))
 }
 
+/// What a file is: by its content, and by its name where that does not say.
 fn of_file(path: &Path) -> Option<&'static str> {
-    let by_name = match FileType::of(path) {
-        Some(FileType::Xacro) => Some(
-            "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it",
-        ),
-        Some(FileType::Sdf) => Some(SDF),
-        Some(FileType::Srdf) => Some(
-            "this is SRDF, which adds groups and skipped collisions to a URDF; \
-             give the URDF that it belongs to, or a URDD",
-        ),
-        Some(FileType::Mjcf) => Some(MJCF),
-        Some(FileType::Usd) => Some(USD),
-        Some(FileType::Document) => Some(
-            "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders",
-        ),
-        Some(FileType::Urdf | FileType::Xml | FileType::Archive) | None => None,
-    };
-    by_name.or_else(|| by_content(path))
+    match RobotFile::at(path) {
+        Some(RobotFile::Urdf) => Some(URDF),
+        Some(RobotFile::Xacro) => Some(XACRO),
+        Some(RobotFile::Srdf) => Some(SRDF),
+        Some(RobotFile::Imported(Format::Mjcf)) => Some(MJCF),
+        Some(RobotFile::Imported(Format::Sdf)) => Some(SDF),
+        Some(RobotFile::Imported(Format::Usd)) => Some(USD),
+        None => match FileType::of(path)? {
+            FileType::Sdf => Some(SDF),
+            FileType::Mjcf => Some(MJCF),
+            FileType::Usd => Some(USD),
+            FileType::Document => Some(DOCUMENT),
+            _ => None,
+        },
+    }
 }
 
-const NEITHER: &str = "this is a file, but neither a URDF (its name would end in .urdf) nor a URDD \
+const NEITHER: &str = "this is a file, but neither a URDF nor a URDD \
     (a folder that holds urdd.json or the module folders, or a zip archive of one)";
+const URDF: &str = "this is a URDF; `urdd generate` makes a URDD of it, `urdd lint` checks it";
+const XACRO: &str = "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it";
+const SRDF: &str = "this is SRDF, which adds groups and skipped collisions to a URDF; \
+    give the URDF that it belongs to, or a URDD";
 const SDF: &str = "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
 const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, \
     `urdd import` makes a URDF";
-
 const USD: &str = "this is USD; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
-
-fn by_content(path: &Path) -> Option<&'static str> {
-    let root = root_of(path, &SourceFiles::Disk)?;
-    match Format::of_root(&root) {
-        Some(Format::Mjcf) => Some(MJCF),
-        Some(Format::Sdf) => Some(SDF),
-        Some(Format::Usd) => Some(USD),
-        None => (root == "robot").then_some(
-            "this looks like a URDF; give it a name that ends in .urdf, or use `urdd generate` to generate a URDD from it",
-        ),
-    }
-}
+const DOCUMENT: &str = "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders";
 
 /// Maximum number of attempts while another program writes to the URDD.
 const MAX_TRIES: usize = 5;

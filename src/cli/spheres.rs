@@ -9,13 +9,13 @@ use super::output::{self, Failure, about, one_line, shown};
 use super::signals;
 use super::sources::around;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{Sphere, SphereList, import_spheres, read_spheres};
 use urdd_format::readable::{counted, first_of};
 use urdd_format::registry::ModuleKind;
 use urdd_format::self_collision_model::LinkPair;
 use urdd_format::urdf::Geometry;
+use urdd_source::RobotFile;
 
 /// Maximum number of pairs that a message names.
 const MOST_NAMED: usize = 6;
@@ -89,7 +89,7 @@ fn always(pairs: &[LinkPair], links: &[String]) -> String {
 }
 
 fn read(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
-    if matches!(FileType::of(file), Some(FileType::Urdf | FileType::Xacro)) {
+    if matches!(RobotFile::at(file), Some(RobotFile::Urdf | RobotFile::Xacro)) {
         return of_urdf(file, cancellation);
     }
     Ok(read_spheres(&text(file, MAX_SPHERES_BYTES)?).map_err(about(file))?)

@@ -20,7 +20,7 @@ use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_robot::Robot;
 use urdd_source::robots::{self, BatchError, Job};
-use urdd_source::{Files, Settings, format_of, process};
+use urdd_source::{RobotFile, Settings, process};
 use urdd_view::{
     Collection, ExportError, Live, Server, Shown, Source, export, may_hold_page, page_with,
 };
@@ -320,9 +320,9 @@ fn add(
 
 /// The robots of files, by path: URDFs, xacro files, and what is imported.
 fn named(paths: &[PathBuf], settings: &Settings) -> Result<HashMap<PathBuf, Vec<Job>>, String> {
-    let is_source = |path: &&PathBuf| {
-        let is_named = matches!(FileType::of(path), Some(FileType::Xacro | FileType::Urdf));
-        path.is_file() && (is_named || format_of(path, &Files::Disk).is_some())
+    let is_source = |path: &&PathBuf| match RobotFile::at(path) {
+        Some(RobotFile::Srdf) | None => false,
+        Some(_) => path.is_file(),
     };
     let files: Vec<PathBuf> = paths.iter().filter(is_source).cloned().collect();
     let jobs = robots::jobs(&files, settings).map_err(|error| error.to_string())?;

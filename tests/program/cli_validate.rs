@@ -468,7 +468,6 @@ fn files_of_other_formats_are_named() {
         ("a.sdf", "", "SDF"),
         ("a.xml", "<mujoco model=\"a\"/>", "MJCF"),
         ("b.xml", "<sdf/>", "SDF"),
-        ("c.xml", "<robot name=\"a\"/>", "URDF"),
         ("a.srdf", "<robot name=\"a\"/>", "SRDF"),
         ("a.usd", "", "USD"),
         ("a.xacro", "", "xacro"),

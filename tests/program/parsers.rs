@@ -194,6 +194,31 @@ fn only_urdd_xml_names_the_parser_of_xml() {
     assert!(!root.contains("roxmltree.workspace"), "{WHAT_TO_DO}");
 }
 
+/// The page has one parser of its own, with a limit.
+#[test]
+fn the_page_parses_xml_in_one_place() {
+    let mut waiting = vec![repository().join("page/src")];
+    let (mut named, mut sources) = (Vec::new(), 0);
+    while let Some(path) = waiting.pop() {
+        if path.is_dir() {
+            let entries = fs::read_dir(&path).expect("a folder");
+            waiting.extend(entries.map(|entry| entry.expect("an entry").path()));
+        } else if path.extension().is_some_and(|ending| ending == "ts") {
+            sources += 1;
+            let text = fs::read_to_string(&path).expect("a source");
+            let parses = ["DOMParser", "innerHTML", "createContextualFragment"];
+            named.extend(parses.iter().any(|word| text.contains(word)).then_some(path));
+        }
+    }
+    assert!(sources > 50, "{sources}");
+    assert_eq!(named, [repository().join("page/src/here/missing.ts")], "{WHAT_TO_DO}");
+    let text = fs::read_to_string(&named[0]).expect("a source");
+    assert!(text.contains("MAX_TEXT = 4e6;") && text.contains("MAX_NAMES = 1000;"));
+    let page = fs::read_to_string(repository().join("docs/security.md")).expect("the page");
+    let row = "DOMParser) | Only `page/src/here/missing.ts`. At most 4,000,000 characters and 1,000 names";
+    assert!(page.contains(row), "{WHAT_TO_DO}");
+}
+
 /// Who reads files around descriptions, beside what they name.
 const NAMED_FILES: &[(&str, &str)] = &[
     ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),

@@ -128,6 +128,10 @@ export class Urdd {
 /** The description that is meant where none is named. */
 function theOnly(found) {
   const [one, ...more] = found.filter(({ format }) => format !== "xacro");
+  if (!one && found.length > 0)
+    throw new Error(
+      `\`${found[0].path}\` is a xacro file, a program, which is not run here: expand it by xacro, and give what comes out`,
+    );
   if (!one) throw new Error("there is no URDF, MJCF, SDF or USD among the files");
   if (more.length > 0)
     throw new Error(

@@ -18,6 +18,7 @@ export declare class Urdd {
     name: string;
     files: { path: string; size: number }[];
   };
+  changed(files: number, before: number): string[];
   read(files: number, path: string): Uint8Array<ArrayBuffer>;
   mesh(
     files: number,

@@ -112,6 +112,11 @@ export class Urdd {
     );
   }
 
+  /** The paths of files that are not among those of before with the same content. */
+  changed(files, before) {
+    return this.#json(this.exports.urdd_files_changed(files, before));
+  }
+
   /** `positions` (x, y, z of each vertex) and `indices` (three of each triangle). */
   mesh(files, path) {
     const bytes = this.#with([encode(path)], (...words) =>

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use urdd_directory::file_type::FileType;
 use urdd_directory::listing::EntryKind;
 use urdd_source::dropped::PackageFolders;
-use urdd_source::{Files as Around, MAX_SOURCE_BYTES, Packages, Settings};
+use urdd_source::{Files as Around, Format, MAX_SOURCE_BYTES, Packages, Settings, format_of};
 
 use crate::files::Files;
 
@@ -76,10 +75,11 @@ impl GivenFiles {
         }
         let mut packages = Packages::none();
         // A USD names files beside it.
-        let text = match FileType::Usd.is_of(Path::new(path)) {
-            true => Vec::new(),
-            false => {
-                let text = self.files.read(&self.place(path), MAX_SOURCE_BYTES);
+        let place = self.place(path);
+        let text = match format_of(&place, &self.files) {
+            Some(Format::Usd) => Vec::new(),
+            _ => {
+                let text = self.files.read(&place, MAX_SOURCE_BYTES);
                 text.map_err(|error| format!("`{}`: {error}", path.escape_debug()))?
             }
         };

@@ -218,6 +218,26 @@ pub unsafe extern "C" fn urdd_files_list(files: *mut Files) -> *mut u8 {
     }))
 }
 
+/// The paths of those files that are not among the files of before with the same content.
+///
+/// # Safety
+/// Both are open.
+#[cfg(feature = "make")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_files_changed(files: *mut Files, before: *mut Files) -> *mut u8 {
+    // SAFETY: guaranteed by the caller.
+    let (files, before) = unsafe { (&*files, &*before) };
+    answer::result(files.root.list().map_err(|error| error.to_string()).map(|listing| {
+        let regular = listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
+        let is_as_before = |path: &str| {
+            let before = before.read(path, MAX_FILE_BYTES);
+            before.is_ok_and(|before| files.read(path, MAX_FILE_BYTES).as_ref() == Ok(&before))
+        };
+        let changed = regular.filter(|entry| !is_as_before(&entry.path));
+        Value::from(changed.map(|entry| entry.path.as_str()).collect::<Vec<_>>())
+    }))
+}
+
 /// The content of a file: an answer of [`answer::bytes_or_error`].
 ///
 /// # Safety

@@ -132,6 +132,13 @@ try {
     // A donor gives what did not change: the same result.
     const again = urdd.generate(all, { path: `${name}.urdf` }, generated.files);
     near(files(again.files), content);
+    assert.deepEqual(urdd.changed(again.files, generated.files), []);
+    // Of a URDD with less in it, what is not there, and what names it.
+    const less = urdd.generate(all, { path: `${name}.urdf`, modules: ["plain_meshes"] });
+    const known = files(less.files);
+    const changed = Object.keys(content).filter((path) => !known[path]?.equals(content[path]));
+    assert.ok(changed.includes("urdd.json") && changed.length < Object.keys(content).length);
+    assert.deepEqual(urdd.changed(generated.files, less.files).sort(), changed.sort());
   }
   for (const kind of ["mjcf", "sdf", "usd"]) {
     const [file] = readdirSync(`examples/${kind}`).filter((name) => /\.(?:xml|sdf|usda)$/.test(name) && name !== "scene.xml");

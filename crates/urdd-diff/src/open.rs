@@ -8,31 +8,30 @@ use crate::side::{DiffError, Options, Side};
 use crate::{dof_state, side_urdd};
 use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
-use urdd_directory::file_type::FileType;
 use urdd_directory::path;
 use urdd_directory::root::{ReadError, Root};
 use urdd_document::load::Loaded;
 use urdd_document::robot::of_urdf;
 use urdd_document::urdd::Urdd;
 use urdd_format::report::{self, Kind};
-use urdd_source::{Files, format_of};
+use urdd_source::{Files, RobotFile, robot_file};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, alone, examine_urdf, found, validate, validate_loaded};
 use urdd_xml::Xml;
 use urdd_xml::other_parts::other_parts;
 
 impl Side {
-    /// Opens a URDF (a file whose name ends in `.urdf`), a xacro file, an MJCF or an SDF as the URDF that it becomes, or a URDD: a
-    /// folder or a zip archive.
+    /// Opens a URDF, a xacro file, an MJCF, SDF or USD as the URDF that it becomes, or a URDD: a folder or a zip archive. The
+    /// content says which it is, before the name.
     ///
     /// # Errors
     /// If the path has no robot, or one that cannot be read.
     pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
         let shown = path.display().to_string();
-        let is_urdf = FileType::Urdf.is_of(path) && !path.is_dir() && path.exists();
-        let is_xacro = FileType::Xacro.is_of(path) && path.is_file();
-        if is_urdf || is_xacro || format_of(path, &Files::Disk).is_some() {
-            return open_urdf(path, is_urdf, options);
+        let is_there = !path.is_dir() && path.exists();
+        match robot_file(path, &Files::Disk).filter(|_| is_there) {
+            Some(RobotFile::Srdf) | None => {}
+            Some(is) => return open_urdf(path, is, options),
         }
         let found = discover(path).map_err(DiffError::Discover)?;
         let found = match found.as_slice() {
@@ -83,10 +82,10 @@ fn validation(
 }
 
 /// Opens a URDF, or what becomes one, and reads its meshes.
-fn open_urdf(path: &Path, is_urdf: bool, options: &Options) -> Result<Side, DiffError> {
+fn open_urdf(path: &Path, is: RobotFile, options: &Options) -> Result<Side, DiffError> {
     let shown = path.display().to_string();
     // The validator reads a URDF as it is written.
-    let as_written = is_urdf && !options.urdf.xacro.expand_urdf;
+    let as_written = is == RobotFile::Urdf && !options.urdf.xacro.expand_urdf;
     let name = if as_written { found(path).name } else { shown.clone() };
     let also = |xml: &Xml<'_>, is_as_found: bool| {
         let is_read = !as_written || is_as_found && path::check(&name).is_ok();

@@ -11,6 +11,7 @@ use serde_json::Value;
 
 use super::digest;
 use super::file_entry;
+use super::file_type::{FileType, stem};
 use super::json;
 use super::layout::ROOT_METADATA;
 use super::limits::MAX_DOCUMENT_BYTES;
@@ -134,8 +135,8 @@ fn texts(value: &Value, take: &mut dyn FnMut(&str)) {
 }
 
 fn is_urdf(path: &str) -> bool {
-    let (stem, extension) = path.rsplit_once('.').unwrap_or((path, ""));
-    extension.eq_ignore_ascii_case("urdf") && !stem.is_empty()
+    let path = Path::new(path);
+    FileType::Urdf.is_of(path) && !stem(path).is_empty()
 }
 
 /// Whether this is the folder of a specified module or of an extension.

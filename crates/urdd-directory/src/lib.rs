@@ -27,6 +27,7 @@ pub mod range;
 pub mod read_error;
 pub mod regular;
 pub mod replacement;
+pub mod robot_file;
 pub mod root;
 pub mod schema_files;
 pub mod source;

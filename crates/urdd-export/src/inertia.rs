@@ -6,6 +6,17 @@ use nalgebra::Matrix3;
 /// What is rounding, relative to the largest principal moment.
 pub(super) const ROUNDING: f64 = 1e-9;
 
+/// What no body has. Each format has its words for it, and for what it writes instead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Odd {
+    /// A mass below 0.
+    Negative,
+    /// A principal moment below 0.
+    Indefinite,
+    /// A principal moment that is more than the other two together.
+    Triangle,
+}
+
 /// How precisely readers find the principal moments of an inertia with products, relative to the largest: Gazebo's, by
 /// trigonometry, to 1e-8.
 const FOUND: f64 = 1e-7;

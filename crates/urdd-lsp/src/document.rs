@@ -33,6 +33,8 @@ pub struct Snapshot {
     /// The folder that relative names refer to.
     pub folder: PathBuf,
     pub kind: FileKind,
+    /// What the editor calls it.
+    language: String,
     /// The editor's number of the version.
     pub version: i32,
     pub text: Text,
@@ -74,7 +76,8 @@ impl Snapshot {
         let folder = path.as_deref().and_then(Path::parent).or(root);
         let folder = folder.map_or_else(|| PathBuf::from("."), Path::to_owned);
         Snapshot {
-            kind: FileKind::of(uri.as_str(), path.as_deref(), language),
+            kind: FileKind::of(uri.as_str(), path.as_deref(), language, text.as_str()),
+            language: language.to_owned(),
             uri,
             path,
             folder,
@@ -95,11 +98,14 @@ impl Snapshot {
                 self.earlier.clone().or_else(|| Some(this()))
             }
         };
+        let of_text =
+            || FileKind::of(self.uri.as_str(), self.path.as_deref(), &self.language, text.as_str());
         Snapshot {
             uri: self.uri.clone(),
             path: self.path.clone(),
             folder: self.folder.clone(),
-            kind: self.kind,
+            kind: if self.kind.is_of_urdd() { self.kind } else { of_text() },
+            language: self.language.clone(),
             version,
             text,
             options: options.clone(),

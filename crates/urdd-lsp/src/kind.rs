@@ -9,6 +9,7 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_VERSION_BYTES;
 use urdd_directory::regular;
+use urdd_directory::robot_file::{HEAD, RobotFile};
 use urdd_document::load::{find_spec, metadata_of};
 use urdd_document::schema_check::{self, SchemaViolation};
 use urdd_format::registry::{ModuleKind, modules};
@@ -30,24 +31,35 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// What a document is, by its name; by its language if it has no name with an extension.
-    pub fn of(uri: &str, path: Option<&Path>, language: &str) -> FileKind {
+    /// What a document is: by its text, by its name where that does not say, and then by its language.
+    pub fn of(uri: &str, path: Option<&Path>, language: &str, text: &str) -> FileKind {
         let name = uri::file_name(uri);
-        match FileType::of(Path::new(&name)) {
-            Some(FileType::Urdf) => return FileKind::Urdf,
-            Some(FileType::Xacro) => return FileKind::Xacro,
+        let language = language.to_lowercase();
+        let most = usize::try_from(HEAD).unwrap_or(usize::MAX);
+        let head = text.as_bytes().get(..most).unwrap_or(text.as_bytes());
+        match RobotFile::of(Path::new(&name), head) {
+            Some(RobotFile::Imported(_)) => return FileKind::Other,
+            Some(RobotFile::Xacro) => return FileKind::Xacro,
+            Some(RobotFile::Urdf) if FileType::Urdf.is_of(Path::new(&name)) => {
+                return FileKind::Urdf;
+            }
+            Some(RobotFile::Urdf) if language != "xacro" => return FileKind::Urdf,
             _ => {}
         }
         if let Some(found) = path.and_then(Schema::of_file) {
             return found;
         }
-        match language.to_lowercase().as_str() {
+        match language.as_str() {
             "urdf" => FileKind::Urdf,
             "xacro" => FileKind::Xacro,
             // A text that is not saved yet.
             "xml" if path.is_none() && !name.contains('.') => FileKind::Urdf,
             _ => FileKind::Other,
         }
+    }
+
+    pub fn is_of_urdd(self) -> bool {
+        matches!(self, FileKind::Urdd { .. })
     }
 
     pub fn is_xml(self) -> bool {

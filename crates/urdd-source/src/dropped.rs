@@ -7,7 +7,8 @@ use super::declared::Declared;
 use super::described::{FileKind, describe};
 use super::endings::Endings;
 use super::files::Files;
-use super::format::{Format, imported, parts_of_others};
+use super::format::{Format, RobotFile, parts_of_others, robot_file};
+use super::inspect::is_of_mesh;
 use super::robots::{Job, named};
 use super::settings::Settings;
 use urdd_directory::discover::ROOT_METADATA;
@@ -52,7 +53,7 @@ impl DroppedKind {
 
 /// The descriptions among files in memory, in the order of their paths; none of files on a disk. Hidden folders are passed
 /// over, and URDDs, a `.urdf.xacro` beside its `.urdf` or without a robot, and an MJCF or USD that is a part of
-/// another.
+/// another. Where there is none, those count whose names are of something else.
 pub fn descriptions(files: &Files) -> Vec<Dropped> {
     let Files::Memory(all) = files else {
         return Vec::new();
@@ -63,12 +64,18 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
         folder.iter().any(hidden)
             || folder.ancestors().any(|above| all.has(&above.join(ROOT_METADATA)))
     };
-    let found = all.paths().filter(|file| !is_passed(file));
-    let found = found.filter_map(|file| Some((file.clone(), kind(file, files)?)));
-    let mut found: Vec<(PathBuf, DroppedKind)> = found.collect();
-    let is_imported =
-        |(_, kind): &&(PathBuf, DroppedKind)| matches!(kind, DroppedKind::Imported(_));
-    let imported = found.iter().filter(is_imported).map(|(file, _)| file.as_path());
+    let of = |kind: fn(&Path, &Files) -> Option<DroppedKind>| -> Vec<(PathBuf, DroppedKind)> {
+        let found = all.paths().filter(|file| !is_passed(file));
+        found.filter_map(|file| Some((file.clone(), kind(file, files)?))).collect()
+    };
+    let mut found = of(kind);
+    if found.is_empty() {
+        found = of(misnamed);
+    }
+    let imported = found.iter().filter_map(|(file, kind)| match kind {
+        DroppedKind::Imported(format) => Some((file.as_path(), RobotFile::Imported(*format))),
+        DroppedKind::Urdf | DroppedKind::Xacro => None,
+    });
     let mut parts = parts_of_others(imported, files);
     let is_xacro = |(_, kind): &&(PathBuf, DroppedKind)| *kind == DroppedKind::Xacro;
     let xacro: Vec<PathBuf> = found.iter().filter(is_xacro).map(|(file, _)| file.clone()).collect();
@@ -89,12 +96,32 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
 
 fn kind(file: &Path, files: &Files) -> Option<DroppedKind> {
     match FileType::of(file)? {
-        FileType::Urdf => Some(DroppedKind::Urdf),
         FileType::Xacro => {
             let urdf = file.with_extension("");
             (FileType::Urdf.is_of(&urdf) && !files.is_file(&urdf)).then_some(DroppedKind::Xacro)
         }
-        _ => imported(file, files).map(DroppedKind::Imported),
+        FileType::Archive | FileType::Document | FileType::Srdf => None,
+        of_description => match robot_file(file, files)? {
+            RobotFile::Urdf if of_description != FileType::Urdf => None,
+            is => of_content(is),
+        },
+    }
+}
+
+/// What a file is whose name does not say that it is a description of this kind.
+fn misnamed(file: &Path, files: &Files) -> Option<DroppedKind> {
+    match FileType::of(file) {
+        Some(FileType::Xacro | FileType::Document | FileType::Srdf) => None,
+        None if is_of_mesh(file) => None,
+        _ => of_content(robot_file(file, files)?),
+    }
+}
+
+fn of_content(is: RobotFile) -> Option<DroppedKind> {
+    match is {
+        RobotFile::Urdf => Some(DroppedKind::Urdf),
+        RobotFile::Imported(format) => Some(DroppedKind::Imported(format)),
+        RobotFile::Xacro | RobotFile::Srdf => None,
     }
 }
 
@@ -175,6 +202,27 @@ mod tests {
             .map(|k| format!("<m f='package://p{k}/meshes/a.obj'/>"))
             .collect();
         assert_eq!(dropped.of_text(&many, false).len(), MAX_PACKAGES);
+    }
+
+    #[test]
+    fn content_is_asked_before_names() {
+        let urdf = "<robot name='r'><link name='l'/></robot>";
+        let kinds = |all: &[(&str, &str)]| -> Vec<(String, &'static str)> {
+            let file = |(path, text): &(&str, &str)| (path.to_string(), Arc::from(text.as_bytes()));
+            let files = Files::in_memory(all.iter().map(file)).expect("files");
+            let found = descriptions(&files).into_iter();
+            found.map(|one| (one.job.name, one.kind.name())).collect()
+        };
+        for path in ["a.xml", "a.txt", "a.sdf", "a.mjcf", "a.usda", "a.zip", "a"] {
+            let found = kinds(&[(path, urdf), ("a.stl", "<robot/>"), ("a.json", "{}")]);
+            assert_eq!(found.len(), 1, "{path}: {found:?}");
+            assert_eq!(found[0].1, "urdf", "{path}");
+        }
+        let mjcf = "<mujoco><worldbody><body/></worldbody></mujoco>";
+        assert_eq!(kinds(&[("a.urdf", mjcf)]), [("a".to_owned(), "mjcf")]);
+        // A part of the robot, most likely.
+        let found = kinds(&[("a.urdf", urdf), ("part.xml", urdf)]);
+        assert_eq!(found, [("a".to_owned(), "urdf")]);
     }
 
     #[test]

@@ -1,116 +1,59 @@
-//! What a description is by its content, if it is no URDF: MJCF, SDF or USD. Files of these that are parts of others.
+//! What the files of a set or of a disk are, and which of those that are imported are parts of others.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use urdd_directory::file_type::FileType;
-use urdd_xml::{Mended, parse_leniently, root_name};
+use urdd_directory::robot_file::HEAD;
+pub use urdd_directory::robot_file::{Format, RobotFile};
+use urdd_xml::{Mended, parse_leniently};
 
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::usd_layers::layers_of_others;
 
-/// How many bytes at the start of a file are searched for its outermost element.
-const HEAD: u64 = 1 << 20;
-
-/// A format that is imported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// The XML of MuJoCo.
-    Mjcf,
-    /// The simulation description format of Gazebo.
-    Sdf,
-    /// Universal Scene Description.
-    Usd,
-}
-
-impl Format {
-    /// All of them, in the order of the table in docs/import.md.
-    pub const ALL: [Format; 3] = [Format::Mjcf, Format::Sdf, Format::Usd];
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Mjcf => "mjcf",
-            Format::Sdf => "sdf",
-            Format::Usd => "usd",
-        }
-    }
-
-    /// The format of a description with this outermost element; none of a URDF, and of anything else.
-    pub fn of_root(name: &str) -> Option<Self> {
-        match name {
-            "mujoco" => Some(Format::Mjcf),
-            "sdf" | "gazebo" => Some(Format::Sdf),
-            _ => None,
-        }
-    }
-
-    /// The format of a text, by its outermost element, or the first line of a USD.
-    pub fn of(text: &str) -> Option<Self> {
-        match is_usd(text.as_bytes()) {
-            true => Some(Format::Usd),
-            false => Format::of_root(root_name(text)?),
-        }
-    }
-}
-
-/// Whether bytes begin as a USD layer does.
-fn is_usd(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    bytes.starts_with(b"#usda ") || bytes.starts_with(b"PXR-USDC")
-}
-
-/// Whether a file is a USD: a layer, or a package with that ending. Other zip archives are URDDs.
-fn is_usd_file(path: &Path, files: &Files) -> bool {
-    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
-    let is_package = ending.is_some_and(|ending| ending == "usdz" || ending == "usd");
-    let Ok(head) = files.head(path, 16) else { return false };
-    is_usd(&head) || is_package && head.starts_with(b"PK\x03\x04")
-}
-
-/// The name of the outermost element of a file, if that is in the beginning of it.
-pub fn root_of(path: &Path, files: &Files) -> Option<String> {
-    let head = files.head(path, HEAD).ok()?;
-    // By its byte order mark, if it has one.
-    let (text, ..) = encoding_rs::UTF_8.decode(&head);
-    root_name(&text).map(str::to_owned)
+/// What a file is, by its content, or by its name where that does not say.
+pub fn robot_file(path: &Path, files: &Files) -> Option<RobotFile> {
+    RobotFile::of(path, &files.head(path, HEAD).unwrap_or_default())
 }
 
 /// The format of a file, by its outermost element or its first bytes; none of a URDF, and of anything else.
 pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
-    match is_usd_file(path, files) {
-        true => Some(Format::Usd),
-        false => Format::of_root(&root_of(path, files)?),
-    }
+    robot_file(path, files)?.format()
 }
 
-/// The format of a file of a folder that is imported, by its extension and its content.
-pub(crate) fn imported(file: &Path, files: &Files) -> Option<Format> {
+/// What a file of a folder is whose name does not say it, but that it may be a description.
+pub(crate) fn by_content(file: &Path, files: &Files) -> Option<RobotFile> {
     match FileType::of(file)? {
-        FileType::Xml | FileType::Sdf | FileType::Mjcf => Format::of_root(&root_of(file, files)?),
-        FileType::Usd => is_usd_file(file, files).then_some(Format::Usd),
+        FileType::Xml | FileType::Sdf | FileType::Mjcf | FileType::Usd => robot_file(file, files),
         _ => None,
     }
 }
 
-/// The files among some that are imported and are no robots: MJCFs that one of them includes, or without bodies, SDFs
-/// without models, and USDs that are layers of others, or without bodies.
+/// The files among some that are no robots: MJCFs that one of them includes, or without bodies, SDFs without models, USDs
+/// that are layers of others, or without bodies, and URDFs without links.
 pub(crate) fn parts_of_others<'p>(
-    sources: impl Iterator<Item = &'p Path>,
+    sources: impl Iterator<Item = (&'p Path, RobotFile)>,
     files: &Files,
 ) -> HashSet<PathBuf> {
-    let (usds, others): (Vec<&Path>, Vec<&Path>) =
-        sources.partition(|source| FileType::Usd.is_of(source));
-    let others = others.into_iter().flat_map(|source| parts_of(source, files).unwrap_or_default());
+    let usd = RobotFile::Imported(Format::Usd);
+    let (usds, others): (Vec<_>, Vec<_>) = sources.partition(|(_, is)| *is == usd);
+    let usds: Vec<&Path> = usds.into_iter().map(|(source, _)| source).collect();
+    let others = others.into_iter();
+    let others = others.flat_map(|(source, is)| parts_of(source, is, files).unwrap_or_default());
     others.chain(layers_of_others(&usds, files)).collect()
 }
 
-fn parts_of(source: &Path, files: &Files) -> Option<Vec<PathBuf>> {
+fn parts_of(source: &Path, is: RobotFile, files: &Files) -> Option<Vec<PathBuf>> {
     let bytes = files.read(source, MAX_SOURCE_BYTES).ok()?;
     let text = std::str::from_utf8(&bytes).ok()?;
-    if !["<body", "<include", "<attach", "<model"].iter().any(|tag| text.contains(tag)) {
+    let of_robots: &[&str] = match is {
+        RobotFile::Imported(_) => &["<body", "<include", "<attach", "<model"],
+        RobotFile::Urdf | RobotFile::Xacro | RobotFile::Srdf => &["<link"],
+    };
+    if !of_robots.iter().any(|tag| text.contains(tag)) {
         return Some(vec![files.canonicalize(source).ok()?]);
     }
+    is.format()?;
     // A text that names no file is not parsed.
     let mended = Mended::default();
     let document =

@@ -12,8 +12,6 @@ use urdd_directory::regular;
 
 /// Maximum number of folders, and of files, that are listed.
 const MAX_LISTED: usize = 2000;
-/// Files that xacro reads.
-const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
 /// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
 /// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros, or in memory.
@@ -26,6 +24,12 @@ pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -
         true => listed(file, settings, cancellation).unwrap_or_else(|| beside(file)),
         false => Vec::new(),
     }
+}
+
+/// Whether xacro reads such files.
+fn is_read(file: &Path) -> bool {
+    use FileType::{Document, Urdf, Xacro, Xml};
+    matches!(FileType::of(file), Some(Xacro | Xml | Urdf | Document))
 }
 
 fn has_macros(file: &Path) -> bool {
@@ -59,10 +63,9 @@ fn beside(file: &Path) -> Vec<PathBuf> {
         }
         for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
             let path = entry.path();
-            let ending = path.extension().unwrap_or_default();
             match entry.file_type() {
                 Ok(kind) if kind.is_dir() => waiting.push(path),
-                Ok(_) if ENDINGS.iter().any(|known| ending == *known) => found.push(path),
+                Ok(_) if is_read(&path) => found.push(path),
                 _ => {}
             }
         }

@@ -34,6 +34,9 @@ pub struct SideFile {
     pub place: Place,
 }
 
+/// File extensions of meshes; not all are read.
+const MESHES: &[&str] = &["stl", "dae", "obj", "gltf", "glb", "ply", "msh"];
+
 /// File extensions that a mesh may reference; the images are last.
 const SIDE_FILES: &[&str] = &[
     "mtl", "bin", "png", "jpg", "jpeg", "tga", "bmp", "dds", "gif", "tif", "tiff", "webp", "hdr",
@@ -188,6 +191,12 @@ impl Beside<'_> {
         let bytes = Arc::new(bytes);
         Ok((file, SideFile { bytes, place }))
     }
+}
+
+/// Whether a file has the name of a mesh, or of what meshes reference.
+pub(crate) fn is_of_mesh(file: &Path) -> bool {
+    let extension = extension(file).unwrap_or_default();
+    [MESHES, SIDE_FILES].into_iter().flatten().any(|known| *known == extension)
 }
 
 fn extension(file: &Path) -> Option<String> {

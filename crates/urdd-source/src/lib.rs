@@ -58,7 +58,7 @@ pub use declared::{Declared, declared_of, robots_of};
 pub use decode::decode;
 pub use error::{SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
-pub use format::{Format, format_of, root_of};
+pub use format::{Format, RobotFile, format_of, robot_file};
 pub use includes::included;
 pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{

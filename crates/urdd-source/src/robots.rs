@@ -12,7 +12,7 @@ use super::described::{Description, FileKind, Reason, describe};
 use super::error::SourceError;
 use super::fault::Fault;
 use super::files::Files;
-use super::format::{imported, parts_of_others};
+use super::format::{RobotFile, by_content, parts_of_others};
 use super::packages::{IGNORED, package_name};
 use super::settings::Settings;
 
@@ -169,8 +169,8 @@ impl Batch {
 }
 
 /// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.xacro` that is a
-/// robot and without a `.urdf` of its name beside it; one without these, for every SDF, and for every MJCF or USD that is no
-/// part of another. The search skips hidden folders, those that colcon skips (`COLCON_IGNORE`), symbolic links to folders, and URDDs,
+/// robot and without a `.urdf` of its name beside it; one without these, for every SDF, for every MJCF or USD that is no
+/// part of another, and for URDFs by their content. The search skips hidden folders, those that colcon skips (`COLCON_IGNORE`), symbolic links to folders, and URDDs,
 /// which contain copies of their URDFs. Duplicate paths count once.
 ///
 /// Each robot is named after its file, without the extension. Where names collide, as many parent folder names as
@@ -293,10 +293,13 @@ struct Found {
     ignored: Option<(PathBuf, &'static str)>,
 }
 
-/// The MJCFs, SDFs and USDs among files, without those that are parts of others.
-fn others(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
-    files.retain(|file| imported(file, &Files::Disk).is_some());
-    let parts = parts_of_others(files.iter().map(PathBuf::as_path), &Files::Disk);
+/// The descriptions among files whose names do not say it, without those that are parts of others.
+fn others(files: Vec<PathBuf>) -> Vec<PathBuf> {
+    let is = |file: PathBuf| Some((by_content(&file, &Files::Disk)?, file));
+    let found: Vec<(RobotFile, PathBuf)> = files.into_iter().filter_map(is).collect();
+    let all = found.iter().map(|(is, file)| (file.as_path(), *is));
+    let parts = parts_of_others(all, &Files::Disk);
+    let mut files: Vec<PathBuf> = found.into_iter().map(|(_, file)| file).collect();
     files.retain(|file| !file.canonicalize().is_ok_and(|file| parts.contains(&file)));
     files
 }

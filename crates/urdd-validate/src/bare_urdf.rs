@@ -10,7 +10,7 @@ use super::reference::urdf_text;
 use super::rule::{CheckOf, Rule};
 use super::rules;
 use urdd_directory::discover::Found;
-use urdd_directory::file_type::FileType;
+use urdd_directory::robot_file::RobotFile;
 use urdd_directory::root::{ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::mechanism::Mechanism;
@@ -18,9 +18,9 @@ use urdd_findings::examined::Examined;
 use urdd_format::report::Kind;
 use urdd_xml::Xml;
 
-/// Whether a path is a file with the extension of a URDF.
+/// Whether a path is a file that is a URDF: by its content, or by its extension where that does not say.
 pub fn is_urdf(path: &Path) -> bool {
-    FileType::Urdf.is_of(path) && path.is_file()
+    path.is_file() && RobotFile::at(path) == Some(RobotFile::Urdf)
 }
 
 /// The URDF at a path: its folder, and its file name.

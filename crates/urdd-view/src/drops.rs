@@ -56,7 +56,7 @@ fn taken(
         false => Ok(()),
     };
     if let [item] = &*items
-        && item.path.to_ascii_lowercase().ends_with(".zip")
+        && FileType::Archive.is_of(Path::new(&item.path))
     {
         (items, unpacked) = of_zip(content, &wanted)?;
         content = &unpacked;

@@ -24,7 +24,18 @@ export async function started(module: WebAssembly.Module): Promise<Urdd> {
 
 /** The content of files, which are closed. The browser keeps it outside of the page's memory. */
 export function contents(module: Urdd, files: number): { path: string; file: Blob }[] {
-  const found = module.list(files).files.map(({ path }) => ({ path, file: new Blob([module.read(files, path)]) }));
+  const { changed } = changes(module, files, 0);
   module.closeFiles(files);
-  return found;
+  return changed;
+}
+
+/** The paths of files, and the content of those that others of before do not have. */
+export function changes(
+  module: Urdd,
+  files: number,
+  before: number,
+): { paths: string[]; changed: { path: string; file: Blob }[] } {
+  const paths = module.list(files).files.map(({ path }) => path);
+  const changed = before === 0 ? paths : module.changed(files, before);
+  return { paths, changed: changed.map((path) => ({ path, file: new Blob([module.read(files, path)]) })) };
 }

@@ -63,7 +63,7 @@ export class Here implements Keeper, Drafting {
     signal.throwIfAborted();
     if (found.length === 0) {
       throw new Error(
-        "There is no robot description here: no .urdf, no .xml or .sdf file that is an MJCF or an SDF by its content, and no USD with bodies.",
+        "There is no robot description here: no file that is a URDF, an MJCF or an SDF by its content, and no USD with bodies.",
       );
     }
     const robots = found.map(

@@ -78,9 +78,11 @@ export class MadeRobot {
         const tell = (progress: Progress): void => {
           if (turn === this.turn) this.tell(progress);
         };
-        const made = await maker.ask("generate", { path, donor: this.files, options }, tell);
+        // Later stages find the files of the last in their worker.
+        const donor = k === 0 ? this.files : [];
+        const made = await maker.ask("generate", { path, donor, options }, tell);
         if (turn !== this.turn) return;
-        this.files = made.files;
+        this.files = together(this.files, made);
         this.isWhole = isLast;
         const { links, dofs, notes } = made;
         const making = isLast ? null : { what: "the rest", done: 0, of: 0 };
@@ -132,6 +134,12 @@ export class MadeRobot {
     this.entry = { ...this.entry, ...change };
     this.changed(this);
   }
+}
+
+/** The files of a URDD, of which those that are as they were are here. */
+function together(before: readonly Given[], { paths, files }: { paths: string[]; files: Given[] }): Given[] {
+  const known = new Map([...before, ...files].map((given) => [given.path, given]));
+  return paths.flatMap((path) => known.get(path) ?? []);
 }
 
 function xacro(path: string): string {

@@ -1,7 +1,7 @@
 /** What the open robot lacks, and whether a drop has it. */
 
 import type { State } from "../state";
-import { MAY_DESCRIBE } from "../drop";
+import { MAY_DESCRIBE } from "../endings";
 import type { Taken } from "../drop";
 import { USD_TEXT } from "./reader";
 import type { Given } from "./protocol";

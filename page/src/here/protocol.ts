@@ -1,5 +1,6 @@
 /** Messages between the page and a worker that makes robots. */
 
+import type * as Npm from "../../../wasm/npm/index";
 import type { ExportOptions, Format, GenerateOptions } from "../../../wasm/npm/index";
 import type { Description, Report } from "../engine/protocol";
 
@@ -25,27 +26,12 @@ export type MakeOptions = Pick<GenerateOptions, "modules">;
 
 export type Actuators = NonNullable<ExportOptions["actuators"]>;
 
-/** What the module answers of a URDD; `files` is its address there. */
-export interface Made {
-  files: number;
-  robot: string;
-  links: number;
-  joints: number;
-  dofs: number;
-  notes: string[];
-}
+/** What the module answers: of the package's answer, `files` is an address there. */
+type Answer<T> = Omit<T, "files"> & { files: number };
 
-export interface Imported {
-  files: number;
-  urdf: string;
-}
-
-export interface Exported {
-  files: number;
-  /** The path of the format's own file. */
-  main: string;
-  notes: string[];
-}
+export type Made = Answer<Omit<Npm.Generated, "name">> & { robot: string };
+export type Imported = Answer<Npm.ImportedRobot>;
+export type Exported = Answer<Npm.Exported>;
 
 /** The worker's queries and answers, by name. */
 export interface MakerCalls {
@@ -56,10 +42,13 @@ export interface MakerCalls {
   /** Sets the content of a file that was taken. */
   put: [{ path: string; text: string }, null];
   lint: [{ path: string }, Report];
-  /** A URDD; what did not change is taken from the files of `donor`. */
+  /**
+   * A URDD; what did not change is taken from the last that this worker made, or from the files of `donor` if it made none.
+   * The answer has all its paths, and those `files` that are not as they were there.
+   */
   generate: [
     { path: string; donor: Given[]; options: MakeOptions },
-    { robot: string; links: number; dofs: number; notes: string[]; files: Given[] },
+    { robot: string; links: number; dofs: number; notes: string[]; paths: string[]; files: Given[] },
   ];
   /** The files of the URDF that an MJCF, SDF or USD becomes. */
   import: [{ path: string }, { main: string; files: Given[] }];

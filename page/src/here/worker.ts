@@ -1,6 +1,7 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
-import { contents, started } from "../engine/module";
+import { hasPlace } from "../endings";
+import { changes, contents, started } from "../engine/module";
 import type { Urdd } from "../engine/module";
 import type { Report } from "../engine/protocol";
 import { serve } from "../engine/serve";
@@ -11,8 +12,6 @@ import { bytes } from "../ui/format";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
 const MAX_ROBOT = 512 * 2 ** 20;
-/** Files that say what their folder is, or what a robot is: their places are known. */
-const HAS_PLACE = /(?:^|\/)(?:package\.xml|model\.config)$|\.(?:urdf|xacro|srdf|toml|ya?ml)$/i;
 
 /** As the libraries of TypeScript for pages do not have it. */
 declare class FileReaderSync {
@@ -24,6 +23,8 @@ let module: Urdd | null = null;
 let tell: OnProgress = () => undefined;
 const taken = new Map<string, Blob>();
 let files = 0;
+/** The URDD that was made last. */
+let last = 0;
 const read = new Set<Blob>();
 let size = 0;
 
@@ -73,6 +74,8 @@ serve<MakerCalls>(
 
     take({ files: all }) {
       maker().closeFiles(files);
+      maker().closeFiles(last);
+      last = 0;
       files = maker().files("", {});
       taken.clear();
       // Names may lead out of the files, as of a URDF that was dropped alone.
@@ -80,7 +83,7 @@ serve<MakerCalls>(
       for (const { path, file, isLost } of all) {
         taken.set(path, file);
         maker().name(files, path, file.size);
-        if (isLost && !HAS_PLACE.test(path)) maker().lose(files, path);
+        if (isLost && !hasPlace(path)) maker().lose(files, path);
       }
       return null;
     },
@@ -101,12 +104,15 @@ serve<MakerCalls>(
     },
 
     async generate({ path, donor, options }, onProgress) {
-      const from = donor.length > 0 ? await opened(donor) : 0;
+      if (last === 0 && donor.length > 0) last = await opened(donor);
       tell = onProgress;
       begin();
-      const made = maker().generate(files, { path, ...options }, from) as Made;
-      maker().closeFiles(from);
-      return { ...made, files: contents(maker(), made.files) };
+      const made = maker().generate(files, { path, ...options }, last) as Made;
+      const before = last;
+      last = made.files;
+      const { paths, changed } = changes(maker(), last, before);
+      maker().closeFiles(before);
+      return { ...made, paths, files: changed };
     },
 
     import({ path }) {

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::inputs;
-use super::output::{Failure, one_line};
+use super::output::Failure;
 use contents::Info;
 use robots::robot_files;
 use statics::{Statics, StaticsArguments};
@@ -61,7 +61,7 @@ pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
                     files.extend(more);
                     continue;
                 }
-                _ => Err(one_line(error))?,
+                _ => Err(inputs::advice(&error))?,
             },
             Ok(found) => found,
         };

@@ -163,6 +163,19 @@ fn the_urdf_of_a_legacy_part_is_inside_of_it() {
     assert!(put_together(&one("part"), folder, &core()).is_err());
 }
 
+/// Whatever the case of its ending.
+#[test]
+fn the_urdf_of_a_legacy_part_is_found_by_any_case() {
+    let folder = testkit::temporary::folder();
+    let folder = folder.path();
+    let part = folder.join("part");
+    fs::create_dir_all(part.join("urdf_module")).expect("a folder");
+    fs::write(part.join("urdf_module/module.json"), "{}").expect("a file");
+    fs::write(part.join("ARM.URDF"), LINK).expect("a file");
+    let made = put_together(&one("part"), folder, &core());
+    assert!(made.is_ok(), "{:?}", made.err());
+}
+
 /// Parts in a line, each attached to the one before.
 fn chain(parts: usize) -> String {
     let part = |idx: usize| {

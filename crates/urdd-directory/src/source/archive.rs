@@ -25,6 +25,7 @@ use crate::limits::{
 use crate::listing::Listing;
 use crate::read_error::{ArchiveFault, EntryFault, ReadError};
 use crate::regular;
+use crate::robot_file::RobotFile;
 use urdd_format::registry::ModuleKind;
 
 /// Longest target of a symbolic link, bytes.
@@ -37,14 +38,15 @@ const DEFLATED: u16 = 8;
 /// Folder that macOS adds to archives.
 const MACOS_FOLDER: &str = "__MACOSX";
 
-/// Whether a file is a zip archive, by its extension or its first bytes.
+/// Whether a file is a zip archive, by its first bytes, or by its extension if its content is no robot's description.
 pub fn is_archive(path: &Path) -> bool {
     let begins = || {
         let mut start = [0; 4];
         regular::open(path).ok()?.read_exact(&mut start).ok()?;
         Some(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
     };
-    path.is_file() && (FileType::Archive.is_of(path) || begins().unwrap_or(false))
+    let is_named = || FileType::Archive.is_of(path) && RobotFile::at(path).is_none();
+    path.is_file() && (begins().unwrap_or(false) || is_named())
 }
 
 /// The shared bytes of an archive.

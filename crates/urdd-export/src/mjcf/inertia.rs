@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::inertia::{ROUNDING, tensor};
+use crate::inertia::{Odd, ROUNDING, tensor};
 use crate::{Note, Subject};
 use urdd_document::robot::Inertial;
 use urdd_document::tree::RigidGroups;
@@ -22,9 +22,18 @@ const ASSUMED_INERTIA: f64 = 1e-9;
 /// The least moment for which MuJoCo finds principal axes by itself: it neglects products of inertia below it.
 const LEAST_FULL: f64 = 1e-12;
 
-pub const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
-pub const INDEFINITE: &str = "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0";
-pub const TRIANGLE: &str = "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)";
+fn words(odd: Odd) -> &'static str {
+    match odd {
+        Odd::Negative => "its mass is negative, which MuJoCo takes for 0; so it is here",
+        Odd::Indefinite => {
+            "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0"
+        }
+        Odd::Triangle => {
+            "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)"
+        }
+    }
+}
+
 const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
 const NO_MASS: &str =
     "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
@@ -51,11 +60,11 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
     };
     let mut masses: Vec<Option<Mass>> = Vec::new();
     for (link, view) in links.iter().enumerate() {
-        let mut said = None;
-        masses.push(view.inertial.as_ref().and_then(|view| mass(view, &mut said)));
-        balanced |= said == Some(TRIANGLE);
-        if let Some(said) = said {
-            note(link, said);
+        let (found, odd) = view.inertial.as_ref().map_or((None, None), mass);
+        masses.push(found);
+        balanced |= odd == Some(Odd::Triangle);
+        if let Some(odd) = odd {
+            note(link, words(odd));
         }
     }
     for group in RigidGroups::new(&subject.view, &subject.tree).groups {
@@ -80,12 +89,10 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
     (elements.collect(), balanced)
 }
 
-/// The mass that MuJoCo uses for a link, and in `said` how it differs from the URDF.
-pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
+/// The mass that MuJoCo uses for a link, and why it is not that of the URDF.
+pub fn mass(inertial: &Inertial) -> (Option<Mass>, Option<Odd>) {
     let given = inertial.mass.unwrap_or(0.0);
-    if given < 0.0 {
-        *said = Some(NEGATIVE);
-    }
+    let mut odd = (given < 0.0).then_some(Odd::Negative);
     let tensor = tensor(inertial.inertia.unwrap_or_default());
     let rotation = inertial.origin.rotation();
     let turned = rotation * tensor * rotation.transpose();
@@ -95,7 +102,7 @@ pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass
     }
     let (mut moments, most) = (eigen.eigenvalues, eigen.eigenvalues.amax());
     if moments.min() < -ROUNDING * most {
-        *said = Some(INDEFINITE);
+        odd = Some(Odd::Indefinite);
         moments.fill(0.0);
     }
     moments.apply(|moment| *moment = moment.max(0.0));
@@ -104,21 +111,22 @@ pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass
     let others = moments[(largest + 1) % 3] + moments[(largest + 2) % 3];
     let room = others - moments[largest];
     if room < -ROUNDING * most {
-        *said = Some(TRIANGLE);
+        odd = Some(Odd::Triangle);
     } else if room < 0.0 {
         // For a thin plate, the two are equal up to rounding.
         moments[largest] = others;
     }
     let is_full = moments.min() > LEAST_FULL && room > ROUNDING * most;
     let mass = given.max(0.0);
-    (mass > 0.0 || moments.max() > 0.0).then(|| Mass {
+    let found = (mass > 0.0 || moments.max() > 0.0).then(|| Mass {
         mass,
         centre: inertial.origin.xyz,
         moments,
         axes: Rotation3::from_matrix_unchecked(eigen.eigenvectors),
         full: is_full
             .then(|| [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| turned[at])),
-    })
+    });
+    (found, odd)
 }
 
 impl Mass {

@@ -5,7 +5,9 @@
 
 use std::cmp::Reverse;
 use std::fmt::{self, Write};
+use std::path::Path;
 
+use urdd_directory::file_type::FileType;
 use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
@@ -114,10 +116,11 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
 
 fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     let mut above = None;
+    let is_urdf = |file: &str| urdd.kind == Kind::Urdf || FileType::Urdf.is_of(Path::new(file));
     for finding in &urdd.findings {
         let title = match (&finding.module, &finding.file) {
             (Some(module), _) => module.as_str(),
-            (None, Some(file)) if urdd.kind == Kind::Urdf || file.ends_with(".urdf") => "the URDF",
+            (None, Some(file)) if is_urdf(file) => "the URDF",
             _ => "the directory",
         };
         if above != Some(title) {

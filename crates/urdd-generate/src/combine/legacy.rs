@@ -11,6 +11,7 @@ use urdd_xml::Document;
 use super::error::PartFault;
 use super::names::mesh_edits;
 use super::sources::document;
+use urdd_directory::file_type::FileType;
 use urdd_directory::root::Root;
 use urdd_format::legacy::meshes::PlainMeshesModule;
 use urdd_format::meshes::GeometryKind;
@@ -69,7 +70,7 @@ pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
 fn urdf_in(folder: &Path) -> Option<String> {
     let entries = fs::read_dir(folder).ok()?;
     let files = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut urdfs = files.filter(|file| file.ends_with(".urdf"));
+    let mut urdfs = files.filter(|file| FileType::Urdf.is_of(Path::new(file)));
     let first = urdfs.next()?;
     urdfs.next().is_none().then_some(first)
 }

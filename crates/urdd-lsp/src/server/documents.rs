@@ -54,6 +54,9 @@ impl Server {
             text.apply(change);
         }
         let next = document.snapshot.next(params.text_document.version, text, &self.options);
+        if !next.kind.is_xml() {
+            document.of_files = None;
+        }
         document.replace(next, due);
     }
 

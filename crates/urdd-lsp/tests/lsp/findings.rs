@@ -125,3 +125,18 @@ fn what_is_not_xml_says_where() {
     let last = client.published.last().unwrap();
     assert!(client.published.len() > begun || last["diagnostics"] == json!([]), "{last:#?}");
 }
+
+#[test]
+fn the_text_says_what_a_file_is_before_its_name() {
+    let mjcf = "<mujoco><worldbody/></mujoco>";
+    for (uri, language) in [("file:///nowhere/m.urdf", "urdf"), ("file:///nowhere/m.xml", "xml")] {
+        let mut client = Client::new();
+        client.open_as(uri, language, mjcf);
+        assert_eq!(client.until(1, |_| true), [] as [serde_json::Value; 0], "{uri}");
+        // It becomes a URDF while it is written.
+        client.change(uri, 2, ARM);
+        client.with_code(2, "LNT012");
+        client.change(uri, 3, mjcf);
+        client.until(3, |found| found.is_empty());
+    }
+}

@@ -1,4 +1,7 @@
+use std::path::Path;
+
 use crate::rules::prelude::*;
+use urdd_directory::file_type::FileType;
 use urdd_format::root_metadata::Source;
 
 declare_rule! {
@@ -211,10 +214,7 @@ fn source_not_in_root(context: &Context, findings: &mut Findings) -> Option<()> 
 }
 
 fn source_not_named(context: &Context, findings: &mut Findings) -> Option<()> {
-    let is_urdf = |path: &str| {
-        let extension = path.rsplit_once('.').map(|(_, extension)| extension);
-        !path.contains('/') && extension.is_some_and(|it| it.eq_ignore_ascii_case("urdf"))
-    };
+    let is_urdf = |path: &str| !path.contains('/') && FileType::Urdf.is_of(Path::new(path));
     let mut entries = context.listing().entries.iter();
     let urdf = entries.find(|entry| entry.kind == EntryKind::File && is_urdf(&entry.path));
     if let (None, Some(urdf)) = (&context.metadata()?.source, urdf) {
