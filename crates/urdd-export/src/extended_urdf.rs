@@ -6,7 +6,7 @@
 use nalgebra::{Isometry3, Translation3};
 
 use crate::layout::{Place, origin};
-use crate::loops::{APART, LeftOut, OTHER_KIND, closings, freedom};
+use crate::loops::{LeftOut, OTHER_KIND, closings, freedom};
 use crate::urdf_elements::element_of_origin;
 use crate::yaml::quoted;
 use crate::{Export, ExportError, Subject, Taken, Yaml, urdf};
@@ -25,16 +25,11 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         Ends { taken: Taken::new(subject.links.iter().chain(joints)), elements: Vec::new() };
     let (mut pairs, mut types) = (Vec::new(), Vec::new());
     for closing in closings(subject, &mut left_out)? {
-        let (word, points) = match closing.of.kind {
-            LoopKind::Fixed => ("6d", &[0.0][..]),
-            LoopKind::Spherical => ("3d", &[0.0][..]),
-            // Two points on the axis hold a hinge.
-            LoopKind::Revolute => ("3d", &[0.0, APART][..]),
-            _ => {
-                left_out.of_loop(&closing.of.name, OTHER_KIND);
-                continue;
-            }
+        let Some(points) = closing.points() else {
+            left_out.of_loop(&closing.of.name, OTHER_KIND);
+            continue;
         };
+        let word = if closing.of.kind == LoopKind::Fixed { "6d" } else { "3d" };
         for along in points {
             let [a, b] = [("A", closing.ends[0]), ("B", closing.ends[1])].map(|(end, at)| {
                 let pose = at.pose * Translation3::new(0.0, 0.0, *along);

@@ -8,7 +8,7 @@ use crate::names::one;
 use crate::{ExportError, Format, Note, Subject, Taken};
 use urdd_document::tree::Resolved;
 use urdd_format::index::LinkIdx;
-use urdd_format::loops::{Coupling, Loop, LoopsModule};
+use urdd_format::loops::{Coupling, Loop, LoopKind, LoopsModule};
 use urdd_format::pose::Pose;
 use urdd_kinematics::pose::to_isometry;
 
@@ -31,6 +31,17 @@ pub(super) struct Closing<'s> {
     pub of: &'s Loop,
     /// The links that have the mass and shapes of its links, and its frames in theirs.
     pub ends: [Place; 2],
+}
+
+impl Closing<'_> {
+    /// Places on the axis whose coincidence holds the loop, m: two hold a hinge. `None` of a kind that points do not hold.
+    pub fn points(&self) -> Option<&'static [f64]> {
+        match self.of.kind {
+            LoopKind::Fixed | LoopKind::Spherical => Some(&[0.0]),
+            LoopKind::Revolute => Some(&[0.0, APART]),
+            _ => None,
+        }
+    }
 }
 
 /// The loops of a robot.

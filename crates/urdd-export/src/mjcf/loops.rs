@@ -6,7 +6,7 @@
 use nalgebra::Translation3;
 
 use super::body::{placed, site_named};
-use crate::loops::{APART, Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, names};
+use crate::loops::{Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, names};
 use crate::{ExportError, Note, Subject, Taken};
 use urdd_format::loops::{Coupling, LoopKind};
 use urdd_xml::number::numbers;
@@ -58,13 +58,8 @@ pub(super) fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closi
 impl Closings {
     /// Adds what holds a loop; false for a kind that nothing holds.
     fn hold(&mut self, subject: &Subject, closing: &Closing, taken: &mut Taken) -> bool {
-        let (word, points) = match closing.of.kind {
-            LoopKind::Fixed => ("weld", &[0.0][..]),
-            LoopKind::Spherical => ("connect", &[0.0][..]),
-            // Two points on the axis hold a hinge.
-            LoopKind::Revolute => ("connect", &[0.0, APART][..]),
-            _ => return false,
-        };
+        let Some(points) = closing.points() else { return false };
+        let word = if closing.of.kind == LoopKind::Fixed { "weld" } else { "connect" };
         for (number, along) in points.iter().enumerate() {
             let own = match number {
                 0 => closing.name.clone(),

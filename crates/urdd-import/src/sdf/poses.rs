@@ -102,6 +102,24 @@ fn circle<T>(scene: &Scene, node: usize) -> Fallible<T> {
     Err(at(node.place, SdfFault::Circle(node.name.clone())))
 }
 
+/// A node and those before it up to the first of which something is known, and what that is.
+fn chain<T: Copy>(
+    scene: &Scene,
+    node: usize,
+    before: &[Option<usize>],
+    known: &[Option<T>],
+) -> Fallible<(Vec<usize>, Option<T>)> {
+    let (mut chain, mut at) = (Vec::new(), Some(node));
+    while let Some(open) = at.filter(|at| known[*at].is_none()) {
+        chain.push(open);
+        if chain.len() > scene.nodes.len() {
+            return circle(scene, node);
+        }
+        at = before[open];
+    }
+    Ok((chain, at.and_then(|at| known[at])))
+}
+
 fn poses(scene: &Scene, bases: &[Option<usize>]) -> Fallible<Vec<Isometry3<f64>>> {
     let mut own: Vec<Isometry3<f64>> = scene.nodes.iter().map(|node| node.pose).collect();
     own[0] = Isometry3::identity();
@@ -127,18 +145,10 @@ fn poses(scene: &Scene, bases: &[Option<usize>]) -> Fallible<Vec<Isometry3<f64>>
         own[model] *= pose.inverse();
     }
     let mut poses: Vec<Option<Isometry3<f64>>> = vec![None; scene.nodes.len()];
-    let mut chain = Vec::new();
     for node in 0..scene.nodes.len() {
-        let mut at = Some(node);
-        while let Some(open) = at.filter(|at| poses[*at].is_none()) {
-            chain.push(open);
-            if chain.len() > scene.nodes.len() {
-                return circle(scene, node);
-            }
-            at = bases[open];
-        }
-        let mut pose = at.and_then(|at| poses[at]).unwrap_or_default();
-        while let Some(open) = chain.pop() {
+        let (chain, known) = chain(scene, node, bases, &poses)?;
+        let mut pose = known.unwrap_or_default();
+        for open in chain.into_iter().rev() {
             pose *= own[open];
             poses[open] = Some(pose);
         }
@@ -149,23 +159,14 @@ fn poses(scene: &Scene, bases: &[Option<usize>]) -> Fallible<Vec<Isometry3<f64>>
 /// The link at the end of what each node is attached to.
 fn links(scene: &Scene, attached: &[Option<usize>]) -> Fallible<Vec<Option<usize>>> {
     let mut links: Vec<Option<Option<usize>>> = vec![None; scene.nodes.len()];
-    let mut chain = Vec::new();
     for node in 0..scene.nodes.len() {
-        let mut at = Some(node);
-        while let Some(open) = at.filter(|at| links[*at].is_none()) {
-            chain.push(open);
-            if chain.len() > scene.nodes.len() {
-                return circle(scene, node);
-            }
-            at = attached[open];
-        }
-        let known = at.and_then(|at| links[at]);
+        let (chain, known) = chain(scene, node, attached, &links)?;
         let last = chain.last().map(|last| scene.nodes[*last].kind);
         let link = known.unwrap_or(match last {
             Some(NodeKind::Link(link)) => Some(link),
             _ => None,
         });
-        for open in chain.drain(..) {
+        for open in chain {
             links[open] = Some(link);
         }
     }

@@ -13,11 +13,12 @@ use super::scene::{number, word};
 
 /// Two scales that differ by less are one: those of single precision.
 const NEAR: f64 = 1e-5;
-/// A shape in the frame of its prim: where it is there, and what it is.
+/// A shape in the frame of its prim.
 #[derive(Debug)]
 pub enum Form {
+    /// Where it is there, and what it is.
     Plain(Isometry3<f64>, Geometry),
-    Meshed(Isometry3<f64>, Mesh),
+    Meshed(Mesh),
     Nothing,
 }
 
@@ -39,27 +40,25 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
     // As a mesh along z, which is turned, then stretched.
     let stretched = |mut mesh: Mesh, along: &UnitQuaternion<f64>| {
         mesh.transform(&(stretch * along.to_rotation_matrix().matrix()).to_homogeneous());
-        Form::Meshed(Isometry3::identity(), mesh)
+        Form::Meshed(mesh)
     };
-    let still = UnitQuaternion::identity();
+    let (still, unturned) = (Isometry3::identity(), UnitQuaternion::identity());
     match &*of.type_name {
         "Cube" => {
             let size = value("size", 2.0);
             tally.count(features::BOXES);
             match is_straight {
-                true => Form::Plain(Isometry3::identity(), Geometry::Box((scale * size).into())),
-                false => stretched(primitives::cuboid([size; 3]), &still),
+                true => Form::Plain(still, Geometry::Box((scale * size).into())),
+                false => stretched(primitives::cuboid([size; 3]), &unturned),
             }
         }
         "Sphere" => {
             let radius = value("radius", 1.0);
             tally.count(if is_even { features::BOXES } else { features::ELLIPSOIDS });
             match (is_even, is_straight) {
-                (true, _) => Form::Plain(Isometry3::identity(), Geometry::Sphere(radius * scale.x)),
-                (_, true) => {
-                    Form::Plain(Isometry3::identity(), Geometry::Ellipsoid((scale * radius).into()))
-                }
-                _ => stretched(primitives::sphere(radius), &still),
+                (true, _) => Form::Plain(still, Geometry::Sphere(radius * scale.x)),
+                (_, true) => Form::Plain(still, Geometry::Ellipsoid((scale * radius).into())),
+                _ => stretched(primitives::sphere(radius), &unturned),
             }
         }
         "Cylinder" | "Cylinder_1" => {
@@ -111,9 +110,7 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
 /// The box around a mesh, or what is made of its middle.
 pub fn bounding(mesh: &Mesh, of: impl Fn([f64; 3]) -> Geometry) -> Form {
     let Some(bounds) = mesh.bounds() else { return Form::Nothing };
-    let pose =
-        Isometry3::from_parts(Translation3::from(middle(&bounds)), UnitQuaternion::identity());
-    Form::Plain(pose, of(bounds.size()))
+    Form::Plain(Translation3::from(middle(&bounds)).into(), of(bounds.size()))
 }
 
 fn middle(bounds: &Bounds) -> Vector3<f64> {

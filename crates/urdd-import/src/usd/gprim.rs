@@ -128,11 +128,11 @@ impl<'a, 's> Shapes<'a, 's> {
             let (pose, geometry, mesh) = match form {
                 Form::Nothing => return Ok(()),
                 Form::Plain(pose, geometry) => (frame * pose, geometry, None),
-                Form::Meshed(pose, mesh) => {
+                Form::Meshed(mesh) => {
                     let file = format!("{link_name}_{name}");
                     let asset = this.asset(&mesh, uv, &file, prim, tally)?;
                     let Some(asset) = asset else { return Ok(()) };
-                    (frame * pose, Geometry::Mesh { asset, scale: [1.0; 3] }, Some(Arc::new(mesh)))
+                    (frame, Geometry::Mesh { asset, scale: [1.0; 3] }, Some(Arc::new(mesh)))
                 }
             };
             if used != Use::Visual {
@@ -172,15 +172,15 @@ impl<'a, 's> Shapes<'a, 's> {
             let said = [Some(prim), scene.collider[prim]].into_iter().flatten();
             let said = said.map(|at| scene.prim(at)).find(|of| of.has("PhysicsMeshCollisionAPI"));
             let form = match said.and_then(|of| word(of, "physics:approximation")) {
-                Some("convexHull") => match ConvexHull::new(&faces.mesh.vertices) {
-                    Ok(hull) => Form::Meshed(Isometry3::identity(), hull.into_mesh()),
-                    Err(_) => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
-                },
+                Some("convexHull") => {
+                    let hull = ConvexHull::new(&faces.mesh.vertices).map(ConvexHull::into_mesh);
+                    Form::Meshed(hull.unwrap_or_else(|_| faces.mesh.clone()))
+                }
                 Some("boundingCube") => bounding(&faces.mesh, Geometry::Box),
                 Some("boundingSphere") => {
                     bounding(&faces.mesh, |_| Geometry::Sphere(reach(&faces.mesh)))
                 }
-                _ => Form::Meshed(Isometry3::identity(), faces.mesh.clone()),
+                _ => Form::Meshed(faces.mesh.clone()),
             };
             push(self, Use::Collision, form, (None, Vec::new()), &name, tally)?;
             // MuJoCo weighs the mesh, whatever collides for it.
@@ -192,7 +192,7 @@ impl<'a, 's> Shapes<'a, 's> {
         if is_seen {
             for part in self.parts(prim, &faces, tally)? {
                 let name = part.name.map_or(name.clone(), |part| format!("{name}_{part}"));
-                let form = Form::Meshed(Isometry3::identity(), part.mesh);
+                let form = Form::Meshed(part.mesh);
                 push(self, Use::Visual, form, (part.material, part.uv), &name, tally)?;
             }
         }

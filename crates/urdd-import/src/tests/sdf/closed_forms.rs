@@ -72,7 +72,7 @@ fn auto(inertial: &str, shapes: &[(&str, &str)]) -> Inertial {
     let shapes: String = shapes.iter().map(collision).collect();
     let text = format!("<link name='a'><inertial auto='true'>{inertial}</inertial>{shapes}</link>");
     let model = inside("1.11", &text).expect("a model");
-    body(&model, "a").inertial.clone().expect("a mass")
+    body(&model, "a").inertial.expect("a mass")
 }
 
 fn is_near(left: &Matrix3<f64>, right: [f64; 3]) -> bool {
