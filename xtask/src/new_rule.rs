@@ -223,9 +223,8 @@ fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
             let Some((_, after)) = text.split_once("declare_rule! {") else {
                 continue;
             };
-            let mut lines = after.lines().map(str::trim);
-            let first = lines.find(|line| !line.is_empty() && !line.starts_with("///"));
-            if first.is_some_and(|line| line.starts_with(family)) {
+            let is_of = |line: &str| line.starts_with(family) && line.get(6..8) == Some(" \"");
+            if after.lines().any(|line| is_of(line.trim())) {
                 return Ok(Some(room.file_name().to_string_lossy().into_owned()));
             }
         }
