@@ -21,7 +21,7 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
-use urdd_source::{SourceMeshes, well_formed};
+use urdd_source::{Original, SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
 const FAMILY: &str = "LNT";
@@ -32,8 +32,8 @@ const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];
 #[derive(Clone, Copy)]
 struct Job<'a> {
     xml: &'a Xml<'a>,
-    /// The file's, which may be in another encoding.
-    bytes: &'a [u8],
+    /// The file, if its bytes are not those of the text.
+    original: Option<&'a Original>,
     name: &'a str,
     folder: &'a Path,
     settings: &'a LintSettings,
@@ -41,17 +41,17 @@ struct Job<'a> {
     srdfs: &'a OnceLock<Vec<SrdfFile>>,
 }
 
-/// The result, and the comments that allow what was not found. `bytes` are those of the file; `name` is the file's in the report; relative mesh names
-/// refer to `folder`.
+/// The result, and the comments that allow what was not found. `original` is the file, if its bytes are not those of the
+/// text; `name` is the file's in the report; relative mesh names refer to `folder`.
 pub fn examined(
     xml: &Xml<'_>,
-    bytes: &[u8],
+    original: Option<&Original>,
     name: &str,
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let srdfs = OnceLock::new();
-    let job = Job { xml, bytes, name, folder, settings, srdfs: &srdfs };
+    let job = Job { xml, original, name, folder, settings, srdfs: &srdfs };
     let mut examined = examine_urdf(xml, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
     let mended = xml.document().is_err().then(|| well_formed(xml));
@@ -136,8 +136,11 @@ impl<'a> Job<'a> {
 
     /// Asks the programs; not about files beyond the limits of XML.
     fn ask(self) -> Option<Asked> {
-        let counted = self.xml.counted(self.bytes).ok()?;
-        Some(Asked::about(counted, self.xml.text(), self.folder, self.settings))
+        let text = self.xml.text();
+        let bytes = self.original.map_or(text.as_bytes(), |original| &original.bytes);
+        let offsets = self.original.map(Original::offsets).unwrap_or_default();
+        let counted = self.xml.counted(bytes).ok()?;
+        Some(Asked::about(counted, text, &offsets, self.folder, self.settings))
     }
 
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
@@ -183,7 +186,7 @@ impl<'a> Job<'a> {
     /// What all rules find in another text; `None` if it is no XML.
     fn again(self, text: &str) -> Option<Vec<Check>> {
         let xml = &Xml::new(text);
-        let job = Job { xml, bytes: text.as_bytes(), ..self };
+        let job = Job { xml, original: None, ..self };
         let document = xml.document().ok()?;
         let mut checks = examine_urdf(xml, self.name).checks;
         let source = job.source(&checks);

@@ -55,7 +55,7 @@ mod xacro_argument;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
-pub use decode::decode;
+pub use decode::{Decoded, Decoding, Original, TextOffsets, decode};
 pub use error::{SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use format::{Format, format_of, root_of};

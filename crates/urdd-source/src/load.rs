@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::needed;
 use super::deciding::deciding;
-use super::decode;
+use super::decode::{Decoded, Decoding, Original, decode};
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
@@ -122,14 +122,14 @@ pub struct SourceText {
     pub trail: Option<Trail>,
     /// The folder that relative names refer to, with symbolic links resolved.
     pub folder: PathBuf,
-    /// The bytes of the file, where they are not those of the text: another encoding, or a byte order mark.
-    pub original: Option<Vec<u8>>,
+    /// The file, where its bytes are not those of the text: another encoding, or a byte order mark.
+    pub original: Option<Original>,
 }
 
 impl SourceText {
     /// The bytes that other programs read.
     pub fn bytes(&self) -> &[u8] {
-        self.original.as_deref().unwrap_or(self.text.as_bytes())
+        self.original.as_ref().map_or(self.text.as_bytes(), |original| &original.bytes)
     }
 }
 
@@ -145,7 +145,8 @@ pub fn read_source(
     let read = read(path, settings, cancellation, &mut Vec::new())?;
     let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
-        original: (!is_same).then_some(read.bytes),
+        original: (!is_same)
+            .then_some(Original { bytes: read.bytes, decoding: read.decoding }),
         text: read.text,
         trail: read.trail,
         folder: read.folder,
@@ -164,6 +165,7 @@ struct Read {
     text: String,
     /// Whether the text is an exact decoding of the bytes.
     is_verbatim: bool,
+    decoding: Decoding,
     /// Where xacro has its elements from, if it made it, and the file.
     trail: Option<Trail>,
     path: PathBuf,
@@ -183,7 +185,7 @@ fn read(
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
     let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
-    let (text, is_verbatim) = decode::decode(&bytes, &shown, notes)?;
+    let Decoded { text, is_verbatim, decoding } = decode(&bytes, &shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = FileType::Xacro.is_of(path);
     let is_expanded = is_xacro_file || (settings.xacro.expand_urdf && text.contains("<xacro:"));
@@ -200,7 +202,7 @@ fn read(
         (false, _) => (text, None),
     };
     let (stem, is_verbatim) = (stem(&canonical), is_verbatim && !is_expanded);
-    Ok(Read { text, is_verbatim, trail, shown, bytes, stem, folder, path: canonical })
+    Ok(Read { text, is_verbatim, decoding, trail, shown, bytes, stem, folder, path: canonical })
 }
 
 /// An error of xacro, which says what is missing where arguments are.
@@ -295,9 +297,9 @@ fn held(
     stem: &str,
     notes: &mut Vec<Note>,
 ) -> Result<Read, SourceError> {
-    let (text, is_verbatim) = decode::decode(&bytes, shown, notes)?;
+    let Decoded { text, is_verbatim, decoding } = decode(&bytes, shown, notes)?;
     let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
-    Ok(Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path })
+    Ok(Read { shown, bytes, stem, folder, text, is_verbatim, decoding, trail: None, path })
 }
 
 /// A robot, read from memory.

@@ -40,11 +40,12 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
     let mut effects: BTreeMap<Code, Vec<Effect>> = BTreeMap::new();
     let mut left = Vec::new();
     let faults = std::mem::take(&mut asked.faults);
-    for faulty in of_one_body(subject, asked, faults) {
-        let Some(offset) = asked.encoding.in_text(faulty.at) else { continue };
-        let node = subject.element(offset);
+    for faulty in of_one_body(subject, faults) {
+        let offset = faulty.at;
+        // What is before the robot is a fault of the file.
+        let node = subject.element(offset).unwrap_or(subject.root);
         let severity = faulty.severity(asked.has_chosen);
-        match node.and_then(|node| known.of(subject, node, offset, &faulty)) {
+        match known.of(subject, node, offset, &faulty) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
                 let code = if faulty.is_refused() { Code::LNT060 } else { Code::LNT061 };
@@ -103,14 +104,11 @@ pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) {
 }
 
 /// The faults, with those of the mass and inertia of a link as one.
-fn of_one_body(subject: &Subject, asked: &Asked, all: Vec<Faulty>) -> Vec<Faulty> {
+fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
     let mut faults: Vec<Faulty> = Vec::new();
     let mut bodies: HashMap<String, usize> = HashMap::new();
     for faulty in all {
-        let part = || {
-            let node = subject.element(asked.encoding.in_text(faulty.at)?)?;
-            crate::subject::subject(node)
-        };
+        let part = || crate::subject::subject(subject.element(faulty.at)?);
         let is_body = matches!(faulty.fault, Fault::Inertia(_));
         match is_body.then(part).flatten().map(|part| bodies.entry(part)) {
             Some(Entry::Occupied(known)) => faults[*known.get()].add(faulty),

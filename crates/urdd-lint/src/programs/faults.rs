@@ -17,7 +17,7 @@ pub struct Answer {
 /// A fault, by all programs that do something because of it.
 #[derive(Debug, Clone)]
 pub struct Faulty {
-    /// Where it is: the first byte of the element or attribute in the file.
+    /// Where it is: the first byte of the element or attribute in the text.
     pub at: usize,
     /// What is wrong, as the program has it that does the worst.
     pub fault: Fault,
@@ -51,14 +51,14 @@ pub struct Left {
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
 /// is one fault.
-pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
+pub fn faults(answers: Vec<Answer>, text: &str) -> Vec<Faulty> {
     let refusing = answers.iter().filter(|answer| !answer.effects.loads());
     let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
     for Answer { program, is_chosen, effects } in answers {
         for effect in effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
             let (at, fault) = (effect.at, effect.fault.clone());
-            let is_attribute = bytes.get(at).is_some_and(|byte| *byte != b'<');
+            let is_attribute = text.as_bytes().get(at).is_some_and(|byte| *byte != b'<');
             let here = by_place.entry(at).or_default();
             let new = Faulty { at, fault, said: vec![Said { program, is_chosen, effect }] };
             let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
