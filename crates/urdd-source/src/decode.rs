@@ -95,11 +95,7 @@ fn decoded_offsets(encoding: &'static Encoding, bytes: &[u8]) -> Vec<usize> {
 }
 
 /// The text of a file.
-pub fn decode(
-    bytes: &[u8],
-    shown: &str,
-    notes: &mut Vec<Note>,
-) -> Result<Decoded, SourceError> {
+pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decoded, SourceError> {
     let (bytes, mark, length) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (&bytes[length..], Some(encoding), length),
         None => (bytes, None, 0),

@@ -63,11 +63,11 @@ pub use includes::included;
 pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, load_with, read_source, read_urdf,
-    stem, well_formed,
+    stem,
 };
 pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};
-pub use repair::undeclared_prefix;
+pub use repair::{Repaired, mend_xml, undeclared_prefix};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::{ImportOptions, Settings};

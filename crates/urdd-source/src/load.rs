@@ -11,7 +11,7 @@ use super::files::{Files, MAX_SOURCE_BYTES};
 use super::loops::{self, Said};
 use super::made_from::Origin;
 use super::note::{Note, Remark, SourcePlace};
-use super::repair;
+use super::repair::{Repaired, mend_xml};
 use super::settings::Settings;
 use super::urdf::{self, Reading};
 use super::watch::Trail;
@@ -145,8 +145,7 @@ pub fn read_source(
     let read = read(path, settings, cancellation, &mut Vec::new())?;
     let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
-        original: (!is_same)
-            .then_some(Original { bytes: read.bytes, decoding: read.decoding }),
+        original: (!is_same).then_some(Original { bytes: read.bytes, decoding: read.decoding }),
         text: read.text,
         trail: read.trail,
         folder: read.folder,
@@ -332,7 +331,7 @@ fn mend<T>(
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let Read { shown, bytes, stem, trail, path, .. } = read;
-    let (mut repaired, remarks, first_line) = repair::mend_xml(found);
+    let Repaired { text: mut repaired, remarks, first_line, .. } = mend_xml(found);
     let mut is_verbatim = read.is_verbatim && remarks.is_empty();
     let origin = Origin { shown, first_line, trail: trail.as_ref(), path };
     let offsets = remarks.iter().map(|remark| remark.offset);
@@ -396,13 +395,6 @@ fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = N
         let (problem, assumed) = (remark.problem.clone(), remark.assumed.clone());
         Note { kind: remark.kind, file, line, column, problem, assumed }
     })
-}
-
-/// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
-/// 6.1.8.
-pub fn well_formed(xml: &Xml<'_>) -> (String, u32) {
-    let (mended, _, lines) = repair::mend_xml(xml);
-    (mended.unwrap_or_else(|| xml.text().to_owned()), lines)
 }
 
 /// The file name without its extensions, or `robot`.

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use urdd_findings::code::Code;
+use urdd_findings::finding::Finding;
 use urdd_findings::programs::{kind, subject};
 use urdd_format::report::{Consequence, Does, Fix, ProgramResult, Severity};
 use urdd_programs::{Deed, Effect, Effects, Fault, Program};
@@ -37,6 +39,8 @@ pub struct Said {
 /// A fault that no other rule finds, as LNT060 and LNT061 report it.
 #[derive(Debug, Clone)]
 pub struct Left {
+    /// LNT060, or LNT061 if every program has the robot nevertheless.
+    pub code: Code,
     /// Where it is in the text.
     pub offset: usize,
     pub message: String,
@@ -45,8 +49,6 @@ pub struct Left {
     pub consequence: Option<Consequence>,
     pub programs: Vec<Does>,
     pub fix: Option<Fix>,
-    /// Whether a program has no robot because of it.
-    pub is_refused: bool,
 }
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
@@ -76,15 +78,25 @@ pub fn faults(answers: Vec<Answer>, text: &str) -> Vec<Faulty> {
     by_place.into_values().flatten().filter(is_something).collect()
 }
 
+impl Left {
+    /// A finding of LNT060 or LNT061 with what it says besides the message.
+    pub fn reported(&self, mut finding: Finding) -> Finding {
+        finding.severity = Some(self.severity);
+        finding.consequence = self.consequence;
+        finding.place.programs.clone_from(&self.programs);
+        finding.fix(self.fix.clone())
+    }
+}
+
 impl Faulty {
     /// The worst that a program does because of it.
     fn worst(&self) -> Option<Deed> {
         self.said.iter().map(|said| said.effect.deed).max()
     }
 
-    /// Whether a program has no robot because of it.
-    pub fn is_refused(&self) -> bool {
-        self.said.iter().any(Said::is_refused)
+    /// The rule that reports it, if no other one does.
+    pub fn code(&self) -> Code {
+        if self.said.iter().any(Said::is_refused) { Code::LNT060 } else { Code::LNT061 }
     }
 
     /// Whether colours and textures are all that programs lose or read otherwise.
@@ -130,6 +142,19 @@ impl Faulty {
         let does =
             |one: &Said| Does { program: one.program.id().to_owned(), does: one.effect.deed };
         self.said.iter().map(does).collect()
+    }
+
+    /// As LNT060 and LNT061 report it.
+    pub fn left(&self, programs: &[ProgramResult], severity: Severity, fix: Option<Fix>) -> Left {
+        Left {
+            code: self.code(),
+            offset: self.at,
+            message: self.message(programs),
+            severity,
+            consequence: self.is_of_looks().then_some(Consequence::Appearance),
+            programs: self.does(),
+            fix,
+        }
     }
 
     /// What is wrong, what programs do, and what to do about it.

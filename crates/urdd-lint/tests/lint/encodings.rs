@@ -35,7 +35,8 @@ fn a_fault_is_found_at_its_place_whatever_encoding_a_file_declares() {
     let declared = |name: &str| format!("<?xml version=\"1.0\" encoding=\"{name}\"?>{ROBOT}");
     let column = ROBOT.lines().nth(3).and_then(|line| line.find("xyz")).expect("a place") + 1;
     let place = [Some(4), Some(column), Some(4), Some(column)];
-    for name in ["us-ascii", "US-ASCII", "ISO-8859-1", "windows-1252", "utf8", "UTF-8", "Shift_JIS"] {
+    for name in ["us-ascii", "US-ASCII", "ISO-8859-1", "windows-1252", "utf8", "UTF-8", "Shift_JIS"]
+    {
         let text = declared(name).replace('\u{e4}', "a");
         assert_eq!(refused(text.as_bytes()), [place], "{name}");
     }

@@ -14,6 +14,7 @@ mod hull;
 mod imported;
 mod imports;
 mod in_memory;
+mod joined;
 mod large;
 mod messages;
 mod parses;
@@ -106,7 +107,7 @@ fn a_robot_that_is_no_xml_is_looked_at_as_far_as_it_can_be_mended() {
     let text = text.replace(name, &late).replace(izz, "izz=\"-0.002\"");
     let (_folder, file) = written(&text);
     let run = linted(&file, &LintSettings::default());
-    assert_eq!(codes(&run), ["URD011", "SRC004"]);
+    assert_eq!(codes(&run), ["URD011", "LNT060"]);
     let line = run.report.urdds[0].findings[1].line.expect("a line").get();
     let shown = text.lines().nth(line - 1).expect("a line");
     assert!(shown.contains("<inertia ") || shown.contains("<link "), "{shown}");
