@@ -12,6 +12,7 @@ const GENERATED: &[&str] = &[
     "README.md",
     "SPEC.md",
     "conformance",
+    "crates/urdd-lint/src/in_programs.rs",
     "crates/urdd-validate/tests",
     "docs",
     "python/lib/urdd",
@@ -27,6 +28,7 @@ const WRITERS: &[(&str, &[&str])] = &[
     ("conformance", &["cases::the_pages_say"]),
     ("export", &["carried::the_page", "front_ends::"]),
     ("format", &["typescript::", "cpp_types::"]),
+    ("lint", &["in_programs::"]),
     ("program", &["imports::the_page", "snapshots::", "spec_agrees::the_tables_of_fields"]),
 ];
 

@@ -17,6 +17,7 @@ mod geometry;
 #[doc(hidden)]
 pub mod hull;
 mod imports;
+mod in_programs;
 #[doc(hidden)]
 pub mod inertial;
 mod named_file;

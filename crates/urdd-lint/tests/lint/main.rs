@@ -14,6 +14,7 @@ mod hull;
 mod imported;
 mod imports;
 mod in_memory;
+mod in_programs;
 mod joined;
 mod large;
 mod messages;
