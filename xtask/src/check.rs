@@ -81,6 +81,7 @@ const TESTS: &[(&str, &str)] = &[
     ("carried::the_page", "cargo xtask update exports, and read what it wrote"),
     ("front_ends::users_are_told", "add a line to the first section of CHANGELOG.md"),
     ("front_ends::", "cargo xtask update exports, and read what it wrote"),
+    ("in_programs::", "cargo xtask update programs, and read what it wrote"),
     ("imports::the_page", "cargo xtask update imports, and read what it wrote"),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];

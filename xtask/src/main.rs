@@ -16,7 +16,7 @@ const USAGE: &str = "\
 cargo xtask check
     What you forgot, after a rule, a module or a message: each with its remedy.
 
-cargo xtask update [schemas|cases|clauses|counts|exports|types|imports|snapshots|fields]...
+cargo xtask update [schemas|cases|clauses|counts|exports|types|imports|snapshots|fields|programs]...
     Writes again what is generated: all of it, or what is named. `check` says which is stale.
 
 cargo xtask clauses

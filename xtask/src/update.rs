@@ -12,6 +12,7 @@ const GENERATED: &[&str] = &[
     "README.md",
     "SPEC.md",
     "conformance",
+    "crates/urdd-lint/src/in_programs.rs",
     "crates/urdd-validate/tests",
     "docs",
     "python/lib/urdd",
@@ -32,6 +33,7 @@ const WRITERS: &[(&str, &str, &[&str])] = &[
     ("imports", "program", &["imports::the_page"]),
     ("snapshots", "program", &["snapshots::"]),
     ("fields", "program", &["spec_agrees::the_tables_of_fields"]),
+    ("programs", "lint", &["in_programs::"]),
 ];
 
 /// What is written first, by no test.

@@ -39,7 +39,7 @@ impl TextFile {
     /// # Errors
     /// If it is not text.
     pub fn new(shown: String, path: PathBuf, bytes: Vec<u8>) -> Result<Self, SourceError> {
-        let (text, _) = decode(&bytes, &shown, &mut Vec::new())?;
+        let text = decode(&bytes, &shown, &mut Vec::new())?.text;
         Ok(TextFile { shown, path, text, bytes: bytes.into() })
     }
 

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use urdd_xml::{Document, Xml};
 
-use super::programs::{Asked, Left, attach, attach_all};
+use super::programs::{Asked, Left, attach, attach_to};
 use super::rule::LintRule;
 use super::settings::LintSettings;
 use super::skip::{NOT_EXPANDED, refusal};
@@ -13,6 +13,7 @@ use super::srdf_text::SrdfFile;
 use super::subject::Subject;
 use super::written::say_where_expanded;
 use super::{allow, effects, namespaces, rules};
+use urdd_directory::position::LineIndex;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::examined::Examined;
@@ -21,7 +22,8 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
-use urdd_source::{SourceMeshes, well_formed};
+use urdd_programs::Fault;
+use urdd_source::{Original, SourceMeshes, mend_xml};
 use urdd_validate::examine_urdf;
 
 const FAMILY: &str = "LNT";
@@ -32,8 +34,8 @@ const OF_PROGRAMS: [Code; 2] = [Code::LNT060, Code::LNT061];
 #[derive(Clone, Copy)]
 struct Job<'a> {
     xml: &'a Xml<'a>,
-    /// The file's, which may be in another encoding.
-    bytes: &'a [u8],
+    /// The file, if its bytes are not those of the text.
+    original: Option<&'a Original>,
     name: &'a str,
     folder: &'a Path,
     settings: &'a LintSettings,
@@ -41,29 +43,30 @@ struct Job<'a> {
     srdfs: &'a OnceLock<Vec<SrdfFile>>,
 }
 
-/// The result, and the comments that allow what was not found. `bytes` are those of the file; `name` is the file's in the report; relative mesh names
-/// refer to `folder`.
+/// The result, and the comments that allow what was not found. `original` is the file, if its bytes are not those of the
+/// text; `name` is the file's in the report; relative mesh names refer to `folder`.
 pub fn examined(
     xml: &Xml<'_>,
-    bytes: &[u8],
+    original: Option<&Original>,
     name: &str,
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let srdfs = OnceLock::new();
-    let job = Job { xml, bytes, name, folder, settings, srdfs: &srdfs };
+    let job = Job { xml, original, name, folder, settings, srdfs: &srdfs };
     let mut examined = examine_urdf(xml, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let mended = xml.document().is_err().then(|| well_formed(xml));
-    let of_mended = mended.as_ref().map(|(text, _)| Xml::new(text));
+    let mended = xml.document().is_err().then(|| mend_xml(xml)).unwrap_or_default();
+    let of_mended = mended.text.as_deref().map(Xml::new);
     let Ok(document) = of_mended.as_ref().unwrap_or(xml).document() else {
-        let skipped = rules_to_run(settings)
-            .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
-        examined.checks.extend(skipped);
-        if let Some(asked) = job.ask() {
-            attach_all(&asked, Code::URD011, &mut examined.checks);
+        let left = job.ask().map_or_else(Vec::new, |mut asked| {
+            let is_xml = |fault: &Fault| matches!(fault, Fault::Xml(_));
+            let left = attach_to(Code::URD011, &mut asked, &mut examined.checks, is_xml);
             examined.report.programs = asked.results;
-        }
+            left
+        });
+        let rules = rules_to_run(settings);
+        examined.checks.extend(rules.map(|rule| job.without_document(rule, &left)));
         return (examined, Vec::new());
     };
     let taken = match &of_mended {
@@ -72,19 +75,13 @@ pub fn examined(
     };
     let source = job.source(&examined.checks);
     let subject = job.subject(document, &source);
-    let is_mended = mended.is_some();
-    let lines = mended.as_ref().map_or(0, |(_, lines)| *lines);
-    let as_it_is = match is_mended {
-        true => Some(Code::URD011),
-        false => subject.macros().map(|_| Code::LNT051),
-    };
+    let is_mended = of_mended.is_some();
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
-        let mut left = Vec::new();
-        match as_it_is {
-            Some(code) => attach_all(&asked, code, checks),
-            None => left = attach(&subject, &mut asked, checks),
-        }
+        let left = match subject.macros() {
+            Some(_) => attach_to(Code::LNT051, &mut asked, checks, |_| true),
+            None => attach(&subject, &mut asked, checks, &mended.edits),
+        };
         examined.report.programs = asked.results;
         left
     });
@@ -94,7 +91,11 @@ pub fn examined(
     };
     for check in examined.checks.iter_mut().filter(is_of_mended) {
         for place in check.findings.iter_mut().flat_map(Finding::places_mut) {
-            as_reported(place, lines, is_mended);
+            as_reported(place, mended.first_line, is_mended);
+        }
+        for effect in &mut check.effects {
+            effect.at.line += mended.first_line;
+            effect.cause.1.line += mended.first_line;
         }
     }
     for srdf in subject.srdfs.all.get().into_iter().flatten() {
@@ -136,8 +137,26 @@ impl<'a> Job<'a> {
 
     /// Asks the programs; not about files beyond the limits of XML.
     fn ask(self) -> Option<Asked> {
-        let counted = self.xml.counted(self.bytes).ok()?;
-        Some(Asked::about(counted, self.xml.text(), self.folder, self.settings))
+        let text = self.xml.text();
+        let bytes = self.original.map_or(text.as_bytes(), |original| &original.bytes);
+        let offsets = self.original.map(Original::offsets).unwrap_or_default();
+        let counted = self.xml.counted(bytes).ok()?;
+        Some(Asked::about(counted, text, &offsets, self.folder, self.settings))
+    }
+
+    /// What a rule finds in a text that cannot be mended: what only programs name is known nevertheless.
+    fn without_document(self, rule: &'static LintRule, left: &[Left]) -> Check {
+        let (rule, lines) = (&rule.description, LineIndex::new(self.xml.text()));
+        let is_its = |fault: &&Left| rule.code == fault.code;
+        let found = left.iter().filter(is_its).map(|fault| {
+            let finding = Finding::in_file(self.name, &fault.message);
+            fault.reported(finding.position(Some(lines.position(fault.offset))))
+        });
+        let found: Vec<Finding> = found.collect();
+        match found.is_empty() {
+            true => Check::skipped(rule, SkipReason::Failed(Code::URD011)),
+            false => Check::new(rule, Outcome::Failed, found),
+        }
     }
 
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
@@ -183,13 +202,13 @@ impl<'a> Job<'a> {
     /// What all rules find in another text; `None` if it is no XML.
     fn again(self, text: &str) -> Option<Vec<Check>> {
         let xml = &Xml::new(text);
-        let job = Job { xml, bytes: text.as_bytes(), ..self };
+        let job = Job { xml, original: None, ..self };
         let document = xml.document().ok()?;
         let mut checks = examine_urdf(xml, self.name).checks;
         let source = job.source(&checks);
         let subject = job.subject(document, &source);
         job.run(&subject, &mut checks, |checks| {
-            job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks))
+            job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks, &[]))
         });
         Some(checks)
     }

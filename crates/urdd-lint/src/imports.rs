@@ -25,9 +25,8 @@ pub(crate) fn examined_import(
     let folder = settings.source.files.canonicalize(&folder).unwrap_or(folder);
     let settings =
         LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
-    let text = imported.text();
     let (mut examined, unused) =
-        examined(&Xml::new(text), text.as_bytes(), &name, Path::new("/"), &settings);
+        examined(&Xml::new(imported.text()), None, &name, Path::new("/"), &settings);
     let find = |kind: &str, part: &str| {
         let (file, line, column) = imported.place(kind, part)?;
         let is_main = file == imported.shown;

@@ -17,6 +17,7 @@ mod geometry;
 #[doc(hidden)]
 pub mod hull;
 mod imports;
+mod in_programs;
 #[doc(hidden)]
 pub mod inertial;
 mod named_file;
@@ -213,7 +214,8 @@ fn of_source(
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let name = stems(path).1;
-    let (mut examined, mut unused) = examined(xml, read.bytes(), &name, &read.folder, settings);
+    let original = read.original.as_ref();
+    let (mut examined, mut unused) = examined(xml, original, &name, &read.folder, settings);
     if let Some(trail) = &read.trail {
         let expansion = (read.text.as_str(), trail, path, name.as_str());
         // A line of the expansion.
@@ -226,5 +228,5 @@ fn of_source(
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
-    examined(&Xml::new(text), text.as_bytes(), name, folder, settings).0
+    examined(&Xml::new(text), None, name, folder, settings).0
 }

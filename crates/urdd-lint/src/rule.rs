@@ -37,7 +37,11 @@ macro_rules! declare_lint {
                         since: $since,
                         consequence: urdd_findings::description::Consequence::$consequence,
                         phase: urdd_findings::description::Phase::References,
-                        doc: &[$($doc),+],
+                        doc: &[
+                            $($doc,)+
+                            "",
+                            $crate::in_programs::in_programs(urdd_findings::code::Code::$code),
+                        ],
                     },
                     on_by_default: true $(&& $crate::rule::$default)?,
                     check: $crate::rule::declare_lint!(@check $($check)?),

@@ -1,31 +1,124 @@
 //! Decodes the bytes of a file to text.
 
+use std::ops::Range;
+
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 use crate::error::SourceError;
 use crate::note::{Note, NoteKind};
 
-/// The text of a file, and whether its bytes can be stored unchanged. SPEC 6.1.8 requires UTF-8; a byte order mark is
-/// harmless.
-pub fn decode(
-    bytes: &[u8],
-    shown: &str,
-    notes: &mut Vec<Note>,
-) -> Result<(String, bool), SourceError> {
-    let (bytes, mark) = match Encoding::for_bom(bytes) {
-        Some((encoding, length)) => (&bytes[length..], Some(encoding)),
-        None => (bytes, None),
+/// The text of a file.
+#[derive(Debug)]
+pub struct Decoded {
+    /// The text.
+    pub text: String,
+    /// Whether the bytes can be stored unchanged. SPEC 6.1.8 requires UTF-8; a byte order mark is harmless.
+    pub is_verbatim: bool,
+    /// How the bytes became it.
+    pub decoding: Decoding,
+}
+
+/// How the bytes of a file became its text.
+#[derive(Debug, Clone)]
+pub struct Decoding {
+    /// The bytes before the text: a byte order mark.
+    mark: usize,
+    encoding: &'static Encoding,
+    /// The name of another encoding, in the text before `UTF-8` took its place.
+    renamed: Option<Range<usize>>,
+}
+
+/// A file whose bytes are not those of its text.
+#[derive(Debug, Clone)]
+pub struct Original {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// How they became the text.
+    pub decoding: Decoding,
+}
+
+/// Where bytes of a file are in its text; by default, the bytes are the text.
+#[derive(Debug, Default)]
+pub struct TextOffsets {
+    decoding: Decoding,
+    /// Of each byte behind the mark, the character that it is of; none if the bytes are the text.
+    decoded: Option<Vec<usize>>,
+}
+
+impl Default for Decoding {
+    /// The bytes are the text.
+    fn default() -> Self {
+        Decoding { mark: 0, encoding: UTF_8, renamed: None }
+    }
+}
+
+impl Original {
+    /// Where its bytes are in the text.
+    pub fn offsets(&self) -> TextOffsets {
+        let Decoding { mark, encoding, .. } = self.decoding;
+        let is_other = encoding != UTF_8;
+        let decoded = self.bytes.get(mark..).filter(|_| is_other);
+        let decoded = decoded.map(|bytes| decoded_offsets(encoding, bytes));
+        TextOffsets { decoding: self.decoding.clone(), decoded }
+    }
+}
+
+impl TextOffsets {
+    /// The offset in the text of a byte of the file; for one of the mark, the beginning.
+    pub fn of(&self, byte: usize) -> usize {
+        let byte = byte.saturating_sub(self.decoding.mark);
+        let decoded = match &self.decoded {
+            None => byte,
+            Some(offsets) => offsets.get(byte).or(offsets.last()).copied().unwrap_or_default(),
+        };
+        match &self.decoding.renamed {
+            Some(name) if decoded >= name.end => decoded - name.len() + UTF_8.name().len(),
+            Some(name) => decoded.min(name.start),
+            None => decoded,
+        }
+    }
+}
+
+/// Of each byte, and of the end, how long the text is before it: the bytes are decoded one by one.
+fn decoded_offsets(encoding: &'static Encoding, bytes: &[u8]) -> Vec<usize> {
+    let mut decoder = encoding.new_decoder_without_bom_handling();
+    let mut text = [0; 64];
+    let mut length = 0;
+    let mut offsets = Vec::with_capacity(bytes.len() + 1);
+    for byte in bytes {
+        offsets.push(length);
+        let (_, _, written, _) = decoder.decode_to_utf8(&[*byte], &mut text, false);
+        length += written;
+    }
+    offsets.push(length);
+    offsets
+}
+
+/// The text of a file.
+pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decoded, SourceError> {
+    let (bytes, mark, length) = match Encoding::for_bom(bytes) {
+        Some((encoding, length)) => (&bytes[length..], Some(encoding), length),
+        None => (bytes, None, 0),
+    };
+    let of = |text: String, encoding| {
+        let renamed = declaration(text.as_bytes());
+        let text = match &renamed {
+            Some(name) => format!("{}UTF-8{}", &text[..name.start], &text[name.end..]),
+            None => text,
+        };
+        Decoded { text, is_verbatim: false, decoding: Decoding { mark: length, encoding, renamed } }
     };
     let declared = declared(bytes);
     if mark.is_none_or(|encoding| encoding == UTF_8)
         && let Ok(text) = std::str::from_utf8(bytes)
     {
         if declared.is_none_or(|encoding| encoding == UTF_8) {
-            return Ok((text.to_owned(), true));
+            let decoding = Decoding { mark: length, ..Decoding::default() };
+            return Ok(Decoded { text: text.to_owned(), is_verbatim: true, decoding });
         }
         // Declared as another encoding, in which the text is the same, or which the byte order mark contradicts.
         if mark.is_some() || text.is_ascii() {
-            return Ok((redeclared(text), false));
+            return Ok(of(text.to_owned(), UTF_8));
         }
     }
     // UTF-16 without a byte order mark: the first character is `<`.
@@ -64,11 +157,11 @@ pub fn decode(
             reason: format!("it is not valid {}; save it as UTF-8", encoding.name()),
         });
     }
-    Ok((redeclared(&text), false))
+    Ok(of(text.into_owned(), encoding))
 }
 
 /// The byte range of the encoding name in the XML declaration.
-fn declaration(text: &[u8]) -> Option<std::ops::Range<usize>> {
+fn declaration(text: &[u8]) -> Option<Range<usize>> {
     let end = text.windows(2).take(200).position(|pair| pair == b"?>")?;
     let declaration = text.get(..end).filter(|text| text.starts_with(b"<?xml"))?;
     let word = b"encoding";
@@ -80,12 +173,4 @@ fn declaration(text: &[u8]) -> Option<std::ops::Range<usize>> {
 
 fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
     Encoding::for_label(&bytes[declaration(bytes)?])
-}
-
-/// The text with its declared encoding set to UTF-8.
-fn redeclared(text: &str) -> String {
-    match declaration(text.as_bytes()) {
-        Some(range) => format!("{}UTF-8{}", &text[..range.start], &text[range.end..]),
-        None => text.to_owned(),
-    }
 }

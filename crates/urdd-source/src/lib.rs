@@ -55,7 +55,7 @@ mod xacro_argument;
 pub use around::{Around, NearPackage};
 pub use cycles::cycles;
 pub use declared::{Declared, declared_of, robots_of};
-pub use decode::decode;
+pub use decode::{Decoded, Decoding, Original, TextOffsets, decode};
 pub use error::{SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use format::{Format, RobotFile, format_of, robot_file};
@@ -63,11 +63,11 @@ pub use includes::included;
 pub use inspect::{Inspected, SideFile, inspect_alone};
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, load_with, read_source, read_urdf,
-    stem, well_formed,
+    stem,
 };
 pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
 pub use packages::{PackagePathError, Packages, package_name};
-pub use repair::undeclared_prefix;
+pub use repair::{Repaired, mend_xml, undeclared_prefix};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::{ImportOptions, Settings};

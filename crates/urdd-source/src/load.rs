@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::needed;
 use super::deciding::deciding;
-use super::decode;
+use super::decode::{Decoded, Decoding, Original, decode};
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
 use super::files::{Files, MAX_SOURCE_BYTES};
 use super::loops::{self, Said};
 use super::made_from::Origin;
 use super::note::{Note, Remark, SourcePlace};
-use super::repair;
+use super::repair::{Repaired, mend_xml};
 use super::settings::Settings;
 use super::urdf::{self, Reading};
 use super::watch::Trail;
@@ -122,14 +122,14 @@ pub struct SourceText {
     pub trail: Option<Trail>,
     /// The folder that relative names refer to, with symbolic links resolved.
     pub folder: PathBuf,
-    /// The bytes of the file, where they are not those of the text: another encoding, or a byte order mark.
-    pub original: Option<Vec<u8>>,
+    /// The file, where its bytes are not those of the text: another encoding, or a byte order mark.
+    pub original: Option<Original>,
 }
 
 impl SourceText {
     /// The bytes that other programs read.
     pub fn bytes(&self) -> &[u8] {
-        self.original.as_deref().unwrap_or(self.text.as_bytes())
+        self.original.as_ref().map_or(self.text.as_bytes(), |original| &original.bytes)
     }
 }
 
@@ -145,7 +145,7 @@ pub fn read_source(
     let read = read(path, settings, cancellation, &mut Vec::new())?;
     let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
-        original: (!is_same).then_some(read.bytes),
+        original: (!is_same).then_some(Original { bytes: read.bytes, decoding: read.decoding }),
         text: read.text,
         trail: read.trail,
         folder: read.folder,
@@ -164,6 +164,7 @@ struct Read {
     text: String,
     /// Whether the text is an exact decoding of the bytes.
     is_verbatim: bool,
+    decoding: Decoding,
     /// Where xacro has its elements from, if it made it, and the file.
     trail: Option<Trail>,
     path: PathBuf,
@@ -183,7 +184,7 @@ fn read(
     let canonical = settings.files.canonicalize(path);
     let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
     let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
-    let (text, is_verbatim) = decode::decode(&bytes, &shown, notes)?;
+    let Decoded { text, is_verbatim, decoding } = decode(&bytes, &shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = FileType::Xacro.is_of(path);
     let is_expanded = is_xacro_file || (settings.xacro.expand_urdf && text.contains("<xacro:"));
@@ -200,7 +201,7 @@ fn read(
         (false, _) => (text, None),
     };
     let (stem, is_verbatim) = (stem(&canonical), is_verbatim && !is_expanded);
-    Ok(Read { text, is_verbatim, trail, shown, bytes, stem, folder, path: canonical })
+    Ok(Read { text, is_verbatim, decoding, trail, shown, bytes, stem, folder, path: canonical })
 }
 
 /// An error of xacro, which says what is missing where arguments are.
@@ -295,9 +296,9 @@ fn held(
     stem: &str,
     notes: &mut Vec<Note>,
 ) -> Result<Read, SourceError> {
-    let (text, is_verbatim) = decode::decode(&bytes, shown, notes)?;
+    let Decoded { text, is_verbatim, decoding } = decode(&bytes, shown, notes)?;
     let (shown, stem, path) = (shown.to_owned(), stem.to_owned(), PathBuf::new());
-    Ok(Read { shown, bytes, stem, folder, text, is_verbatim, trail: None, path })
+    Ok(Read { shown, bytes, stem, folder, text, is_verbatim, decoding, trail: None, path })
 }
 
 /// A robot, read from memory.
@@ -330,7 +331,7 @@ fn mend<T>(
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let Read { shown, bytes, stem, trail, path, .. } = read;
-    let (mut repaired, remarks, first_line) = repair::mend_xml(found);
+    let Repaired { text: mut repaired, remarks, first_line, .. } = mend_xml(found);
     let mut is_verbatim = read.is_verbatim && remarks.is_empty();
     let origin = Origin { shown, first_line, trail: trail.as_ref(), path };
     let offsets = remarks.iter().map(|remark| remark.offset);
@@ -393,13 +394,6 @@ fn noted(remarks: &[Remark], places: Vec<SourcePlace>) -> impl Iterator<Item = N
     remarks.iter().zip(places).map(|(remark, place)| {
         Note::at(place, remark.kind, remark.problem.clone(), remark.assumed.clone())
     })
-}
-
-/// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
-/// 6.1.8.
-pub fn well_formed(xml: &Xml<'_>) -> (String, u32) {
-    let (mended, _, lines) = repair::mend_xml(xml);
-    (mended.unwrap_or_else(|| xml.text().to_owned()), lines)
 }
 
 /// The file name without its extensions, or `robot`.

@@ -42,6 +42,16 @@ pub struct Edit {
     pub text: String,
 }
 
+impl Edit {
+    /// Where the byte at an offset is after this edit; for one that it replaces, the beginning of the replacement.
+    pub fn moved(&self, offset: usize) -> usize {
+        match offset.checked_sub(self.range.end) {
+            Some(behind) => self.range.start + self.text.len() + behind,
+            None => offset.min(self.range.start),
+        }
+    }
+}
+
 /// Applies edits to a text. If one edit is inside another, only the outer one applies.
 pub fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|edit| (edit.range.start, std::cmp::Reverse(edit.range.end)));

@@ -6,6 +6,7 @@ use urdd_directory::position::LineIndex;
 use urdd_format::index::Count;
 use urdd_format::report::{ProgramEffect, ProgramResult};
 use urdd_programs::{Effect, File, Program};
+use urdd_source::TextOffsets;
 use urdd_xml::Counted;
 
 use super::faults::{Answer, Faulty, faults};
@@ -23,19 +24,26 @@ pub struct Asked {
     pub(super) faults: Vec<Faulty>,
     /// Whether the settings name programs.
     pub(super) has_chosen: bool,
-    pub(super) encoding: Encoding,
 }
 
 impl Asked {
-    /// Asks the programs about a file of which `text` is the text. Relative names refer to `folder`.
-    pub fn about(file: Counted<'_>, text: &str, folder: &Path, settings: &LintSettings) -> Self {
-        let (bytes, answers) = (file.bytes(), ask(file, folder, settings));
-        let encoding = Encoding::of(bytes, text);
+    /// Asks the programs about a file of which `text` is the text; `offsets` says where its bytes are there. Relative names
+    /// refer to `folder`.
+    pub fn about(
+        file: Counted<'_>,
+        text: &str,
+        offsets: &TextOffsets,
+        folder: &Path,
+        settings: &LintSettings,
+    ) -> Self {
+        let mut answers = ask(file, folder, settings);
+        for effect in answers.iter_mut().flat_map(|answer| &mut answer.effects.0) {
+            effect.at = offsets.of(effect.at);
+        }
         Asked {
-            results: results(&answers, &encoding, text),
-            faults: faults(answers, bytes),
+            results: results(&answers, text),
+            faults: faults(answers, text),
             has_chosen: !settings.report.programs.is_empty(),
-            encoding,
         }
     }
 }
@@ -65,14 +73,14 @@ fn ask(file: Counted<'_>, folder: &Path, settings: &LintSettings) -> Vec<Answer>
 }
 
 /// The answers as reports have them.
-fn results(answers: &[Answer], encoding: &Encoding, text: &str) -> Vec<ProgramResult> {
+fn results(answers: &[Answer], text: &str) -> Vec<ProgramResult> {
     let lines = LineIndex::new(text);
     let effect = |effect: &Effect| {
-        let at = encoding.in_text(effect.at).map(|at| lines.position(at));
+        let at = lines.position(effect.at);
         ProgramEffect {
             does: effect.deed,
-            line: at.map(|at| Count(at.line)),
-            column: at.map(|at| Count(at.column)),
+            line: Some(Count(at.line)),
+            column: Some(Count(at.column)),
             part: Some(effect.part.to_string()).filter(|part| !part.is_empty()),
             reason: effect.fault.to_string(),
             makes: effect.makes.clone(),
@@ -95,33 +103,4 @@ fn results(answers: &[Answer], encoding: &Encoding, text: &str) -> Vec<ProgramRe
         }
     };
     answers.iter().map(result).collect()
-}
-
-/// How the bytes of a file become its text.
-pub enum Encoding {
-    /// They are the text, behind so many bytes of a mark.
-    Utf8 { mark: usize },
-    /// Each is a character: where it begins in the text.
-    Bytes(Vec<usize>),
-    /// Several are a character.
-    Other,
-}
-
-impl Encoding {
-    pub fn of(bytes: &[u8], text: &str) -> Self {
-        if bytes.ends_with(text.as_bytes()) {
-            return Encoding::Utf8 { mark: bytes.len() - text.len() };
-        }
-        let offsets: Vec<usize> = text.char_indices().map(|(offset, _)| offset).collect();
-        if offsets.len() == bytes.len() { Encoding::Bytes(offsets) } else { Encoding::Other }
-    }
-
-    /// The offset in the text of a byte of the file, if it is known.
-    pub fn in_text(&self, at: usize) -> Option<usize> {
-        match self {
-            Encoding::Utf8 { mark } => Some(at.saturating_sub(*mark)),
-            Encoding::Bytes(offsets) => offsets.get(at).or(offsets.last()).copied(),
-            Encoding::Other => None,
-        }
-    }
 }

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use urdd_xml::element::Edit;
 use urdd_xml::{Node, NodeId};
 
 use urdd_directory::position::Position;
@@ -12,7 +13,8 @@ use urdd_findings::check::Check;
 use urdd_findings::check::Effect;
 use urdd_findings::code::Code;
 use urdd_findings::places::parted;
-use urdd_format::report::{Consequence, Fix, Place, Severity};
+use urdd_format::report::{Fix, Place, Severity};
+use urdd_format::short::Short;
 
 use urdd_programs::Fault;
 
@@ -33,25 +35,33 @@ struct Known {
 }
 
 /// Gives what programs do to findings of the same fault, and returns the rest. Findings of the validator that are less severe
-/// than what programs do become effects of what is left.
-pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec<Left> {
-    let known = Index::new(checks);
+/// than what programs do become effects of what is left. `repairs` are those that made the subject's text of the file's.
+pub fn attach(
+    subject: &Subject,
+    asked: &mut Asked,
+    checks: &mut [Check],
+    repairs: &[Edit],
+) -> Vec<Left> {
+    let known = Index::new(subject, checks, !repairs.is_empty());
     let mut given = Given::new();
     let mut effects: BTreeMap<Code, Vec<Effect>> = BTreeMap::new();
     let mut left = Vec::new();
-    let faults = std::mem::take(&mut asked.faults);
-    for faulty in of_one_body(subject, asked, faults) {
-        let Some(offset) = asked.encoding.in_text(faulty.at) else { continue };
-        let node = subject.element(offset);
+    let mut faults = std::mem::take(&mut asked.faults);
+    for faulty in &mut faults {
+        faulty.at = repairs.iter().fold(faulty.at, |at, repair| repair.moved(at));
+    }
+    for faulty in of_one_body(subject, faults) {
+        let offset = faulty.at;
+        // What is before the robot is a fault of the file.
+        let node = subject.element(offset).unwrap_or(subject.root);
         let severity = faulty.severity(asked.has_chosen);
-        match node.and_then(|node| known.of(subject, node, offset, &faulty)) {
+        match known.of(subject, node, offset, &faulty) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
-                let code = if faulty.is_refused() { Code::LNT060 } else { Code::LNT061 };
                 effects.entry(known.code).or_default().push(Effect {
                     at: known.at,
                     message: known.message.clone(),
-                    cause: (code, subject.position(offset)),
+                    cause: (faulty.code(), subject.position(offset)),
                 });
             }
             Some(known) => {
@@ -72,15 +82,8 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
             }
             None => {}
         }
-        left.push(Left {
-            offset,
-            message: faulty.message(&asked.results),
-            severity,
-            consequence: faulty.is_of_looks().then_some(Consequence::Appearance),
-            programs: faulty.does(),
-            fix: fix(subject, offset, &faulty.fault),
-            is_refused: faulty.is_refused(),
-        });
+        let fix = fix(subject, offset, &faulty.fault);
+        left.push(faulty.left(&asked.results, severity, fix));
     }
     for check in checks {
         check.effects.extend(effects.remove(&check.rule.code).into_iter().flatten());
@@ -89,28 +92,37 @@ pub fn attach(subject: &Subject, asked: &mut Asked, checks: &mut [Check]) -> Vec
     left
 }
 
-/// Gives all that programs do to the finding that a file is no XML, or not expanded: what they say of it beyond that is not
-/// known before it is mended.
-pub fn attach_all(asked: &Asked, code: Code, checks: &mut [Check]) {
+/// Gives what programs do because of such faults to the first finding of a rule, where nothing else is known of the robot;
+/// returns the rest.
+pub fn attach_to(
+    code: Code,
+    asked: &mut Asked,
+    checks: &mut [Check],
+    is_its: impl Fn(&Fault) -> bool,
+) -> Vec<Left> {
+    let faults = std::mem::take(&mut asked.faults);
     let check = checks.iter_mut().find(|check| check.rule.code == code);
-    let mut faults = asked.faults.iter().cloned();
-    if let (Some(check), Some(mut first)) = (check, faults.next()) {
-        faults.for_each(|other| first.add(other));
-        let place = check.findings.first().and_then(|finding| at(&finding.place));
-        let given = place.map(|at| ((code, at), (first, None)));
-        give(check, &given.into_iter().collect(), asked);
+    let place = check.as_ref().and_then(|check| at(&check.findings.first()?.place));
+    let (its, others): (Vec<Faulty>, Vec<Faulty>) =
+        faults.into_iter().partition(|faulty| place.is_some() && is_its(&faulty.fault));
+    let mut its = its.into_iter();
+    if let (Some(check), Some(place), Some(mut first)) = (check, place, its.next()) {
+        its.for_each(|other| first.add(other));
+        give(check, &Given::from([((code, place), (first, None))]), asked);
     }
+    let left = |faulty: Faulty| {
+        let severity = faulty.severity(asked.has_chosen);
+        faulty.left(&asked.results, severity, None)
+    };
+    others.into_iter().map(left).collect()
 }
 
 /// The faults, with those of the mass and inertia of a link as one.
-fn of_one_body(subject: &Subject, asked: &Asked, all: Vec<Faulty>) -> Vec<Faulty> {
+fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
     let mut faults: Vec<Faulty> = Vec::new();
     let mut bodies: HashMap<String, usize> = HashMap::new();
     for faulty in all {
-        let part = || {
-            let node = subject.element(asked.encoding.in_text(faulty.at)?)?;
-            crate::subject::subject(node)
-        };
+        let part = || crate::subject::subject(subject.element(faulty.at)?);
         let is_body = matches!(faulty.fault, Fault::Inertia(_));
         match is_body.then(part).flatten().map(|part| bodies.entry(part)) {
             Some(Entry::Occupied(known)) => faults[*known.get()].add(faulty),
@@ -127,11 +139,15 @@ fn of_one_body(subject: &Subject, asked: &Asked, all: Vec<Faulty>) -> Vec<Faulty
 /// The findings of rules, by where they are.
 #[derive(Default)]
 struct Index {
+    /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else.
+    is_repaired: bool,
     by_position: HashMap<Position, Vec<usize>>,
     /// The first of each rule in a link or joint.
     by_subject: HashMap<String, Vec<usize>>,
     /// Those about a file, by the link and the file's name: rules report a name once in each link.
     by_file: HashMap<(String, String), Vec<usize>>,
+    /// Those about a material or its colour, by its name.
+    by_material: HashMap<Short, Vec<usize>>,
     /// The first of each rule.
     firsts: Vec<usize>,
     /// What `around` gave, by element.
@@ -140,18 +156,24 @@ struct Index {
 }
 
 impl Index {
-    fn new(checks: &[Check]) -> Self {
-        let mut index = Index::default();
+    fn new(subject: &Subject, checks: &[Check], is_repaired: bool) -> Self {
+        let mut index = Index { is_repaired, ..Index::default() };
         for check in checks {
             for finding in &check.findings {
                 for (place, message) in finding.said() {
                     let Some(at) = at(place) else { continue };
                     let here = index.all.len();
                     index.by_position.entry(at).or_default().push(here);
-                    let is_of_file = sees(check.rule.code, &Fault::NotFound("mesh")).is_some();
+                    let is_of = |fault| sees(check.rule.code, &fault).is_some();
                     let file = place.subject.clone().zip(place.actual.clone());
+                    let is_of_file = is_of(Fault::NotFound("mesh"));
                     if let Some(file) = file.filter(|_| is_of_file) {
                         index.by_file.entry(file).or_default().push(here);
+                    }
+                    let unknown = Fault::Unknown { kind: "material", name: Short::default() };
+                    let material = is_of(unknown).then(|| material(subject, at)).flatten();
+                    if let Some(material) = material {
+                        index.by_material.entry(material).or_default().push(here);
                     }
                     let own = place.subject.as_ref();
                     let part = own.map(|part| index.by_subject.entry(part.clone()).or_default());
@@ -175,7 +197,11 @@ impl Index {
 
     /// The finding that sees a fault: the one that is nearest; of those, one of lint.
     fn of(&self, subject: &Subject, node: Node, offset: usize, faulty: &Faulty) -> Option<&Known> {
-        let sees = |known: &Known, reach| sees(known.code, &faulty.fault) >= Some(reach);
+        let is_of_xml = matches!(faulty.fault, Fault::Xml(_));
+        let sees = |known: &Known, reach| {
+            let is_its = known.code != Code::URD011 || is_of_xml || !self.is_repaired;
+            is_its && sees(known.code, &faulty.fault) >= Some(reach)
+        };
         let best = |indices: Vec<usize>, reach| {
             let all = indices.into_iter().map(|index| &self.all[index]);
             let seen: Vec<&Known> = all.filter(|known| sees(known, reach)).collect();
@@ -213,12 +239,26 @@ impl Index {
             let part = crate::subject::subject(node)?;
             best(self.by_subject.get(&part)?.clone(), Reach::Part)
         };
+        let named = || best(self.named(&faulty.fault)?.clone(), Reach::Named);
+        let of_robot = || best(here(subject.root.range().start).collect(), Reach::Robot);
         best(here(offset).collect(), Reach::Element)
             .or_else(|| best(element.into_iter().flat_map(here).collect(), Reach::Element))
             .or_else(of_file)
             .or_else(beside)
             .or_else(in_part)
+            .or_else(named)
+            .or_else(of_robot)
             .or_else(|| best(self.firsts.clone(), Reach::File))
+    }
+
+    /// The findings about the part that a fault names.
+    fn named(&self, fault: &Fault) -> Option<&Vec<usize>> {
+        match fault {
+            Fault::Unknown { name, .. } => self.by_material.get(name),
+            Fault::Name { kind, name, .. } => self.by_subject.get(&format!("{kind} `{}`", &**name)),
+            Fault::Empty("link") => self.by_subject.get("link ``"),
+            _ => None,
+        }
     }
 
     /// The first finding of each rule at an element, or at one directly in it. `at` gives the findings at one element. It is
@@ -233,6 +273,13 @@ impl Index {
         });
         firsts.clone()
     }
+}
+
+/// The name of the material that has something at a place.
+fn material(subject: &Subject, at: Position) -> Option<Short> {
+    let node = subject.element(subject.offset(at)?)?;
+    let material = node.ancestors().find(|one| one.has_tag_name("material"))?;
+    Some(material.attribute("name")?.into())
 }
 
 /// Says at the places of findings what programs do. A finding is as severe as that.

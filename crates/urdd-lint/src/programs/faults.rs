@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use urdd_findings::code::Code;
+use urdd_findings::finding::Finding;
 use urdd_findings::programs::{kind, subject};
 use urdd_format::report::{Consequence, Does, Fix, ProgramResult, Severity};
 use urdd_programs::{Deed, Effect, Effects, Fault, Program};
@@ -17,7 +19,7 @@ pub struct Answer {
 /// A fault, by all programs that do something because of it.
 #[derive(Debug, Clone)]
 pub struct Faulty {
-    /// Where it is: the first byte of the element or attribute in the file.
+    /// Where it is: the first byte of the element or attribute in the text.
     pub at: usize,
     /// What is wrong, as the program has it that does the worst.
     pub fault: Fault,
@@ -37,6 +39,8 @@ pub struct Said {
 /// A fault that no other rule finds, as LNT060 and LNT061 report it.
 #[derive(Debug, Clone)]
 pub struct Left {
+    /// LNT060, or LNT061 if every program has the robot nevertheless.
+    pub code: Code,
     /// Where it is in the text.
     pub offset: usize,
     pub message: String,
@@ -45,20 +49,18 @@ pub struct Left {
     pub consequence: Option<Consequence>,
     pub programs: Vec<Does>,
     pub fix: Option<Fix>,
-    /// Whether a program has no robot because of it.
-    pub is_refused: bool,
 }
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
 /// is one fault.
-pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
+pub fn faults(answers: Vec<Answer>, text: &str) -> Vec<Faulty> {
     let refusing = answers.iter().filter(|answer| !answer.effects.loads());
     let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
     for Answer { program, is_chosen, effects } in answers {
         for effect in effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
             let (at, fault) = (effect.at, effect.fault.clone());
-            let is_attribute = bytes.get(at).is_some_and(|byte| *byte != b'<');
+            let is_attribute = text.as_bytes().get(at).is_some_and(|byte| *byte != b'<');
             let here = by_place.entry(at).or_default();
             let new = Faulty { at, fault, said: vec![Said { program, is_chosen, effect }] };
             let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
@@ -76,15 +78,25 @@ pub fn faults(answers: Vec<Answer>, bytes: &[u8]) -> Vec<Faulty> {
     by_place.into_values().flatten().filter(is_something).collect()
 }
 
+impl Left {
+    /// A finding of LNT060 or LNT061 with what it says besides the message.
+    pub fn reported(&self, mut finding: Finding) -> Finding {
+        finding.severity = Some(self.severity);
+        finding.consequence = self.consequence;
+        finding.place.programs.clone_from(&self.programs);
+        finding.fix(self.fix.clone())
+    }
+}
+
 impl Faulty {
     /// The worst that a program does because of it.
     fn worst(&self) -> Option<Deed> {
         self.said.iter().map(|said| said.effect.deed).max()
     }
 
-    /// Whether a program has no robot because of it.
-    pub fn is_refused(&self) -> bool {
-        self.said.iter().any(Said::is_refused)
+    /// The rule that reports it, if no other one does.
+    pub fn code(&self) -> Code {
+        if self.said.iter().any(Said::is_refused) { Code::LNT060 } else { Code::LNT061 }
     }
 
     /// Whether colours and textures are all that programs lose or read otherwise.
@@ -130,6 +142,19 @@ impl Faulty {
         let does =
             |one: &Said| Does { program: one.program.id().to_owned(), does: one.effect.deed };
         self.said.iter().map(does).collect()
+    }
+
+    /// As LNT060 and LNT061 report it.
+    pub fn left(&self, programs: &[ProgramResult], severity: Severity, fix: Option<Fix>) -> Left {
+        Left {
+            code: self.code(),
+            offset: self.at,
+            message: self.message(programs),
+            severity,
+            consequence: self.is_of_looks().then_some(Consequence::Appearance),
+            programs: self.does(),
+            fix,
+        }
     }
 
     /// What is wrong, what programs do, and what to do about it.

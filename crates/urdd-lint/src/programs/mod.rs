@@ -8,5 +8,5 @@ mod meshes;
 mod seen;
 
 pub use asked::Asked;
-pub use attach::{attach, attach_all};
+pub use attach::{attach, attach_to};
 pub use faults::Left;

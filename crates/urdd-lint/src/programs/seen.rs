@@ -12,11 +12,15 @@ pub enum Reach {
     Beside,
     /// In the same link or joint.
     Part,
+    /// At the part that the fault names.
+    Named,
+    /// At the robot as a whole.
+    Robot,
     /// Anywhere in the file.
     File,
 }
 
-use Reach::{Beside, Element, File, Part};
+use Reach::{Beside, Element, File, Named, Part, Robot};
 
 /// Rules, and how far from a fault they see it.
 type Seeing = (Reach, &'static [Code]);
@@ -39,10 +43,12 @@ fn seeing(fault: &Fault) -> &'static [Seeing] {
         Fault::Tree(_) => &[(File, &[URD004, URD005, URD006])],
         // A mass that is next to nothing makes no density.
         Fault::Inertia(_) if [MASSLESS, MASSLESS_WITH_OTHERS].contains(fault) => {
-            &[(Beside, &[URD011]), (File, &[LNT006]), (Part, &[LNT003]), (Part, OF_INERTIA)]
+            &[(Beside, &[URD011]), (Robot, &[LNT006]), (Part, &[LNT003]), (Part, OF_INERTIA)]
         }
         // LNT006: no link has a mass.
-        Fault::Inertia(_) => &[(Beside, &[URD011]), (File, &[LNT006]), (Part, OF_INERTIA)],
+        Fault::Inertia(_) => &[(Beside, &[URD011]), (Robot, &[LNT006]), (Part, OF_INERTIA)],
+        // A joint names a link without a name.
+        Fault::Empty("link") => &[(Named, &[LNT015]), (Element, &[URD004, URD007]), OF_MISSING],
         Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
             seeing_missing(name)
         }
@@ -59,7 +65,7 @@ fn seeing(fault: &Fault) -> &'static [Seeing] {
         Fault::NotUnique { .. } => &[(Element, &[URD002, URD003, LNT015])],
         Fault::Unknown { .. } => &[
             (Part, &[URD007, URD008]),
-            (File, &[LNT041, LNT048]),
+            (Named, &[LNT041, LNT048]),
             (Element, &[LNT042, LNT043, URD011]),
         ],
         Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
@@ -71,7 +77,7 @@ fn seeing(fault: &Fault) -> &'static [Seeing] {
         Fault::Mesh(_) => {
             &[(Beside, OF_FILES), (Beside, &[LNT020, LNT022, LNT023, LNT024, LNT034, LNT035])]
         }
-        Fault::Name { .. } => &[(File, &[LNT015])],
+        Fault::Name { .. } => &[(Named, &[LNT015])],
         Fault::Version(_) => &[(Element, &[URD011])],
         Fault::Other(_) => {
             &[(Part, &[URD009, URD010]), (Beside, &[LNT008, URD011, URD012, LNT046])]
@@ -84,7 +90,7 @@ fn seeing(fault: &Fault) -> &'static [Seeing] {
 fn seeing_missing(name: &str) -> &'static [Seeing] {
     match name {
         // The root, in Gazebo, where no link has a mass.
-        "inertial" => &[(File, &[LNT006]), (Part, &[LNT008]), OF_MISSING],
+        "inertial" => &[(Robot, &[LNT006]), (Part, &[LNT008]), OF_MISSING],
         "mass" | "inertia" | "value" => &[(Part, &[LNT006, LNT008]), OF_MISSING],
         name if name.len() == 3 && name.starts_with('i') => {
             &[(Part, &[LNT006, LNT008]), OF_MISSING]

@@ -6,16 +6,15 @@ use urdd_format::urdf::JointType;
 declare_lint! {
     /// An `<inertial>` has no mass, no inertia, or not all numbers of it.
     ///
-    /// MuJoCo refuses the file, and PyBullet does where `<mass>` or `<inertia>` is missing. urdfdom, so ROS and Pinocchio,
-    /// goes on without the inertial: without a mass the link weighs nothing.
+    /// Programs refuse the robot, or go on without the inertial: without a mass the link weighs nothing.
     ///
     /// Write `<mass value>` and all of ixx, ixy, ixz, iyy, iyz, izz. A link without mass has no `<inertial>` at all.
     LNT008 "inertial-incomplete", Error, WrongMotion, since "1.1.0" => inertial_incomplete;
 
     /// A joint moves links of which none has a mass.
     ///
-    /// MuJoCo fills collision shapes with 1000 kg/m³, and refuses the robot where the links have none. PyBullet
-    /// gives such a link 1 kg, Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
+    /// Its mass depends on the program: MuJoCo fills collision shapes with 1000 kg/m³, PyBullet gives such a link 1 kg,
+    /// Pinocchio 0 kg. Links that fixed joints hold together count as one.
     ///
     /// Write an `<inertial>`, or make the joint `fixed`.
     LNT006 "moving-link-without-inertial", Warning, WrongMotion, since "1.1.0" => moving_link_without_inertial;

@@ -4,8 +4,7 @@ use urdd_format::readable::number as shown;
 declare_lint! {
     /// The effort or velocity of a joint's limit is negative, or one of them is 0.
     ///
-    /// Pinocchio refuses the whole robot if one of them is negative, on joints that follow another one too. With
-    /// effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
+    /// Programs refuse a negative one, on joints that follow another one too. With effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
     /// parameterization fails. MuJoCo takes 0 as "no limit".
     ///
     /// Write what the motor can do, in N or N m, and in m/s or rad/s. Where both are 0, SRC009 says so.
@@ -13,8 +12,8 @@ declare_lint! {
 
     /// A `<limit>` has no effort or no velocity, or a revolute or prismatic joint has no `<limit>`.
     ///
-    /// urdfdom, so all of ROS and Pinocchio, refuses the whole file. A `<limit>` needs both on joints of any type, and a joint
-    /// that follows another needs a `<limit>`: `Could not parse limit element`, `did not specify limits`. MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
+    /// A `<limit>` needs both on joints of any type, and a joint that follows another needs a `<limit>`: ROS says `Could not
+    /// parse limit element`, or `did not specify limits`. yourdfpy and others load the robot, so that nobody sees it.
     ///
     /// Write what is missing: what the motor can do, in N or N m, and in m/s or rad/s.
     LNT017 "limit-incomplete", Error, Format, since "1.1.0" => limit_incomplete;

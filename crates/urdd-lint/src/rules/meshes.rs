@@ -22,15 +22,15 @@ declare_lint! {
 
     /// An STL is text, or is cut off.
     ///
-    /// MuJoCo refuses the robot if it is a collision mesh. PyBullet loads the link without its collision shape, and says so in its log alone.
-    /// Pinocchio and yourdfpy read text.
+    /// A program that does not read it refuses the robot, or leaves out the shape, which its log alone says. yourdfpy reads
+    /// text.
     ///
     /// Export the mesh as binary STL.
     LNT034 "stl-refused", Warning, Collisions, since "1.1.0" => stl_refused;
 
     /// A mesh is there, but holds no triangles that can be read.
     ///
-    /// Every program refuses it. Often the file is a pointer of Git LFS: the mesh itself was not fetched.
+    /// The robot has no shape there, if a program loads it at all. Often the file is a pointer of Git LFS: the mesh itself was not fetched.
     ///
     /// Export the mesh again, or fetch it: `git lfs pull`.
     LNT035 "mesh-not-readable", Error, MissingGeometry, since "1.1.0" => mesh_not_readable;

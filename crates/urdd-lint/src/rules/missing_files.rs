@@ -8,7 +8,7 @@ use urdd_source::Files;
 declare_lint! {
     /// A mesh is not there.
     ///
-    /// MuJoCo and PyBullet refuse the robot, Pinocchio its geometry. RViz shows nothing at that place, and planners see no
+    /// Programs refuse the robot, or have no shape there. RViz shows nothing at that place, and planners see no
     /// collision. A mesh of a package that is not found is LNT037's, unless a package or folder of a near name has it: write that
     /// name, or rename the folder. A file that is there, outside of the robot's folder and packages, is no finding; its shape is
     /// read with `--allow-folder`.

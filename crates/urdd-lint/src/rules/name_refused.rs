@@ -5,14 +5,12 @@ use super::prelude::*;
 declare_lint! {
     /// A link or joint has a name that a program refuses.
     ///
-    /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
-    /// - `world` on a link that a joint moves: MuJoCo and SDFormat refuse the robot. On a link that is fixed to one that
-    ///   moves, MuJoCo loads the robot, and takes the link for the world: it stands still, with all that hangs on it. On a
-    ///   link that is fixed to another one, Gazebo Harmonic and Jetty refuse the robot. On the root, the name is fine.
-    /// - `world` on a joint: SDFormat refuses the robot; if the joint is fixed, Gazebo Harmonic and Jetty.
-    /// - A slash at the beginning: tf2 refuses it as the name of a frame.
-    /// - `::`, and `__` at both ends: reserved in SDFormat.
-    /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's.
+    /// - A joint and a link have one name.
+    /// - A joint is called `world`, or a link is that is not the root. Of a link that is fixed to one that moves, MuJoCo takes
+    ///   it for the world: it stands still, with all that hangs on it.
+    /// - A name begins with a slash: tf2 refuses it as the name of a frame.
+    /// - A name has `::`, or `__` at both ends: they are reserved in SDFormat.
+    /// - A name is empty.
     ///
     /// Choose another name, and change it wherever it is used: SRDF, controllers, launch files.
     LNT015 "name-refused", Warning, Format, since "1.1.0"

@@ -1,4 +1,5 @@
 use super::prelude::*;
+use urdd_findings::code::Code;
 
 declare_lint! {
     /// A program refuses the whole robot.
@@ -11,7 +12,7 @@ declare_lint! {
     /// It is an error if ROS refuses the robot, or two of the other programs do; else a warning. Where `--for` or
     /// `for` in `urdd.toml` names programs, it is an error if one of these refuses the robot, and an information if only
     /// others do.
-    LNT060 "refused-by-programs", Warning, Format, since "1.3.0" => |urdf, findings| report(urdf, true, findings);
+    LNT060 "refused-by-programs", Warning, Format, since "1.3.0" => |urdf, findings| report(urdf, Code::LNT060, findings);
 
     /// A program loads the robot, but leaves a part of it out, or reads a part otherwise than it is written.
     ///
@@ -20,18 +21,14 @@ declare_lint! {
     /// has, such as a material in a program without pictures, is no fault and is not reported.
     ///
     /// Where `--for` or `for` in `urdd.toml` names programs, it is an information if only other programs do so.
-    LNT061 "not-read-as-written", Warning, WrongMotion, since "1.3.0" => |urdf, findings| report(urdf, false, findings)
+    LNT061 "not-read-as-written", Warning, WrongMotion, since "1.3.0" => |urdf, findings| report(urdf, Code::LNT061, findings)
 }
 
-/// Reports the faults for which a program refuses the robot, or the others.
-fn report(urdf: &Subject, is_refused: bool, findings: &mut Findings) -> Option<()> {
+/// Reports the faults that this rule tells of.
+fn report(urdf: &Subject, code: Code, findings: &mut Findings) -> Option<()> {
     let left = urdf.programs.get().into_iter().flatten();
-    for fault in left.filter(|fault| fault.is_refused == is_refused) {
-        let mut finding = urdf.at_offset(fault.offset, &fault.message);
-        finding.severity = Some(fault.severity);
-        finding.consequence = fault.consequence;
-        finding.place.programs.clone_from(&fault.programs);
-        finding.fix(fault.fix.clone()).report(findings);
+    for fault in left.filter(|fault| fault.code == code) {
+        fault.reported(urdf.at_offset(fault.offset, &fault.message)).report(findings);
     }
     Some(())
 }

@@ -16,16 +16,15 @@ declare_lint! {
 
     /// The name of a mesh or texture has a backslash.
     ///
-    /// Only Windows takes it as a separator. MuJoCo finds the file elsewhere too; Pinocchio and PyBullet refuse it. Where no
-    /// file is there with `/` either, this finding says that as well.
+    /// Only Windows takes it as a separator, and few programs do elsewhere. Where no file is there with `/` either, this finding
+    /// says that as well.
     ///
     /// Write `/`.
     LNT027 "backslash-in-path", Warning, MissingGeometry, since "1.1.0" => backslash_in_path;
 
     /// A mesh or texture is not there, but a file whose path differs in the case of letters is.
     ///
-    /// Windows and macOS find it, so its author does not notice. On Linux, MuJoCo, Pinocchio and PyBullet do not. Of a texture
-    /// it is an info: the part is white or grey.
+    /// Windows and macOS find it, so its author does not notice; Linux does not. Of a texture it is an info: the part is white or grey.
     ///
     /// Write the name, and the folders in it, as they are called.
     LNT028 "letter-case", Error, MissingGeometry, since "1.1.0" => letter_case

@@ -25,8 +25,8 @@ declare_lint! {
 
     /// A visual names a material that is not defined.
     ///
-    /// urdfdom 1.0 refuses the whole robot: `material 'X' undefined`. Others log an error, and draw the link in a default
-    /// colour. urdfdom reads links in the order of the file, so a definition in a later link does not count.
+    /// Programs refuse the robot, or draw the link in a colour of their own. ROS reads links in the order of the file, so a
+    /// definition in a later link does not count.
     ///
     /// Define the material directly in `<robot>`, or write its colour here.
     LNT041 "material-not-defined", Warning, Appearance, since "1.1.0" => material_not_defined

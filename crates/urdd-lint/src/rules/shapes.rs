@@ -4,8 +4,7 @@ use urdd_format::report::Fix;
 declare_lint! {
     /// A collision shape has a size of 0 or less.
     ///
-    /// MuJoCo refuses the robot: `size 1 must be positive in geom`. Others have a shape that nothing touches. A visual of
-    /// size 0 draws nothing, and is no finding.
+    /// Programs that load the robot have a shape that nothing touches. A visual of size 0 draws nothing, and is no finding.
     ///
     /// Write the size in metres, or remove the collision.
     LNT033 "size-not-positive", Error, Collisions, since "1.1.0" => size_not_positive;
@@ -29,7 +28,7 @@ declare_lint! {
 
     /// A number of a colour is below 0 or above 1.
     ///
-    /// urdfdom 6 drops the material, yourdfpy stops, other programs show white. Mostly these are 0 to 255.
+    /// Programs leave the colour out, or show white; yourdfpy stops. Mostly these are 0 to 255.
     ///
     /// Divide by 255.
     LNT048 "color-out-of-range", Warning, Appearance, since "1.1.0" => color_out_of_range
@@ -152,7 +151,7 @@ fn color_out_of_range(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if rgba.iter().all(|value| (0.0..=MOST).contains(value)) {
             continue;
         }
-        let message = "a colour is red, green, blue and opacity from 0 to 1; divide by 255";
+        let message = "the colour is not red, green, blue and opacity from 0 to 1; divide by 255";
         let is_bytes = rgba.iter().all(|value| (0.0..=BYTE).contains(value));
         let fix = urdf.value(color, "rgba").filter(|_| is_bytes).map(|range| {
             // An opacity of 1 beside bytes may be either.

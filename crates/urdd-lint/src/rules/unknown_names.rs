@@ -15,8 +15,7 @@ declare_lint! {
 
     /// An element or attribute is misspelt.
     ///
-    /// Most programs ignore what they do not know: with `<limits>` for `<limit>` MuJoCo has a joint without limits, and
-    /// Pinocchio and PyBullet refuse the robot; with `uper` for `upper` Pinocchio's joint goes from -1 to 0.
+    /// Most programs ignore what they do not know, and have a robot without it, or none.
     ///
     /// What other rules find because of it, such as a missing limit, is told here and not by itself; it is then as severe.
     ///
