@@ -139,7 +139,8 @@ fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
 /// The findings of rules, by where they are.
 #[derive(Default)]
 struct Index {
-    /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else.
+    /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else; or else of all
+    /// but that.
     is_repaired: bool,
     by_position: HashMap<Position, Vec<usize>>,
     /// The first of each rule in a link or joint.
@@ -199,7 +200,7 @@ impl Index {
     fn of(&self, subject: &Subject, node: Node, offset: usize, faulty: &Faulty) -> Option<&Known> {
         let is_of_xml = matches!(faulty.fault, Fault::Xml(_));
         let sees = |known: &Known, reach| {
-            let is_its = known.code != Code::URD011 || is_of_xml || !self.is_repaired;
+            let is_its = known.code != Code::URD011 || is_of_xml == self.is_repaired;
             is_its && sees(known.code, &faulty.fault) >= Some(reach)
         };
         let best = |indices: Vec<usize>, reach| {
