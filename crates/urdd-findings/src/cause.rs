@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::check::{Check, Effect, Outcome};
+use super::check::{Check, FollowsFrom, Outcome};
 use super::code::Code;
 use super::places::{parted, retain};
 use super::skip::SkipReason;
@@ -37,7 +37,7 @@ pub(super) fn fold(checks: &mut [Check]) {
             continue;
         };
         let rule = check.rule;
-        let mut by_place: HashMap<Position, Vec<Effect>> = HashMap::new();
+        let mut by_place: HashMap<Position, Vec<FollowsFrom>> = HashMap::new();
         for one in left {
             by_place.entry(one.at).or_default().push(one);
         }

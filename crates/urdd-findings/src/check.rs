@@ -35,7 +35,7 @@ pub struct Check {
     /// Its findings.
     pub findings: Vec<Finding>,
     /// Which of these follow from findings of other rules.
-    pub effects: Vec<Effect>,
+    pub effects: Vec<FollowsFrom>,
     /// The parts of the robot that it did not verify.
     pub not_verified: Vec<NotVerified>,
     /// The parts with findings.
@@ -46,7 +46,7 @@ pub struct Check {
 
 /// A finding of a rule that goes away when the fault of another one is mended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Effect {
+pub struct FollowsFrom {
     /// Where it is.
     pub at: Position,
     /// What it says.

@@ -8,7 +8,7 @@ use super::subject::Subject;
 use super::unknown::What;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;
-use urdd_findings::check::Effect;
+use urdd_findings::check::FollowsFrom;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_format::report::Place;
@@ -91,7 +91,7 @@ pub fn mark_misspelt(
         let other = others.find(|other| other.rule.code == check.rule.code);
         let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
         if let Some(other) = other.filter(ran) {
-            let effect = |(place, at, message): (&Place, Position, String)| Effect {
+            let effect = |(place, at, message): (&Place, Position, String)| FollowsFrom {
                 at,
                 cause: (Code::LNT040, causes.of(place, &message)),
                 message,
@@ -112,13 +112,13 @@ fn follow<K: Eq + Hash>(
     let places = reported(checks, cause).filter_map(|(place, _)| Some((key(place)?, at(place)?)));
     let causes: HashMap<K, Position> = places.collect();
     let effects = reported(checks, effect).filter_map(|(place, message)| {
-        Some(Effect {
+        Some(FollowsFrom {
             at: at(place)?,
             message: message.to_owned(),
             cause: (cause, *causes.get(&key(place)?)?),
         })
     });
-    let effects: Vec<Effect> = effects.collect();
+    let effects: Vec<FollowsFrom> = effects.collect();
     if let Some(check) = checks.iter_mut().find(|check| check.rule.code == effect) {
         check.effects.extend(effects);
     }

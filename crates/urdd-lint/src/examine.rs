@@ -23,7 +23,7 @@ use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
 use urdd_programs::Fault;
-use urdd_source::{Original, SourceMeshes, mend_xml};
+use urdd_source::{Original, Repaired, SourceMeshes, mend_xml};
 use urdd_validate::examine_urdf;
 
 const FAMILY: &str = "LNT";
@@ -56,7 +56,10 @@ pub fn examined(
     let job = Job { xml, original, name, folder, settings, srdfs: &srdfs };
     let mut examined = examine_urdf(xml, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let mended = xml.document().is_err().then(|| mend_xml(xml)).unwrap_or_default();
+    let mended = match xml.document() {
+        Ok(_) => Repaired::default(),
+        Err(_) => mend_xml(xml),
+    };
     let of_mended = mended.text.as_deref().map(Xml::new);
     let Ok(document) = of_mended.as_ref().unwrap_or(xml).document() else {
         let left = job.ask().map_or_else(Vec::new, |mut asked| {

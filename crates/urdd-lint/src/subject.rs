@@ -293,11 +293,6 @@ impl<'a> Subject<'a> {
         self.lines.position(offset)
     }
 
-    /// The offset of a line and column.
-    pub fn offset(&self, at: Position) -> Option<usize> {
-        self.lines.offset(at)
-    }
-
     /// The first element that only xacro understands.
     pub fn macros(&self) -> Option<Node<'a, 'a>> {
         let is_macro = |node: &Node| {

@@ -7,10 +7,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use urdd_xml::element::Edit;
 use urdd_xml::{Node, NodeId};
 
-use urdd_directory::position::Position;
+use urdd_directory::position::{LineIndex, Position};
 use urdd_findings::cause::at;
 use urdd_findings::check::Check;
-use urdd_findings::check::Effect;
+use urdd_findings::check::FollowsFrom;
 use urdd_findings::code::Code;
 use urdd_findings::places::parted;
 use urdd_format::report::{Fix, Place, Severity};
@@ -44,7 +44,7 @@ pub fn attach(
 ) -> Vec<Left> {
     let known = Index::new(subject, checks, !repairs.is_empty());
     let mut given = Given::new();
-    let mut effects: BTreeMap<Code, Vec<Effect>> = BTreeMap::new();
+    let mut effects: BTreeMap<Code, Vec<FollowsFrom>> = BTreeMap::new();
     let mut left = Vec::new();
     let mut faults = std::mem::take(&mut asked.faults);
     for faulty in &mut faults {
@@ -58,7 +58,7 @@ pub fn attach(
         match known.of(subject, node, offset, &faulty) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
-                effects.entry(known.code).or_default().push(Effect {
+                effects.entry(known.code).or_default().push(FollowsFrom {
                     at: known.at,
                     message: known.message.clone(),
                     cause: (faulty.code(), subject.position(offset)),
@@ -139,7 +139,8 @@ fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
 /// The findings of rules, by where they are.
 #[derive(Default)]
 struct Index {
-    /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else.
+    /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else; or else of all
+    /// but that.
     is_repaired: bool,
     by_position: HashMap<Position, Vec<usize>>,
     /// The first of each rule in a link or joint.
@@ -158,6 +159,7 @@ struct Index {
 impl Index {
     fn new(subject: &Subject, checks: &[Check], is_repaired: bool) -> Self {
         let mut index = Index { is_repaired, ..Index::default() };
+        let lines = LineIndex::new(subject.text);
         for check in checks {
             for finding in &check.findings {
                 for (place, message) in finding.said() {
@@ -171,8 +173,8 @@ impl Index {
                         index.by_file.entry(file).or_default().push(here);
                     }
                     let unknown = Fault::Unknown { kind: "material", name: Short::default() };
-                    let material = is_of(unknown).then(|| material(subject, at)).flatten();
-                    if let Some(material) = material {
+                    let offset = lines.offset(at).filter(|_| is_of(unknown));
+                    if let Some(material) = offset.and_then(|at| material(subject, at)) {
                         index.by_material.entry(material).or_default().push(here);
                     }
                     let own = place.subject.as_ref();
@@ -199,7 +201,7 @@ impl Index {
     fn of(&self, subject: &Subject, node: Node, offset: usize, faulty: &Faulty) -> Option<&Known> {
         let is_of_xml = matches!(faulty.fault, Fault::Xml(_));
         let sees = |known: &Known, reach| {
-            let is_its = known.code != Code::URD011 || is_of_xml || !self.is_repaired;
+            let is_its = known.code != Code::URD011 || is_of_xml == self.is_repaired;
             is_its && sees(known.code, &faulty.fault) >= Some(reach)
         };
         let best = |indices: Vec<usize>, reach| {
@@ -275,9 +277,9 @@ impl Index {
     }
 }
 
-/// The name of the material that has something at a place.
-fn material(subject: &Subject, at: Position) -> Option<Short> {
-    let node = subject.element(subject.offset(at)?)?;
+/// The name of the material that has something at an offset.
+fn material(subject: &Subject, offset: usize) -> Option<Short> {
+    let node = subject.element(offset)?;
     let material = node.ancestors().find(|one| one.has_tag_name("material"))?;
     Some(material.attribute("name")?.into())
 }

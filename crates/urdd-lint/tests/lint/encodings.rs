@@ -54,7 +54,10 @@ fn a_fault_is_found_at_its_place_whatever_encoding_a_file_declares() {
 
 #[test]
 fn what_programs_make_of_utf_16_is_told_at_the_beginning() {
-    for text in [ROBOT.to_owned(), format!("<?xml version=\"1.0\" encoding=\"UTF-16\"?>{ROBOT}")] {
+    let declared = format!("<?xml version=\"1.0\" encoding=\"UTF-16\"?>{ROBOT}");
+    // URD011 has another fault.
+    let unreadable = ROBOT.replace("0\t0\t1", "0 0 x");
+    for text in [ROBOT.to_owned(), declared, unreadable] {
         let found = refused(&utf16(&text));
         assert_eq!(found, [[Some(1), Some(1), Some(1), Some(1)]], "{text}");
     }
