@@ -78,6 +78,8 @@ const TESTS: &[(&str, &str)] = &[
     ),
     ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
+    ("parsers::", "see the message: docs/security.md has a row for each parser, and who calls it"),
+    ("file_types::", "see the message: the page and editors know files by the program's endings"),
     ("carried::the_page", "cargo xtask update exports, and read what it wrote"),
     ("front_ends::users_are_told", "add a line to the first section of CHANGELOG.md"),
     ("front_ends::", "cargo xtask update exports, and read what it wrote"),

@@ -167,7 +167,7 @@ impl Imported {
     }
 }
 
-/// Imports a description, if it is MJCF, SDF or USD by its content; `None` of anything else, and of what cannot be read.
+/// Imports a description, if it is MJCF, SDF or USD by its content; `None` of anything else.
 ///
 /// # Errors
 /// If it is refused, with the place.
@@ -184,10 +184,11 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
         // With meshes in it.
         Format::Usd => MAX_DOCUMENT_BYTES,
     };
-    let Ok(bytes) = settings.files.read(path, most) else { return Ok(None) };
+    let unreadable =
+        |reason: String| SourceError::Read { file: path.display().to_string(), reason };
+    let bytes = settings.files.read(path, most).map_err(|error| unreadable(error.to_string()))?;
     let canonical = settings.files.canonicalize(path);
-    let canonical = canonical
-        .map_err(|error| SourceError::Read { file: shown.clone(), reason: error.to_string() })?;
+    let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
     let gate = Gate::of_project(folder, settings);
     gate.account().deposit(bytes.len());

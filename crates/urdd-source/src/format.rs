@@ -25,7 +25,8 @@ pub fn format_of(path: &Path, files: &Files) -> Option<Format> {
 pub(crate) fn by_content(file: &Path, files: &Files) -> Option<RobotFile> {
     match FileType::of(file)? {
         FileType::Xml | FileType::Sdf | FileType::Mjcf | FileType::Usd => robot_file(file, files),
-        _ => None,
+        FileType::Urdf | FileType::Xacro | FileType::Srdf => None,
+        FileType::Archive | FileType::Document => None,
     }
 }
 

@@ -345,7 +345,8 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
             Some(FileType::Xml | FileType::Sdf | FileType::Mjcf | FileType::Usd) => {
                 found.others.push(path);
             }
-            _ => {}
+            Some(FileType::Xacro | FileType::Srdf | FileType::Archive | FileType::Document) => {}
+            None => {}
         }
     }
     Ok(())
