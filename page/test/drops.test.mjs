@@ -213,7 +213,8 @@ inPage(set, "a description is one by any name", async (page) => {
   let id = null;
   for (const name of ["arm.xml", "arm.txt", "arm.sdf", "arm.usda", "arm.zip", "arm"]) {
     await dropOn(page, folder({ [name]: text })(name));
-    id = await whole(page, "arm", id);
+    // An ending that no description has is a part of the name.
+    id = await whole(page, name === "arm.txt" ? name : "arm", id);
   }
   await dropOn(page, folder({ "m.stl": TETRAHEDRON, "box.urdf": MJCF })("box.urdf"));
   await page
@@ -243,7 +244,7 @@ inPage(set, "what a stage did not change stays where it is", async (page) => {
   assert.ok(found.stages > 1 && found.last > found.first, JSON.stringify(found));
   assert.ok(found.same.includes("robot.urdf"), JSON.stringify(found));
   assert.ok(
-    found.same.some((path) => path.startsWith("plain_meshes_module/meshes/")),
+    found.same.some((path) => path.includes("plain_meshes_module/meshes/")),
     JSON.stringify(found),
   );
 });

@@ -63,7 +63,7 @@ pub fn beside(urdf: &Path, settings: &Settings) -> Result<Option<Said>, SourceEr
 /// Reads the file that is named in the settings, if one is.
 ///
 /// # Errors
-/// Those of [`beside`].
+/// Those of [`beside()`].
 pub fn named(settings: &Settings) -> Result<Option<Said>, SourceError> {
     settings.loops.as_ref().map(|path| read(path, text(path, settings)?)).transpose()
 }
