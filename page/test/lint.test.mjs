@@ -58,6 +58,10 @@ inPage(set, "findings are counted without being asked for, painted, and shown in
   const told = card(page, "LNT017").locator(".explanation");
   await told.getByText(/ROS, Gazebo and Pinocchio refuse the robot/).waitFor();
   assert.doesNotMatch(await told.textContent(), /SPEC/);
+  await card(page, "LNT040").getByRole("button", { name: "Explain" }).click();
+  const examples = card(page, "LNT040").locator(".explanation li");
+  await examples.first().waitFor();
+  assert.ok((await examples.count()) > 1, "a list");
 });
 
 inPage(set, "findings follow the text: broken, mended, allowed", async (page) => {

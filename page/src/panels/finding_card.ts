@@ -42,9 +42,16 @@ async function explain(app: App, code: string, into: HTMLElement): Promise<void>
     fill(
       into,
       rule.clause !== null && h("p", { class: "hint" }, `SPEC ${rule.clause}`),
-      ...rule.explanation.split("\n\n").map((text) => h("p", {}, ...prose(text))),
+      ...rule.explanation.split("\n\n").map(paragraph),
     );
   } catch (error) {
     fill(into, h("p", { class: "hint" }, message(error)));
   }
+}
+
+/** A paragraph, or a list of lines that begin with a dash. */
+function paragraph(text: string): HTMLElement {
+  if (!text.startsWith("- ")) return h("p", {}, ...prose(text));
+  const items = text.slice(2).split("\n- ");
+  return h("ul", {}, ...items.map((item) => h("li", {}, ...prose(item))));
 }
