@@ -7,9 +7,16 @@ use std::process::Command;
 use crate::source::files;
 use crate::{new_lint_rule, new_rule};
 
+/// The remedy where what a name of `update` is of is stale.
+macro_rules! updates {
+    ($name:literal) => {
+        concat!("cargo xtask update ", $name, ", and read what it wrote")
+    };
+}
+
 /// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
-    ("spec_agrees::the_tables_of_fields", "cargo xtask update fields, and read what it wrote"),
+    ("spec_agrees::the_tables_of_fields", updates!("fields")),
     (
         "spec_agrees::the_table_of_modules",
         "list the module in the table of SPEC.md, clause 2.2.1, where the registry has it",
@@ -24,8 +31,8 @@ const TESTS: &[(&str, &str)] = &[
         "list the rule in the family's mod.rs, and its code in crates/urdd-findings/src/code.rs",
     ),
     ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
-    ("snapshots::", "cargo xtask update snapshots, and read what it wrote"),
-    ("cases::the_pages_say", "cargo xtask update counts, and read what it wrote"),
+    ("snapshots::", updates!("snapshots")),
+    ("cases::the_pages_say", updates!("counts")),
     (
         "cases::cases_are_judged",
         "look which is right, the case or the validator; `cargo xtask update cases` writes what the validator finds now",
@@ -54,10 +61,7 @@ const TESTS: &[(&str, &str)] = &[
         "say in conformance/clauses which cases decide the statement, or why none can; URDD_UPDATE=1 cargo test --test rules clauses adds the line",
     ),
     ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
-    (
-        "published_schemas::the_committed_schemas",
-        "cargo xtask update schemas, and read what it wrote",
-    ),
+    ("published_schemas::the_committed_schemas", updates!("schemas")),
     (
         "published_schemas::",
         "see the message; a released schema never changes: make a new version of the module",
@@ -66,8 +70,8 @@ const TESTS: &[(&str, &str)] = &[
         "annotations::every_field",
         "annotate the fields in crates/urdd-format/src: SPEC 11.3 and 11.4 have the words; what has none goes into a list in tests/program/annotations.rs, as a list with a length of its own",
     ),
-    ("typescript::", "cargo xtask update types, and read what it wrote"),
-    ("cpp_types::", "cargo xtask update types, and read what it wrote"),
+    ("typescript::", updates!("types")),
+    ("cpp_types::", updates!("types")),
     (
         "support_is_sound::toy_holds",
         "say in that test that the toy does not have the module, or make it in testkit/src/core_modules.rs",
@@ -80,11 +84,11 @@ const TESTS: &[(&str, &str)] = &[
     ("security_doc::", "see the message"),
     ("parsers::", "see the message: docs/security.md has a row for each parser, and who calls it"),
     ("file_types::", "see the message: the page and editors know files by the program's endings"),
-    ("carried::the_page", "cargo xtask update exports, and read what it wrote"),
+    ("carried::the_page", updates!("exports")),
     ("front_ends::users_are_told", "add a line to the first section of CHANGELOG.md"),
-    ("front_ends::", "cargo xtask update exports, and read what it wrote"),
-    ("in_programs::", "cargo xtask update programs, and read what it wrote"),
-    ("imports::the_page", "cargo xtask update imports, and read what it wrote"),
+    ("front_ends::", updates!("exports")),
+    ("in_programs::", updates!("programs")),
+    ("imports::the_page", updates!("imports")),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];
 
@@ -122,9 +126,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
         fault("formatting", "", "cargo fmt");
     }
     match python_types(root, &["--check"]) {
-        Some(false) => {
-            fault("types for Python", "", "cargo xtask update types, and read what it wrote")
-        }
+        Some(false) => fault("types for Python", "", updates!("types")),
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
@@ -240,6 +242,16 @@ mod tests {
                       note: run with `RUST_BACKTRACE=1` environment variable to display a backtrace\n\n\nfailures:\n    a::b\n";
         let message = "  DOF003 is not in SPEC.md\n".to_owned();
         assert_eq!(failures(output), [("a::b", message)]);
+    }
+
+    #[test]
+    fn what_is_to_be_updated_can_be() {
+        let remedies = TESTS.iter().filter_map(|(_, remedy)| remedy.split("xtask update ").nth(1));
+        for name in remedies.filter_map(|words| words.split([' ', ',', '`']).next()) {
+            assert!(crate::update::names().any(|one| one == name), "{name}");
+        }
+        let all: Vec<&str> = crate::update::names().collect();
+        assert!(crate::USAGE.contains(&format!("[{}]", all.join("|"))), "{all:?}");
     }
 
     #[test]

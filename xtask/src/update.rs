@@ -41,17 +41,21 @@ const SCHEMAS: &str = "schemas";
 /// Types for Python, which a script writes, are `types` too.
 const TYPES: &str = "types";
 
+/// The names of what can be updated.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    [SCHEMAS].into_iter().chain(WRITERS.iter().map(|(name, ..)| *name))
+}
+
 /// Regenerates what these names are of, or everything without any; returns whether that succeeded.
 ///
 /// # Errors
 /// If a name is of nothing, or cargo cannot be run.
-pub fn run(root: &Path, names: &[&str]) -> Result<bool, String> {
-    let all = || [SCHEMAS].into_iter().chain(WRITERS.iter().map(|(name, ..)| *name));
-    if let Some(unknown) = names.iter().find(|name| all().all(|one| one != **name)) {
-        let all = all().collect::<Vec<_>>().join(", ");
+pub fn run(root: &Path, asked: &[&str]) -> Result<bool, String> {
+    if let Some(unknown) = asked.iter().find(|name| names().all(|one| one != **name)) {
+        let all = names().collect::<Vec<_>>().join(", ");
         return Err(format!("there is nothing to update that is called {unknown}: {all}"));
     }
-    let is_asked = |name: &str| names.is_empty() || names.contains(&name);
+    let is_asked = |name: &str| asked.is_empty() || asked.contains(&name);
     let before = texts(root);
     let failed = |error| format!("cargo cannot be run: {error}");
     let mut right = true;
