@@ -115,7 +115,7 @@ fn files_are_written_by_one_way() {
         "urdd-directory/src/target_lock.rs",
         "urdd-directory/src/temporary.rs",
         "urdd-directory/src/writer.rs",
-        "urdd-lint/src/target.rs",
+        "urdd-lint/src/fix.rs",
         "urdd-view/src/site_list.rs",
     ];
     let mut found = BTreeSet::new();

@@ -48,7 +48,7 @@ const TESTS: &[(&str, &str)] = &[
     ),
     (
         "cases::a_rule_alone",
-        "look which is right, the rule or crates/urdd-lint/tests/cases/CODE/invalid.urdf: its rule alone finds something there. If others rightly find the same fault, name the rule in programs/seen.rs (for LNT060 and LNT061) or in effects.rs",
+        "look which is right, the rule or crates/urdd-lint/tests/cases/CODE/invalid.urdf: its rule alone finds something there. If others rightly find the same fault, name the rule in programs/faults.rs (for LNT060 and LNT061) or in told.rs",
     ),
     ("cases::a_near_miss", "nothing is found in crates/urdd-lint/tests/cases/CODE/near_miss.urdf"),
     ("cases::near_misses_are_near", "change a few lines of invalid.urdf in near_miss.urdf"),

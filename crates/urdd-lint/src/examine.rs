@@ -3,16 +3,6 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use urdd_xml::{Document, Xml};
-
-use super::programs::{Asked, Left, attach, attach_to};
-use super::rule::LintRule;
-use super::settings::LintSettings;
-use super::skip::{NOT_EXPANDED, refusal};
-use super::srdf_text::SrdfFile;
-use super::subject::Subject;
-use super::written::say_where_expanded;
-use super::{allow, effects, namespaces, rules};
 use urdd_directory::position::LineIndex;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
@@ -25,6 +15,16 @@ use urdd_format::report::{Place, StaleIgnore};
 use urdd_programs::Fault;
 use urdd_source::{Original, Repaired, SourceMeshes, mend_xml};
 use urdd_validate::examine_urdf;
+use urdd_xml::{Document, Xml};
+
+use crate::beside::SrdfFile;
+use crate::programs::Asked;
+use crate::programs::attach::{attach, attach_to};
+use crate::rules::prelude::LintRule;
+use crate::settings::{LintSettings, NOT_EXPANDED, refusal};
+use crate::subject::Subject;
+use crate::written::say_where_expanded;
+use crate::{fixes, rules, told};
 
 const FAMILY: &str = "LNT";
 /// The rules that say what other rules do not see of what programs do.
@@ -62,14 +62,26 @@ pub fn examined(
     };
     let of_mended = mended.text.as_deref().map(Xml::new);
     let Ok(document) = of_mended.as_ref().unwrap_or(xml).document() else {
-        let left = job.ask().map_or_else(Vec::new, |mut asked| {
+        let found = job.ask().map_or_else(Vec::new, |mut asked| {
             let is_xml = |fault: &Fault| matches!(fault, Fault::Xml(_));
-            let left = attach_to(Code::URD011, &mut asked, &mut examined.checks, is_xml);
+            let lines = LineIndex::new(xml.text());
+            let at = |offset: usize, message| {
+                Finding::in_file(name, message).position(Some(lines.position(offset)))
+            };
+            let left = attach_to(Code::URD011, &mut asked, &mut examined.checks, is_xml, at);
             examined.report.programs = asked.results;
             left
         });
-        let rules = rules_to_run(settings);
-        examined.checks.extend(rules.map(|rule| job.without_document(rule, &left)));
+        // What only programs name is known of a text that cannot be mended.
+        let checked = rules_to_run(settings).map(|LintRule { description: rule, .. }| {
+            let its = found.iter().filter(|(code, _)| *code == rule.code);
+            let its: Vec<Finding> = its.map(|(_, finding)| finding.clone()).collect();
+            match its.is_empty() {
+                true => Check::skipped(rule, SkipReason::Failed(Code::URD011)),
+                false => Check::new(rule, Outcome::Failed, its),
+            }
+        });
+        examined.checks.extend(checked);
         return (examined, Vec::new());
     };
     let taken = match &of_mended {
@@ -82,7 +94,10 @@ pub fn examined(
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
         let left = match subject.macros() {
-            Some(_) => attach_to(Code::LNT051, &mut asked, checks, |_| true),
+            Some(_) => {
+                let at = |offset, message| subject.at_offset(offset, message);
+                attach_to(Code::LNT051, &mut asked, checks, |_| true, at)
+            }
             None => attach(&subject, &mut asked, checks, &mended.edits),
         };
         examined.report.programs = asked.results;
@@ -109,13 +124,13 @@ pub fn examined(
         }
     }
     if is_mended {
-        namespaces::declare(xml, name, &mut examined.checks);
+        fixes::declare(xml, name, &mut examined.checks);
     }
-    effects::mark(&mut examined.checks);
+    told::mark(&mut examined.checks);
     if !is_mended {
-        effects::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
+        told::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
     }
-    let stale = allow::apply(document, name, &mut examined.checks);
+    let stale = told::allow(document, name, &mut examined.checks);
     (examined, stale)
 }
 
@@ -147,28 +162,13 @@ impl<'a> Job<'a> {
         Some(Asked::about(counted, text, &offsets, self.folder, self.settings))
     }
 
-    /// What a rule finds in a text that cannot be mended: what only programs name is known nevertheless.
-    fn without_document(self, rule: &'static LintRule, left: &[Left]) -> Check {
-        let (rule, lines) = (&rule.description, LineIndex::new(self.xml.text()));
-        let is_its = |fault: &&Left| rule.code == fault.code;
-        let found = left.iter().filter(is_its).map(|fault| {
-            let finding = Finding::in_file(self.name, &fault.message);
-            fault.reported(finding.position(Some(lines.position(fault.offset))))
-        });
-        let found: Vec<Finding> = found.collect();
-        match found.is_empty() {
-            true => Check::skipped(rule, SkipReason::Failed(Code::URD011)),
-            false => Check::new(rule, Outcome::Failed, found),
-        }
-    }
-
     /// Runs the rules of the family LNT after those of the validator. `programs` gives the faults that only programs name,
     /// when the other rules have run.
     fn run(
         self,
         subject: &Subject,
         checks: &mut Vec<Check>,
-        programs: impl FnOnce(&mut Vec<Check>) -> Vec<Left>,
+        programs: impl FnOnce(&mut Vec<Check>) -> Vec<(Code, Finding)>,
     ) {
         let is_macro = subject.macros().is_some();
         if is_macro {

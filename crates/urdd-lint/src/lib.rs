@@ -5,65 +5,48 @@
 //! version. [`lint`] examines files, [`lint_text`] a text that an editor holds.
 
 // Hidden modules are public for `tests/`.
-#[doc(hidden)]
-pub mod allow;
-mod bodies;
-mod closing;
-mod effects;
-mod elements;
+mod beside;
 mod examine;
 mod fix;
+mod fixes;
 mod geometry;
 #[doc(hidden)]
 pub mod hull;
-mod imports;
 mod in_programs;
-#[doc(hidden)]
-pub mod inertial;
-mod named_file;
-mod namespaces;
-mod needs;
 pub mod pose;
-#[doc(hidden)]
-pub mod primitives;
 mod programs;
-mod rule;
 pub mod rules;
-mod settings;
-pub mod skip;
+pub mod settings;
 mod sources;
 mod srdf;
-mod srdf_text;
 mod subject;
-mod target;
-mod textures;
-mod unknown;
+#[doc(hidden)]
+pub mod told;
 pub mod vocabulary;
 mod written;
 
-pub use fix::{ChangedError, Mended, mend};
-pub use needs::{Undeclared, lint_undeclared, undeclared};
-pub use rule::LintRule;
+pub use fix::{ChangedError, LeftAlone, Mended, mend};
+pub use rules::prelude::LintRule;
 pub use settings::{LintSettings, declared};
-pub use sources::{LintError, seen_from};
-pub use target::LeftAlone;
+pub use sources::{LintError, Undeclared, lint_undeclared, seen_from, undeclared};
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-
-use examine::examined;
-use sources::{Sources, sources, stems};
 use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
-use urdd_format::report::{Kind, StaleIgnore};
-use urdd_import::import;
+use urdd_format::index::Count;
+use urdd_format::report::{ImportedFrom, ImportedPart, Kind, StaleIgnore, WrittenAt};
+use urdd_import::{Imported, import};
 use urdd_source::macros::{has_no_link, has_no_name, has_open_ends};
 use urdd_source::robots::Job;
 use urdd_source::{Files, MAX_SOURCE_BYTES, SourceError, SourceText, read_source};
 use urdd_xml::Xml;
-use written::say_where_expanded;
+
+use examine::examined;
+use sources::{Sources, sources, stems};
+use written::{named, say_where, say_where_expanded};
 
 /// Lints URDFs, xacro files, and all of them below folders, in parallel.
 ///
@@ -152,7 +135,7 @@ fn lint_file(
     let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
-                let examined = imports::examined_import(&imported, stems(path), settings)?;
+                let examined = examined_import(&imported, stems(path), settings)?;
                 text = Some(imported.original);
                 examined
             }
@@ -229,4 +212,68 @@ fn of_source(
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
     examined(&Xml::new(text), None, name, folder, settings).0
+}
+
+/// What is found in the URDF of an import of the file `name` in `folder`, and the comments in it that matched nothing.
+///
+/// # Errors
+/// If its files are more than memory may hold.
+fn examined_import(
+    imported: &Imported,
+    (folder, name): (PathBuf, String),
+    settings: &LintSettings,
+) -> Result<(Examined, Vec<StaleIgnore>), SourceError> {
+    let folder = settings.source.files.canonicalize(&folder).unwrap_or(folder);
+    let settings =
+        LintSettings { source: imported.settings(&settings.source)?, ..settings.clone() };
+    let (mut examined, unused) =
+        examined(&Xml::new(imported.text()), None, &name, Path::new("/"), &settings);
+    let find = |kind: &str, part: &str| {
+        let (file, line, column) = imported.place(kind, part)?;
+        let is_main = file == imported.shown;
+        Some(WrittenAt {
+            file: if is_main {
+                name.clone()
+            } else {
+                urdd_source::written::seen_from(Path::new(file), &folder)
+            },
+            line: Some(Count(line)),
+            column: Some(Count(column)),
+            macro_name: None,
+        })
+    };
+    say_where(&mut examined.checks, &name, |place| {
+        let (kind, part) = named(place.subject.as_deref()?)?;
+        find(kind, part)
+    });
+    for effect in examined.report.programs.iter_mut().flat_map(|program| &mut program.effects) {
+        // Such as `joint/elbow/limit`; a name may have slashes too.
+        let part = effect.part.as_deref().and_then(|part| part.split_once('/'));
+        let written = part.filter(|(kind, _)| matches!(*kind, "link" | "joint"));
+        let written = written.and_then(|(kind, part)| {
+            let ends = part.match_indices('/').map(|(end, _)| end).chain([part.len()]);
+            ends.rev().find_map(|end| find(kind, &part[..end]))
+        });
+        // An effect has a line, and no file.
+        let written = written.filter(|at| at.file == name);
+        (effect.line, effect.column) = written.map_or((None, None), |at| (at.line, at.column));
+    }
+    examined.report.imported = Some(imported_from(imported));
+    Ok((examined, unused))
+}
+
+fn imported_from(imported: &Imported) -> ImportedFrom {
+    let report = &imported.report;
+    let part = |what: &str, count: usize, how: Option<&str>| ImportedPart {
+        what: what.to_owned(),
+        count: Count::saturating(count),
+        how: how.map(str::to_owned),
+    };
+    let otherwise = report.otherwise().map(|(what, count, how)| part(what, count, Some(how)));
+    ImportedFrom {
+        format: report.format.name().to_owned(),
+        otherwise: otherwise.collect(),
+        lost: report.lost().map(|(what, count)| part(what, count, None)).collect(),
+        notes: report.remarks.iter().map(ToString::to_string).collect(),
+    }
 }

@@ -1,13 +1,24 @@
-//! Which files a run examines, and what they are called in reports.
+//! Which files a run examines and what they are called in reports, and xacro files that need arguments before they can be.
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use thiserror::Error;
-
-use super::settings::LintSettings;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::file_type::FileType;
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::examined::{Examined, blank};
+use urdd_findings::finding::Finding;
+use urdd_format::report::Kind;
+use urdd_source::arguments::{XacroArgument, declaration};
+use urdd_source::macros::has_no_link;
 use urdd_source::robots::{Batch, BatchError, Job, find};
+use urdd_source::{SourceError, XacroFault, read_source};
+use urdd_xml::Xml;
+
+use crate::examine::rules_to_run;
+use crate::settings::{LintSettings, NEEDS_ARGUMENTS};
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -69,4 +80,122 @@ pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
         Some(inside) => inside.to_string_lossy().replace('\\', "/"),
         None => stems(path).1,
     }
+}
+
+/// What is found in a file that needs these arguments, and why it was not expanded.
+pub fn lint_undeclared(
+    path: &Path,
+    needed: &[XacroArgument],
+    fault: &XacroFault,
+    settings: &LintSettings,
+) -> Examined {
+    let name = stems(path).1;
+    let listed: Vec<String> = needed.iter().map(ToString::to_string).collect();
+    let lines = declaration(&path.to_string_lossy(), needed).replace('\n', " ");
+    let message = format!(
+        "the robot needs {}; `urdd lint --write-robots` writes into urdd.toml: {}; {}",
+        listed.join(", "),
+        lines.trim(),
+        fault.reason,
+    );
+    let finding = |first: &XacroArgument| {
+        let mut finding = Finding::in_file(name.as_str(), message.clone()).position(first.at);
+        finding.place.subject = Some(format!("argument `{}`", first.name));
+        finding
+    };
+    let checks = rules_to_run(settings).map(|rule| match rule.description.code {
+        Code::LNT065 => {
+            let found = needed.first().map(finding).into_iter().collect();
+            Check::new(&rule.description, Outcome::Failed, found)
+        }
+        _ => Check::skipped(&rule.description, NEEDS_ARGUMENTS),
+    });
+    Examined { report: blank(Kind::Urdf, &name), checks: checks.collect() }
+}
+
+/// A xacro file of which nobody declares a robot, and that needs arguments.
+#[derive(Debug, Clone)]
+pub struct Undeclared {
+    /// The file.
+    pub file: PathBuf,
+    /// The arguments, with the values that make a robot.
+    pub needed: Vec<XacroArgument>,
+}
+
+impl Undeclared {
+    /// The lines that declare its robots, for a settings file in a folder; `None` if there is no value for an
+    /// argument, or its name cannot be written.
+    pub fn lines(&self, folder: &Path) -> Option<String> {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let has_values = self
+            .needed
+            .iter()
+            .all(|argument| !argument.values.is_empty() && argument.name.chars().all(is_plain));
+        // A link in the folder is a path of the folder, too.
+        let [file, folder] = [self.file.as_path(), folder].map(|path| {
+            let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            path.components().collect::<PathBuf>()
+        });
+        let inside = file.strip_prefix(&folder).unwrap_or(&file);
+        has_values.then(|| declaration(&inside.to_string_lossy(), &self.needed))
+    }
+}
+
+/// The xacro files at these paths that need arguments. Xacro runs them as for [`lint`](crate::lint): values with which it
+/// makes no robot are left out.
+///
+/// # Errors
+/// As for [`lint`](crate::lint).
+pub fn undeclared(
+    paths: &[PathBuf],
+    settings: &LintSettings,
+) -> Result<Vec<Undeclared>, LintError> {
+    let jobs = sources(paths, settings)?.jobs;
+    let cancellation = &settings.report.cancellation;
+    let of =
+        |job: &Job| match read_source(&job.source, &job.settings(&settings.source), cancellation) {
+            Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
+                Some(Undeclared {
+                    needed: tried(&job.source, needed, settings),
+                    file: job.source.clone(),
+                })
+            }
+            _ => None,
+        };
+    let found = jobs.par_iter().filter_map(of).collect();
+    cancellation.check()?;
+    Ok(found)
+}
+
+/// The arguments, each with those of its values that make a robot with the first values of the others.
+fn tried(
+    file: &Path,
+    mut needed: Vec<XacroArgument>,
+    settings: &LintSettings,
+) -> Vec<XacroArgument> {
+    let makes_robot = |values: &[(String, String)]| {
+        let mut source = settings.source.clone();
+        let words = values.iter().map(|(name, value)| format!("{name}:={value}"));
+        source.xacro.arguments.extend(words);
+        let read = read_source(file, &source, &settings.report.cancellation);
+        // Without the program nothing is known of them.
+        let is_unknown =
+            matches!(&read, Err(SourceError::NeedsArguments { .. } | SourceError::NoXacro { .. }));
+        is_unknown || read.is_ok_and(|read| !has_no_link(&Xml::new(&read.text)))
+    };
+    let first =
+        |argument: &XacroArgument| Some((argument.name.clone(), argument.values.first()?.clone()));
+    for at in 0..needed.len() {
+        let firsts: Vec<(String, String)> = needed.iter().filter_map(first).collect();
+        let name = needed[at].name.clone();
+        needed[at].values = std::mem::take(&mut needed[at].values)
+            .into_par_iter()
+            .filter(|value| {
+                let mut values = firsts.clone();
+                values.push((name.clone(), value.clone()));
+                makes_robot(&values)
+            })
+            .collect();
+    }
+    needed
 }

@@ -4,15 +4,15 @@ use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use urdd_xml::Node;
-
-use super::srdf_text::{Srdf, SrdfFile};
-use super::subject::Subject;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_source::arguments::arguments;
 use urdd_source::{Files, Trail, read_source};
 use urdd_srdf::vocabulary::parts;
+use urdd_xml::Node;
+
+use crate::beside::{Srdf, SrdfFile};
+use crate::subject::Subject;
 
 /// Maximum number of SRDFs that xacro is run for to find those of a robot.
 const MAX_EXPANDED: usize = 10;

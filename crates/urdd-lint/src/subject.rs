@@ -6,19 +6,6 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use nalgebra::Vector3;
-use urdd_xml::{Document, Node};
-
-use super::bodies::Bodies;
-use super::closing::Closing;
-use super::elements::{child, kind, named, numbers};
-use super::geometry::{NamedMesh, RobotGeometry};
-use super::named_file::NamedFile;
-use super::programs::Left;
-use super::settings::LintSettings;
-use super::skip::{WITHOUT_MESHES, refused};
-use super::srdf_text::{SrdfFile, Srdfs};
-use super::unknown::{Unknown, What, unknown};
-use super::vocabulary::Names;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_findings::code::Code;
@@ -31,6 +18,12 @@ use urdd_format::short;
 use urdd_format::urdf::JointType;
 use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::name;
+use urdd_xml::{Document, Node};
+
+use crate::beside::{Closing, NamedFile, SrdfFile, Srdfs};
+use crate::geometry::{Bodies, NamedMesh, RobotGeometry};
+use crate::settings::{LintSettings, WITHOUT_MESHES, refused};
+use crate::vocabulary::{Names, Unknown, What, child, kind, named, numbers, unknown};
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
 pub struct Subject<'a> {
@@ -62,8 +55,8 @@ pub struct Subject<'a> {
     elements: OnceLock<Vec<Node<'a, 'a>>>,
     shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
     joint_names: OnceLock<Names<'a>>,
-    /// The faults that only programs name, once the other rules ran.
-    pub programs: OnceLock<Vec<Left>>,
+    /// What LNT060 and LNT061 find, once the other rules ran: the faults that only programs name.
+    pub programs: OnceLock<Vec<(Code, Finding)>>,
 }
 
 impl<'a> Subject<'a> {
@@ -369,7 +362,7 @@ impl<'a> Subject<'a> {
     fn placed(&self, node: Node<'a, 'a>, offset: usize, message: impl Into<String>) -> Finding {
         let mut finding =
             Finding::at(self.file, kind(node), message).position(Some(self.lines.position(offset)));
-        finding.place.subject = subject(node);
+        finding.place.subject = part_of(node);
         finding
     }
 
@@ -392,7 +385,7 @@ impl<'a> Subject<'a> {
 }
 
 /// The link or joint that an element belongs to. A long name is shortened: each place has it.
-pub fn subject(node: Node) -> Option<String> {
+pub fn part_of(node: Node) -> Option<String> {
     let part = part(node)?;
     let name = part.attribute("name")?;
     Some(format!("{} `{}`", part.tag_name().name(), short::name(name)))

@@ -13,7 +13,7 @@ use crate::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_findings::check::Outcome;
 use urdd_findings::report::programs;
-use urdd_lint::skip::WITHOUT_MESHES;
+use urdd_lint::settings::WITHOUT_MESHES;
 use urdd_lint::{LintSettings, lint_text};
 
 /// How much is examined.

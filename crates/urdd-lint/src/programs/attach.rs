@@ -4,28 +4,25 @@ use std::cell::RefCell;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use urdd_directory::position::{LineIndex, Position};
+use urdd_findings::cause::at;
+use urdd_findings::check::{Check, FollowsFrom};
+use urdd_findings::code::Code;
+use urdd_findings::finding::Finding;
+use urdd_findings::places::parted;
+use urdd_format::report::{Place, Severity};
+use urdd_format::short::Short;
+use urdd_programs::Fault;
 use urdd_xml::element::Edit;
 use urdd_xml::{Node, NodeId};
 
-use urdd_directory::position::{LineIndex, Position};
-use urdd_findings::cause::at;
-use urdd_findings::check::Check;
-use urdd_findings::check::FollowsFrom;
-use urdd_findings::code::Code;
-use urdd_findings::places::parted;
-use urdd_format::report::{Fix, Place, Severity};
-use urdd_format::short::Short;
-
-use urdd_programs::Fault;
-
-use super::asked::Asked;
-use super::faults::{Faulty, Left};
-use super::fixes::fix;
-use super::seen::{Reach, sees};
-use crate::subject::Subject;
+use crate::fixes::fix;
+use crate::programs::Asked;
+use crate::programs::faults::{Faulty, Reach, sees};
+use crate::subject::{Subject, part_of};
 
 /// What programs do because of the faults at the places of rules' findings.
-type Given = HashMap<(Code, Position), (Faulty, Option<Fix>)>;
+type Given = HashMap<(Code, Position), Faulty>;
 
 struct Known {
     code: Code,
@@ -41,7 +38,7 @@ pub fn attach(
     asked: &mut Asked,
     checks: &mut [Check],
     repairs: &[Edit],
-) -> Vec<Left> {
+) -> Vec<(Code, Finding)> {
     let known = Index::new(subject, checks, !repairs.is_empty());
     let mut given = Given::new();
     let mut effects: BTreeMap<Code, Vec<FollowsFrom>> = BTreeMap::new();
@@ -50,11 +47,12 @@ pub fn attach(
     for faulty in &mut faults {
         faulty.at = repairs.iter().fold(faulty.at, |at, repair| repair.moved(at));
     }
-    for faulty in of_one_body(subject, faults) {
+    for mut faulty in of_one_body(subject, faults) {
         let offset = faulty.at;
         // What is before the robot is a fault of the file.
         let node = subject.element(offset).unwrap_or(subject.root);
         let severity = faulty.severity(asked.has_chosen);
+        faulty.fix = fix(subject, offset, &faulty.fault);
         match known.of(subject, node, offset, &faulty) {
             // SPEC has the severities of the validator's rules.
             Some(known) if known.severity < severity && known.code.family() != "LNT" => {
@@ -65,25 +63,18 @@ pub fn attach(
                 });
             }
             Some(known) => {
-                let key = (known.code, known.at);
-                let is_fixed = given.get(&key).is_some_and(|(_, fix)| fix.is_some());
-                let fix = if is_fixed { None } else { fix(subject, offset, &faulty.fault) };
-                match given.entry(key) {
-                    Entry::Occupied(mut here) => {
-                        let (one, known) = here.get_mut();
-                        one.add(faulty);
-                        *known = known.take().or(fix);
-                    }
+                match given.entry((known.code, known.at)) {
+                    Entry::Occupied(mut here) => here.get_mut().add(faulty),
                     Entry::Vacant(here) => {
-                        here.insert((faulty, fix));
+                        here.insert(faulty);
                     }
                 }
                 continue;
             }
             None => {}
         }
-        let fix = fix(subject, offset, &faulty.fault);
-        left.push(faulty.left(&asked.results, severity, fix));
+        let found = |message| subject.at_offset(offset, message);
+        left.push(faulty.reported(&asked.results, severity, found));
     }
     for check in checks {
         check.effects.extend(effects.remove(&check.rule.code).into_iter().flatten());
@@ -93,13 +84,14 @@ pub fn attach(
 }
 
 /// Gives what programs do because of such faults to the first finding of a rule, where nothing else is known of the robot;
-/// returns the rest.
+/// returns the rest. `found` makes a finding of an offset and a message.
 pub fn attach_to(
     code: Code,
     asked: &mut Asked,
     checks: &mut [Check],
     is_its: impl Fn(&Fault) -> bool,
-) -> Vec<Left> {
+    found: impl Fn(usize, String) -> Finding,
+) -> Vec<(Code, Finding)> {
     let faults = std::mem::take(&mut asked.faults);
     let check = checks.iter_mut().find(|check| check.rule.code == code);
     let place = check.as_ref().and_then(|check| at(&check.findings.first()?.place));
@@ -108,11 +100,11 @@ pub fn attach_to(
     let mut its = its.into_iter();
     if let (Some(check), Some(place), Some(mut first)) = (check, place, its.next()) {
         its.for_each(|other| first.add(other));
-        give(check, &Given::from([((code, place), (first, None))]), asked);
+        give(check, &Given::from([((code, place), first)]), asked);
     }
     let left = |faulty: Faulty| {
-        let severity = faulty.severity(asked.has_chosen);
-        faulty.left(&asked.results, severity, None)
+        let (offset, severity) = (faulty.at, faulty.severity(asked.has_chosen));
+        faulty.reported(&asked.results, severity, |message| found(offset, message))
     };
     others.into_iter().map(left).collect()
 }
@@ -122,7 +114,7 @@ fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
     let mut faults: Vec<Faulty> = Vec::new();
     let mut bodies: HashMap<String, usize> = HashMap::new();
     for faulty in all {
-        let part = || crate::subject::subject(subject.element(faulty.at)?);
+        let part = || part_of(subject.element(faulty.at)?);
         let is_body = matches!(faulty.fault, Fault::Inertia(_));
         match is_body.then(part).flatten().map(|part| bodies.entry(part)) {
             Some(Entry::Occupied(known)) => faults[*known.get()].add(faulty),
@@ -234,11 +226,11 @@ impl Index {
         };
         let of_file = || {
             let file = node.attribute("filename")?.to_owned();
-            let part = crate::subject::subject(node)?;
+            let part = part_of(node)?;
             best(self.by_file.get(&(part, file))?.clone(), Reach::Element)
         };
         let in_part = || {
-            let part = crate::subject::subject(node)?;
+            let part = part_of(node)?;
             best(self.by_subject.get(&part)?.clone(), Reach::Part)
         };
         let named = || best(self.named(&faulty.fault)?.clone(), Reach::Named);
@@ -294,7 +286,7 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
     for finding in std::mem::take(&mut check.findings) {
         let own = finding.severity.unwrap_or(check.severity);
         let (groups, mut cut) = parted(finding, |place| {
-            let worst = of(place).map(|(one, _)| one.severity(asked.has_chosen));
+            let worst = of(place).map(|faulty| faulty.severity(asked.has_chosen));
             worst.filter(|worst| *worst > own)
         });
         for (worst, mut group) in groups {
@@ -302,12 +294,12 @@ fn give(check: &mut Check, given: &Given, asked: &Asked) {
             group.severity = worst.or(group.severity);
             let message = std::mem::take(&mut group.message);
             for place in group.places_mut() {
-                let Some((faulty, fix)) = of(place) else { continue };
+                let Some(faulty) = of(place) else { continue };
                 let said = place.message.as_ref().unwrap_or(&message);
                 place.message = Some(format!("{said} ({})", faulty.doings(&asked.results)));
                 place.programs = faulty.does();
                 // The best is first.
-                place.fixes.splice(0..0, fix.clone());
+                place.fixes.splice(0..0, faulty.fix.clone());
             }
             group.message = group.place.message.take().unwrap_or(message.clone());
             let others = group.more.iter_mut().filter(|_| group.message != message);

@@ -1,20 +1,13 @@
-//! What programs say, by the fault that they say it of; how bad that is, and in words.
+//! The faults that programs name: what programs do because of each, how bad that is, and which rules see it.
 
 use std::collections::{BTreeMap, HashSet};
 
 use urdd_findings::code::Code;
+use urdd_findings::code::Code::*;
 use urdd_findings::finding::Finding;
 use urdd_findings::programs::{kind, subject};
 use urdd_format::report::{Consequence, Does, Fix, ProgramResult, Severity};
-use urdd_programs::{Deed, Effect, Effects, Fault, Program};
-
-/// What a program does with a file.
-pub struct Answer {
-    pub program: Program,
-    /// Whether the settings name it.
-    pub is_chosen: bool,
-    pub effects: Effects,
-}
+use urdd_programs::{Deed, Effect, Fault, MASSLESS, MASSLESS_WITH_OTHERS, Program};
 
 /// A fault, by all programs that do something because of it.
 #[derive(Debug, Clone)]
@@ -23,8 +16,9 @@ pub struct Faulty {
     pub at: usize,
     /// What is wrong, as the program has it that does the worst.
     pub fault: Fault,
-    /// What programs do.
     pub said: Vec<Said>,
+    /// How it is mended, if that has one right answer.
+    pub fix: Option<Fix>,
 }
 
 /// What a program does because of a fault.
@@ -36,38 +30,19 @@ pub struct Said {
     pub effect: Effect,
 }
 
-/// A fault that no other rule finds, as LNT060 and LNT061 report it.
-#[derive(Debug, Clone)]
-pub struct Left {
-    /// LNT060, or LNT061 if every program has the robot nevertheless.
-    pub code: Code,
-    /// Where it is in the text.
-    pub offset: usize,
-    pub message: String,
-    pub severity: Severity,
-    /// What it leads to, if that is not what the rule says.
-    pub consequence: Option<Consequence>,
-    pub programs: Vec<Does>,
-    pub fix: Option<Fix>,
-}
-
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
-/// is one fault.
-pub fn faults(answers: Vec<Answer>, text: &str) -> Vec<Faulty> {
-    let refusing = answers.iter().filter(|answer| !answer.effects.loads());
-    let refusing: Vec<Program> = refusing.map(|answer| answer.program).collect();
+/// is one fault. `refusing` are the programs that have no robot.
+pub fn faults(said: Vec<Said>, refusing: &[Program], text: &str) -> Vec<Faulty> {
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
-    for Answer { program, is_chosen, effects } in answers {
-        for effect in effects.0.into_iter().filter(|effect| effect.fault.is_of_robot()) {
-            let (at, fault) = (effect.at, effect.fault.clone());
-            let is_attribute = text.as_bytes().get(at).is_some_and(|byte| *byte != b'<');
-            let here = by_place.entry(at).or_default();
-            let new = Faulty { at, fault, said: vec![Said { program, is_chosen, effect }] };
-            let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
-            match here.iter_mut().find(is_same) {
-                Some(known) => known.add(new),
-                None => here.push(new),
-            }
+    for said in said.into_iter().filter(|said| said.effect.fault.is_of_robot()) {
+        let (at, fault) = (said.effect.at, said.effect.fault.clone());
+        let is_attribute = text.as_bytes().get(at).is_some_and(|byte| *byte != b'<');
+        let here = by_place.entry(at).or_default();
+        let new = Faulty { at, fault, said: vec![said], fix: None };
+        let is_same = |one: &&mut Faulty| is_attribute || one.fault.is_alike(&new.fault);
+        match here.iter_mut().find(is_same) {
+            Some(known) => known.add(new),
+            None => here.push(new),
         }
     }
     // What a program loses of a robot that it does not have says nothing.
@@ -76,16 +51,6 @@ pub fn faults(answers: Vec<Answer>, text: &str) -> Vec<Faulty> {
         said.any(|said| said.is_refused() || !refusing.contains(&said.program))
     };
     by_place.into_values().flatten().filter(is_something).collect()
-}
-
-impl Left {
-    /// A finding of LNT060 or LNT061 with what it says besides the message.
-    pub fn reported(&self, mut finding: Finding) -> Finding {
-        finding.severity = Some(self.severity);
-        finding.consequence = self.consequence;
-        finding.place.programs.clone_from(&self.programs);
-        finding.fix(self.fix.clone())
-    }
 }
 
 impl Faulty {
@@ -100,7 +65,7 @@ impl Faulty {
     }
 
     /// Whether colours and textures are all that programs lose or read otherwise.
-    pub fn is_of_looks(&self) -> bool {
+    fn is_of_looks(&self) -> bool {
         let is_look = |part: &str| part.starts_with("material/") || part.ends_with("/material");
         self.said.iter().all(|said| is_look(&said.effect.part))
     }
@@ -110,6 +75,7 @@ impl Faulty {
         if self.worst() < other.worst() {
             (self.at, self.fault) = (other.at, other.fault);
         }
+        self.fix = self.fix.take().or(other.fix);
         for said in other.said {
             match self.said.iter_mut().find(|known| known.program == said.program) {
                 Some(known) if known.effect.deed < said.effect.deed => *known = said,
@@ -144,22 +110,21 @@ impl Faulty {
         self.said.iter().map(does).collect()
     }
 
-    /// As LNT060 and LNT061 report it.
-    pub fn left(&self, programs: &[ProgramResult], severity: Severity, fix: Option<Fix>) -> Left {
-        Left {
-            code: self.code(),
-            offset: self.at,
-            message: self.message(programs),
-            severity,
-            consequence: self.is_of_looks().then_some(Consequence::Appearance),
-            programs: self.does(),
-            fix,
-        }
-    }
-
-    /// What is wrong, what programs do, and what to do about it.
-    pub fn message(&self, programs: &[ProgramResult]) -> String {
-        format!("{}: {}; {}", self.fault, self.doings(programs), self.fault.advice())
+    /// A finding of LNT060, or of LNT061 if every program has the robot nevertheless: what is wrong, what programs do, and what
+    /// to do about it. `place` makes a finding of a message.
+    pub fn reported(
+        self,
+        programs: &[ProgramResult],
+        severity: Severity,
+        place: impl FnOnce(String) -> Finding,
+    ) -> (Code, Finding) {
+        let (doings, advice) = (self.doings(programs), self.fault.advice());
+        let mut finding = place(format!("{}: {doings}; {advice}", self.fault));
+        finding.severity = Some(severity);
+        // What is lost, if that is not what the rule says.
+        finding.consequence = self.is_of_looks().then_some(Consequence::Appearance);
+        finding.place.programs = self.does();
+        (self.code(), finding.fix(self.fix))
     }
 
     /// What programs do: "ROS and Drake refuse the robot; MuJoCo leaves out the limit".
@@ -208,5 +173,108 @@ impl Said {
             (Deed::Reads, Some(made)) if !made.is_empty() => format!("read{s} `{made}`"),
             (Deed::Reads, _) => format!("read{s} {} otherwise", part()),
         }
+    }
+}
+
+/// How far from the fault the finding of a rule may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reach {
+    /// At the same element.
+    Element,
+    /// At the element that it is in, or at one beside it.
+    Beside,
+    /// In the same link or joint.
+    Part,
+    /// At the part that the fault names.
+    Named,
+    /// At the robot as a whole.
+    Robot,
+    /// Anywhere in the file.
+    File,
+}
+
+use Reach::{Beside, Element, File, Named, Part, Robot};
+
+/// Rules, and how far from a fault they see it.
+type Seeing = (Reach, &'static [Code]);
+
+const OF_INERTIA: &[Code] = &[SRC003, SRC004, SRC005, LNT006, LNT008];
+const OF_FILES: &[Code] = &[LNT026, LNT027, LNT028, LNT029, LNT030];
+/// Whatever is missing.
+const OF_MISSING: Seeing = (Element, &[URD011, LNT015]);
+
+/// How far from a fault a rule sees it; `None` if it is about something else.
+pub fn sees(code: Code, fault: &Fault) -> Option<Reach> {
+    let seeing = seeing(fault).iter().find(|(_, codes)| codes.contains(&code));
+    seeing.map(|(reach, _)| *reach)
+}
+
+/// The rules that see a fault. The first place of a rule counts.
+fn seeing(fault: &Fault) -> &'static [Seeing] {
+    match fault {
+        Fault::Xml(_) | Fault::NotRobot => &[(File, &[URD011])],
+        Fault::Tree(_) => &[(File, &[URD004, URD005, URD006])],
+        // A mass that is next to nothing makes no density.
+        Fault::Inertia(_) if [MASSLESS, MASSLESS_WITH_OTHERS].contains(fault) => {
+            &[(Beside, &[URD011]), (Robot, &[LNT006]), (Part, &[LNT003]), (Part, OF_INERTIA)]
+        }
+        // LNT006: no link has a mass.
+        Fault::Inertia(_) => &[(Beside, &[URD011]), (Robot, &[LNT006]), (Part, OF_INERTIA)],
+        // A joint names a link without a name.
+        Fault::Empty("link") => &[(Named, &[LNT015]), (Element, &[URD004, URD007]), OF_MISSING],
+        Fault::Missing(name) | Fault::MissingElement(name) | Fault::Empty(name) => {
+            seeing_missing(name)
+        }
+        Fault::NotANumber { .. } | Fault::Count { .. } => {
+            &[(Beside, OF_INERTIA), (Element, &[URD011])]
+        }
+        Fault::Value { .. } => &[(Element, &[URD011, URD012])],
+        Fault::Range { .. } => &[
+            (Element, &[LNT012, LNT013, LNT023, LNT033, LNT048, URD010, URD011, SRC009]),
+            (Element, OF_INERTIA),
+        ],
+        Fault::Type(_) => &[(Beside, &[URD012])],
+        Fault::Repeated(_) => &[(Beside, &[SRC008, LNT008, URD011])],
+        Fault::NotUnique { .. } => &[(Element, &[URD002, URD003, LNT015])],
+        Fault::Unknown { .. } => &[
+            (Part, &[URD007, URD008]),
+            (Named, &[LNT041, LNT048]),
+            (Element, &[LNT042, LNT043, URD011]),
+        ],
+        Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
+            &[(Beside, &[URD011, LNT008]), (Element, &[LNT040, LNT046, LNT047])]
+        }
+        Fault::Shape(_) => &[(Element, &[LNT040, LNT046, LNT047, URD011])],
+        Fault::Limits(_) => &[(Element, &[SRC001, LNT014])],
+        Fault::NotFound(_) => &[(Element, OF_FILES)],
+        Fault::Mesh(_) => {
+            &[(Beside, OF_FILES), (Beside, &[LNT020, LNT022, LNT023, LNT024, LNT034, LNT035])]
+        }
+        Fault::Name { .. } => &[(Named, &[LNT015])],
+        Fault::Version(_) => &[(Element, &[URD011])],
+        Fault::Other(_) => {
+            &[(Part, &[URD009, URD010]), (Beside, &[LNT008, URD011, URD012, LNT046])]
+        }
+        Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_) => &[],
+    }
+}
+
+/// The rules that see that an element or attribute is missing.
+fn seeing_missing(name: &str) -> &'static [Seeing] {
+    match name {
+        // The root, in Gazebo, where no link has a mass.
+        "inertial" => &[(Robot, &[LNT006]), (Part, &[LNT008]), OF_MISSING],
+        "mass" | "inertia" | "value" => &[(Part, &[LNT006, LNT008]), OF_MISSING],
+        name if name.len() == 3 && name.starts_with('i') => {
+            &[(Part, &[LNT006, LNT008]), OF_MISSING]
+        }
+        "limit" | "lower" | "upper" | "effort" | "velocity" => {
+            &[(Part, &[SRC006, LNT017]), OF_MISSING]
+        }
+        "axis" | "xyz" => &[(Part, &[LNT016]), OF_MISSING],
+        "joint" => &[(Element, &[URD008]), OF_MISSING],
+        "link" => &[(Element, &[URD004, URD007]), OF_MISSING],
+        "filename" => &[(Element, OF_FILES), OF_MISSING],
+        _ => &[OF_MISSING],
     }
 }

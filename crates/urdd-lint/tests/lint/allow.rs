@@ -2,7 +2,7 @@
 
 use super::{SLIDE, codes, linted, written};
 use urdd_lint::LintSettings;
-use urdd_lint::allow::codes_of;
+use urdd_lint::told::codes_of;
 
 /// The codes found where `comment` replaces what is at `at`, and the codes that are allowed in vain.
 fn found(at: &str, with: &str) -> (Vec<String>, Vec<(Option<String>, String)>) {

@@ -70,7 +70,7 @@ fn a_rule_alone_finds_its_fault() {
             assert_eq!(
                 codes,
                 BTreeSet::from([code.as_str()]),
-                "{}: {found:#?}\nLNT060 and LNT061 leave a fault to the rule that programs/seen.rs names; effects.rs says which rule follows from which",
+                "{}: {found:#?}\nLNT060 and LNT061 leave a fault to the rule that programs/faults.rs names; told.rs says which rule follows from which",
                 file.display()
             );
         }

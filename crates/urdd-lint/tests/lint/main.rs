@@ -21,7 +21,7 @@ mod messages;
 mod parses;
 mod primitives;
 mod programs;
-mod rules_inertia_beyond_geometry;
+mod rules_mass_beyond_shapes;
 mod severities;
 mod skips;
 mod srdf;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use urdd_format::urdf::{Cuboid, Cylinder, Geometry, Sphere};
-use urdd_lint::primitives::solid;
+use urdd_lint::hull::solid;
 
 #[test]
 fn shapes_share_their_points_and_have_their_volume() {

@@ -1,8 +1,8 @@
 //! The largest radii of gyration that a geometry permits.
 
 use nalgebra::{Matrix3, Vector3};
-use urdd_lint::inertial::Inertial;
-use urdd_lint::rules::inertia_beyond_geometry::*;
+use urdd_lint::pose::Inertial;
+use urdd_lint::rules::mass_beyond_shapes::*;
 
 #[test]
 fn a_rod_has_its_largest_moment_with_half_of_the_mass_at_each_end() {

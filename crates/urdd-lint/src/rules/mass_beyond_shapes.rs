@@ -1,9 +1,20 @@
 use std::collections::HashMap;
 
+use urdd_findings::finding::point;
+
 use super::prelude::*;
-use crate::bodies::slide_only;
+use crate::geometry::slide_only;
 
 declare_lint! {
+    /// The centre of mass of a link is outside of its shapes.
+    ///
+    /// No mass inside the convex hull of the shapes has its centre there. Gravity then turns the joints before the link otherwise
+    /// than on the robot, and a legged robot falls. Common causes: a sign, millimetres, the frame of the CAD assembly, a missing
+    /// `<origin>`.
+    ///
+    /// Write the centre of mass in the link's frame, in metres, as the `<origin>` of `<inertial>`.
+    LNT002 "centre-of-mass-outside", Warning, WrongMotion, since "1.1.0" => center_of_mass_outside;
+
     /// The inertia of a link is larger than any mass inside its shapes can have.
     ///
     /// This is no guess about density: no distribution of the mass in the convex hull of the shapes, 5 % and 5 mm wider on all
@@ -19,16 +30,68 @@ declare_lint! {
     ///
     /// Compute the tensor from the link's geometry, about its centre of mass, in kg m². If the number stands for a
     /// rotor, write it as the joint's armature in the simulator.
-    LNT001 "inertia-beyond-geometry", Warning, WrongMotion, since "1.1.0"
+    LNT001 "inertia-beyond-geometry", Warning, WrongMotion, since "1.1.0" => inertia_beyond_geometry
 }
 
-/// How much wider than the shapes the mass may be: a part of the size, and m. They leave out cables and screws.
-const PART: f64 = 0.05;
+/// How far outside the centre of mass may be in a rough model, as a part of the body's size.
+const PART_OUTSIDE: f64 = 0.1;
+/// And in m, of both.
 const MARGIN: f64 = 0.005;
+/// Frames with a token mass do no harm, kg.
+const LIGHT: f64 = 0.01;
+/// A denser body than this, kg/m³, has parts that its shapes leave out.
+const DENSE: f64 = 4000.0;
+
+fn center_of_mass_outside(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let (robot, bodies) = urdf.bodies(findings)?;
+    let geometry = urdf.geometry(findings)?;
+    if !urdf.moves() {
+        return Some(());
+    }
+    // A body at a time: it has one hull.
+    let mut order: Vec<usize> = (0..robot.links.len()).collect();
+    order.sort_by_key(|link| bodies.top[*link]);
+    let mut last = None;
+    let mut found = BTreeMap::new();
+    for index in order {
+        let (link, top) = (&robot.links[index], bodies.top[index]);
+        let body = &geometry.bodies.get(&top).filter(|body| !body.is_partial && !body.is_turned());
+        let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
+            continue;
+        };
+        let has_shapes = !link.visual.is_empty() || !link.collision.is_empty();
+        if !has_shapes || inertial.mass <= LIGHT {
+            continue;
+        }
+        let (_, hull) =
+            last.take().filter(|(of, _)| *of == top).unwrap_or_else(|| (top, body.hull()));
+        let (_, Some(hull)) = last.insert((top, hull)) else { continue };
+        let points = body.in_frame(&bodies.pose[index]);
+        let size = diagonal(points);
+        let center = bodies.pose[index].transform_point(&Point3::from(inertial.center));
+        let beyond = hull.outside(&center.coords);
+        if inertial.mass > DENSE * hull.volume || beyond <= PART_OUTSIDE * size + MARGIN {
+            continue;
+        }
+        let message = format!(
+            "the centre of mass is {} outside of the link's shapes, which are {} long; write it in the link's frame, in metres",
+            metres(beyond),
+            metres(size)
+        );
+        let node = urdf.inertial(index, "origin");
+        let center = point(inertial.center.into());
+        found.insert(index, urdf.at(node, message).actual(center).off_by(beyond, "m"));
+    }
+    found.into_values().for_each(|finding| finding.report(findings));
+    Some(())
+}
+
+/// How much wider than the shapes the mass may be, as a part of the size. They leave out cables and screws.
+const PART_WIDER: f64 = 0.05;
 /// Links with less than this part of their body's inertia do no harm.
 const LEAST: f64 = 0.01;
 
-fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+fn inertia_beyond_geometry(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let geometry = urdf.geometry(findings)?;
     let slides = slide_only(robot, bodies);
@@ -53,7 +116,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let points: Vec<Vector3<f64>> = body.in_frame(&bodies.pose[link]).collect();
-        let margin = PART * diagonal(points.iter().copied()) + MARGIN;
+        let margin = PART_WIDER * diagonal(points.iter().copied()) + MARGIN;
         let largest = largest_radii(inertial, &points, margin);
         let radii = inertial.moments.map(|moment| (moment / inertial.mass).max(0.0).sqrt());
         let worst = (0..3)
